@@ -30,7 +30,7 @@ ON_KERNELS = $(VENV)/bin/python -m pytest -q -m "not slow" -p no:cacheprovider \
 help:
 	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
 	@echo "make test       set up and run every quick test"
-	@echo "make test-slow  the long checks too"
+	@echo "make test-slow  the longer ones too, those that CI runs and all others"
 	@echo "make ros-suites ROS 1's own test suites against Gazelle (Debian 12, 20 minutes)"
 	@echo "make setup      .venv with everything, nothing run"
 	@echo "make lint       ruff (check and format) and mypy in strict mode"
@@ -57,7 +57,7 @@ demo: $(STAMP)-demo
 	$(VENV)/bin/gazelle demo
 
 test: $(ALL)
-	$(PYTEST) -m "not slow"
+	$(PYTEST) -m "not slow and not long"
 
 test-slow: $(ALL)
 	GAZELLE_EXAMPLES=fresh $(PYTEST)

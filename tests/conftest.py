@@ -35,7 +35,7 @@ def pytest_collection_finish() -> None:
 # A machine busy with other things must not fail a test by its speed. The quick tests draw the same
 # examples every time, so that what passed here passes there; "make test-slow" draws fresh ones.
 settings.register_profile("repeatable", deadline=None, derandomize=True)
-settings.register_profile("fresh", deadline=None)
+settings.register_profile("fresh", deadline=None, derandomize=False)  # also where CI is set
 settings.load_profile(os.environ.get("GAZELLE_EXAMPLES", "repeatable"))
 
 

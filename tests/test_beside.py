@@ -90,6 +90,7 @@ def test_the_readme_works_beside_everything(everything, tmp_path):
     run(["-c", python_of(ROOT / "README.md")], everything, tmp_path)
 
 
+@pytest.mark.long
 @pytest.mark.corpus
 def test_a_policy_is_trained_and_evaluated_beside_everything(everything, tmp_path):
     train(everything, tmp_path)

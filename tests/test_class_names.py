@@ -76,6 +76,7 @@ def repeated(found):
     return wrong
 
 
+@pytest.mark.long
 def test_every_class_name_is_used_once():
     assert repeated(class_names(PACKAGE)) == {}
 

@@ -82,6 +82,7 @@ def sources():
     return sorted(set((ROOT / "gazelle").rglob("*.py")) - programs)
 
 
+@pytest.mark.long
 def test_what_users_import_is_declared_for_users():
     extras = set(PROJECT["optional-dependencies"]) - DEVELOPERS
     allowed = distributions(PROJECT["dependencies"])
@@ -90,6 +91,7 @@ def test_what_users_import_is_declared_for_users():
     assert strangers(sources(), allowed, own={"gazelle", *NOT_OURS}) == {}
 
 
+@pytest.mark.long
 def test_what_tests_import_at_once_comes_with_the_extra_test():
     """`make test` installs just that; a test that needs more asks for it when it runs."""
     allowed = distributions(PROJECT["dependencies"])

@@ -23,6 +23,7 @@ def python_of(page):
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("page", [p for p in PAGES if python_of(p)], ids=lambda p: p.name)
 def test_the_python_of_a_page_runs(page, tmp_path):
     done = subprocess.run(
@@ -36,6 +37,7 @@ def test_the_python_of_a_page_runs(page, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda p: p.name)
 def test_an_example_runs_in_an_empty_folder(example, tmp_path):
     done = subprocess.run(

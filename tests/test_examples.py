@@ -28,6 +28,7 @@ def drawn(folder, profile):
     return [line for line in done.stdout.splitlines() if "drawn" in line]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("profile", "same"), [("", True), ("fresh", False)])
 def test_examples_are_the_same_only_where_they_should(tmp_path, profile, same):
     first, second = drawn(tmp_path, profile), drawn(tmp_path, profile)

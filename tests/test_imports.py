@@ -182,6 +182,7 @@ def fault(each):
     return "" if ORDER.index(there) < ORDER.index(here) else "this points up"
 
 
+@pytest.mark.long
 def test_no_import_points_up():
     found = []
     for module, path in modules().items():
@@ -336,6 +337,7 @@ def strangers_of(module, text):
     }
 
 
+@pytest.mark.long
 def test_libraries_stay_in_their_packages():
     texts = {module: path.read_text(encoding="utf-8") for module, path in modules().items()}
     found = {module: strangers_of(module, text) for module, text in texts.items()}
@@ -444,6 +446,7 @@ def test_files_are_short():
     assert {module: length for module, length in lengths.items() if length > 450} == {}
 
 
+@pytest.mark.long
 def test_only_the_command_line_prints():
     printing = [
         f"{module}:{node.lineno}"

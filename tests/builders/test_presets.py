@@ -59,6 +59,7 @@ def test_nothing_movable_moves_by_itself():
             assert now.is_close(model.pose, position=5e-3, angle=5e-3), model.name
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", PRESETS)
 def test_what_is_written_is_the_same_and_passes_the_check(make, tmp_path, capsys):
     world = make(seed=4)
@@ -69,6 +70,7 @@ def test_what_is_written_is_the_same_and_passes_the_check(make, tmp_path, capsys
     assert "made.world: ok" in capsys.readouterr().out
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", PRESETS)
 def test_libsdformat_finds_no_fault(make, tmp_path):
     if shutil.which("ign") is None:

@@ -89,6 +89,7 @@ def test_eval_of_nothing_is_one_line(cli, tmp_path):
     assert "no run here" in err
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 def test_interrupt_saves_says_how_to_resume_and_resumes(cli, tmp_path):
     process = subprocess.Popen(

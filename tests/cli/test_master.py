@@ -73,6 +73,7 @@ def test_it_listens_on_loopback_only(start):
         socket.create_connection((outside, port), timeout=5)
 
 
+@pytest.mark.long
 def test_a_taken_port_is_one_clear_error(cli):
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]

@@ -18,6 +18,7 @@ def written(tmp_path, monkeypatch, capsys):
     return tmp_path, capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_its_own_test_passes(written):
     folder, told = written
     assert sorted(file.name for file in folder.iterdir()) == [
@@ -37,6 +38,7 @@ def test_its_own_test_passes(written):
     assert "2 passed" in done.stdout
 
 
+@pytest.mark.long
 def test_it_trains_as_the_command_says(written):
     folder, _ = written
     words = ["train", "hold_up.py:my/HoldUp-v0", "--steps", "4096", "--num-envs", "16"]

@@ -52,6 +52,7 @@ def test_the_way_and_the_map_of_a_bag(bag):
     assert grid.origin.position[0] == -1.0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
 def test_a_bag_becomes_a_picture(bag, tmp_path, suffix, capsys):
     out = tmp_path / f"way.{suffix}"

@@ -56,6 +56,7 @@ def behind_a_script():
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize(("extra", "before"), [([], behind_a_script), (["--paused"], None)])
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")

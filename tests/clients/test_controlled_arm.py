@@ -276,6 +276,7 @@ def test_a_controller_that_follows_no_trajectories_is_an_error_in_time(arm):
 # -- a whole robot -----------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_a_robot_is_spawned_with_its_controllers(monkeypatch):
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(DATA))
     names = ["joints", "lifter", "turner"]

@@ -38,6 +38,7 @@ def is_alive(pid):
     return True
 
 
+@pytest.mark.long
 def test_a_simulator_is_there_when_made_and_gone_when_closed(master):
     with SimulatorProcess("turtlebot3_stage_1", robots=["turtlebot3_burger"]) as simulator:
         assert "turtlebot3_burger" in simulator.gazebo.models
@@ -56,6 +57,7 @@ def test_a_simulator_is_not_taken_for_another(master):
         SimulatorProcess()
 
 
+@pytest.mark.long
 def test_clients_outlive_their_simulator_and_find_the_next(master, monkeypatch):
     with Gazebo(master_uri=master.uri) as gazebo:
         with SimulatorProcess("turtlebot3_stage_1", robots=["turtlebot3_burger"]):
@@ -72,6 +74,7 @@ def test_clients_outlive_their_simulator_and_find_the_next(master, monkeypatch):
         table.close()
 
 
+@pytest.mark.long
 def test_a_model_with_the_example_plugin_is_driven(master):
     world = EXAMPLES.parent / "tests" / "clients" / "driven.world"
     options = ["--plugins", str(EXAMPLES)]
@@ -90,6 +93,7 @@ def test_a_model_with_the_example_plugin_is_driven(master):
         until(lambda: driver.state.linear[0] == pytest.approx(0.0, abs=1e-3))
 
 
+@pytest.mark.long
 def test_everything_on_a_graph_is_ended_the_master_too():
     with Master(port=0) as master, Processes(master.uri) as processes:
         processes.start_node(
@@ -121,6 +125,7 @@ def test_what_was_seen_is_saved_and_drawn(master, tmp_path):
         watch.save(tmp_path / "run.txt")
 
 
+@pytest.mark.long
 def test_a_node_is_started_listed_and_ended(master):
     with Processes(master.uri) as processes:
         name = processes.start_node(
@@ -144,6 +149,7 @@ def test_a_node_is_started_listed_and_ended(master):
             processes.stop(name)
 
 
+@pytest.mark.long
 def test_launch_files_run_with_their_arguments(master):
     with Processes(master.uri) as processes:
         processes.start_launch(
@@ -159,6 +165,7 @@ def test_launch_files_run_with_their_arguments(master):
         until(lambda: not any("/gazebo" in services for services in node.master.system_state()[2]))
 
 
+@pytest.mark.long
 def test_a_robot_is_put_there_with_all_that_goes_with_it(master):
     with SimulatorProcess() as simulator, Processes(master.uri) as processes:
         spawn_robot(

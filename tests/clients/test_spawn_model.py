@@ -122,6 +122,7 @@ def test_it_waits_for_another_model(spawn, graph, ball):
     assert "second" in graph.sim.robots
 
 
+@pytest.mark.long
 def test_a_bond_takes_the_model_away_at_the_end(graph, ball):
     program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "spawn_model"]
     process = subprocess.Popen(

@@ -222,6 +222,7 @@ def test_parameters_are_loaded(cart, tmp_path, monkeypatch):
     assert not ros_params.ros_load_yaml_from_pkg("no_kit", "a.yaml")
 
 
+@pytest.mark.long
 def test_nodes_and_launch_files_start_and_end(cart, tmp_path):
     assert ros_spawn.init_robot_state_pub("/c9", max_pub_freq=20)
     assert cart.node.get_param("/c9/rob_st_pub/publish_frequency") == 20.0

@@ -69,6 +69,7 @@ GAINS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["Effort", "Position", "Velocity"])
 def test_a_trajectory_is_followed_within_its_tolerances(kind):
     sim, robot = arm(kind, nworld=2)

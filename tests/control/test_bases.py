@@ -390,6 +390,7 @@ def mecanum(**parameters):
     return base(of, {"Velocity": list(corners)}, wheels(**corners), **names, **parameters)
 
 
+@pytest.mark.long
 @given(NUMBER, NUMBER, NUMBER)
 def test_mecanum_wheels_roll_along_their_rollers(forward, sideways, turning):
     """At the ground each wheel's centre moves as the rigid body, less what its rollers let go."""

@@ -54,6 +54,7 @@ def compare(sim, robot, start):
     assert math.remainder(heading - true_heading, math.tau) == pytest.approx(0.0, abs=0.03)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("forward", "turning"), [(0.5, 0.0), (0.4, 0.8), (0.0, 1.0), (-0.3, -0.5)])
 def test_courier_goes_as_it_is_told_and_knows_where_it_is(forward, turning):
     sim, robot = courier()

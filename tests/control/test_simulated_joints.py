@@ -334,6 +334,7 @@ def test_a_snapshot_goes_on_to_the_bit_and_a_reset_holds_still(kind):
     assert command is not None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["Effort", "Position", "Velocity"])
 def test_worlds_do_not_depend_on_each_other(kind):
     def run(nworld, world):

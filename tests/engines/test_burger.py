@@ -34,6 +34,7 @@ def drive(step, linear, angular, seconds, model=None):
 MODELS = ("pyramid_model", "cone_model")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize(("step", "short"), [(0.001, 0.001), (0.005, 0.004), (0.02, 0.012)])
 def test_ten_metres_straight(step, short, model):
@@ -44,6 +45,7 @@ def test_ten_metres_straight(step, short, model):
     assert abs(moved[1]) < 0.002
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("model", MODELS)
 @pytest.mark.parametrize(("step", "short"), [(0.001, 0.0005), (0.005, 0.003), (0.02, 0.011)])
 def test_ten_turns_on_the_spot(step, short, model):

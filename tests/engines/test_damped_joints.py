@@ -64,6 +64,7 @@ def test_what_stands_on_damped_joints_stands_still(damping, mass):
     assert fastest(engine, 5.0) < 0.01
 
 
+@pytest.mark.long
 def test_so_it_does_if_joints_are_damped_at_run_time():
     engine = make_engine("mujoco", scenes.world(scenes.ground(), door(0.0, 40.0, 1.0)), nworld=2)
     engine.step(100)

@@ -171,6 +171,7 @@ def test_a_snapshot_of_other_models_is_refused():
         make(scenes.box(), scenes.ball()).restore(saved)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("nworld", "threads"), [(1, 1), (64, 1), (64, 2)])
 def test_world_0_is_the_same_bits_at_any_number_of_worlds_and_threads(nworld, threads):
     def run(nworld, threads):

@@ -41,6 +41,7 @@ def period(engine, name="ball", seconds=8.0, step=0.001):
     return float(np.diff(passages).mean())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("sections", "rings"), [(64, 33), (128, 65)])
 def test_a_ball_rolls_in_a_bowl_as_fast_as_it_should(tmp_path, sections, rings):
     """T = 2 pi sqrt(7 (R - r) / 5 g) for small swings of a ball that rolls."""

@@ -75,6 +75,7 @@ SHAPES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("static", [True, False])
 @pytest.mark.parametrize("name", SHAPES)
 def test_beams_meet_the_triangles(tmp_path, name, static):
@@ -89,6 +90,7 @@ def test_beams_meet_the_triangles(tmp_path, name, static):
     assert not hits.from_inside.any()
 
 
+@pytest.mark.long
 @settings(max_examples=25, deadline=None)
 @given(
     st.integers(0, 2**32 - 1),

@@ -59,6 +59,7 @@ def apart(engines):
     return max([*joints, *links])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.name)
 def test_scenes_move_alike(scene):
     engines = pair(scene.make())
@@ -87,6 +88,7 @@ def test_what_tumbles_over_the_ground_comes_to_lie_alike(shape, mu):
     assert apart(engines) < 2e-4
 
 
+@pytest.mark.long
 def test_worlds_have_states_and_resets_of_their_own():
     engines = pair(scenes.world(scenes.ground(0.4), scenes.box(mu=0.4, pose=Pose(z=0.1))), 3)
     for engine in engines:
@@ -102,6 +104,7 @@ def test_worlds_have_states_and_resets_of_their_own():
     assert position[2, 2] > 0.2
 
 
+@pytest.mark.long
 def test_what_is_thrown_bounces_as_high():
     rubber = Surface(Friction(0.5, 0.5), bounce=Bounce(0.8, 0.01))
     ball = scenes.with_surface(scenes.ball(pose=Pose(z=0.4)), rubber)
@@ -118,6 +121,7 @@ def test_what_is_thrown_bounces_as_high():
     assert heights[1] == pytest.approx(heights[0], abs=1e-3)
 
 
+@pytest.mark.long
 def test_friction_by_direction_and_spins():
     grain = Surface(Friction(0.1, 0.8, (1.0, 0.0, 0.0)))
     sled = scenes.with_surface(scenes.box("sled", (0.4, 0.4, 0.1), pose=Pose(z=0.05)), grain)
@@ -132,6 +136,7 @@ def test_friction_by_direction_and_spins():
     assert apart(engines) < 5e-5
 
 
+@pytest.mark.long
 def test_motors_have_their_largest_effort():
     wheel = Link("w", inertial=Inertial(1.0, inertia=Inertia(0.01, 0.01, 0.02)))
     joint = Joint(
@@ -227,6 +232,7 @@ def test_a_world_that_breaks_down_is_reset_and_named():
     assert np.isfinite(engine.snapshot()).all()
 
 
+@pytest.mark.long
 def test_more_contacts_than_there_was_room_for():
     boxes = [scenes.box(f"b{i}", mu=0.5, pose=Pose(x=0.5 * i, z=0.1)) for i in range(12)]
     engines = pair(scenes.world(scenes.ground(0.5), *boxes))
@@ -247,6 +253,7 @@ def test_joints_on_the_device_through_dlpack():
         engine.on_device("joint_velocities", "m::elbow")
 
 
+@pytest.mark.long
 def test_a_robot_drives_and_scans_alike():
     runs = []
     for name in ("mujoco", "mujoco-warp"):

@@ -176,6 +176,7 @@ def test_what_is_placed_into_the_ground_comes_out_at_max_vel_in_its_world():
     assert engine.model_placement("box").position[:, 2] == pytest.approx(0.1, abs=5e-4)
 
 
+@pytest.mark.long
 def test_what_is_placed_into_another_body_is_not_thrown():
     boxes = [scenes.box(name, pose=Pose(x, z=0.1)) for name, x in (("a", 0.0), ("b", 1.0))]
     engine = make_engine("mujoco", scenes.world(scenes.ground(), *boxes))

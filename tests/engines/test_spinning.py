@@ -121,6 +121,7 @@ def energy_of(engine, count):
     return total
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("count", "axis"), [(2, (0.0, 1.0, 0.0)), (2, (0.0, 0.0, 1.0))])
 def test_a_double_pendulum_keeps_its_energy(count, axis):
     """On the average of ten seconds; swings ripple by a few per cent."""

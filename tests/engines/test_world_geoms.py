@@ -93,6 +93,7 @@ def test_nothing_is_said_of_how_a_world_is_put_together(tmp_path, monkeypatch, r
     assert not (tmp_path / "MUJOCO_LOG.TXT").exists()
 
 
+@pytest.mark.long
 def test_collisions_and_frictions_of_ten_thousand_shapes_are_found_by_name():
     count = 10_000
     collision = scenes.solid("x", Box((0.1, 0.1, 0.1))).links[0].collisions[0]

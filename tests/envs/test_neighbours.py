@@ -110,6 +110,7 @@ def test_a_folder_given_by_name_goes_before_what_is_bundled(crowded):
     assert found.links[0].name == "theirs"
 
 
+@pytest.mark.long
 @pytest.mark.corpus
 def test_the_robots_makers_own_packages_do_not_matter(corpus, monkeypatch, tmp_path):
     theirs = corpus / "ROBOTIS-GIT__turtlebot3_simulations"

@@ -157,6 +157,7 @@ def test_wrappers_go_around_each_other():
     env.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("task", "kind", "options", "message"),
     [

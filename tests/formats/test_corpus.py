@@ -41,6 +41,7 @@ def test_none_takes_more_than_a_second(corpus, outcomes):
     assert seconds[len(seconds) // 2] < 0.02
 
 
+@pytest.mark.long
 def test_refusals_name_file_and_line(corpus, outcomes):
     refused = [name for name, (said, _) in outcomes.items() if said.startswith("refused")]
     for name in refused:

@@ -130,6 +130,7 @@ QUICK = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", QUICK)
 def test_bombs_end_soon(tmp_path, name):
     meets_its_end(tmp_path, name)
@@ -223,6 +224,7 @@ NUMBERS = [
 ]
 
 
+@pytest.mark.long
 @settings(max_examples=150, deadline=5000, suppress_health_check=list(HealthCheck))
 @given(st.sampled_from([SDF, URDF]), st.sampled_from(NUMBERS), st.integers(0, 10**6))
 def test_any_number_may_be_anything(text, value, chosen):

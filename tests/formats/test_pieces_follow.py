@@ -194,6 +194,7 @@ def test_stairs_are_stairs():
         assert below <= 0.0 < above
 
 
+@pytest.mark.long
 def test_much_is_done_soon():
     """Hundreds of thousands of triangles take seconds, not minutes."""
     import time

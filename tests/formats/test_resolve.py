@@ -226,6 +226,7 @@ def test_a_folder_that_is_no_model_does_not_hide_what_is_bundled(tmp_path, monke
         formats.load("empty")
 
 
+@pytest.mark.long
 def test_every_bundled_name_loads_without_a_warning():
     names = formats.loader.bundled_names(Resolver().assets)
     assert {"turtlebot3_burger", "turtlebot3_stage_4", "empty"} <= set(names)

@@ -125,6 +125,7 @@ def test_the_house_has_its_rooms(simulation):
     assert all(math.isfinite(part.pose.x) for part in placed)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["turtlebot3_burger", "turtlebot3_waffle", "turtlebot3_waffle_pi"])
 def test_bundled_robots_have_the_bodies_of_the_originals(description, name):
     theirs = load(description / f"{name}.urdf.xacro").models[0]

@@ -62,6 +62,7 @@ def again(content, folder=None):
     return formats.load_string(formats.to_string(content, "sdf", folder=folder))
 
 
+@pytest.mark.long
 @quiet
 @settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 @given(worlds())
@@ -69,6 +70,7 @@ def test_every_world_is_the_same_when_loaded_again(world):
     assert again(world) == world
 
 
+@pytest.mark.long
 @quiet
 @settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
 @given(models())
@@ -94,6 +96,7 @@ def same_after_saving(path):
     return found == world or repr(found) == repr(world).replace("package://", "model://")
 
 
+@pytest.mark.long
 @quiet
 @pytest.mark.corpus
 def test_every_sdf_and_urdf_of_the_corpus_is_the_same(corpus):

@@ -109,6 +109,7 @@ def assert_same_joints(found, robot):
         assert one.sensors == other.sensors
 
 
+@pytest.mark.long
 @quiet
 @settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
 @given(robots())

@@ -54,6 +54,7 @@ def result(build, code):
     return done.stdout
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("code", [IN_SPACE, IN_PLANE], ids=["space", "plane"])
 @pytest.mark.parametrize("build", ["avx2", "python"])
 def test_worlds_do_not_depend_on_the_build(build, code):

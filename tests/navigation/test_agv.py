@@ -37,6 +37,7 @@ coordinates = st.floats(-20.0, 20.0)
 angles = st.floats(-math.pi, math.pi)
 
 
+@pytest.mark.long
 @settings(deadline=None, max_examples=60)
 @given(st.lists(st.tuples(coordinates, coordinates, coordinates, coordinates, angles), min_size=1))
 def test_move_l_stops_at_every_point(cases):

@@ -52,6 +52,7 @@ def courier():
         yield Courier(sim)
 
 
+@pytest.mark.long
 def test_goals_are_reached_without_a_touch(courier):
     ways = []
     courier.robot.outputs["path"].subscribe(ways.append)

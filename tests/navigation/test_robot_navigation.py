@@ -36,6 +36,7 @@ def stands_free(sim, robot):
     return not grid.data[rows, columns].any()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("localization", ["truth", "amcl"])
 def test_a_robot_goes_around_the_pillars(world, localization):
     robot = burger(world, x=-2.0, y=-0.5)

@@ -176,6 +176,7 @@ def test_plans_among_obstacles(name, request):
         assert fine.path(plan.trajectory.positions, fine.resolution / 10.0)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore::gazelle.errors.GazelleWarning")
 @pytest.mark.parametrize("name", [*ARMS, *OTHERS])
 def test_it_follows_its_plans_in_simulation(name, request):

@@ -222,6 +222,7 @@ def test_ways_that_are_none_are_refused(numbers):
 # -- in simulation ---------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_a_cube_is_taken_carried_and_put_down():
     before, there = fetch_robot.errand(0)
     with fetch_robot.kitchen(*before) as (robot, cube):

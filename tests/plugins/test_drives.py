@@ -50,6 +50,7 @@ def test_it_turns_by_the_difference_of_its_sides(drive):
         assert robot.twist.angular[2] > 0.1
 
 
+@pytest.mark.long
 def test_worlds_are_driven_each_by_its_own_command():
     with simulate(base(SKID), nworld=2) as sim:
         robot = sim.robots["base"]

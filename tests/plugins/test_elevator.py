@@ -11,6 +11,7 @@ def heights(sim):
     return sim.robots["elevator"].joints["lift"].positions()[:, 0]
 
 
+@pytest.mark.long
 def test_it_goes_to_a_floor_opens_waits_and_closes():
     with gazelle.Simulation("elevator_ros", nworld=2) as sim:
         robot = sim.robots["elevator"]

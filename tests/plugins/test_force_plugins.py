@@ -75,6 +75,7 @@ def test_the_force_on_a_body_holds_what_pushes_and_turns_it():
 MOVE = plugin("libgazebo_ros_force_based_move.so", robotBaseFrame="core", odometryRate="10")
 
 
+@pytest.mark.long
 def test_a_pushed_base_reaches_its_velocity_and_keeps_to_its_odometry():
     with simulate(block(plugin=MOVE, gravity=False), ground=False, nworld=2) as sim:
         robot = sim.robots["cube"]

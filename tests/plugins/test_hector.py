@@ -84,6 +84,7 @@ def test_an_imus_bias_is_set_and_calibrated_away():
         assert robot.outputs["imu"].last.reading.linear_acceleration[:, 1] == pytest.approx(0.0)
 
 
+@pytest.mark.long
 def test_drift_begins_somewhere_and_a_snapshot_keeps_it():
     with cube(IMU, nworld=400, rateDrift="0.5", rateDriftFrequency="1.0", updateRate="50") as sim:
         output = sim.robots["cube"].outputs["imu"]

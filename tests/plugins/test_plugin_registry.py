@@ -162,6 +162,7 @@ gazebo_ros_diff_drive = shoving_plugins:Drive
 odd = shoving_plugins:NOT_A_PLUGIN"""
 
 
+@pytest.mark.long
 def test_an_installed_package_brings_plugins_by_entry_points(tmp_path):
     """New ones, and such as go before Gazelle's own, simulated or not."""
     install(tmp_path, "shoving", POINTS)

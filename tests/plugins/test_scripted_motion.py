@@ -55,6 +55,7 @@ def test_it_turns_evenly_about_its_origin():
         assert (pose.x, pose.y) == (1.0, 2.0)
 
 
+@pytest.mark.long
 def test_every_world_restarts_its_own_script():
     plugin = script((0, "0 0 1 0 0 0"), (10, "10 0 1 0 0 0"), updateRate=0)
     with Simulation(scenes.world(moving(plugin)), nworld=2) as sim:
@@ -97,6 +98,7 @@ def test_its_period_is_when_it_begins_anew(plugin, period):
         assert sim.plugins[0].plugin.period == pytest.approx(period)
 
 
+@pytest.mark.long
 def test_it_pushes_and_nothing_pushes_it():
     plugin = script((0, "0 0 0.25 0 0 0"), (4, "1 0 0.25 0 0 0"), updateRate=0)
     box = scenes.box(pose=Pose(x=0.5, z=0.1))

@@ -19,6 +19,7 @@ def bench(*arguments):
     return done.stdout
 
 
+@pytest.mark.long
 def test_without_the_real_one_ours_is_measured_alone():
     out = bench("--python", sys.executable, "string", "within-calls")
     if "ratio" in out:
@@ -28,6 +29,7 @@ def test_without_the_real_one_ours_is_measured_alone():
     assert re.search(r"service calls +/s +[\d,.]+$", out, re.MULTILINE)
 
 
+@pytest.mark.long
 @pytest.mark.ros
 @real.needs_ros
 def test_both_are_measured_side_by_side():

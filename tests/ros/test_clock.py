@@ -81,6 +81,7 @@ def test_a_sleep_can_be_cancelled():
     assert not WallClock().sleep(10 * SECOND, stop.is_set)
 
 
+@pytest.mark.long
 def test_a_clock_that_never_comes_is_reported(caplog):
     clock, stop = SimulatedClock(), threading.Event()
     with caplog.at_level(logging.WARNING, "gazelle.ros"):

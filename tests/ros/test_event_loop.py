@@ -131,6 +131,7 @@ def test_a_handler_may_close_a_socket_that_is_ready_in_the_same_round(loop):
         there.close()
 
 
+@pytest.mark.long
 def test_no_module_closes_a_watched_socket_itself():
     """Who gives its sockets to the loop leaves closing to it; a blocking client has no loop."""
     found = [

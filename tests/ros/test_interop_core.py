@@ -86,6 +86,7 @@ def test_ours_hears_a_real_node(graph, node):
     assert got[0]._connection_header["type"] == "std_msgs/String"
 
 
+@pytest.mark.long
 def test_latched_messages_come_late_both_ways(graph, node):
     publisher = node.advertise("chatter", Text, latch=True)
     publisher.publish(Text("one"))
@@ -144,6 +145,7 @@ def test_a_followed_parameter_changes(graph, node):
     until(lambda: node.parameters.get_cached("/followed", None) is None)
 
 
+@pytest.mark.long
 def test_real_tools_see_our_nodes(graph, node):
     node.advertise("chatter", Text, latch=True).publish(Text("hello"))
     node.serve("flip", Flag, lambda request: (request.data, "x"))
@@ -178,6 +180,7 @@ def test_a_real_node_logs_through_our_rosout():
             until(lambda: any(m.msg == "careful" and m.name == "/logger" for m in got))
 
 
+@pytest.mark.long
 def test_simulated_time_of_a_real_clock(graph):
     MasterProxy(graph, "/test").set_param("/use_sim_time", True)
     script = """
@@ -196,6 +199,7 @@ while not rospy.is_shutdown(): i += 1; p.publish(Clock(rospy.Time(i))); time.sle
             assert node.clock.now() >= 150 * 10**9
 
 
+@pytest.mark.long
 def test_a_real_publisher_of_another_type_is_named(graph, node, caplog):
     publish = 'rospy.Publisher("chatter", String, queue_size=1); say("ready"); rospy.spin()'
     with real.RealNode(graph, f'rospy.init_node("real_talker"); {publish}') as talker:
@@ -209,6 +213,7 @@ def test_a_real_publisher_of_another_type_is_named(graph, node, caplog):
         assert len(refusals) == 1, refusals
 
 
+@pytest.mark.long
 def test_our_node_registers_again_with_a_restarted_roscore():
     port = free_port()
     with real.master(port=port) as uri:
@@ -226,6 +231,7 @@ def test_our_node_registers_again_with_a_restarted_roscore():
         proxy.close()
 
 
+@pytest.mark.long
 def test_a_killed_real_publisher_is_found_again(graph, node):
     got = []
     subscriber = node.subscribe("chatter", Text, got.append)

@@ -91,6 +91,7 @@ LONG_CALLS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", LONG_CALLS)
 def test_others_are_served_while_a_long_document_is_read_and_written(served, kind):
     master, proxy = served
@@ -111,6 +112,7 @@ def test_others_are_served_while_a_long_document_is_read_and_written(served, kin
     assert any(goes_on() for _ in range(10))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["array", "struct", "text"])
 def test_a_long_value_comes_back(served, kind):
     master, proxy = served
@@ -119,6 +121,7 @@ def test_a_long_value_comes_back(served, kind):
     assert proxy.get_param("/a") == params[2]
 
 
+@pytest.mark.long
 def test_answers_come_in_the_order_of_the_requests(served):
     master, _ = served
     long, short = NUMBERS[:20_000], [1]
@@ -130,6 +133,7 @@ def test_answers_come_in_the_order_of_the_requests(served):
     assert got == [short, long, short, long, long, short]
 
 
+@pytest.mark.long
 def test_what_is_wrong_with_a_long_document_is_said(served):
     master, proxy = served
     broken = write_call("setParam", ("/x", "/a", NUMBERS))[:-40]
@@ -168,6 +172,7 @@ def test_a_client_that_leaves_meanwhile_harms_nobody(served):
     assert proxy.get_pid()
 
 
+@pytest.mark.long
 def test_nodes_hear_of_long_values_in_order(served, make_node):
     _, proxy = served
     listener = make_node("listener")
@@ -179,6 +184,7 @@ def test_nodes_hear_of_long_values_in_order(served, make_node):
     until(lambda: listener.parameters.get_cached("/a") == values[-1])
 
 
+@pytest.mark.long
 @given(st.recursive(st.text("abc <&", max_size=9) | st.integers(0, 9), st.lists))
 def test_short_values_are_not_taken_for_long_ones(value):
     assert is_long(value) <= (len(write_response(value)) > LONG_BYTES / 4)
@@ -226,6 +232,7 @@ def plainly(root, action, key, value):
     return root
 
 
+@pytest.mark.long
 @given(STEPS)
 def test_what_was_given_out_never_changes(steps):
     tree, model, given_out = ParameterTree(), {}, []

@@ -18,6 +18,7 @@ BY_NAME = {scene.name: scene for scene in SCENES}
 PAGE = Path(__file__).parents[2] / "docs" / "physics.md"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.name)
 def test_two_engines_move_a_scene_alike(scene):
     for measure, outcome in zip(scene.measures, compare(scene, 0.001), strict=True):

@@ -371,6 +371,7 @@ def resident():
     return int(pages) * resource.getpagesize()
 
 
+@pytest.mark.long
 def test_200_spawns_and_deletes_leave_memory_and_all_else_as_it_is():
     python, whole = cycles(200)
     assert python < 60_000  # numpy keeps small arrays for later

@@ -87,12 +87,14 @@ def others_reset(sim):
 EVENTS = (restored, joined, left, passed_by, others_reset)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ROBOTS)
 @pytest.mark.parametrize("nworld", [2, 3, 8])
 def test_a_world_has_the_same_bits_among_any_number(name, nworld):
     assert run(name, nworld=nworld) == alone(name)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ROBOTS)
 @pytest.mark.parametrize("event", EVENTS[:-1])
 def test_what_happens_beside_changes_no_bit(name, event):
@@ -100,6 +102,7 @@ def test_what_happens_beside_changes_no_bit(name, event):
     assert run(name, events=events) == alone(name)
 
 
+@pytest.mark.long
 @settings(max_examples=8)
 @given(
     nworld=st.integers(1, 5),

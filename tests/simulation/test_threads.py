@@ -283,6 +283,7 @@ def write_again(engine, end_ns, log):
         return sim.state_hash()
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore::gazelle.errors.EngineWarning")
 @pytest.mark.parametrize("engine", ENGINES)
 def test_what_threads_write_does_the_same_as_one_thread_that_writes_it_at_those_times(engine):

@@ -81,6 +81,7 @@ def test_nothing_to_do_is_refused(given):
         evaluate(RIGHT, task=TASK, **given)
 
 
+@pytest.mark.long
 def test_evaluation_works_without_torch():
     import subprocess
     import sys
@@ -176,6 +177,7 @@ def shares(found):
     return [found.success.value, found.collision.value, found.timeout.value, found.other.value]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine", ["planar", "mujoco"])
 @pytest.mark.parametrize("respawn", [True, False])
 @pytest.mark.parametrize("action", [0, 2])

@@ -240,6 +240,7 @@ MORE = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("algo", "more"),
     [("ddpg", {}), ("ddpg", MORE), ("sac", {}), ("td3", {}), ("td3", MORE), ("tqc", {})],

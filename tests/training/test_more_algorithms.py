@@ -55,6 +55,7 @@ def library(algo, options, **values):
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("algo", "continuous", "options"), LIBRARY)
 def test_library_algorithms_train_and_resume_with_the_same_curve(
     tmp_path, algo, continuous, options
@@ -71,6 +72,7 @@ def test_library_algorithms_train_and_resume_with_the_same_curve(
     assert curves(second) == curves(whole)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("algo", "continuous", "options"), [case for case in LIBRARY if case[0] != "recurrent_ppo"]
 )
@@ -91,6 +93,7 @@ def test_their_policies_are_evaluated_as_the_library_predicts(tmp_path, algo, co
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)
 
 
+@pytest.mark.long
 def test_a_policy_with_a_memory_says_that_it_cannot_be_evaluated(tmp_path):
     pytest.importorskip("sb3_contrib")
     recipe = library("recurrent_ppo", {"n_steps": 16, "batch_size": 32, "n_epochs": 1})
@@ -163,6 +166,7 @@ def rows(run):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.long
 def test_evaluations_in_between_keep_the_best_and_change_nothing(tmp_path, tiny):
     plain = train("test/Corridor-v0", recipe=tiny, out=tmp_path, seed=3)
     result = train(
@@ -181,6 +185,7 @@ def test_evaluations_in_between_keep_the_best_and_change_nothing(tmp_path, tiny)
         evaluate(plain.run.folder, best=True)
 
 
+@pytest.mark.long
 def test_evaluations_go_on_where_a_run_stopped(tmp_path, tiny):
     given = {"recipe": tiny, "seed": 3, "eval_every": 256, "eval_episodes": 10}
     whole = train("test/Corridor-v0", out=tmp_path / "a", **given)
@@ -192,6 +197,7 @@ def test_evaluations_go_on_where_a_run_stopped(tmp_path, tiny):
     np.testing.assert_array_equal(*[load_actor(file).act(obs) for file in files])
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 @pytest.mark.parametrize("algo", ["ppo"])
 def test_a_killed_run_goes_on_with_the_same_curve(tmp_path, tiny, algo):

@@ -76,6 +76,7 @@ CASES = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("algo", "options", "more"), CASES)
 def test_exported_policies_act_as_the_library_predicts(tmp_path, algo, options, more):
     result = train(
@@ -90,6 +91,7 @@ def test_exported_policies_act_as_the_library_predicts(tmp_path, algo, options, 
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("task", "algo"),
     [
@@ -160,6 +162,7 @@ def test_a_run_without_contract_asks_its_task_again(stage4):
     assert dataclasses.replace(load_policy(stage4)[1]) == told
 
 
+@pytest.mark.long
 def test_numpy_policies_act_without_torch(stage4, tmp_path):
     files = export_policy(stage4, "numpy", tmp_path)
     script = (

@@ -211,6 +211,7 @@ def tensorboard_steps(folder):
     return steps
 
 
+@pytest.mark.long
 def test_a_killed_run_has_no_step_twice(tmp_path):
     """Killed without a chance to save, far beyond its last checkpoint, in the middle of a file."""
     code = (
@@ -345,6 +346,7 @@ OWN = {"recipe": {}, "engine": "mujoco"}
 TAUGHT = {"recipe": {"goal_reward": GoalReward(), "features": True}, "engine": "planar"}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("how", [OWN, TAUGHT], ids=["own", "taught"])
 def test_a_turtlebot3_run_goes_on_exactly_where_it_was(tmp_path, tiny, how):
     settings = dataclasses.replace(tiny.settings, bfloat16=True)

@@ -38,6 +38,7 @@ def write(folder, trials, workers=1, steps=4096):
     return file
 
 
+@pytest.mark.long
 def test_a_search_tries_values_over_processes(cli, tmp_path):
     file = write(tmp_path, trials=3, workers=2)
     options = ("--import", TASK_FILE, "--out", tmp_path)
@@ -102,6 +103,7 @@ def test_a_parameter_that_is_none_is_refused_at_once(tmp_path):
         sweep("test/Corridor-v0", plan, out=tmp_path)
 
 
+@pytest.mark.long
 def test_when_all_trials_fail_it_says_so(tmp_path):
     plan = SweepPlan(parameters={"gamma": {"low": 2.0, "high": 3.0}}, trials=1)
     with pytest.raises(TaskError, match="all trials failed"):

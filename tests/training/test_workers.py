@@ -79,6 +79,7 @@ def test_copies_that_belong_together_are_not_divided():
         divided(30, 12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mode", ["SameStep", "NextStep"])
 def test_any_number_of_workers_gives_the_same_curve(tmp_path, tiny, mode):
     one = trained(tmp_path, tiny, 1, mode=mode)
@@ -88,6 +89,7 @@ def test_any_number_of_workers_gives_the_same_curve(tmp_path, tiny, mode):
     assert not one.interrupted
 
 
+@pytest.mark.long
 def test_a_killed_worker_is_replaced_and_nothing_is_lost(tmp_path, tiny, started):
     quiet = trained(tmp_path, tiny, 2)
     started.clear()
@@ -96,6 +98,7 @@ def test_a_killed_worker_is_replaced_and_nothing_is_lost(tmp_path, tiny, started
     assert curves(killed) == curves(quiet)
 
 
+@pytest.mark.long
 def test_a_run_goes_on_with_another_number_of_workers(tmp_path, tiny):
     whole = trained(tmp_path, tiny, 2)
     part = trained(tmp_path, tiny, 2, steps=512)
@@ -111,12 +114,14 @@ def test_a_run_begun_alone_goes_on_alone(tmp_path, tiny):
         resume(run.folder, steps=512, workers=2)
 
 
+@pytest.mark.long
 def test_other_algorithms_step_their_workers(tmp_path):
     recipe = Recipe(algo="dqn", steps=600, num_envs=8, net_arch=(16,), settings=SMALL)
     one, two = (trained(tmp_path, recipe, workers) for workers in (1, 2))
     assert curves(one) == curves(two)
 
 
+@pytest.mark.long
 def test_a_worker_lost_in_a_step_cuts_its_episodes_off(tmp_path, started):
     recipe = Recipe(algo="dqn", steps=600, num_envs=8, net_arch=(16,), settings=SMALL)
     with warnings.catch_warnings():
@@ -174,6 +179,7 @@ def test_a_task_that_cannot_save_its_state_starts_anew():
     assert team.replaced == 1
 
 
+@pytest.mark.long
 def test_an_evaluation_does_not_depend_on_the_number_of_workers(tmp_path, tiny):
     run = trained(tmp_path, tiny, 1).run.folder
     one, two = (evaluate(run, episodes=30, workers=workers) for workers in (1, 2))

@@ -164,6 +164,7 @@ def test_pictures_and_films_from_the_shell(tmp_path, bag, capsys):
         assert main(["picture", "empty", str(out), *wrong]) == 2
 
 
+@pytest.mark.long
 def test_a_trained_policy_is_filmed(tmp_path, capsys):
     pytest.importorskip("stable_baselines3", reason="the extra 'train' is not installed")
     from gazelle.training import train
@@ -177,6 +178,7 @@ def test_a_trained_policy_is_filmed(tmp_path, capsys):
         assert made.size == (480, 400)
 
 
+@pytest.mark.long
 def test_every_environment_draws_itself_with_record_video(tmp_path):
     import gymnasium as gym
 

@@ -60,6 +60,7 @@ def check(command, surroundings, kind):
     ]
 
 
+@pytest.mark.long
 def test_sliders_move_the_joints(uri):
     master, kind = uri
     surroundings = os.environ | {"ROS_MASTER_URI": master}

@@ -166,6 +166,7 @@ def race(switches, phases):
         assert all(math.isfinite(robot.joints[name].position) for name in JOINTS)
 
 
+@pytest.mark.long
 def test_four_clients_switch_while_it_runs_and_stands_still():
     race(switches=500, phases=6)
 

@@ -85,6 +85,7 @@ def _execute(uri, script, count):
     return finished.stdout
 
 
+@pytest.mark.long
 def test_after_every_reset_the_first_observation_is_the_initial_one(running, tmp_path):
     assert "resets 30 wheel_left_link" in reset_often(running, tmp_path, 30)
 

@@ -163,6 +163,7 @@ def printed(command, surroundings):
     return [line.rstrip() for line in lines if not line.startswith("[INFO]")]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", BOTH)
 def test_a_script_written_for_gazebo_runs_unchanged(name, background):
     command = [sys.executable, "-m", "gazelle", "exec", str(FOLDER / f"{name}.py")]
@@ -170,6 +171,7 @@ def test_a_script_written_for_gazebo_runs_unchanged(name, background):
     assert printed(command, os.environ | uri) == PRINTED[name].strip().splitlines()
 
 
+@pytest.mark.long
 @pytest.mark.ros
 @pytest.mark.parametrize("name", BOTH)
 def test_the_same_script_prints_the_same_on_the_real_rospy(name, background, classes):

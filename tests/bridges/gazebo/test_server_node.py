@@ -150,6 +150,7 @@ def heard_of(master, node):
     return listener, lambda: [each for each in heard if each.name == node]
 
 
+@pytest.mark.long
 def test_what_the_world_warns_of_is_on_rosout(master, world):
     world.write_text(ODD, encoding="utf-8")
     program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "gzserver"]

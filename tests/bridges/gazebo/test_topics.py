@@ -28,6 +28,7 @@ def wait_until_heard(graph):
     until(heard)
 
 
+@pytest.mark.long
 def test_every_topic_comes_at_its_rate_with_its_frames(graph):
     heard = {topic: graph.client.listen(topic, kind) for topic, kind in KINDS.items()}
     clock = graph.client.listen("/clock", "rosgraph_msgs/Clock")

@@ -261,6 +261,7 @@ def test_a_real_client_uses_what_gazebo_does_not_have(background, classes):
     assert lines == OWN_ANSWERS.strip().splitlines()
 
 
+@pytest.mark.long
 def test_the_real_tools_see_the_types_of_services_and_topics(background, classes):
     uri = background.master.uri
     assert run(uri, classes, "rosservice", "type", "/gazebo/spawn_sdf_model").strip() == (

@@ -299,6 +299,7 @@ def test_controllers_of_a_launch_file_move_its_robot(case, corpus, tmp_path):
     bring_up(case, corpus, tmp_path)
 
 
+@pytest.mark.long
 def test_those_of_a_small_package_do_too(tmp_path):
     bring_up(OWN[0], DATA, tmp_path)
 

@@ -30,6 +30,7 @@ def check(expected, corpus, folder):
         assert launched.close() == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("expected", QUICK, ids=lambda each: each.file)
 def test_a_launch_file_comes_up_with_its_topics_and_frames(expected, corpus, tmp_path):
     check(expected, corpus, tmp_path)

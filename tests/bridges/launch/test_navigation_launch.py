@@ -17,6 +17,7 @@ from gazelle.navigation.true_map import true_map
 pytestmark = pytest.mark.corpus
 
 
+@pytest.mark.long
 def test_a_burger_reaches_a_goal(corpus, tmp_path):
     whole = true_map(gazelle.load("turtlebot3_world"), 0.18, margin=2.0)
     with navigating(corpus, tmp_path, "burger", whole) as traveller:

@@ -240,6 +240,7 @@ def errand(place, there, *, controllers=True):
         return sum((a - b) ** 2 for a, b in zip(away, (x, y, 0.73), strict=True)) ** 0.5
 
 
+@pytest.mark.long
 def test_a_cube_is_picked_and_placed_over_the_wire():
     assert errand((0.65, -0.2, 0.3), (0.7, 0.15, 0.8)) < 0.01
 

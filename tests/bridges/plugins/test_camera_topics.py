@@ -95,6 +95,7 @@ def test_two_cameras_have_one_stamp():
         wait(lambda: set(map(stamp, list(sides[0]))) & set(map(stamp, list(sides[1]))))
 
 
+@pytest.mark.long
 def test_a_triggered_camera_sends_as_many_pictures_as_there_were_triggers():
     with camera("libgazebo_ros_triggered_camera.so") as graph:
         images = graph.client.listen("/camera1/image_raw", "sensor_msgs/Image")

@@ -115,6 +115,7 @@ def test_nothing_is_drawn_without_listeners(stage, monkeypatch):
     world.sim.step(3)
 
 
+@pytest.mark.long
 @pytest.mark.ros
 def test_real_rospy_sees_pictures(stage, running):
     if not INSTALLED:

@@ -14,6 +14,7 @@ def run(*words, folder):
     )
 
 
+@pytest.mark.long
 def test_its_script_drives_all_and_none_bumps(tmp_path):
     done = run("exec", "fleet_stage", "drive_fleet.py", "--rounds", "1", folder=tmp_path)
     assert done.returncode == 0, done.stderr

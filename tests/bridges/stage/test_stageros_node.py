@@ -66,6 +66,7 @@ def test_launch_files_find_it():
     assert registry.main_of("stage_ros", "stageros").__module__ == "gazelle.bridges.stage.server"
 
 
+@pytest.mark.long
 def test_it_waits_for_a_master_and_ends_while_it_waits(tmp_path):
     port = free_port()
     master = SimpleNamespace(uri=f"http://127.0.0.1:{port}/")
@@ -97,6 +98,7 @@ def test_what_the_file_is_warned_of_is_on_rosout(master, tmp_path):
     assert "colour" in heard[0].msg
 
 
+@pytest.mark.long
 def test_a_new_master_learns_that_time_is_simulated(tmp_path):
     port = free_port()
     with Master(port=port, rosout=False) as master:

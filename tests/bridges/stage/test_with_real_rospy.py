@@ -94,6 +94,7 @@ def _installed():
         skip_or_fail("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
 
 
+@pytest.mark.long
 def test_topics_come_at_the_rate_of_the_steps(stage, running):
     world = stage("robot ( )", rate=1.0)
     running(world.server)
@@ -119,6 +120,7 @@ def test_intensities_are_returns_of_any_size(stage, running):
     assert (count, frame) == ("181", "base_laser_link")
 
 
+@pytest.mark.long
 def test_velocities_poses_and_reset(stage, running):
     world = stage("robot ( )", rate=1.0)
     running(world.server)

@@ -59,6 +59,7 @@ def fleet_of(models, circle, poses, z=0.5):
     return Fleet([Body((), tuple(pose), z=z) for pose in poses], whole)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("count", [3, 90, 700])
 @given(seed=SEEDS)
 @settings(max_examples=12, deadline=None)

@@ -42,6 +42,27 @@ def test_an_arc_is_exact(v, w, yaw, dt):
     )
 
 
+@pytest.mark.parametrize("nworld", [1, 3])
+def test_a_fleet_of_nothing_steps(nworld):
+    fleet = Fleet([], nworld=nworld)
+    fleet.step(5)
+    assert fleet.pose.shape == (nworld, 0, 3)
+
+
+@pytest.mark.parametrize("kinds", ["one", "many"])
+def test_each_body_goes_by_its_own_drive_in_every_world(kinds):
+    """Bodies share a drive or have each their own; rows of worlds may be divided anywhere."""
+    drives = [Drive(), Drive("omni"), None, Drive()] if kinds == "many" else [Drive("omni")] * 4
+    part = (PlanarPart.box(0.3, 0.2),)
+    bodies = [Body(part, (3.0 * i, 0.0, 0.0), drive=drive) for i, drive in enumerate(drives)]
+    fleet = Fleet(bodies, nworld=3)
+    fleet.command[:, :, 1] = [[0.1], [0.2], [0.3]]
+    fleet.step(10)
+    sideways = [0.0, 1.0, 0.0, 0.0] if kinds == "many" else [1.0] * 4
+    expected = np.outer([0.1, 0.2, 0.3], sideways)
+    assert fleet.pose[:, :, 1] == pytest.approx(expected)
+
+
 def test_stages_way_goes_straight_and_then_turns():
     fleet = one(Drive(), euler=True)
     fleet.command[:] = 1.0, 0.0, 1.0
@@ -142,6 +163,7 @@ SHAPES = [
 ]
 
 
+@pytest.mark.long
 @given(seed=st.integers(0, 2**32 - 1), count=st.integers(2, 70), dt=st.sampled_from([0.05, 0.3]))
 @settings(max_examples=25, deadline=None)
 def test_robots_never_overlap_after_a_step(seed, count, dt):
@@ -201,6 +223,7 @@ def roam(threads, nworld=1, count=300):
     return fleet, scanner
 
 
+@pytest.mark.long
 def test_any_number_of_threads_gives_the_same_bits():
     one, two = roam(1), roam(2)
     assert 0.0 < one[0].stalled.mean() < 0.9

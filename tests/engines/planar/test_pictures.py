@@ -126,6 +126,7 @@ def test_pictures_do_not_depend_on_threads():
     assert digest(1) == digest(3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("build", ["baseline", "avx2", "python"])
 def test_pictures_do_not_depend_on_the_build(build):
     if build == "avx2" and native.BUILD != "avx2":

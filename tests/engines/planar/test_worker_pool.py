@@ -51,6 +51,7 @@ def test_an_error_comes_after_all_have_ended_and_harms_nobody(pool, who):
     assert pool.share(lambda *part: part[2], 30, 10) == [0, 1, 2]
 
 
+@pytest.mark.long
 def test_threads_end_when_it_is_closed_or_forgotten():
     gc.collect()  # pools that other tests have forgotten
     before = len(planar_threads())

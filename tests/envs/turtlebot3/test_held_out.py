@@ -113,6 +113,7 @@ def test_obstacles_stand_where_their_phase_says():
     task.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("stage", [3, 4])
 def test_a_task_on_systems_begins_as_one_on_plugins(stage):
     settings = NavigationSettings(

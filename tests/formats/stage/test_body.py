@@ -68,6 +68,7 @@ def test_heights_are_stretched_by_the_height_of_all_blocks_but_not_moved(tmp_pat
     assert model.blocks[0].z == (1.0, 2.0)
 
 
+@pytest.mark.long
 @given(
     points=st.lists(st.tuples(lengths, lengths), min_size=3, max_size=8, unique=True),
     size=st.tuples(lengths, lengths, lengths),

@@ -91,6 +91,7 @@ def test_a_spoilt_sample_does_no_harm(folder, cut, put):
     survives(folder, (SAMPLE[:start] + put + SAMPLE[start + length :]).encode())
 
 
+@pytest.mark.long
 @fuzzing
 @given(
     name=st.sampled_from(["size", "pose", "origin", "mass", "bitmap", "color", "name", "ctrl"]),
@@ -105,6 +106,7 @@ def test_any_value_of_a_property_does_no_harm(folder, name, value, kind):
     survives(folder, f"{kind} ( {name} {value} )".encode())
 
 
+@pytest.mark.long
 @fuzzing
 @given(
     robots=st.lists(
@@ -155,6 +157,7 @@ def test_a_picture_of_noise_is_refused(folder):
         load_stage(write(folder, 'model ( bitmap "noise.png" )'))
 
 
+@pytest.mark.long
 def test_ten_thousand_robots_load_in_a_second(folder):
     poses = "".join(
         f'robot ( name "r{i}" pose [ {i % 100} {i // 100} 0 {i % 360} ] )\n' for i in range(10_000)

@@ -33,6 +33,7 @@ def values_at(terms, pose, points):
 SIZES = st.integers(1, 9)
 
 
+@pytest.mark.long
 @settings(max_examples=60)
 @given(st.integers(0, 2**32 - 1), SIZES, SIZES, st.integers(1, 70), st.integers(0, 20))
 def test_scores_and_counts_are_those_of_one_end_after_another(seed, rows, columns, count, beams):

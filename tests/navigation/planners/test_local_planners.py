@@ -89,6 +89,7 @@ ROOMS = [
 ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("walls", "start", "goal"), ROOMS)
 @pytest.mark.parametrize(("kind", "values"), [(DwaPlanner, DWA), (TrajectoryPlanner, OLD)])
 def test_a_robot_gets_there_and_hits_nothing(kind, values, walls, start, goal):

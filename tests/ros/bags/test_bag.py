@@ -200,6 +200,7 @@ def test_a_bag_without_index_says_what_to_do(write_bag, unindex):
         assert [m.data for _, m, _ in bag] == ["one", "two", "three"]
 
 
+@pytest.mark.long
 @settings(max_examples=150, deadline=None)
 @given(place=st.integers(0, 6000), value=st.integers(0, 255), cut=st.integers(0, 6000))
 @example(place=5366, value=0, cut=1)  # a NUL in the name of the type

@@ -158,6 +158,7 @@ def command(kind, *arguments):
     return [*tools[kind], *arguments]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("recorder", "player"), [("ours", "real"), ("real", "ours")])
 def test_what_one_records_the_other_plays(tmp_path, recorder, player):
     with Master(port=0) as master:

@@ -104,6 +104,7 @@ def test_a_spawner_starts_what_could_be_loaded(start, manager):
     assert "Failed to load missing" in process.stdout.read()
 
 
+@pytest.mark.long
 def test_controllers_that_conflict_are_not_started(start, manager):
     process = start("spawner", "effort", "position")
     until(lambda: manager.calls and manager.calls[-1][0] == "switch", 30)
@@ -113,6 +114,7 @@ def test_controllers_that_conflict_are_not_started(start, manager):
     assert manager.states == {}
 
 
+@pytest.mark.long
 def test_stopped_only_loads(start, manager):
     process = start("spawner", "--stopped", "wrist")
     until(lambda: manager.states == {"wrist": "initialized"}, 30)
@@ -183,6 +185,7 @@ def test_a_spawner_wants_a_controller(start):
 # unspawner --------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_an_unspawner_keeps_controllers_stopped_and_starts_them_again(start, manager):
     manager.states = {"wrist": "running", "effort": "running", "position": "stopped"}
     process = start("unspawner", "wrist", "position", "unknown")
@@ -197,6 +200,7 @@ def test_an_unspawner_keeps_controllers_stopped_and_starts_them_again(start, man
 # controller_manager -----------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_the_command_says_what_came_of_it(said, manager):
     command = "controller_manager"
     assert said(command, "list") == "No controllers are loaded in mechanism control\n"
@@ -214,6 +218,7 @@ def test_the_command_says_what_came_of_it(said, manager):
     assert said(command, "unload", "wrist") == "Unloaded 'wrist' successfully\n"
 
 
+@pytest.mark.long
 def test_the_command_spawns_kills_and_reloads(said, manager):
     command = "controller_manager"
     assert said(command, "spawn", "wrist", "effort") == (
@@ -240,6 +245,7 @@ def test_a_command_that_it_does_not_know_shows_those_it_does(start, manager):
 # controller_group -------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 def test_groups_are_listed_spawned_and_switched(said, manager, robot):
     groups = {"b": ["position", "wrist"], "a": ["effort", "wrist"], "bad": ["effort", "position"]}
     robot.set_param("/controller_groups", groups)

@@ -168,6 +168,7 @@ def test_relay_keeps_type_and_latching(start, make_node, master):
     assert header["message_definition"] == kind._full_text
 
 
+@pytest.mark.long
 def test_throttle_passes_some_on(start, listen, talk):
     begin = time.monotonic()
     start("topic_tools", "throttle", "messages", "/in", "10")
@@ -178,6 +179,7 @@ def test_throttle_passes_some_on(start, listen, talk):
     assert numbers == sorted(numbers)
 
 
+@pytest.mark.long
 def test_throttle_counts_bytes(start, listen, talk):
     def size():
         return sum(4 + len(each.data) for each in got)
@@ -189,6 +191,7 @@ def test_throttle_counts_bytes(start, listen, talk):
     assert size() <= 60.0 * (time.monotonic() - begin + 0.5)
 
 
+@pytest.mark.long
 def test_drop_leaves_some_out(start, listen, talk):
     start("topic_tools", "drop", "/in", "2", "3", "/out")
     got = listen("/out")
@@ -197,6 +200,7 @@ def test_drop_leaves_some_out(start, listen, talk):
     assert {b - a for a, b in itertools.pairwise(numbers)} == {3}
 
 
+@pytest.mark.long
 def test_mux_switches(start, listen, make_node, talk):
     other = make_node("other").advertise("/other", STRING, latch=True)
     other.publish(STRING(data="x"))
@@ -318,6 +322,7 @@ def test_wrong_maps_are_refused(write_yaml, settings):
         read_map(path)
 
 
+@pytest.mark.long
 def test_maps_are_served(start, make_node, listen, write_yaml):
     path = write_yaml(LEVELS)
     start("map_server", "map_server", path, "_frame_id:=world", "map:=/plan")
@@ -343,6 +348,7 @@ def test_maps_that_are_saved_read_the_same(write_yaml, tmp_path):
     assert (tmp_path / "saved.pgm").read_bytes().startswith(b"P5\n# CREATOR")
 
 
+@pytest.mark.long
 def test_another_map_can_be_loaded(start, make_node, write_yaml, listen, tmp_path):
     start("map_server", "map_server", write_yaml(LEVELS))
     got = listen("/map", load_message("nav_msgs/OccupancyGrid"))
@@ -370,6 +376,7 @@ def test_another_map_can_be_loaded(start, make_node, write_yaml, listen, tmp_pat
     ]
 
 
+@pytest.mark.long
 def test_a_picture_and_a_resolution_are_a_map_as_of_old(start, listen, write_yaml, tmp_path):
     write_yaml(LEVELS)
     picture = next(path for path in tmp_path.iterdir() if path.suffix in {".pgm", ".png"})
@@ -380,6 +387,7 @@ def test_a_picture_and_a_resolution_are_a_map_as_of_old(start, listen, write_yam
     assert got[0].info.resolution == 0.5
 
 
+@pytest.mark.long
 def test_maps_are_saved_from_a_topic(start, make_node, write_yaml, tmp_path):
     message = grid_message(read_map(write_yaml(LEVELS)), "map", 0)
     make_node("slam").advertise("/map", type(message), latch=True).publish(message)
@@ -405,6 +413,7 @@ def test_command_lines_are_taken_apart(monkeypatch):
     assert parse_arguments(["__ns:=/arg"], "default").options["namespace"] == "/arg"
 
 
+@pytest.mark.long
 def test_tools_are_nodes_too(start, listen, master):
     process = start(
         "rostopic",
@@ -425,6 +434,7 @@ def test_tools_are_nodes_too(start, listen, master):
     until(lambda: process.poll() is not None)
 
 
+@pytest.mark.long
 def test_a_node_that_is_asked_to_end_is_off_the_master_when_it_is_gone(start, master):
     words = ["0", "0", "1", "0", "0", "0", "a", "b", "50"]
     for number in range(5):

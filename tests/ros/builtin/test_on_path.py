@@ -35,6 +35,7 @@ def test_a_command_is_found_by_its_name_and_by_python(surroundings):
     assert said('python "$(which rosmsg)" show std_msgs/Bool', surroundings) == shown
 
 
+@pytest.mark.long
 def test_commands_are_programs_of_packages_too(surroundings):
     code, folder, _ = said("rospack find turtlebot3_description", surroundings)
     assert code == 0

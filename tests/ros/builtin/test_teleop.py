@@ -96,6 +96,7 @@ def typist(master):
         each.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("end", ["ctrl-c", "terminate"])
 def test_a_turtlebot3_is_driven(typist, heard, end):
     person = typist("exec", *TURTLEBOT3)
@@ -117,6 +118,7 @@ def test_a_turtlebot3_is_driven(typist, heard, end):
     until(lambda: heard[-1].linear.x == 0.0)
 
 
+@pytest.mark.long
 def test_any_robot_is_driven(typist, heard):
     person = typist("exec", *TWIST, "_speed:=1.0", "cmd_vel:=/cmd_vel")
 
@@ -145,6 +147,7 @@ def values(twist):
     return twist.linear.x, twist.linear.y, twist.linear.z, twist.angular.z
 
 
+@pytest.mark.long
 def test_the_launch_file_drives_too(typist, heard, monkeypatch):
     monkeypatch.delenv("TURTLEBOT3_MODEL", raising=False)
     person = typist("launch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch", "model:=waffle")
@@ -156,6 +159,7 @@ def test_the_launch_file_drives_too(typist, heard, monkeypatch):
     assert termios.tcgetattr(person.terminal) == person.before
 
 
+@pytest.mark.long
 def test_the_launcher_gives_the_terminal_back_of_a_node_that_was_killed(typist, master):
     person = typist("launch", "turtlebot3_teleop", "turtlebot3_teleop_key.launch")
     proxy = MasterProxy(master.uri, "/test")

@@ -100,6 +100,7 @@ def test_tf_monitor_knows_chain_and_senders(master, tree, tmp_path):
     assert re.search(r"Frame: laser published by /tree\(static\) Average Delay: 0 Max", said)
 
 
+@pytest.mark.long
 def test_view_frames_draws_the_tree(master, tree, tmp_path):
     said = ours(master.uri, tmp_path, "view_frames", enough="written")
     drawn = (tmp_path / "frames.gv").read_text(encoding="utf-8")

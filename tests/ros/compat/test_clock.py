@@ -67,6 +67,7 @@ def test_before_the_first_tick_time_is_zero_and_sleeps_wait(simulated):
     assert outcome == [None]
 
 
+@pytest.mark.long
 def test_a_clock_that_never_comes_is_named_after_two_seconds(simulated, monkeypatch):
     rospy, _ = simulated
     printed = io.StringIO()

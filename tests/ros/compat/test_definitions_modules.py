@@ -130,6 +130,7 @@ def test_definitions_are_shown_with_those_of_their_fields():
         rosmsg.get_msg_text("std_msgs/Nope")
 
 
+@pytest.mark.long
 @pytest.mark.ros
 @real.needs_ros
 @pytest.mark.parametrize(
@@ -188,6 +189,7 @@ def test_results_of_tests_have_their_files(tmp_path):
     assert rosunit.rostest_name_from_path("/ws/p", "/ws/p/test/x.y.test") == "test_x.y"
 
 
+@pytest.mark.long
 def test_tools_have_their_main_functions(capsys, monkeypatch, master):
     monkeypatch.setenv("ROS_MASTER_URI", master.uri)
     monkeypatch.setattr(sys, "argv", ["rosmsg", "md5", "std_msgs/Header"])

@@ -220,12 +220,14 @@ time.sleep(60)
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_no_node_is_left_when_the_script_is_ended(package, master, tmp_path, number):
     pid = node_of_ended_script(master, tmp_path, number)
     until(lambda: not alive(pid))
 
 
+@pytest.mark.long
 def test_the_node_of_a_killed_script_is_left_as_in_ros(package, master, tmp_path):
     pid = node_of_ended_script(master, tmp_path, signal.SIGKILL)
     try:

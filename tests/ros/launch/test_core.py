@@ -166,6 +166,7 @@ def test_the_master_survives_its_launcher(begun):
     until(lambda: family.master.system_state()[0].get("/rosout_agg") == ["/rosout"])
 
 
+@pytest.mark.long
 def test_nodes_survive_a_killed_roslaunch_as_with_ros(start, file):
     """Who types roslaunch gets what ROS does; ``gazelle launch`` ends its nodes, see above."""
     family = start("roslaunch", file)

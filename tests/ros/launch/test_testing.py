@@ -64,6 +64,7 @@ def run(workspace, script, tmp_path):
     return start
 
 
+@pytest.mark.long
 def test_all_tests_pass_each_with_a_master_of_its_own(run, script):
     script("cases.py", CASES.format(other=True))
     one = '<test pkg="robot" type="cases.py" test-name="{}"><param name="mine" value="3"/></test>'
@@ -75,6 +76,7 @@ def test_all_tests_pass_each_with_a_master_of_its_own(run, script):
     assert done.results.get("name") == "robot.rostest-test_some"
 
 
+@pytest.mark.long
 def test_a_failure_is_told_with_its_text(run, script):
     script("cases.py", CASES.format(other=False))
     done = run(
@@ -121,6 +123,7 @@ def test_no_test_is_no_success(run):
     assert " * TESTS: 0" in done.stdout
 
 
+@pytest.mark.long
 def test_the_test_nodes_of_rostest_are_there(run):
     done = run("""
       <param name="/given" value="7"/>

@@ -37,6 +37,7 @@ def test_text_becomes_what_it_looks_like(text, value):
     assert type(found) is type(value)
 
 
+@pytest.mark.long
 @given(st.text())
 def test_any_text_is_some_value(text):
     assert isinstance(automatic(text), (bool, int, float, str))

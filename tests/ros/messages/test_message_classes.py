@@ -78,6 +78,7 @@ def of_packages():
     return [name for name in definitions() if not name.startswith("sample_msgs/")]
 
 
+@pytest.mark.long
 def test_defaults_are_genpys(all_kinds, genpy):
     for made in (all_kinds, *map(load_message, of_packages()[::7])):
         theirs = genpy.class_of(made)()
@@ -184,6 +185,7 @@ def test_many_threads_may_use_a_new_class_at_once():
     assert not failures
 
 
+@pytest.mark.long
 def test_importing_the_room_is_quick_and_brings_no_numpy():
     code = (
         "import sys, time; t = time.process_time(); import gazelle.ros.messages; "

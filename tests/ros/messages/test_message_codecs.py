@@ -92,6 +92,7 @@ def check_with_genpy(genpy, count):
                 assert kinds[0] == kinds[1].rpartition("__")[2], (made._type, name)
 
 
+@pytest.mark.long
 def test_bytes_are_those_of_rosbags_for_every_type(rosbags_store):
     check_with_rosbags(rosbags_store, 2)
 

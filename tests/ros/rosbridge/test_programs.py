@@ -50,6 +50,7 @@ def start(tmp_path):
             process.kill()
 
 
+@pytest.mark.long
 def test_the_launch_file_runs(start, tmp_path):
     (tmp_path / "bridge.launch").write_text(LAUNCH)
     port = free_port()
@@ -74,6 +75,7 @@ def test_the_launch_file_runs(start, tmp_path):
     master.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("world", ["empty", "fleet"])
 def test_gazelle_run_with_rosbridge(start, graph, world):
     process = start("run", world, "--ros", "--rosbridge", 0, ROS_MASTER_URI=graph.uri)

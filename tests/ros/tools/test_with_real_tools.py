@@ -140,6 +140,7 @@ def ours(uri, *arguments):
     return done.stdout
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("line", COMMANDS)
 def test_a_command_writes_the_same(uri, line):
     kind, *rest = [word.replace("\u00a0", " ") for word in line.split(" ")]
@@ -174,6 +175,7 @@ def test_what_we_publish_the_real_one_echoes(uri):
     assert theirs.endswith("x: 1.0\ny: 0.0\nz: -2.5\n---\n")
 
 
+@pytest.mark.long
 def test_the_real_one_measures_our_rate_as_we_do(uri):
     command = [sys.executable, "-m", "gazelle.cli.main", "topic"]
     talker = subprocess.Popen(

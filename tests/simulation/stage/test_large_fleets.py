@@ -4,6 +4,7 @@ import gc
 import time
 import tracemalloc
 
+import pytest
 from stage_samples import write
 
 from gazelle.simulation.stage import StageSimulation
@@ -19,6 +20,7 @@ def crowd(folder, count):
     return write(folder, "\n".join(lines))
 
 
+@pytest.mark.long
 def test_ten_thousand_load_within_a_second_or_two(tmp_path):
     file = crowd(tmp_path, 10_000)
     times = []
@@ -30,6 +32,7 @@ def test_ten_thousand_load_within_a_second_or_two(tmp_path):
     assert min(times) < 5.0  # 0.8 s on an AMD EPYC; Stage takes ten
 
 
+@pytest.mark.long
 def test_each_takes_less_than_four_kilobytes_with_what_the_file_says_of_it(tmp_path):
     count = 2_000
     file = crowd(tmp_path, count)

@@ -54,6 +54,7 @@ def outcomes(out):
     return re.findall(r"^\(.*\)  ([a-z-]+), ", out, re.MULTILINE)
 
 
+@pytest.mark.long
 def test_it_drives_to_two_goals(master, world, tmp_path, homing):
     world("turtlebot3_stage_1")
     deployed = Deployed(
@@ -64,6 +65,7 @@ def test_it_drives_to_two_goals(master, world, tmp_path, homing):
     assert code == 0
 
 
+@pytest.mark.long
 def test_it_does_not_drive_into_a_wall(master, world, tmp_path, straight_on):
     """The policy drives straight on; the wall is at 1.85 m, and the stop distance large."""
     world("turtlebot3_stage_1", "turtlebot3_burger@1.0,0.0", rate="4")

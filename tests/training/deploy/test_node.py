@@ -52,6 +52,7 @@ def drive(robot, deploy, *arguments):
     return deployed
 
 
+@pytest.mark.long
 def test_it_stands_until_it_is_armed_by_the_service(robot, deploy):
     deployed = deploy("--goal", "5,0")
     robot.alive(lambda: "disarmed" in robot.status, "the node")
@@ -74,6 +75,7 @@ def test_it_stands_until_it_is_armed_by_the_service(robot, deploy):
     assert robot.last == STAND
 
 
+@pytest.mark.long
 def test_it_does_not_arm_without_sensors(robot, deploy):
     deploy()
     wait_for(lambda: "disarmed" in robot.status, "the node")
@@ -81,6 +83,7 @@ def test_it_does_not_arm_without_sensors(robot, deploy):
     assert (answer.success, answer.message) == (False, "no scan yet")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("lost", ["scan", "odom"])
 def test_cut_off_from_a_sensor_it_stops_within_half_a_second(robot, deploy, tmp_path, lost):
     log = tmp_path / "log.jsonl"
@@ -105,6 +108,7 @@ def test_cut_off_from_a_sensor_it_stops_within_half_a_second(robot, deploy, tmp_
     assert 0.4 <= event["time"] - cut <= 0.5
 
 
+@pytest.mark.long
 def test_an_obstacle_stops_it(robot, deploy):
     drive(robot, deploy)
     robot.ranges = [0.15] + [3.0] * 22 + [0.15]
@@ -114,6 +118,7 @@ def test_an_obstacle_stops_it(robot, deploy):
     robot.alive(lambda: robot.last == AHEAD, "it to go on")
 
 
+@pytest.mark.long
 def test_goals_by_topic_take_the_place_of_others(robot, deploy):
     deployed = deploy("--arm")
     robot.alive(lambda: "armed, no goal" in robot.status, "it to be armed")
@@ -132,6 +137,7 @@ def test_goals_by_topic_take_the_place_of_others(robot, deploy):
     assert robot.last == STAND
 
 
+@pytest.mark.long
 def test_a_goal_in_the_map_is_found_by_tf(robot, deploy):
     deploy("--arm")
     robot.alive(lambda: "armed, no goal" in robot.status, "it to be armed")
@@ -155,6 +161,7 @@ def test_a_goal_in_the_map_is_found_by_tf(robot, deploy):
     robot.alive(lambda: robot.results, "the end of the goal")
 
 
+@pytest.mark.long
 def test_goals_of_a_list_are_driven_to_and_reported(robot, deploy, tmp_path):
     goals = tmp_path / "goals.txt"
     goals.write_text("1, 0\n2, 0\n")
@@ -172,6 +179,7 @@ def test_goals_of_a_list_are_driven_to_and_reported(robot, deploy, tmp_path):
     assert robot.last == STAND
 
 
+@pytest.mark.long
 def test_names_are_remapped(master, deploy):
     robot = FakeRobot(master.uri)
     heard = []
@@ -183,6 +191,7 @@ def test_names_are_remapped(master, deploy):
     robot.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL, signal.SIGHUP])
 def test_the_last_twist_is_zero_however_it_is_ended(robot, deploy, number):
     deployed = drive(robot, deploy)
@@ -206,6 +215,7 @@ def kill_at_random(robot, deploy, chance):
     robot.twists.clear()
 
 
+@pytest.mark.long
 def test_killed_at_random_points_the_last_twist_is_zero(robot, deploy):
     chance = random.Random(4)
     for _ in range(5):
@@ -219,6 +229,7 @@ def test_killed_at_a_hundred_points_the_last_twist_is_zero(robot, deploy):
         kill_at_random(robot, deploy, chance)
 
 
+@pytest.mark.long
 def test_hanging_it_is_stopped_by_the_guard(robot, deploy):
     deployed = drive(robot, deploy)
     os.kill(deployed.pid, signal.SIGSTOP)
@@ -235,6 +246,7 @@ def guards_of(deployed):
     return [int(pid) for pid in text.split()]
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="looks into /proc")
 def test_without_its_guard_it_stops_and_ends(robot, deploy):
     deployed = drive(robot, deploy)
@@ -246,6 +258,7 @@ def test_without_its_guard_it_stops_and_ends(robot, deploy):
     assert robot.last == STAND
 
 
+@pytest.mark.long
 def test_without_a_master_it_stands(tmp_path, straight_on):
     master = Master(port=0, rosout=False)
     robot = FakeRobot(master.uri)
@@ -271,6 +284,7 @@ def changed(policy, folder, **action):
     return folder / "odd.npz"
 
 
+@pytest.mark.long
 def test_an_exception_ends_it_with_zero(robot, deploy, homing, tmp_path):
     """Straight on is known as an action, and to the left is not."""
     policy = changed(homing, tmp_path, first=1)
@@ -284,6 +298,7 @@ def test_an_exception_ends_it_with_zero(robot, deploy, homing, tmp_path):
     assert robot.last == STAND
 
 
+@pytest.mark.long
 def test_a_number_that_is_none_is_not_sent(robot, deploy, straight_on, tmp_path):
     policy = changed(straight_on, tmp_path, choices=[[0.15, float("inf")]] * 5)
     deploy("--arm", "--goal", "5,0", policy=policy)
