@@ -49,6 +49,14 @@ class GoalTable:
         self.counts = allowed.sum(axis=1)
         self.successors = np.argsort(~allowed, axis=1, kind="stable")
 
+    def places(self, goals: Indices) -> Floats:
+        """Where goals are [m], shape (n, 2).
+
+        Args:
+            goals: Indices into ``points``, shape (n,).
+        """
+        return self.points.take(goals, axis=0)  # several times as fast as indexing
+
     def first(self, uniform: Floats) -> Indices:
         """Any place.
 

@@ -40,7 +40,8 @@ def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
     if given.dtype == np.bool_ and given.shape == (nworld,):
         return np.flatnonzero(given)
     whole = given.ndim == 1 and (given.size == 0 or given.dtype.kind in "iu")
-    if not whole or (given.size and not 0 <= given.min() <= given.max() < nworld):
+    # What is below zero is large without a sign: one look is enough.
+    if not whole or (given.size and not np.maximum.reduce(given.astype(np.uint64)) < nworld):
         raise SimulationError(
             f"worlds must be in 0 to {nworld - 1}, or a mask of {nworld}, not {worlds}"
         )

@@ -39,3 +39,7 @@ def test_first_reaches_every_place():
 def test_what_is_no_list_of_places_is_refused(points):
     with pytest.raises(TaskError, match="pairs"):
         GoalTable(points)
+
+
+def test_places_are_those_of_the_goals_in_their_order():
+    assert GoalTable(SQUARE).places(np.array([2, 0, 2])).tolist() == [[1, 1], [0, 0], [1, 1]]

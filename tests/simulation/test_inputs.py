@@ -139,3 +139,13 @@ def test_shapes_and_worlds_that_fit():
     for wrong in ([-1], [3], [0.5], [[0]], "all"):
         with pytest.raises(SimulationError, match="worlds must be"):
             chosen(wrong, 3)
+
+
+@pytest.mark.parametrize("kind", "bhilqBHILQ")
+def test_worlds_may_be_ints_of_any_width(kind):
+    assert chosen(np.array([3, 0], kind), 4).tolist() == [3, 0]
+    assert chosen(np.array([], kind), 4).tolist() == []
+    wrong = [4, np.iinfo(kind).max] + [-1, np.iinfo(kind).min] * (kind in "bhilq")
+    for world in wrong:
+        with pytest.raises(SimulationError, match="worlds must be in 0 to 3"):
+            chosen(np.array([0, world], kind), 4)

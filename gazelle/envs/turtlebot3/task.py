@@ -146,11 +146,14 @@ class TurtleBot3Task(BatchedTask):
     def scenario(self, worlds: Worlds) -> NDArray[np.float64]:
         """Start (x, y, heading), first goal (x, y), and how long ago scripts began, if varied."""
         count = len(worlds)
-        start = np.broadcast_to((*self.rules.start, 0.0), (count, 3))
+        start: Any = (*self.rules.start, 0.0)
         phases = np.zeros((count, 0))
         if self._starts is not None:
             start, phases = self._starts.poses[worlds], self._starts.phases[worlds]
-        return np.hstack((start, self.goals.points[self._goal[worlds]], phases))
+        drawn = np.empty((count, 5 + phases.shape[1]))
+        drawn[:, :3], drawn[:, 5:] = start, phases
+        drawn[:, 3:5] = self.goals.places(self._goal[worlds])
+        return drawn
 
     def _new_goals(self, worlds: Worlds) -> None:
         self._goals_reached[worlds] = 0
@@ -180,9 +183,10 @@ class TurtleBot3Task(BatchedTask):
 
     def _act(self, actions: ArrayLike) -> Verdict:
         linear, angular = self._command(actions)
-        self.scene.robot.inputs[COMMAND].send(linear, angular)
-        self.scene.simulation.run(self.control_period)
-        seen = self._see(None)
+        with self.scene.simulation.requests:  # asked for once, not at every access
+            self.scene.robot.inputs[COMMAND].send(linear, angular)
+            self.scene.simulation.run(self.control_period)
+            seen = self._see(None)
         crashed = collided(self.rules, seen.nearest)
         arrived = reached(self.rules, seen.distance)
         reward = travelling_reward(
@@ -219,7 +223,7 @@ class TurtleBot3Task(BatchedTask):
             ranges=scene.robot.sensors[scene.lidar.sensor].measure(worlds),
             range_min=scene.lidar.lidar.range_min,
             pose=scene.robot.planar_pose(worlds),
-            goal=self.goals.points[self._goal[rows]],
+            goal=self.goals.places(self._goal[rows]),
         )
 
     def _next_goals(self, worlds: Worlds) -> None:
@@ -240,7 +244,7 @@ class TurtleBot3Task(BatchedTask):
             "is_collision": crashed.copy(),
             "distance": seen.distance,
             "heading": seen.heading,
-            "goal": self.goals.points[self._goal[worlds]],
+            "goal": self.goals.places(self._goal[worlds]),
             "position": seen.position,
             "goals_reached": self._goals_reached[worlds],
         }
