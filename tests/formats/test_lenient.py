@@ -294,16 +294,6 @@ def test_a_reduction_of_text(reduction):
     assert found.transmissions[0].actuators == (("a", 1.0),)
 
 
-def test_a_population_of_less_than_none_is_empty():
-    found, _ = one_warning(
-        world,
-        "<population name='p'><model name='a'><link name='l'/></model>"
-        "<model_count>-3</model_count><box><size>1 1 1</size></box>"
-        "<distribution><type>random</type></distribution></population>",
-    )
-    assert found.models == ()
-
-
 def test_a_model_without_links_and_an_include_without_a_uri():
     found, text = one_warning(world, "<model name='m'/>")
     assert (found.models[0].name, found.models[0].links) == ("m", ())

@@ -1,6 +1,7 @@
 """What stands for other elements: old spellings, merges, actors, populations, saved changes."""
 
 import math
+import re
 import shutil
 import subprocess
 import time
@@ -342,12 +343,36 @@ def test_five_hundred_models_are_spread_in_less_than_a_second():
         ({"kind": "linear-x", "region": TUBE}, "'linear-x' needs a <box>"),
         ({"kind": "random", "region": "<box><size>1 0 1</size></box>"}, "greater than zero"),
         ({"kind": "random", "region": TUBE.replace(">1<", ">-1<")}, "<radius> must be greater"),
-        ({"kind": "random", "count": 10**9}, "0 to 10000 models"),
-        ({"kind": "grid", "rest": "<rows>99999</rows><cols>99999</cols>"}, "0 to 10000 models"),
+        ({"kind": "random", "count": -3}, "<model_count> must be at least 1, found -3"),
+        ({"kind": "grid", "rest": "<rows>0</rows>"}, "<rows> must be at least 1, found 0"),
+        ({"kind": "grid", "rest": "<cols>-2</cols>"}, "<cols> must be at least 1, found -2"),
     ],
 )
-def test_populations_that_make_no_sense(options, message):
-    with pytest.raises(FormatError, match=message):
+def test_a_population_that_makes_no_sense_is_left_out_as_in_gazebo(options, message):
+    text = POPULATION.format(**{"region": BOX, "count": 2, "yaw": 0, "rest": ""} | options)
+    with pytest.warns(FormatWarning) as said:
+        found = world(f"<model name='kept'><link name='l'/></model>\n{text}")
+    assert [model.name for model in found.models] == ["kept"]
+    (warning,) = said
+    assert re.search(message, str(warning.message))
+    assert "the population is left out" in str(warning.message)
+    assert re.match(r"test\.sdf:[567]: ", str(warning.message))
+
+
+def test_a_population_without_a_model_is_left_out():
+    with pytest.warns(FormatWarning, match="needs a <model>: the population is left out"):
+        assert world(f"<population name='p'>{BOX}</population>").models == ()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"kind": "random", "count": 10**9},
+        {"kind": "grid", "rest": "<rows>99999</rows><cols>99999</cols>"},
+    ],
+)
+def test_a_population_too_large_for_a_world_is_refused(options):
+    with pytest.raises(FormatError, match="up to 10000 models"):
         spread(**options)
 
 

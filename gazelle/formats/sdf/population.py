@@ -15,7 +15,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.description import Parameters, Pose
-from gazelle.errors import did_you_mean
+from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.build import pose_element, with_attributes, with_child
@@ -63,29 +63,45 @@ class Region:
 def expanded(node: Parameters, reading: Reading) -> Iterator[Parameters]:
     """The models of a population, named ``NAME_clone_0`` and so on.
 
-    Chance is seeded with the population's name: the same file gives the same places.
+    Chance is seeded with the population's name: the same file gives the same places. One whose
+    model, distribution or region is missing or makes no sense is left out, as Gazebo Classic
+    ignores it (``gazebo::physics::Population::PopulateOne``).
 
     Raises:
-        FormatError: There is no model in it, or its distribution, region or number makes no
-            sense.
+        FormatError: There are more than ``MAX_MODELS``.
     """
-    model = node.find("model")
-    if model is None:
-        raise values.fail(node, "a <population> needs a <model>")
-    name = values.attribute(model, "name")
-    stand = read_pose(node.find("pose"))
-    middle, offsets = _places(node, reading)
+    _limit(node)
+    try:
+        model = node.find("model")
+        if model is None:
+            raise values.fail(node, "a <population> needs a <model>")
+        name = values.attribute(model, "name")
+        stand = read_pose(node.find("pose"))
+        middle, offsets = _places(node)
+    except FormatError as error:
+        reading.tolerate(error, "the population is left out")
+        return
     for number, offset in enumerate(offsets.tolist()):
         x, y, z = np.add(stand.position, stand.rotate(offset)) - middle
         clone = with_attributes(model, name=f"{name}_clone_{number}")
         yield with_child(clone, pose_element(Pose(float(x), float(y), float(z)), node))
 
 
-def _places(node: Parameters, reading: Reading) -> tuple[Floats, Floats]:
+def _limit(node: Parameters) -> None:
+    """Refuse more models than a world can hold, which no program could go on with."""
+    count = values.whole(node, "model_count", 1)
+    if values.word(node, "distribution/type", "random") == "grid":
+        rows, columns = (values.whole(node, f"distribution/{side}", 1) for side in ("rows", "cols"))
+        count = max(rows, 0) * max(columns, 0)
+    if count > MAX_MODELS:
+        raise values.fail(node, f"a population has up to {MAX_MODELS} models, found {count}")
+
+
+def _places(node: Parameters) -> tuple[Floats, Floats]:
     """The middle of the region seen from its least corner, and places seen from there."""
     kind = values.word(node, "distribution/type", "random")
     if kind == "grid":
-        return _grid(node, reading)
+        return _grid(node)
     spread = _SPREADS.get(kind)
     if spread is None:
         known = [*_SPREADS, "grid"]
@@ -98,16 +114,14 @@ def _places(node: Parameters, reading: Reading) -> tuple[Floats, Floats]:
     if region.round and kind not in _ROUND:
         raise values.fail(node, f"the distribution '{kind}' needs a <box>")
     chance = np.random.default_rng(zlib.crc32(node.attributes.get("name", "").encode()))
-    count = _count(node, values.whole(node, "model_count", 1), reading)
-    return region.middle, spread(region, count, chance)
+    return region.middle, spread(region, _at_least_one(node, "model_count"), chance)
 
 
-def _count(node: Parameters, count: int, reading: Reading) -> int:
-    if count > MAX_MODELS:
-        raise values.fail(node, f"a population has 0 to {MAX_MODELS} models, found {count}")
-    if count < 0:
-        reading.fault(f"a population has 0 to {MAX_MODELS} models, found {count}: none", node)
-    return max(count, 0)
+def _at_least_one(node: Parameters, path: str) -> int:
+    count = values.whole(node, path, 1)
+    if count < 1:
+        raise values.fail(node, f"<{path.rpartition('/')[2]}> must be at least 1, found {count}")
+    return count
 
 
 def _region(node: Parameters) -> Region:
@@ -124,10 +138,9 @@ def _region(node: Parameters) -> Region:
     return Region((2.0 * radius, 2.0 * radius, length), round=True)
 
 
-def _grid(node: Parameters, reading: Reading) -> tuple[Floats, Floats]:
-    rows = values.whole(node, "distribution/rows", 1)
-    columns = values.whole(node, "distribution/cols", 1)
-    _count(node, max(rows, 0) * max(columns, 0), reading)
+def _grid(node: Parameters) -> tuple[Floats, Floats]:
+    rows = _at_least_one(node, "distribution/rows")
+    columns = _at_least_one(node, "distribution/cols")
     x, y, _ = values.vector(node, "distribution/step", (0.5, 0.5, 0.0))
     places = [(c * x, r * y, 0.0) for r in range(rows) for c in range(columns)]
     middle = np.array([x * (columns - 1) / 2.0, y * (rows - 1) / 2.0, 0.0])

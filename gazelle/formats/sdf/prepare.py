@@ -20,7 +20,7 @@ def prepared(world: Parameters, reading: Reading) -> Parameters:
     """The world as plain elements.
 
     Raises:
-        FormatError: An actor or a population makes no sense.
+        FormatError: An actor makes no sense, or a population is too large.
     """
     children = tuple(_plain(world.children, reading))
     state = world.find("state")
