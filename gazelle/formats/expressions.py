@@ -11,7 +11,15 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
-from types import CodeType, FrameType
+from types import (
+    AsyncGeneratorType,
+    CodeType,
+    CoroutineType,
+    FrameType,
+    FunctionType,
+    GeneratorType,
+    TracebackType,
+)
 from typing import Any
 
 from gazelle.errors import FormatError
@@ -21,7 +29,22 @@ MAX_BITS = 10_000
 MAX_STEPS = 200_000
 MAX_WIDTH = 1_000
 
-_LEADS_OUT = ("_", "gi_", "cr_", "ag_", "f_", "tb_", "co_", "func_")
+_INNARDS = ("gi_", "cr_", "ag_", "f_", "tb_", "co_")
+_LEADS_OUT = {
+    name
+    for kind in (
+        AsyncGeneratorType,
+        CodeType,
+        CoroutineType,
+        FrameType,
+        FunctionType,
+        GeneratorType,
+        TracebackType,
+    )
+    for name in dir(kind)
+    if name.startswith(_INNARDS)
+}
+"""Attributes that lead from a function or generator to Python itself."""
 _RUNS_AWAY = {"comb", "factorial", "lcm", "perm"}
 _PADS = {"center", "expandtabs", "ljust", "rjust", "zfill"}
 _LOOPS = (ast.GeneratorExp, ast.ListComp, ast.SetComp, ast.DictComp, ast.Lambda)
@@ -71,12 +94,16 @@ class _Guard(ast.NodeTransformer):
     """Refuses names, and puts checked functions in the place of dear operations."""
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
-        """Check a name."""
+        """Check a name: a file may call its properties almost as it likes."""
+        if node.id.startswith("__"):
+            raise _refused(node.id)
         _check_name(node.id)
         return node
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
         """Check an attribute."""
+        if node.attr.startswith("_") or node.attr in _LEADS_OUT:
+            raise _refused(node.attr)
         _check_name(node.attr)
         return self.generic_visit(node)
 
@@ -91,13 +118,17 @@ class _Guard(ast.NodeTransformer):
         self.generic_visit(node)
         pads = isinstance(node.func, ast.Attribute) and node.func.attr in _PADS
         if pads:
-            node.args = [_call("_width", argument) for argument in node.args]
+            node.args = [_call(_WIDTH, argument) for argument in node.args]
         return node
 
 
 def _check_name(name: str) -> None:
-    if name.startswith(_LEADS_OUT) or name in _RUNS_AWAY:
-        raise FormatError(f"the name '{name}' may not be used in an expression")
+    if name in _RUNS_AWAY:
+        raise _refused(name)
+
+
+def _refused(name: str) -> FormatError:
+    return FormatError(f"the name '{name}' may not be used in an expression")
 
 
 def _call(name: str, *arguments: ast.expr) -> ast.Call:
@@ -151,6 +182,15 @@ def bounded_range(*arguments: int) -> range:
     return found
 
 
+def no_vars(*_: object) -> None:
+    """Stands for ``vars``, which leads from any type to what types are made of.
+
+    Raises:
+        FormatError: Always.
+    """
+    raise _refused("vars")
+
+
 @contextmanager
 def _counted() -> Iterator[None]:
     """Stop after ``MAX_STEPS`` lines and calls of Python."""
@@ -171,12 +211,14 @@ def _counted() -> Iterator[None]:
         sys.settrace(before)
 
 
+_POWER, _PRODUCT, _SHIFT, _WIDTH = "<power>", "<product>", "<shift>", "<width>"
+"""What no file can call its own properties."""
 _CHECKED: dict[type[ast.operator], str] = {
-    ast.LShift: "_shift",
-    ast.Mult: "_product",
-    ast.Pow: "_power",
+    ast.LShift: _SHIFT,
+    ast.Mult: _PRODUCT,
+    ast.Pow: _POWER,
 }
-_OPERATIONS = {"_power": _power, "_product": _product, "_shift": _shift, "_width": _width}
+_OPERATIONS = {_POWER: _power, _PRODUCT: _product, _SHIFT: _shift, _WIDTH: _width}
 
 _BUILTINS: dict[str, Any] = {
     function.__name__: function

@@ -186,7 +186,7 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
 
     said = io.StringIO()
     symbols = engine._global_symbols  # noqa: SLF001  # the package has no other way
-    bounded = {"range": expressions.bounded_range}
+    bounded: dict[str, Any] = {"range": expressions.bounded_range}
     with contextlib.ExitStack() as stack:
         for names, values in (
             (vars(engine), {"parse": parse, "open": guarded_open, "eval_text": _eval_text}),
@@ -194,7 +194,7 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
             (vars(substitution_args), {"_eval_find": find, "eval": expressions.evaluate_plain}),
             (substitution_args._eval_dict, {"find": find}),  # noqa: SLF001
             (symbols, bounded),
-            (symbols["python"], bounded),
+            (symbols["python"], bounded | {"vars": expressions.no_vars}),
         ):
             stack.enter_context(_replaced(names, values))
         stack.enter_context(contextlib.redirect_stderr(said))

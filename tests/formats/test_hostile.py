@@ -250,6 +250,8 @@ def test_any_number_may_be_anything(text, value, chosen):
         "${[c.__class__ for c in [1]]}",
         "${(lambda: ().__class__)()}",
         "${(x for x in []).gi_frame.f_builtins}",
+        "${(lambda: 0).func_globals if 0 else (lambda: 0).__globals__}",
+        "${python.vars(python.type)['__subclasses__'](python.type(1).mro()[1])}",
         "${python.type(1).mro()[0].__subclasses__()}",
         "$(eval open('/etc/passwd').read())",
         "$(eval __import__('os').getcwd())",
@@ -286,6 +288,17 @@ def test_expressions_lead_nowhere_else(text):
 def test_plain_expressions_work(text, value):
     body = f"<xacro:property name='p' value=\"{text}\"/><link name='n${{p}}'>{INERTIAL}</link>"
     assert formats.load_model_string(MACRO.format(body)).links[0].name == f"n{value}"
+
+
+@pytest.mark.parametrize(
+    "name", ["_unknown_", "f_x", "co_x", "tb_side", "gi_a", "_power", "_width"]
+)
+def test_properties_may_have_almost_any_name(name):
+    body = (
+        f"<xacro:property name='{name}' value='3'/>"
+        f"<link name=\"n${{{name} ** 2}}${{'7'.zfill(2)}}\">{INERTIAL}</link>"
+    )
+    assert formats.load_model_string(MACRO.format(body)).links[0].name == "n907"
 
 
 def _is_numbers(text):
