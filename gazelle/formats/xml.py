@@ -20,6 +20,7 @@ from gazelle.errors import FormatError
 from gazelle.formats import blanks
 from gazelle.formats.blanks import Report
 from gazelle.formats.wellformed import well_formed
+from gazelle.formats.xml_faults import Opened, explained
 
 MAX_BYTES = 64 * 2**20
 MAX_DEPTH = 256
@@ -100,7 +101,11 @@ def _with_quotes_named(error: FormatError, data: bytes) -> FormatError:
     at = (error.line or 1) - 1
     hint = characters.curly_hint(lines[at]) if at < len(lines) else None
     return FormatError(
-        error.message, file=error.file, line=error.line, element=error.element, hint=hint
+        error.message,
+        file=error.file,
+        line=error.line,
+        element=error.element,
+        hint=hint or error.hint,
     )
 
 
@@ -156,13 +161,14 @@ class _TreeBuilder:
         try:
             self._parser.Parse(data, True)
         except expat.ExpatError as error:
-            reason = expat.ErrorString(error.code)
-            element = self._open[-1].source.element if self._open else None
+            opened = [Opened(each.tag, each.source.line or 1) for each in self._open]
+            reason, hint = explained(error.code, data, self._parser.ErrorByteIndex, opened)
             raise FormatError(
                 f"this is not well-formed XML: {reason}",
                 file=self._name,
                 line=error.lineno,
-                element=element,
+                element=self._open[-1].source.element if self._open else None,
+                hint=hint,
             ) from None
         except (LookupError, ValueError) as error:
             raise FormatError(f"the encoding cannot be read: {error}", file=self._name) from None

@@ -49,6 +49,38 @@ def test_malformed_xml_names_the_line(text, line, reason):
     assert caught.value.line == line
 
 
+@pytest.mark.parametrize(
+    ("text", "line", "said", "advice"),
+    [
+        ("<a>\n<b>\n</a>", 3, "</a> stands where <b> of line 2 is still open", "</b> is missing"),
+        ("<a>\n<b></c></b></a>", 2, "</c> closes nothing; open is <b> of line 2", "</b>, or take"),
+        (
+            "<a>\n<b>\n</b>\n",
+            4,
+            "the file ends, and <a> of line 1 is not closed",
+            "</a> is missing",
+        ),
+        ('<a>\n<b n="x>\n<c d="1"/></b></a>', 3, "tag that begins in line 2", "close its quote"),
+        ("<a>\n<b\n<c/></a>", 3, "tag that begins in line 2", "close its quote"),
+    ],
+)
+def test_what_is_not_closed_is_named_with_its_line(text, line, said, advice):
+    with pytest.raises(FormatError) as caught:
+        xml.parse(text, name="bad.sdf")
+    assert said in caught.value.message
+    assert caught.value.line == line
+    assert advice in caught.value.hint
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "latin-1"])
+def test_what_is_not_closed_is_named_in_any_encoding(encoding):
+    head = "<?xml version='1.0' encoding='latin-1'?>" if encoding == "latin-1" else ""
+    text = f"{head}<a>\n<!-- größe --><b>\n</a>"
+    with pytest.raises(FormatError, match="mismatched tag") as caught:
+        xml.parse(text.encode(encoding), name="bad.sdf")
+    assert caught.value.line == 3
+
+
 @pytest.mark.parametrize("text", ["", " \n ", b"\x00\x01", "<a>\x00</a>"])
 def test_rubbish_is_a_format_error(text):
     with pytest.raises(FormatError):
