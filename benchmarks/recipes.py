@@ -1,9 +1,14 @@
-"""What the default recipes of the TurtleBot3 stages learn: evaluated on held-out episodes.
+"""What the recipes of tasks learn, evaluated on held-out episodes: success, time, intervals.
 
-Each stage is trained as `gazelle train TurtleBot3StageN --seed S` does, and evaluated in both
-engines: on starts, headings, goals and phases of obstacles that no policy was trained on, with
-one goal an episode and with goals one after the other, and as published. Rates are of goals
-that were tried, of all seeds together, with 95 % intervals; beside them those of each seed.
+Each task is trained as `gazelle tasks TASK` says, with `--seed S`, and evaluated in the engines
+that it has figures of, on starts, headings, goals and phases of obstacles that no policy was
+trained on. The TurtleBot3 stages are evaluated in both engines, with one goal an episode and with
+goals one after the other, and as published. Rates are of goals that were tried, of all seeds
+together, with 95 % intervals; beside them those of each seed.
+
+  gazelle bench recipes                            # the TurtleBot3 stages
+  gazelle bench recipes --tasks Husarion UR5Reach
+  gazelle bench recipes --tasks all --seeds 0
 """
 
 from __future__ import annotations
@@ -14,7 +19,17 @@ import tempfile
 import time
 from pathlib import Path
 
-from gazelle.training import Evaluation, Run, SuccessRate, choose_progress, evaluate, train
+from gazelle.training import (
+    VERIFIED,
+    Evaluation,
+    Run,
+    SuccessRate,
+    choose_progress,
+    evaluate,
+    train,
+)
+
+_STAGES = tuple(f"TurtleBot3Stage{stage}" for stage in (1, 2, 3, 4))
 
 _SCENARIOS = {
     "held-out": {},
@@ -25,9 +40,8 @@ _SHARE = {"held-out": 1.0, "in a row": 0.1, "published": 0.5}
 """Of the episodes; one in which goals follow each other has some eight of them."""
 
 
-def trained(stage: int, out: Path, seed: int) -> Run:
-    """The newest run of a stage that is there with all its steps, or a new one."""
-    task = f"TurtleBot3Stage{stage}"
+def trained(task: str, out: Path, seed: int) -> Run:
+    """The newest run of a task that is there with all its steps, or a new one."""
     for folder in sorted(out.glob(f"{task}-*"), reverse=True):
         run = Run.open(folder)
         done = [int(path.name) for path in run.checkpoints()]
@@ -36,11 +50,23 @@ def trained(stage: int, out: Path, seed: int) -> Run:
     before = time.process_time()
     result = train(task, out=out, seed=seed, progress=choose_progress(sys.stderr))
     spent = time.process_time() - before
-    print(f"stage {stage}, seed {seed}: {result.wall_seconds:.0f} s, of processors {spent:.0f} s")
+    print(f"{task}, seed {seed}: {result.wall_seconds:.0f} s, of processors {spent:.0f} s")
     return result.run
 
 
-def line(stage: int, engine: str, scenario: str, found: list[Evaluation]) -> str:
+def engines_of(task: str) -> list[str]:
+    """Where a task is evaluated."""
+    if task in _STAGES:
+        return ["planar", "mujoco"]
+    return list(VERIFIED[task].success) if task in VERIFIED else []
+
+
+def scenarios_of(task: str) -> list[str]:
+    """With which starts and goals."""
+    return list(_SCENARIOS) if task in _STAGES else ["held-out"]
+
+
+def line(task: str, engine: str, scenario: str, found: list[Evaluation]) -> str:
     """One row of the table."""
     seeds = " ".join(f"{each.success.value:6.1%}" if each.success else "-" for each in found)
     rates = "".join(
@@ -48,7 +74,7 @@ def line(stage: int, engine: str, scenario: str, found: list[Evaluation]) -> str
     )
     late = sum(each.timeout.count for each in found) / sum(each.timeout.total for each in found)
     tried = sum(each.timeout.total for each in found)
-    return f"{stage:<6}{engine:<8}{scenario:<10}{tried:>7}  {seeds}{rates}{late:9.1%}"
+    return f"{task:<27}{engine:<8}{scenario:<10}{tried:>7}  {seeds}{rates}{late:9.1%}"
 
 
 def share(rates: list[SuccessRate | None]) -> str:
@@ -63,31 +89,36 @@ def share(rates: list[SuccessRate | None]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--stages", type=int, nargs="+", default=[1, 2, 3, 4])
-    parser.add_argument("--engines", nargs="+", default=["planar", "mujoco"])
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--tasks", nargs="+", default=_STAGES, metavar="TASK", help="or all that have a figure"
+    )
+    parser.add_argument("--engines", nargs="+", help="by default those of the task")
     parser.add_argument("--episodes", type=int, default=1000, help="of each seed")
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2], help="of the training")
     parser.add_argument("--out", type=Path, help="where runs are kept, and found again")
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as spare:
         out = args.out or Path(spare)
-        runs = {stage: [trained(stage, out, seed) for seed in args.seeds] for stage in args.stages}
+        tasks = list(VERIFIED) if list(args.tasks) == ["all"] else args.tasks
+        runs = {task: [trained(task, out, seed) for seed in args.seeds] for task in tasks}
         print(f"default recipes, seeds {args.seeds}, {args.episodes} episodes of each")
         print(
-            f"{'stage':<6}{'engine':<8}{'goals':<10}{'tried':>7}  "
+            f"{'task':<27}{'engine':<8}{'goals':<10}{'tried':>7}  "
             f"{'of each seed':<{7 * len(args.seeds) - 1}}"
             f"{'success (95 %)':>26}{'collision (95 %)':>26}{'time-out':>9}"
         )
-        for stage, found in runs.items():
-            for engine in args.engines:
-                for name, options in _SCENARIOS.items():
+        for task, found in runs.items():
+            for engine in args.engines or engines_of(task) or [found[0].config.options["engine"]]:
+                for name in scenarios_of(task):
                     count = max(1, round(_SHARE[name] * args.episodes))
                     results = [
-                        evaluate(run.folder, episodes=count, engine=engine, **options)
+                        evaluate(run.folder, episodes=count, engine=engine, **_SCENARIOS[name])
                         for run in found
                     ]
-                    print(line(stage, engine, name, results), flush=True)
+                    print(line(task, engine, name, results), flush=True)
 
 
 if __name__ == "__main__":

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from gazelle.training.statistics import SuccessRate, wilson_interval
     from gazelle.training.study import Study, StudyResult, conduct
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
-    from gazelle.training.verified import VERIFIED, Verified
+    from gazelle.training.verified import UNVERIFIED, VERIFIED, Verified
 
 _EXTRA = ("stable_baselines3", "tensorboard", "threadpoolctl", "torch", "tqdm")
 
@@ -64,6 +64,7 @@ _HOMES = {
     "RunConfig": "runs",
     "Task": "tasks",
     "TrainResult": "session",
+    "UNVERIFIED": "verified",
     "VERIFIED": "verified",
     "Verified": "verified",
     "choose_progress": "progress",
@@ -87,6 +88,7 @@ _HOMES = {
 __all__ = [
     "ALGORITHMS",
     "RECIPES",
+    "UNVERIFIED",
     "VERIFIED",
     "Actor",
     "EpisodeRecord",

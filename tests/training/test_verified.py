@@ -4,16 +4,64 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.training import RECIPES, VERIFIED, evaluate, train
+from gazelle.cli.main import main
+from gazelle.training import (
+    UNVERIFIED,
+    VERIFIED,
+    evaluate,
+    find_task,
+    list_tasks,
+    recipe_for,
+    train,
+)
+
+OWN = {task.name for task in list_tasks() if task.id.startswith("gazelle/")}
+WIDTH = 80
 
 
-def test_figures_are_of_recipes_that_there_are():
-    assert set(VERIFIED) <= set(RECIPES)
-    for name, found in VERIFIED.items():
-        engine = RECIPES[name].training_options["engine"]
-        assert engine in found.success
-        assert found.seeds >= 1
-        assert found.seconds > 0.0
+def test_each_task_has_a_figure_or_a_line_that_says_why_not():
+    assert set(VERIFIED) | set(UNVERIFIED) == OWN
+    assert not set(VERIFIED) & set(UNVERIFIED)
+    for why in UNVERIFIED.values():
+        assert why
+        assert "\n" not in why
+
+
+@pytest.mark.parametrize("task", VERIFIED)
+def test_figures_are_of_recipes_that_there_are(task):
+    found = VERIFIED[task]
+    recipe = recipe_for(task)
+    assert recipe.training_options["engine"] in found.success
+    assert found.seeds >= 1
+    assert found.seconds > 0.0
+    assert all(0 < rate.count <= rate.total for rate in found.success.values())
+
+
+@pytest.mark.parametrize("task", sorted(OWN))
+def test_one_task_is_told_with_its_command_and_intervals_in_80_columns(task, capsys):
+    assert main(["tasks", task]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith(find_task(task))
+    assert max(map(len, out.splitlines())) <= WIDTH
+    if task in UNVERIFIED:
+        assert UNVERIFIED[task][:20] in out
+        return
+    found = VERIFIED[task]
+    assert f"  train   gazelle train {task}\n" in out
+    for engine, rate in found.success.items():
+        low, high = (f"{100.0 * end:.1f} %" for end in rate.interval)
+        assert f"95 % interval {low} to {high}   ({rate.count} of {rate.total})" in out
+        assert f"gazelle eval RUN --engine {engine} " in out
+
+
+def test_a_task_that_no_figure_is_known_of_says_so(capsys):
+    assert main(["tasks", "CartPole-v1"]) == 0
+    assert "none is known of this task" in capsys.readouterr().out
+
+
+def test_an_unknown_task_is_one_line_and_a_hint(capsys):
+    assert main(["tasks", "TurtleBot3Stag4"]) == 1
+    assert "there is no task 'TurtleBot3Stag4'" in capsys.readouterr().err
 
 
 @pytest.mark.slow
@@ -21,9 +69,9 @@ def test_figures_are_of_recipes_that_there_are():
 def test_a_training_reaches_what_is_said_in_each_engine(task, tmp_path):
     """With a seed of its own: the interval of held-out goals, and 2 % for the seed."""
     run = train(task, seed=7, out=tmp_path).run
-    for engine, said in VERIFIED[task].success.items():
+    for engine, rate in VERIFIED[task].success.items():
         own = engine == run.config.options["engine"]
         found = evaluate(run.folder, episodes=1000 if own else 200, engine=engine)
         assert found.distinct == found.episodes
         assert found.success is not None
-        assert found.success.interval[1] + 0.02 > said.value
+        assert found.success.interval[1] + 0.02 > rate.value
