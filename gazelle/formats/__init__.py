@@ -13,12 +13,14 @@ from gazelle.formats.loader import load, load_model, load_model_string, load_str
 from gazelle.formats.mesh import MeshData, load_mesh
 from gazelle.formats.occupancy import load_map
 from gazelle.formats.occupancy_writing import save_map
+from gazelle.formats.octree import Octree
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.srdf import load_srdf, load_srdf_string
 from gazelle.formats.write import save, to_string, write_text
 
 __all__ = [
     "MeshData",
+    "Octree",
     "Problem",
     "Resolver",
     "check",

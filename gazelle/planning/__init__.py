@@ -39,6 +39,7 @@ from gazelle.planning.manipulation_plan import (
     ManipulationStage,
 )
 from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptions
+from gazelle.planning.octomaps import OCTOMAP, octree_object
 from gazelle.planning.outcomes import NoPlanError, PlanOutcome
 from gazelle.planning.pick_place import PickPlacePlanner
 from gazelle.planning.robot_model import RobotModel
@@ -49,6 +50,7 @@ from gazelle.planning.tree_builder import LinkFrame
 from gazelle.planning.variables import JointBounds, Variable
 
 __all__ = [
+    "OCTOMAP",
     "AllowedCollisionMatrix",
     "AttachedObject",
     "CartesianPath",
@@ -91,6 +93,7 @@ __all__ = [
     "Variable",
     "box_grasps",
     "goal_of_pose",
+    "octree_object",
     "parameterize",
     "voxel_boxes",
 ]

@@ -21,7 +21,7 @@ from gazelle.description import (
 )
 from gazelle.engines.mujoco.collision_model import Shape
 from gazelle.errors import PlanningError
-from gazelle.formats import MeshData
+from gazelle.formats import MeshData, Octree
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +34,7 @@ class SceneObject:
         pose: Of the object: in the robot's frame, or in that of the link that holds it.
         type: What kind of thing it is, for people.
         frames: Named frames of it, in its own.
+        octree: What its boxes are made of, where it is one.
     """
 
     name: str
@@ -41,6 +42,7 @@ class SceneObject:
     pose: Pose = field(default_factory=Pose)
     type: str = ""
     frames: tuple[tuple[str, Pose], ...] = ()
+    octree: Octree | None = None
 
 
 @dataclass(frozen=True, slots=True)

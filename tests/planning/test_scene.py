@@ -17,8 +17,15 @@ from gazelle.description import (
     Sphere,
 )
 from gazelle.errors import PlanningError
-from gazelle.formats import MeshData, load_model_string
-from gazelle.planning import AllowedCollisionMatrix, PlanningScene, RobotModel, voxel_boxes
+from gazelle.formats import MeshData, Octree, load_model_string
+from gazelle.planning import (
+    OCTOMAP,
+    AllowedCollisionMatrix,
+    PlanningScene,
+    RobotModel,
+    octree_object,
+    voxel_boxes,
+)
 
 RADIUS = 0.04
 """Of the spheres on the iiwa's links."""
@@ -102,6 +109,29 @@ def test_a_plane_is_endless_and_has_one_free_side():
     assert not scene.contacts()
     scene.add("floor", Plane((1.0, 0.0, 0.0)), Pose(ball.x - RADIUS + 0.01))
     assert scene.contacts()[0].depth == pytest.approx(0.01, abs=1e-6)
+
+
+def test_an_octree_collides_under_its_name():
+    scene = alone()
+    ball = scene.pose_of("iiwa_link4")
+    # Its one occupied leaf is the eighth of it with the greatest x, y and z: a cube of 3.2768 m at its origin.
+    octree = Octree(1e-4, (2 << 14).to_bytes(2, "little"))
+    scene.add_object(octree_object(octree, Pose(ball.x + RADIUS - 0.003, ball.y - 1, ball.z - 1)))
+    (contact,) = scene.contacts()
+    assert {contact.first, contact.second} == {"iiwa_link4", OCTOMAP}
+    assert contact.depth == pytest.approx(0.003, abs=1e-6)
+    scene.move(OCTOMAP, Pose(ball.x + RADIUS + 0.003, ball.y - 1, ball.z - 1))
+    assert not scene.contacts()
+    scene.add_object(octree_object(Octree(0.1, b"\0\0"), name="nothing"))
+    assert not scene.contacts()
+
+
+def test_an_octree_of_too_many_boxes_is_refused(monkeypatch):
+    octree = Octree(0.1, (0b1000000000100000).to_bytes(2, "little"))  # two leaves apart
+    assert len(octree_object(octree).shapes) == 2
+    monkeypatch.setattr("gazelle.planning.octomaps._MOST_BOXES", 1)
+    with pytest.raises(PlanningError, match="has 2 boxes, more than 1"):
+        octree_object(octree)
 
 
 def test_several_shapes_make_one_thing():

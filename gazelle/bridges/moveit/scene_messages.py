@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.bridges.moveit.object_messages import object_message
+from gazelle.bridges.moveit.octomap_messages import octomap_message
 from gazelle.bridges.moveit.robot_states import state_message
-from gazelle.planning import AllowedCollisionMatrix, PlanningScene
+from gazelle.planning import OCTOMAP, AllowedCollisionMatrix, PlanningScene
 from gazelle.ros.messages import load_message
 
-STATE, ATTACHED, NAMES, GEOMETRY, ALLOWED, PADDING = 2, 4, 8, 16, 128, 256
+STATE, ATTACHED, NAMES, GEOMETRY, MAP, ALLOWED, PADDING = 2, 4, 8, 16, 32, 128, 256
 """Of ``moveit_msgs/PlanningSceneComponents``."""
 
 
@@ -39,8 +40,11 @@ def scene_message(scene: PlanningScene, parts: int) -> Any:
     if parts & (NAMES | GEOMETRY):
         message.world.collision_objects = [
             object_message(thing, frame, shapes=bool(parts & GEOMETRY))
-            for thing in scene.objects.values()
+            for name, thing in scene.objects.items()
+            if name != OCTOMAP
         ]
+    if parts & MAP:
+        message.world.octomap = octomap_message(scene)
     if parts & ALLOWED:
         message.allowed_collision_matrix = matrix_message(scene.allowed)
     if parts & PADDING:

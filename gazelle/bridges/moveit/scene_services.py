@@ -9,10 +9,11 @@ from typing import Any
 
 from gazelle.bridges.moveit.frames import pose_of_message
 from gazelle.bridges.moveit.object_messages import object_of_message, shapes_of_message
+from gazelle.bridges.moveit.octomap_messages import octomap_of_message
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.scene_messages import matrix_of_message, scene_message
-from gazelle.errors import PlanningError
-from gazelle.planning import AttachedObject, NoPlanError, PlanOutcome
+from gazelle.errors import Error, PlanningError
+from gazelle.planning import OCTOMAP, AttachedObject, NoPlanError, PlanOutcome
 from gazelle.ros.messages import load_message, load_service
 
 _ALL = 1023
@@ -36,7 +37,7 @@ class SceneServices:
         held = load_message("moveit_msgs/AttachedCollisionObject")
         for topic, kind, take in (
             ("planning_scene", whole, self._take),
-            ("planning_scene_world", world, self._place),
+            ("planning_scene_world", world, self._replace),
             ("collision_object", thing, self._object),
             ("attached_collision_object", held, self._hold),
         ):
@@ -47,8 +48,7 @@ class SceneServices:
             load_service("moveit_msgs/ApplyPlanningScene"),
             lambda request: {"success": self.change(lambda: self._take(request.scene))},
         )
-        # There are no octomaps, so that all of them are cleared.
-        context.serve("clear_octomap", load_service("std_srvs/Empty"), lambda _request: {})
+        context.serve("clear_octomap", load_service("std_srvs/Empty"), self._clear_octomap)
         self.change(lambda: True)
 
     def _listener(self, take: Callable[[Any], bool]) -> Callable[[Any], None]:
@@ -62,6 +62,10 @@ class SceneServices:
             self._context.current()
             return {"scene": scene_message(self._scene, request.components.components or _ALL)}
 
+    def _clear_octomap(self, _request: Any) -> dict[str, Any]:
+        self.change(self._forget_octomap)
+        return {}
+
     def change(self, act: Callable[[], bool]) -> bool:
         """Change the scene and show it; whether all could be done."""
         with self._context.lock:
@@ -74,7 +78,7 @@ class SceneServices:
         """Whether a part of a change could be done; why not is logged."""
         try:
             act()
-        except PlanningError as error:
+        except Error as error:
             LOG.error("planning scene: %s", error)
             return False
         return True
@@ -135,12 +139,32 @@ class SceneServices:
             done &= self._hold(each)
         return done
 
+    def _replace(self, world: Any) -> bool:
+        """Take a ``PlanningSceneWorld`` in place of all that stands there."""
+        self._scene.clear()
+        return self._place(world)
+
     def _place(self, world: Any) -> bool:
-        """Take a ``PlanningSceneWorld``."""
+        """Do what a ``PlanningSceneWorld`` says; its octomap replaces the one before, if it says any."""
         done = True
         for each in world.collision_objects:
             done &= self._object(each)
+        if _has_octomap(world):
+            done &= self._try(lambda: self._map(world.octomap))
         return done
+
+    def _map(self, message: Any) -> None:
+        frame = self._context.frames.find(message.header.frame_id, self._scene.state)
+        made = octomap_of_message(message, frame)
+        if made is None:
+            self._forget_octomap()
+        else:
+            self._scene.add_object(made)
+
+    def _forget_octomap(self) -> bool:
+        if OCTOMAP in self._scene.objects:
+            self._scene.remove(OCTOMAP)
+        return True
 
     # -- things --------------------------------------------------------------------------
 
@@ -151,6 +175,7 @@ class SceneServices:
         }  # fmt: skip
 
         def act() -> None:
+            _refuse_reserved(message.id)
             if message.operation not in actions:
                 raise PlanningError(f"the operation {message.operation} of an object is not known")
             actions[message.operation](message)
@@ -162,10 +187,9 @@ class SceneServices:
         self._scene.add_object(object_of_message(message, frame))
 
     def _remove(self, message: Any) -> None:
-        if message.id:
-            self._scene.remove(message.id)
-        else:
-            self._scene.clear()
+        for name in [message.id] if message.id else [*self._scene.objects]:
+            if name != OCTOMAP:
+                self._scene.remove(name)
 
     def _append(self, message: Any) -> None:
         if message.id not in self._scene.objects:
@@ -186,7 +210,15 @@ class SceneServices:
     def _hold(self, message: Any) -> bool:
         """Do what an ``AttachedCollisionObject`` says."""
         removes = message.object.operation == _REMOVE
-        return self._try(lambda: self._leave(message) if removes else self._attach(message))
+
+        def act() -> None:
+            _refuse_reserved(message.object.id)
+            if removes:
+                self._leave(message)
+            else:
+                self._attach(message)
+
+        return self._try(act)
 
     def _leave(self, message: Any) -> None:
         """Leave one thing, or all that a link holds, or all, where it is."""
@@ -208,11 +240,22 @@ class SceneServices:
         scene.hold(AttachedObject(made, message.link_name, frozenset(message.touch_links)))
 
 
+def _refuse_reserved(name: str) -> None:
+    if name == OCTOMAP:
+        raise PlanningError(f"an object cannot be named '{OCTOMAP}'; that is the scene's octomap")
+
+
+def _has_octomap(world: Any) -> bool:
+    """Whether a ``PlanningSceneWorld`` says something of the octomap; one without data clears it."""
+    return bool(world.octomap.octomap.id or world.octomap.octomap.data)
+
+
 def _says_something(message: Any) -> bool:
     """Whether a ``PlanningScene`` would change anything."""
     rules = message.allowed_collision_matrix
     return bool(
         message.world.collision_objects
+        or _has_octomap(message.world)
         or message.robot_state.attached_collision_objects
         or rules.entry_names
         or rules.default_entry_names

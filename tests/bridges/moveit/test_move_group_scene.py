@@ -225,9 +225,9 @@ def test_a_whole_scene_takes_the_place_of_the_one_before(fetch):
 def test_topics_change_the_scene(fetch):
     node = fetch.node
     for topic, kind, sent, asked in (
-        ("collision_object", "CollisionObject", box("a"), things),
         ("planning_scene_world", "PlanningSceneWorld",
          message("PlanningSceneWorld", collision_objects=[box("b")]), things),
+        ("collision_object", "CollisionObject", box("a"), things),
         ("attached_collision_object", "AttachedCollisionObject", attached("c"), held),
     ):  # fmt: skip
         sender = node.advertise(topic, load_message(f"moveit_msgs/{kind}"), latch=True)
