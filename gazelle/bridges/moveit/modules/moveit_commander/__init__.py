@@ -1,6 +1,10 @@
 """MoveIt's Python interface: what scripts import as ``moveit_commander``."""
 
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
+from gazelle.bridges.moveit.modules.moveit_commander.interpreter import (
+    MoveGroupCommandInterpreter,
+    MoveGroupInfoLevel,
+)
 from gazelle.bridges.moveit.modules.moveit_commander.move_group import MoveGroupCommander
 from gazelle.bridges.moveit.modules.moveit_commander.planning_scene_interface import (
     PlanningSceneInterface,
@@ -12,7 +16,9 @@ from gazelle.bridges.moveit.modules.moveit_commander.roscpp_initializer import (
 )
 
 __all__ = [
+    "MoveGroupCommandInterpreter",
     "MoveGroupCommander",
+    "MoveGroupInfoLevel",
     "MoveItCommanderException",
     "PlanningSceneInterface",
     "RobotCommander",
