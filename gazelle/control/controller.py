@@ -69,6 +69,7 @@ class ControllerSetup:
         hardware: Of its robot.
         model: The robot as its URDF describes it; None where nobody knows it.
         call: Does work between two updates.
+        settle: Called before the time is looked at, as native code may update the controller.
     """
 
     name: str
@@ -76,6 +77,7 @@ class ControllerSetup:
     hardware: RobotHardware
     model: Model | None
     call: Serializer
+    settle: Callable[[], None]
 
 
 class Controller:
@@ -89,7 +91,6 @@ class Controller:
         name: Its name.
         type: Such as ``effort_controllers/JointPositionController``.
         nworld: Number of worlds.
-        now_ns: Time of the last update [ns], kept by the manager.
         running: Whether it is updated, kept by the manager.
         claimed: Resources that it has for itself, by interface.
         inputs: Commands that it takes.
@@ -104,7 +105,8 @@ class Controller:
     def __init__(self, setup: ControllerSetup) -> None:
         self.name, self.type = setup.name, setup.type
         self.hardware, self.nworld = setup.hardware, setup.hardware.nworld
-        self.now_ns = 0
+        self._now_ns = 0
+        self._settle = setup.settle
         self.running = False
         self.claimed: dict[str, tuple[str, ...]] = {}
         self.inputs: dict[str, CommandPort[Any]] = {}
@@ -113,6 +115,16 @@ class Controller:
         self.queries: dict[str, QueryPort[Any, Any]] = {}
         self.tunings: dict[str, TuningPort] = {}
         self._setup = setup
+
+    @property
+    def now_ns(self) -> int:
+        """Time of the last update [ns], kept by the manager."""
+        self._settle()
+        return self._now_ns
+
+    @now_ns.setter
+    def now_ns(self, time: int) -> None:
+        self._now_ns = time
 
     # -- to be overridden --------------------------------------------------------------
 
@@ -143,8 +155,16 @@ class Controller:
         return None
 
     def wake_ns(self) -> float:
-        """When ``update`` has to be called all the same, as somebody listens [ns]."""
+        """When ``update`` has to be called all the same, as somebody listens [ns].
+
+        What it says holds until then, or until something comes through a port or the manager.
+        """
         return math.inf
+
+    @property
+    def patient(self) -> bool:
+        """Whether ``catch_up`` may wait until somebody asks this controller for something."""
+        return True
 
     def catch_up(self, updates: int, period: float) -> None:
         """It was updated in native code, the last time at ``now_ns``.

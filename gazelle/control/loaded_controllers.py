@@ -73,6 +73,11 @@ class LoadedControllers(dict[str, LoadedController]):
                 soonest = min(soonest, entry.controller.wake_ns())
         return soonest
 
+    @property
+    def patient(self) -> bool:
+        """Whether all that run may be told later that they were updated in native code."""
+        return all(entry.controller.patient for entry in self.running)
+
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
         """They were updated in native code; see ``ControllerManager.catch_up``."""
         for entry in self.values():

@@ -51,6 +51,8 @@ class ControllerManager:
         namespace: Of the robot; before all topics that are relative.
         measure: Called before controllers start: reads the robot once more, and returns the time now
             [ns]. None for one that is read all the time; what was read last is true enough then.
+        settle: Called before the time is looked at, where native code updates controllers: calls
+            ``catch_up`` if anything is new.
 
     Attributes:
         hardware: The robot.
@@ -69,6 +71,7 @@ class ControllerManager:
         call: Serializer | None = None,
         namespace: str = "",
         measure: Callable[[], int] | None = None,
+        settle: Callable[[], None] = lambda: None,
     ) -> None:
         self.hardware, self.model, self.namespace = hardware, model, namespace
         self.parameters: dict[str, Any] = dict(parameters or {})
@@ -78,8 +81,8 @@ class ControllerManager:
         self._loaded = LoadedControllers()
         self._watchers: list[tuple[Callable[[Controller], None], Callable[[Controller], None]]] = []
         self._switch: Switch | None = None
-        self._measure = measure
-        self.now_ns = 0
+        self._measure, self._settle = measure, settle
+        self._now_ns = 0
 
     def _locked(self, work: Callable[[], R]) -> R:
         with self._lock:
@@ -210,6 +213,16 @@ class ControllerManager:
 
     # -- the loop ----------------------------------------------------------------------
 
+    @property
+    def now_ns(self) -> int:
+        """Time of the last update [ns]."""
+        self._settle()
+        return self._now_ns
+
+    @now_ns.setter
+    def now_ns(self, time: int) -> None:
+        self._now_ns = time
+
     def update(self, now_ns: int, period: float, *, restart: Worlds | None = None) -> None:
         """Let all running controllers act; for the thread that owns the robot.
 
@@ -231,6 +244,11 @@ class ControllerManager:
         """When ``update`` has to be called although all is native code [ns]."""
         return self._loaded.wake_ns()
 
+    @property
+    def patient(self) -> bool:
+        """Whether ``catch_up`` may wait until somebody looks; see ``Controller.patient``."""
+        return self._loaded.patient
+
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
         """Controllers were updated in native code.
 
@@ -239,7 +257,7 @@ class ControllerManager:
             updates: How often.
             period: Of an update [s].
         """
-        self.now_ns = now_ns
+        self._now_ns = now_ns
         self._loaded.catch_up(now_ns, updates, period)
 
     def reset(self, worlds: Worlds | None) -> None:
@@ -269,7 +287,9 @@ class ControllerManager:
                 hint="load its configuration first: a namespace of its name with a 'type'",
             )
         controller = registry.make(
-            ControllerSetup(name, parameters.text("type"), self.hardware, self.model, self.call)
+            ControllerSetup(
+                name, parameters.text("type"), self.hardware, self.model, self.call, self._settle
+            )
         )
         for interface in controller.interfaces:
             self.hardware.interface(interface)

@@ -178,6 +178,11 @@ class JointTrajectoryController(Controller):
             return 0.0
         return self._state_due.next_ns if self._state_port.wanted else math.inf
 
+    @property
+    def patient(self) -> bool:
+        """Not while goals may end."""
+        return not self._goals
+
     def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its memory has it
         """End goals that ended meanwhile."""
         self._followed = True

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,22 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
+
+
+@dataclass(frozen=True, slots=True)
+class Carried:
+    """What does a plugin's work within steps.
+
+    Attributes:
+        system: Brought by each of them.
+        until_ns: When the plugin has to be updated from Python [ns]; infinite for never.
+        lasting: Whether this holds, and ``catch_up`` may wait, until the plugin says otherwise
+            (``CarriedPlugins.stir``). Else the plugin is asked again after some steps.
+    """
+
+    system: JointSystem
+    until_ns: float
+    lasting: bool = False
 
 
 class Plugin:
@@ -39,8 +56,8 @@ class Plugin:
         """
         return None
 
-    def carried(self) -> tuple[JointSystem, float] | None:
-        """What does the same as ``on_update`` within steps, and until when [ns].
+    def carried(self) -> Carried | None:
+        """What does the same as ``on_update`` within steps, and until when.
 
         It is asked before steps are made where ``Simulation.carrier`` is an engine; ``on_update`` is
         called instead where it is None, and from that time on. After the steps follows ``catch_up``.

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from threading import get_ident
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +18,7 @@ from gazelle.control.joint_law import JointLaw
 from gazelle.control.limits import JointLimits
 from gazelle.description import Model
 from gazelle.errors import ControlWarning
-from gazelle.native.joint_system import JointSystem
+from gazelle.simulation.base_plugin import Carried
 from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.joint_hardware import JointHardware
 from gazelle.simulation.plugin import ModelPlugin
@@ -28,6 +30,8 @@ from gazelle.simulation.simulated_hardware import (
     HardwareSetup,
     SimulatedHardware,
 )
+
+R = TypeVar("R")
 
 
 class ControlLoop(ModelPlugin):
@@ -59,9 +63,10 @@ class ControlLoop(ModelPlugin):
         self.manager = ControllerManager(
             hardware,
             model=model,
-            call=robot.simulation.requests.call,
+            call=self._call,
             namespace=namespace,
             measure=self._measure,
+            settle=self._settle,
         )
         self.manager.now_ns = self._clock.now_ns
         self.stopped: Bools = np.zeros(hardware.nworld, bool)
@@ -71,13 +76,44 @@ class ControlLoop(ModelPlugin):
         self._updated_ns: int | None = None
         self._written_ns: int | None = None
         self._carrying: tuple[ControlCycle, JointLaw, list[ControlLaw], int, int] | None = None
+        self._handed = False
 
     def change_hardware(self, hardware: SimulatedHardware) -> None:
         """Control through other hardware; nothing is loaded yet."""
+        self._stir()
         for name in self.hardware.motors - hardware.motors:
             self._robot.joints[name].add_motor(0.0)
         self.hardware = self.manager.hardware = hardware
         self._told = False
+
+    # -- what steps carry --------------------------------------------------------------
+
+    def _call(self, work: Callable[[], R], /) -> R:
+        """Do work between two steps, that may change what has to be done in them."""
+
+        def stirred() -> R:
+            self._stir()
+            return work()
+
+        return self._robot.simulation.requests.call(stirred)
+
+    def _stir(self) -> None:
+        """Python takes over what native code has in hand."""
+        if self._handed:
+            self._handed = False
+            self._robot.simulation.loop.carried.stir(self)
+            self._catch_up()
+
+    def _settle(self) -> None:
+        """Know what native code did so far."""
+        if self._handed:
+            requests = self._robot.simulation.requests
+            if requests.owner == get_ident():
+                self._catch_up()
+            else:
+                requests.call(self._catch_up)
+
+    # -- what it is told ---------------------------------------------------------------
 
     def _measure(self) -> int:
         """See joints as they are now, for controllers that start; returns the time [ns].
@@ -92,6 +128,7 @@ class ControlLoop(ModelPlugin):
 
     def set_period(self, seconds: float) -> None:
         """Let controllers act at this period; as often as the physics if it is never set."""
+        self._stir()
         self._period_ns = round(seconds * NANOSECONDS)
         if self._period_ns < self._clock.step_ns:
             text = (
@@ -102,6 +139,7 @@ class ControlLoop(ModelPlugin):
 
     def press(self, worlds: Worlds | None, *, on: bool) -> None:
         """Press the emergency stop, or release it."""
+        self._stir()
         rows = slice(None) if worlds is None else worlds
         before = self.stopped.copy()
         self.stopped[rows] = on
@@ -118,6 +156,8 @@ class ControlLoop(ModelPlugin):
             self.hardware.stop_emergency(self.stopped)
             self._told = type(self.hardware) is JointHardware  # another may want to know each time
 
+    # -- steps -------------------------------------------------------------------------
+
     @property
     def active(self) -> bool:
         """Whether there is anything to do: a controller, or a joint that has to be held."""
@@ -125,6 +165,7 @@ class ControlLoop(ModelPlugin):
 
     def on_update(self, time: float) -> None:
         """Read, control, write."""
+        self._stir()
         now, step, period = self._clock.now_ns, self._clock.step_ns, self._control_ns
         self._stop_emergency()
         due = self._updated_ns is None or now - self._updated_ns >= period
@@ -139,8 +180,9 @@ class ControlLoop(ModelPlugin):
         self._written_ns = now
         self.hardware.write(time, since / NANOSECONDS)
 
-    def carried(self) -> tuple[JointSystem, float] | None:
+    def carried(self) -> Carried | None:
         """All of ``on_update`` in native code, until somebody wants to know."""
+        self._stir()
         hardware = self.hardware
         if not isinstance(hardware, JointHardware) or self._restarts:
             return None
@@ -156,7 +198,9 @@ class ControlLoop(ModelPlugin):
             cycle.run(*wanted[1:])
             self._carrying = wanted
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
-        return cycle, self.manager.wake_ns()
+        self._handed = True
+        # Without controllers nobody says when there is nothing left to do.
+        return Carried(cycle, self.manager.wake_ns(), bool(laws) and self.manager.patient)
 
     @property
     def _control_ns(self) -> int:
@@ -165,21 +209,24 @@ class ControlLoop(ModelPlugin):
 
     def catch_up(self) -> None:
         """Know what was done in native code."""
+        self._settle()
+
+    def _catch_up(self) -> None:
         if self._carrying is None:
             return
-        cycle = self._carrying[0]
+        cycle, _, _, period, step = self._carrying
         before, (now, written) = self._updated_ns, cycle.times()
         self._updated_ns = None if now < 0 else now
         self._written_ns = None if written < 0 else written
         if self._updated_ns == before:
             return
-        step = self._clock.step_ns
-        each = max(step, -(-self._control_ns // step) * step)
+        each = max(step, -(-period // step) * step)
         updates = 1 if before is None else max(1, round((now - before) / each))
         self.manager.catch_up(now, updates, each / NANOSECONDS)
 
     def reset(self, worlds: Worlds | None) -> None:
         """Begin anew: controllers that run hold the robot where it is put."""
+        self._stir()
         rows = slice(None) if worlds is None else worlds
         self.stopped[rows] = self._released[rows] = False
         self._tell_of_stops()
@@ -193,6 +240,7 @@ class ControlLoop(ModelPlugin):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Of hardware and controllers."""
+        self._settle()
         times = [-1 if each is None else each for each in (self._updated_ns, self._written_ns)]
         return {
             "times": np.array(times, np.int64),
@@ -204,6 +252,7 @@ class ControlLoop(ModelPlugin):
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
+        self._stir()
         times = [None if each < 0 else int(each) for each in state["times"]]
         self._updated_ns, self._written_ns = times
         self.stopped, self._released = (np.array(row, bool) for row in state["stop"])

@@ -166,6 +166,11 @@ class Loads:
         """Whether a timed effort acts, or waits, on one of some joints."""
         return bool(self._joints) and any(joint in self._joints for joint in joints)
 
+    @property
+    def turned(self) -> tuple[str, ...]:
+        """Scoped names of the joints on which timed efforts act, or wait."""
+        return tuple(self._joints)
+
     def set_lasting(self, joint: str, effort: Floats, worlds: Worlds | None = None) -> None:
         """Set the effort that acts on a joint besides the timed ones."""
         known = self._joints.get(joint)

@@ -9,9 +9,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
-from gazelle.simulation.base_plugin import Plugin
+from gazelle.simulation.base_plugin import Carried, Plugin
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.requests import RequestQueue
@@ -52,7 +51,7 @@ class ScheduledPlugin:
             return True
         return plugin.only_publishes and self._ask(lambda: not plugin.active, "when asked") is True
 
-    def carried(self) -> tuple[JointSystem, float] | None:
+    def carried(self) -> Carried | None:
         """What does its work within steps, and until when [ns]."""
         return self._ask(self.plugin.carried, "when asked for its system")
 

@@ -6,15 +6,15 @@ import math
 import sys
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gazelle.engines import CarryingEngine, DivergenceError, Engine
 from gazelle.errors import SimulationError, SimulationWarning
-from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
+from gazelle.simulation.carried_plugins import CarriedPlugins
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
@@ -53,6 +53,7 @@ class StepLoop:
     Attributes:
         cut: Whether the last steps ended for the sake of others, with nothing due.
         followers: Called after every step, before sensors measure.
+        carried: The plugins whose work steps do.
     """
 
     def __init__(
@@ -66,7 +67,7 @@ class StepLoop:
         self._plan = StepPlan((), (), native=None)
         self._planned: tuple[int, bool, int, int] | None = None
         self._systems: list[System] = []
-        self._carried: list[tuple[ScheduledPlugin, JointSystem, float]] = []
+        self.carried = CarriedPlugins()
         self._schedules: list[Schedule] = []
         self._most = 1
         self.cut = False
@@ -132,7 +133,7 @@ class StepLoop:
             most = 1
         # Nothing is due within a single step: nobody need be asked.
         steps = 1 if most == 1 else steps_to_next(plugins, plan.sensors, clock, most)
-        if steps > 1 and self._carried:
+        if steps > 1 and self.carried.systems:
             steps = min(steps, self._steps_carried())
         if loads.any:
             steps = min(steps, loads.steps_until(clock) or steps)
@@ -153,50 +154,55 @@ class StepLoop:
         """Run plugins that are due from Python; returns those that are not run by systems."""
         simulation, asked = self._simulation, set[int]()
         while True:
-            plan, self._carried = self._renew(), []
+            plan = self._renew()
             if plan.settled is not None:
                 self._systems, self._schedules = plan.settled
                 set_due(self._systems, self._schedules)
                 return ()
-            others: Sequence[ScheduledPlugin | PluginGroup] = plan.plugins
-            if plan.late:
-                others = [*plan.early, *self._not_carried(plan.late)]
+            others: Sequence[ScheduledPlugin | PluginGroup] = plan.early
             if simulation.native is not None:
                 self._systems, self._schedules, others = with_systems(plan.plugins)
             plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
             update_plugins([each for each in plugins if id(each) not in asked], simulation.clock)
-            # One of them may have woken a sensor, or let others come or go.
-            if simulation.requests.closed or self._planned == self._now():
+            if simulation.native is None and plan.late:
+                late = self._not_carried(asked)
+                update_plugins([each for each in late if id(each) not in asked], simulation.clock)
+                plugins += late
+            # One of them may have woken a sensor, let others come or go, or changed the engine.
+            if simulation.requests.closed or self._is_settled():
                 return plugins
             asked.update(map(id, plugins))
 
-    def _not_carried(self, late: Sequence[ScheduledPlugin]) -> list[ScheduledPlugin]:
+    def _not_carried(self, updated: set[int]) -> list[ScheduledPlugin]:
         """Of the plugins that steps may carry those that Python updates now."""
-        simulation, others = self._simulation, []
-        now_ns = simulation.clock.now_ns
-        for entry in late:
-            found = None
-            if simulation.carrier is not None and entry.schedule is not None:
-                found = entry.carried()
-            if found is None or found[1] <= now_ns:
-                others.append(entry)
-            else:
-                self._carried.append((entry, *found))
-        return others
+        if self._simulation.carrier is None:
+            self.carried.release()
+            return self._plan.late
+        return self.carried.ask(self._simulation.clock.now_ns, self._holds(), updated)
+
+    def _holds(self) -> Hashable:
+        """What plugins go by that say what carries them, besides what is done to them."""
+        simulation, carrier = self._simulation, self._simulation.carrier
+        revision = -1 if carrier is None else carrier.revision
+        return revision, simulation.clock.step_ns, self._loads.turned
+
+    def _is_settled(self) -> bool:
+        """Whether what was asked before plugins were updated holds still."""
+        if self._planned != self._now():
+            return False
+        return self._simulation.carrier is None or self.carried.is_current(self._holds())
 
     def _steps_carried(self) -> int:
         """Steps until Python has to update what is carried now."""
-        clock, soonest = self._simulation.clock, min(until for *_, until in self._carried)
+        clock, soonest = self._simulation.clock, self.carried.soonest_ns
         return clock.steps_to(int(soonest)) if math.isfinite(soonest) else sys.maxsize
 
     def _carry(self, carrier: CarryingEngine, count: int) -> None:
         """Make steps that bring systems of controllers."""
         try:
-            systems = [system for _, system, _ in self._carried]
-            carrier.carry(systems, count, self._simulation.clock.now_ns)
+            carrier.carry(self.carried.systems, count, self._simulation.clock.now_ns)
         finally:
-            for entry, *_ in self._carried:
-                entry.catch_up()
+            self.carried.catch_up()
 
     def _look_back(self) -> None:
         """After steps: move what follows, measure, tell who listens."""
@@ -219,6 +225,7 @@ class StepLoop:
                 # What follows moves before sensors measure, so that Python comes between.
                 alone=bool(self.followers),
             )
+            self.carried.plan(self._plan.late)
             # Asking who can be grouped may change the engine.
             self._planned = *now[:3], -1 if native is None else native.revision
         return self._plan
@@ -238,7 +245,7 @@ class StepLoop:
         """Make steps, and update systems whenever they are due."""
         native = self._simulation.native
         groups = self._plan.groups
-        if self._carried and self._simulation.carrier is not None:
+        if self.carried.systems and self._simulation.carrier is not None:
             self._carry(self._simulation.carrier, count)
             return
         if native is None:
