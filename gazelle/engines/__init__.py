@@ -14,6 +14,7 @@ from gazelle.engines.registry import EngineFactory, find
 from gazelle.engines.registry import names as engine_names
 from gazelle.engines.registry import register as register_engine
 from gazelle.engines.system_engine import SystemEngine
+from gazelle.engines.table_engine import TableEngine
 
 __all__ = [
     "CHANGES",
@@ -29,6 +30,7 @@ __all__ = [
     "Placement",
     "RangeRays",
     "SystemEngine",
+    "TableEngine",
     "Wrench",
     "changes_of",
     "engine_names",

@@ -23,7 +23,7 @@ from gazelle.sensors.gps import Gps, GpsModel, GpsReading
 from gazelle.sensors.imu import ImuModel, ImuReading
 from gazelle.sensors.lidar import LaserScan, LidarModel
 from gazelle.sensors.magnetometer import MagneticReading, Magnetometer, MagnetometerModel
-from gazelle.sensors.model import ScanningModel, SensorModel
+from gazelle.sensors.model import GroupedModel, ScanningModel, SensorModel
 from gazelle.sensors.noise import NoiseModel
 from gazelle.sensors.rendering import View, look_at, range_image, render
 from gazelle.sensors.sonar import Sonar, SonarModel, SonarReading
@@ -43,6 +43,7 @@ __all__ = [
     "Gps",
     "GpsModel",
     "GpsReading",
+    "GroupedModel",
     "ImuModel",
     "ImuReading",
     "LaserScan",

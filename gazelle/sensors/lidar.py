@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, UInts64, Worlds
 from gazelle.description import Lidar, Pose, Scan
-from gazelle.engines import Engine, RangeRays, SystemEngine
-from gazelle.sensors.lidar_group import LidarGroup
+from gazelle.engines import Engine, RangeRays, SystemEngine, TableEngine
+from gazelle.sensors.lidar_group import CastLidars, LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
 from gazelle.sensors.noise import NoiseModel
 
@@ -65,6 +65,7 @@ class LidarModel:
         self.lidar = lidar
         self.engine = engine
         self._systems = engine if isinstance(engine, SystemEngine) else None
+        self._at_once = isinstance(engine, TableEngine)
         self.link = link
         self.angles = angles_of(lidar.horizontal)
         self.vertical_angles = angles_of(lidar.vertical)
@@ -112,12 +113,19 @@ class LidarModel:
             noise.follow(worlds, counters)
         return measured[:, :samples]
 
+    @property
+    def by_system(self) -> bool:
+        """Whether many are a system of the engine; else Python measures them in one call."""
+        return self._systems is not None
+
     def kind(self) -> Hashable | None:
-        """Equal for lidars that a ``LidarGroup`` measures together; None where none can."""
-        engine, noise = self._systems, self._noise
-        if noise.drifts or engine is None:
+        """Equal for lidars that ``together`` measures; None where none can."""
+        noise = self._noise
+        if noise.drifts:
             return None
-        rays = engine.ranges_kind(self.rays)
+        rays: Hashable = self.samples if self._at_once else None
+        if self._systems is not None:
+            rays = self._systems.ranges_kind(self.rays)
         law = self.law
         reported = law.low, law.high, law.quantum, law.mean, law.precision
         return None if rays is None else (rays, reported, noise.biased)
@@ -139,21 +147,32 @@ class LidarModel:
         return self._alone
 
     @classmethod
-    def together(cls, models: Sequence[LidarModel]) -> LidarGroup:
+    def together(cls, models: Sequence[LidarModel]) -> LidarGroup | CastLidars:
         """What measures lidars of one kind together; their noise is in its tables from then on."""
         first = models[0]
-        engine, biased = first.engine, first.noise.biased
-        if not isinstance(engine, SystemEngine):
-            raise TypeError("the engine measures each lidar by itself")
-        shape = engine.nworld, len(models)
+        engine, law, begin = first.engine, first.law, first.lidar.range_min
+        tables = cls._noise_together(models)
+        rays = [each.rays for each in models]
+        if isinstance(engine, SystemEngine):
+            return LidarGroup(engine, rays, law, begin, *tables)
+        if isinstance(engine, TableEngine):
+            return CastLidars(engine, rays, law, begin, LidarNoise(*tables))
+        raise TypeError("the engine measures each lidar by itself")
+
+    @classmethod
+    def _noise_together(
+        cls, models: Sequence[LidarModel]
+    ) -> tuple[Floats, UInts64, UInts64, Floats]:
+        """What native code draws the noise of lidars with, a row for each world and lidar."""
+        first = models[0]
+        biased = first.noise.biased
+        shape = first.engine.nworld, len(models)
         stddev, bias = np.zeros(shape), np.zeros((*shape, first.samples if biased else 0))
         keys, counters = np.zeros(shape, np.uint64), np.zeros(shape, np.uint64)
         for i, each in enumerate(models):
             each.move_noise(stddev[:, i : i + 1], keys[:, i], counters[:, i], bias[:, i])
-        rays = [each.rays for each in models]
-        tables = stddev.reshape(-1), keys.reshape(-1), counters.reshape(-1)
         biases = bias.reshape(stddev.size, -1) if biased else np.zeros((0, 0))
-        return LidarGroup(engine, rays, first.law, first.lidar.range_min, *tables, biases)
+        return stddev.reshape(-1), keys.reshape(-1), counters.reshape(-1), biases
 
     def move_noise(self, stddev: Floats, keys: UInts64, counters: UInts64, bias: Floats) -> None:
         """Keep what the noise has in other arrays from now on; see ``NoiseModel.move``."""

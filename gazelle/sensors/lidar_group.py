@@ -1,4 +1,4 @@
-"""Lidars of one kind, of many robots in all worlds, measured in one native call."""
+"""Lidars of one kind, of many robots in all worlds, measured together."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, UInts64
-from gazelle.engines import RangeRays, SystemEngine
+from gazelle.engines import RangeRays, SystemEngine, TableEngine
 from gazelle.native.system import System
-from gazelle.sensors.lidar_ranges import LidarNoise, LidarSystem, RangeLaw
+from gazelle.sensors.lidar_ranges import LidarNoise, LidarSystem, RangeLaw, measure
 
 _SHARE = 2000  # ranges that are worth a thread
 
@@ -66,3 +66,39 @@ class LidarGroup:
         measured, stamp = self._system.latest()
         shape = (-1, self._count, measured.shape[1])
         return measured.reshape(shape), stamp.reshape(shape[:2])
+
+
+class CastLidars:
+    """Lidars with as many beams and the same law, whose rays an engine casts in one call.
+
+    Args:
+        engine: Casts them.
+        rays: Of each lidar, n in all.
+        law: How they report ranges.
+        begin: Distance of the rays' origins from where ranges are measured [m].
+        noise: A row for each world and lidar, those of a world together.
+    """
+
+    def __init__(
+        self,
+        engine: TableEngine,
+        rays: Sequence[RangeRays],
+        law: RangeLaw,
+        begin: float,
+        noise: LidarNoise,
+    ) -> None:
+        self._engine, self._law, self._begin, self._noise = engine, law, begin, noise
+        self._links = tuple(each.link for each in rays)
+        self._origins = np.array([each.origins for each in rays])
+        self._directions = np.array([each.directions for each in rays])
+
+    def measure_all(self, interval: float) -> Floats:  # noqa: ARG002  there are no drifts
+        """Measure now, shape (nworld, n, samples); a new array each time."""
+        cast, begin = self._engine.cast_ranges_together(
+            self._links, self._origins, self._directions
+        )
+        samples = cast.shape[2]
+        ranges = np.ascontiguousarray(cast).reshape(-1, samples)
+        measured = np.empty((len(ranges), samples + samples % 2))
+        measure(self._law, self._noise, ranges, self._begin - begin, measured)
+        return measured.reshape(*cast.shape[:2], -1)[:, :, :samples]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping, Sequence
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -52,6 +52,33 @@ class ScanningModel(SensorModel, Protocol):
     @property
     def samples(self) -> int:
         """Rays a measurement has, all rows together."""
+
+
+class MeasuredTogether(Protocol):
+    """Some sensors of one kind in every world."""
+
+    def measure_all(self, interval: float) -> NDArray[Any]:
+        """Measure now, shape (nworld, n, channels): the bits of each by itself.
+
+        Args:
+            interval: Time since the last measurement [s].
+        """
+
+
+@runtime_checkable
+class GroupedModel(SensorModel, Protocol):
+    """A sensor that can be measured with others of its kind."""
+
+    @property
+    def by_system(self) -> bool:
+        """Whether what measures many is a system that the engine updates between its steps."""
+
+    def kind(self) -> Hashable | None:
+        """Equal for those that ``together`` takes now; None for one that is measured alone."""
+
+    @classmethod
+    def together(cls, models: Sequence[Any]) -> MeasuredTogether:
+        """What measures some of one kind; they share its tables from then on."""
 
 
 class NoisySensor:

@@ -127,6 +127,8 @@ class EntityManager:
         self.plugins[:] = [entry for entry in self.plugins if entry.owner != name]
         gone = self.robots.pop(name, None)
         self._awaited.pop(name, None)
+        for unit in gone.sensors.values() if gone is not None else ():
+            unit.retire()
         self.sensors[:] = [unit for unit in self.sensors if unit.robot is not gone]
         simulation.loads.forget(name)
         simulation.parameters.pose.forget(name)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable
 from threading import get_ident
 from typing import TYPE_CHECKING, Any
 
@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.description import Sensor
-from gazelle.native.system import System
-from gazelle.sensors import LidarModel, SensorModel
+from gazelle.sensors import GroupedModel, SensorModel
 from gazelle.simulation.clock import NANOSECONDS, Schedule
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import FramePrefix, Output
 from gazelle.simulation.requests import between_steps
+from gazelle.simulation.sensor_groups import SensorGroup
 from gazelle.simulation.sharing import shared
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class SensorUnit:
     @between_steps
     def measure(self, worlds: Worlds | None = None) -> NDArray[Any]:
         """Measure now, out of turn, shape (n, channels); the last reading stays as it is."""
-        return self._model.measure(worlds, self._period())
+        return self._model.measure(worlds, self.period)
 
     @between_steps
     def read(self, world: int = 0) -> Any:
@@ -120,18 +120,30 @@ class SensorUnit:
 
     @between_steps
     def _end(self, listener: Callable[[SensorUnit], None]) -> None:
-        self._listeners.remove(listener)
-        self._requests.changes += 1
+        if listener in self._listeners:
+            self._listeners.remove(listener)
+            self._requests.changes += 1
+
+    def retire(self) -> None:
+        """Be measured in turn no more: the robot is gone."""
+        self._awake = False
+        self._listeners.clear()
 
     @between_steps
     def update(self, now_ns: int) -> NDArray[Any]:
         """Measure in turn; returns what ``latest`` will until the next time."""
+        if self._values is None:
+            self._requests.changes += 1  # from now on it may be measured with others
         values = self._values = self.measure()
         self._stale, self._stamp = _NO_WORLDS, now_ns
         self.schedule.done(now_ns)
+        self.tell()
+        return values
+
+    def tell(self) -> None:
+        """Call all who subscribed."""
         for listener in tuple(self._listeners):
             listener(self)
-        return values
 
     @between_steps
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
@@ -185,10 +197,17 @@ class SensorUnit:
 
     def kind(self) -> Hashable | None:
         """Equal for those that a ``SensorGroup`` measures together now; None for none."""
-        if self._listeners or self._values is None or not isinstance(self._model, LidarModel):
+        if self._values is None or not isinstance(self._model, GroupedModel):
             return None
         kind = self._model.kind()
-        return None if kind is None else (kind, self.schedule.rate, self.schedule.due_ns)
+        if kind is None:
+            return None
+        return type(self._model), kind, self.schedule.rate, self.schedule.due_ns
+
+    @property
+    def heard(self) -> bool:
+        """Whether anybody subscribed."""
+        return bool(self._listeners)
 
     def join(self, group: SensorGroup, part: int) -> None:
         """Be measured by a group."""
@@ -215,57 +234,12 @@ class SensorUnit:
             self._group.release()
         self._requests.changes += 1
 
-    def _period(self) -> float:
+    @property
+    def period(self) -> float:
+        """Time between two measurements in turn [s]."""
         if self.schedule.rate > 0.0:
             return 1.0 / self.schedule.rate
         return self.robot.simulation.clock.step_ns / NANOSECONDS
-
-
-class SensorGroup:
-    """Sensors whose readings are rows of one table while nobody listens to them in Python.
-
-    Args:
-        units: They are awake, due at one time and of one ``SensorUnit.kind``.
-
-    Attributes:
-        units: The sensors.
-        schedule: Of all of them.
-        count: Measurements so far.
-    """
-
-    def __init__(self, units: Sequence[SensorUnit]) -> None:
-        self.units, self.count = units, 0
-        models = [unit.model for unit in units]
-        self._lidars = LidarModel.together(
-            [each for each in models if isinstance(each, LidarModel)]
-        )
-        self.schedule = units[0].schedule.copy()
-        system = self._lidars.system
-        system.late, system.rate, system.due = True, self.schedule.rate, self.schedule.due_ns
-        for part, unit in enumerate(units):
-            unit.join(self, part)
-
-    @property
-    def system(self) -> System:
-        """What measures."""
-        return self._lidars.system
-
-    def follow(self) -> None:
-        """See whether the system has measured."""
-        due = self.system.due
-        if due != self.schedule.due_ns or self.schedule.rate <= 0.0:
-            self.schedule.follow(due)
-            self.count += 1
-
-    def reading(self, part: int) -> tuple[NDArray[Any], int]:
-        """The last measurement of a sensor, a copy of shape (nworld, channels), and when [ns]."""
-        values, stamp = self._lidars.latest
-        return np.ascontiguousarray(values[:, part]), int(stamp[0, part])
-
-    def release(self) -> None:
-        """Let each be measured by itself again."""
-        for unit in self.units:
-            unit.leave()
 
 
 class SensorOutput(Output[Any]):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Iterable
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -14,7 +14,8 @@ from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
 from gazelle.simulation.plugin_groups import PluginGroup, with_groups
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
-from gazelle.simulation.sensors import SensorGroup, SensorUnit
+from gazelle.simulation.sensor_groups import PythonGroup, group_sensors
+from gazelle.simulation.sensors import SensorUnit
 
 
 class StepPlan:
@@ -24,13 +25,13 @@ class StepPlan:
         plugins: All, in the order they were loaded.
         sensors: All.
         native: The engine, if it updates systems.
-        alone: Whether sensors are measured from Python all the same.
+        alone: Whether Python measures sensors all the same.
 
     Attributes:
         plugins: What is updated in turn, groups in the place of their first plugin; those that
             rest are left out.
-        sensors: What is measured from Python: those awake that are in no group.
-        groups: Of sensors.
+        sensors: What is measured from Python: those awake, groups in the place of their first.
+        groups: Of sensors that systems measure.
         settled: The systems and schedules of all plugins where Python has a say in none; else None.
         late: Plugins that steps may carry: they come after the others, carried or not.
         early: The others.
@@ -44,12 +45,9 @@ class StepPlan:
         native: SystemEngine | None,
         alone: bool = False,
     ) -> None:
-        self.sensors = [unit for unit in sensors if unit.awake]
-        self.groups: list[SensorGroup] = []
-        if (
-            native is not None and not alone
-        ):  # sensors first: asking for their kind may change the engine
-            self._group_sensors()
+        awake = [unit for unit in sensors if unit.awake]
+        # Sensors first: asking for their kind may change the engine.
+        self.sensors, self.groups = group_sensors(awake, native=native is not None and not alone)
         entries = [each for each in plugins if not each.rests]
         self.late = [entry for entry in entries if entry.may_be_carried]
         self.early = [entry for entry in entries if not entry.may_be_carried]
@@ -68,16 +66,9 @@ class StepPlan:
             each.release()
         for group in self.groups:
             group.release()
-
-    def _group_sensors(self) -> None:
-        kinds: dict[Hashable, list[SensorUnit]] = {}
         for unit in self.sensors:
-            kind = unit.kind()
-            if kind is not None:
-                kinds.setdefault(kind, []).append(unit)
-        self.groups = [SensorGroup(units) for units in kinds.values()]
-        grouped = {id(unit) for group in self.groups for unit in group.units}
-        self.sensors = [unit for unit in self.sensors if id(unit) not in grouped]
+            if isinstance(unit, PythonGroup):
+                unit.release()
 
 
 class Updated(Protocol):
@@ -136,7 +127,7 @@ def update_plugins(plugins: Iterable[ScheduledPlugin], clock: Clock) -> None:
         schedule.done(now_ns)
 
 
-def update_sensors(sensors: Iterable[SensorUnit], now_ns: int) -> None:
+def update_sensors(sensors: Iterable[SensorUnit | PythonGroup], now_ns: int) -> None:
     """Measure with all sensors that are awake and due."""
     for sensor in tuple(sensors):
         if now_ns >= sensor.schedule.due_ns and sensor.awake:
@@ -144,7 +135,10 @@ def update_sensors(sensors: Iterable[SensorUnit], now_ns: int) -> None:
 
 
 def steps_to_next(
-    plugins: Iterable[ScheduledPlugin], sensors: Iterable[SensorUnit], clock: Clock, most: int
+    plugins: Iterable[ScheduledPlugin],
+    sensors: Iterable[SensorUnit | PythonGroup],
+    clock: Clock,
+    most: int,
 ) -> int:
     """Physics steps until something is due, ``most`` at most."""
     soonest = clock.now_ns + most * clock.step_ns

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
 from contextlib import AbstractContextManager
 
 import mujoco
@@ -17,7 +16,6 @@ from gazelle.description import Pose
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.mujoco.compiler import CompilerInput
 from gazelle.engines.mujoco.layout import LinkSlot, ModelSlot, MujocoLayout
-from gazelle.engines.mujoco.link_table import MujocoLinkTable
 from gazelle.engines.mujoco.order import (
     joint_from_mujoco,
     joint_to_mujoco,
@@ -59,7 +57,6 @@ class StateAccess(ABC):
     _layout: MujocoLayout
     _state: StateViews
     _nworld: int
-    _tables: dict[tuple[str, ...], MujocoLinkTable]
     _recipe: CompilerInput
     _pending: CompilerInput | None
     """What is to be compiled before the next step: motors, and models that become kinematic."""
@@ -116,16 +113,6 @@ class StateAccess(ABC):
         self._refresh()
         position = self._batch.xpos[rows, slot.body].copy()
         return Placement(position, xyzw_from_wxyz(self._batch.xquat[rows, slot.body]))
-
-    def link_placements(self, links: Sequence[str], worlds: Worlds | None = None) -> Placement:
-        """Where many links are at once: shapes (n, links, 3) and (n, links, 4)."""
-        layout, key = self._now(), tuple(links)
-        table = self._tables.get(key)
-        if table is None or table.layout is not layout:
-            table = self._tables[key] = MujocoLinkTable(layout, key)
-        if table.moving:
-            self._refresh()
-        return table.placement(self._batch, worlds)
 
     def link_motion(self, link: str, worlds: Worlds | None = None) -> Motion:
         """How a link moves."""

@@ -10,14 +10,15 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.motion import Placement
-from gazelle.engines.mujoco.access import StateAccess, rows_of, unit
+from gazelle.engines.mujoco.access import rows_of, unit
 from gazelle.engines.mujoco.attachments import Attachment
 from gazelle.engines.mujoco.layout import LinkSlot, MujocoLayout
+from gazelle.engines.mujoco.many_links import ManyLinks
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate
 
 
-class BodyAccess(StateAccess):
+class BodyAccess(ManyLinks):
     """The part of ``gazelle.engines.engine.Engine`` that handles single links."""
 
     @abstractmethod

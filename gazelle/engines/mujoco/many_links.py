@@ -1,0 +1,52 @@
+"""Many links at once: where they are, how they move, and what rays that they carry meet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.engines.motion import Placement
+from gazelle.engines.mujoco.access import StateAccess
+from gazelle.engines.mujoco.link_table import MujocoLinkTable
+from gazelle.engines.mujoco.rays import nearest
+from gazelle.rotations import turns
+
+_MOST = 64  # tables kept
+
+
+class ManyLinks(StateAccess):
+    """The part of ``gazelle.engines.table_engine.TableEngine``."""
+
+    _tables: dict[tuple[str, ...], MujocoLinkTable]
+
+    def link_placements(self, links: Sequence[str], worlds: Worlds | None = None) -> Placement:
+        """Where many links are at once: shapes (n, links, 3) and (n, links, 4)."""
+        table = self._table_of(links)
+        if table.moving:
+            self._refresh()
+        return table.placement(self._batch, self._state, worlds)
+
+    def cast_ranges_together(
+        self, links: Sequence[str], origins: Floats, directions: Floats
+    ) -> tuple[Floats, float]:
+        """Follow the rays of many range finders in one call; see the protocol."""
+        place = self.link_placements(links)
+        turn = turns(place.quaternion.reshape(-1, 4)).reshape(-1, len(origins), 3, 3)
+        start = place.position[:, :, None, :] + origins @ turn
+        shape = start.shape
+        along = (directions @ turn).reshape(shape[0], -1, 3)
+        start = start.reshape(shape[0], -1, 3)
+        hits = nearest(self._batch, start, along, None)[0]
+        ranges = np.where(hits.from_inside, -np.inf, hits.distance)
+        return ranges.reshape(shape[:3]), 0.0
+
+    def _table_of(self, links: Sequence[str]) -> MujocoLinkTable:
+        layout, key = self._known(), tuple(links)
+        table = self._tables.get(key)
+        if table is None or table.layout is not layout:
+            if len(self._tables) >= _MOST:
+                self._tables.clear()
+            table = self._tables[key] = MujocoLinkTable(layout, key)
+        return table
