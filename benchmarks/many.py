@@ -27,7 +27,10 @@ LIDAR = """<sensor name='s' type='ray'><update_rate>10</update_rate><pose>0 0 .2
 <horizontal><samples>{0}</samples><min_angle>-3</min_angle><max_angle>3</max_angle></horizontal></scan>
 <range><min>.05</min><max>4</max></range><noise><type>gaussian</type><stddev>.01</stddev></noise></ray>
 </sensor>"""
+IMU = """<sensor name='s' type='imu'><update_rate>50</update_rate><imu><angular_velocity><x><noise
+type='gaussian'><stddev>.01</stddev></noise></x></angular_velocity></imu></sensor>"""
 SENSORS = {
+    "IMU, 50 Hz": IMU,
     "lidar, 24 rays, 10 Hz": LIDAR.format(24),
     "lidar, 360 rays, 10 Hz": LIDAR.format(360),
 }

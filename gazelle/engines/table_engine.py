@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
 from gazelle.array_types import Floats
+from gazelle.engines.motion import Motion, Placement
 
 
 @runtime_checkable
@@ -15,6 +16,18 @@ class TableEngine(Protocol):
     @property
     def nworld(self) -> int:
         """Number of worlds."""
+
+    def link_placements(self, links: Sequence[str]) -> Placement:
+        """Where links are: shapes (nworld, links, 3) and (nworld, links, 4)."""
+
+    def link_motions(self, links: Sequence[str]) -> Motion:
+        """How links move, shape (nworld, links, 3)."""
+
+    def link_accelerations(self, links: Sequence[str]) -> Motion:
+        """How that changes in the next physics step, likewise; see ``link_acceleration``."""
+
+    def parameter(self, kind: str, name: str) -> Floats:
+        """A physical parameter, shape (nworld, width)."""
 
     def cast_ranges_together(
         self, links: Sequence[str], origins: Floats, directions: Floats

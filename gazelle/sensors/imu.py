@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Imu, Pose
-from gazelle.engines import Engine
+from gazelle.engines import Engine, Motion, Placement, TableEngine
 from gazelle.rotations import conjugate, cross, multiply, rotate
 from gazelle.sensors.model import NoisySensor
+from gazelle.sensors.noise import JoinedNoise
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +58,7 @@ class ImuModel(NoisySensor):
         self.imu = imu
         self._engine = engine
         self._link = link
-        self._offset = np.asarray(pose.position)
-        self._turn = np.asarray(pose.quaternion)
+        self._mount = np.asarray(pose.position), np.asarray(pose.quaternion)
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
         """Orientation, turning rate and specific force now, shape (n, 10).
@@ -68,19 +69,98 @@ class ImuModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        place = self._engine.link_placement(self._link, worlds)
-        motion = self._engine.link_motion(self._link, worlds)
-        change = self._engine.link_acceleration(self._link, worlds)
-        arm = rotate(place.quaternion, self._offset)
-        spin = motion.angular
-        acceleration = change.linear + cross(change.angular, arm) + cross(spin, cross(spin, arm))
-        orientation = multiply(place.quaternion, self._turn)
-        to_sensor = conjugate(orientation)
-        force = rotate(to_sensor, acceleration - self._engine.parameter("gravity", "", worlds))
-        rate = rotate(to_sensor, spin)
-        felt = self.noisy(np.concatenate((rate, force), axis=1), interval, worlds)
-        return np.concatenate((orientation, felt), axis=1)
+        orientation, felt = _felt(
+            self._mount,
+            self._engine.link_placement(self._link, worlds),
+            self._engine.link_motion(self._link, worlds),
+            self._engine.link_acceleration(self._link, worlds),
+            self._engine.parameter("gravity", "", worlds),
+        )
+        return np.concatenate((orientation, self.noisy(felt, interval, worlds)), axis=1)
+
+    @property
+    def by_system(self) -> bool:
+        """No: Python measures many in one call."""
+        return False
+
+    def kind(self) -> Hashable | None:
+        """Equal for those whose files say the same of their noise, where the engine can."""
+        if not isinstance(self._engine, TableEngine):
+            return None
+        return tuple(noise.description for noise in self.noises)
+
+    @classmethod
+    def together(cls, models: Sequence[ImuModel]) -> ImuGroup:
+        """What measures IMUs of one kind at once; their noise is in its tables from then on."""
+        return ImuGroup(models)
+
+    @property
+    def engine(self) -> Engine:
+        """What knows the motion."""
+        return self._engine
+
+    @property
+    def link(self) -> str:
+        """Scoped name of the link it is on."""
+        return self._link
+
+    @property
+    def mount(self) -> tuple[Floats, Floats]:
+        """Where it is in the link frame [m], and how it is turned (x, y, z, w)."""
+        return self._mount
 
     def reading(self, values: Floats, stamp: int) -> ImuReading:
         """A measurement by name."""
         return ImuReading(stamp, values[..., :4], values[..., 4:7], values[..., 7:])
+
+
+class ImuGroup:
+    """IMUs of many robots, measured at once: the coming step is made once for all.
+
+    Args:
+        models: Of one kind.
+
+    Raises:
+        TypeError: Their engine looks at one link at a time.
+    """
+
+    def __init__(self, models: Sequence[ImuModel]) -> None:
+        engine = models[0].engine
+        if not isinstance(engine, TableEngine):
+            raise TypeError("the engine measures each IMU by itself")
+        self._engine: TableEngine = engine
+        self._links = tuple(each.link for each in models)
+        self._mount = (
+            np.array([each.mount[0] for each in models]),
+            np.array([each.mount[1] for each in models]),
+        )
+        noises = zip(*(each.noises for each in models), strict=True)
+        self._noises = [JoinedNoise(channel) for channel in noises]
+
+    def measure_all(self, interval: float) -> Floats:
+        """Measure now, shape (nworld, n, 10); see ``ImuModel.measure``."""
+        engine, links = self._engine, self._links
+        orientation, felt = _felt(
+            self._mount,
+            engine.link_placements(links),
+            engine.link_motions(links),
+            engine.link_accelerations(links),
+            engine.parameter("gravity", "")[:, None, :],
+        )
+        columns = [
+            noise.apply(felt[..., i : i + 1], interval) for i, noise in enumerate(self._noises)
+        ]
+        return np.concatenate((orientation, *columns), axis=-1)
+
+
+def _felt(
+    mount: tuple[Floats, Floats], place: Placement, motion: Motion, change: Motion, gravity: Floats
+) -> tuple[Floats, Floats]:
+    """Orientation, and turning rate and specific force as an IMU feels them, shape (..., 6)."""
+    arm = rotate(place.quaternion, mount[0])
+    spin = motion.angular
+    acceleration = change.linear + cross(change.angular, arm) + cross(spin, cross(spin, arm))
+    orientation = multiply(place.quaternion, mount[1])
+    to_sensor = conjugate(orientation)
+    force = rotate(to_sensor, acceleration - gravity)
+    return orientation, np.concatenate((rotate(to_sensor, spin), force), axis=-1)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, UInts64, Worlds
+from gazelle.array_types import Floats, Indices, UInts64, Worlds
 from gazelle.description import Noise
 from gazelle.streams import Stream
 
@@ -90,6 +92,26 @@ class NoiseModel:
             bias[:] = self._bias
             self._bias = bias
 
+    def move_drift(self, drift: Floats) -> None:
+        """Keep the drift in another array from now on, shape (nworld, channels)."""
+        drift[:] = self._drift
+        self._drift = drift
+
+    @property
+    def description(self) -> Noise:
+        """What the file says."""
+        return self._noise
+
+    @property
+    def channels(self) -> int:
+        """Number of values a measurement has."""
+        return self._channels
+
+    @property
+    def nworld(self) -> int:
+        """Number of worlds."""
+        return len(self._stddev)
+
     @property
     def drifts(self) -> bool:
         """Whether it has a bias that changes with time."""
@@ -139,17 +161,8 @@ class NoiseModel:
         """
         if not self._active:
             return values
-        noise = self._noise
-        rows = slice(None) if worlds is None else worlds
-        measured = values + noise.mean + self._bias[rows]
-        if self._spread:
-            measured = measured + self._stddev[rows] * self._stream.normal(self._channels, worlds)
-        if noise.dynamic_bias_stddev > 0.0 and noise.dynamic_bias_correlation_time > 0.0:
-            self._advance_drift(interval, worlds)
-            measured = measured + self._drift[rows]
-        if noise.type == "gaussian_quantized" and noise.precision > 0.0:
-            measured = np.round(measured / noise.precision) * noise.precision
-        return measured
+        rows = NoiseRows(self._noise, self._stream, self._stddev, self._bias, self._drift)
+        return rows.apply(values, interval, worlds, spread=self._spread)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
         """Everything that changes, for a snapshot."""
@@ -184,11 +197,101 @@ class NoiseModel:
         sign = np.where(self._bias_stream.uniform(self._channels, worlds) < 0.5, -1.0, 1.0)
         self._bias[rows] = sign * size
 
-    def _advance_drift(self, interval: float, worlds: Worlds | None) -> None:
+
+@dataclass(frozen=True, slots=True)
+class NoiseRows:
+    """What noise has of each world, or of each world and sensor of a kind.
+
+    Attributes:
+        noise: What the file says.
+        stream: Of the rows.
+        stddev: Shape (rows, 1).
+        bias: Shape (rows, channels).
+        drift: Likewise.
+    """
+
+    noise: Noise
+    stream: Stream
+    stddev: Floats
+    bias: Floats
+    drift: Floats
+
+    def apply(
+        self, values: Floats, interval: float, chosen: Indices | None, *, spread: bool
+    ) -> Floats:
+        """Values with noise; see ``NoiseModel.apply``.
+
+        Args:
+            values: True values, shape (n, channels).
+            interval: Time since the last measurement [s].
+            chosen: Which rows they are; all if None.
+            spread: Whether there is white noise.
+        """
+        noise, channels = self.noise, values.shape[1]
+        rows = slice(None) if chosen is None else chosen
+        measured = values + noise.mean + self.bias[rows]
+        if spread:
+            measured = measured + self.stddev[rows] * self.stream.normal(channels, chosen)
+        if noise.dynamic_bias_stddev > 0.0 and noise.dynamic_bias_correlation_time > 0.0:
+            self._advance_drift(channels, interval, chosen)
+            measured = measured + self.drift[rows]
+        if noise.type == "gaussian_quantized" and noise.precision > 0.0:
+            measured = np.round(measured / noise.precision) * noise.precision
+        return measured
+
+    def _advance_drift(self, channels: int, interval: float, chosen: Indices | None) -> None:
         """One step of the process b' = -b / T + white noise, exactly discretised."""
-        noise = self._noise
-        rows = slice(None) if worlds is None else worlds
+        noise = self.noise
+        rows = slice(None) if chosen is None else chosen
         keep = math.exp(-interval / noise.dynamic_bias_correlation_time)
         spread = noise.dynamic_bias_stddev * math.sqrt(1.0 - keep * keep)
-        draw = self._stream.normal(self._channels, worlds)
-        self._drift[rows] = keep * self._drift[rows] + spread * draw
+        draw = self.stream.normal(channels, chosen)
+        self.drift[rows] = keep * self.drift[rows] + spread * draw
+
+
+class JoinedNoise:
+    """The noise of sensors whose files say the same, applied at once.
+
+    Args:
+        models: They keep what they have in its tables from now on.
+    """
+
+    def __init__(self, models: Sequence[NoiseModel]) -> None:
+        noise, channels = models[0].description, models[0].channels
+        shape = models[0].nworld, len(models)
+        self._stddev = np.zeros(shape)
+        stream = Stream(0, "", self._stddev.size)  # whose numbers are those of the models' streams
+        keys, counters = stream.keys.reshape(shape), stream.counters.reshape(shape)
+        bias, drift = np.zeros((2, *shape, channels))
+        for i, each in enumerate(models):
+            each.move(self._stddev[:, i : i + 1], keys[:, i], counters[:, i], bias[:, i])
+            each.move_drift(drift[:, i])
+        self._rows = NoiseRows(
+            noise,
+            stream,
+            self._stddev.reshape(-1, 1),
+            bias.reshape(-1, channels),
+            drift.reshape(-1, channels),
+        )
+
+    def apply(self, values: Floats, interval: float) -> Floats:
+        """Values with noise, shape (nworld, n, channels); see ``NoiseModel.apply``."""
+        nworld = len(values)
+        rows = values.reshape(-1, values.shape[2])
+        spread = self._stddev.any(axis=0)  # a model draws for all of its worlds or for none
+        if spread.all() or not spread.any():
+            return self._apply(rows, interval, None, spread=bool(spread.all())).reshape(
+                values.shape
+            )
+        measured = np.empty_like(rows)
+        for some in (True, False):
+            chosen = np.flatnonzero(np.tile(spread == some, nworld))
+            measured[chosen] = self._apply(rows[chosen], interval, chosen, spread=some)
+        return measured.reshape(values.shape)
+
+    def _apply(
+        self, values: Floats, interval: float, chosen: Indices | None, *, spread: bool
+    ) -> Floats:
+        if self._rows.noise.type == "none" and not spread:
+            return values
+        return self._rows.apply(values, interval, chosen, spread=spread)

@@ -35,7 +35,19 @@ def lidar(number):
     )  # fmt: skip
 
 
-SENSORS = {"lidar": lidar}
+def imu(number):
+    """Every third has other noise, one of them with biases and rounding."""
+    other = number % 3 == 2
+    drift = "<dynamic_bias_stddev>.01</dynamic_bias_stddev><dynamic_bias_correlation_time>2</dynamic_bias_correlation_time>"
+    axis = f"<noise type='gaussian{'_quantized' if other else ''}'><stddev>.02</stddev>{drift}"
+    if other:
+        axis += "<bias_mean>.3</bias_mean><bias_stddev>.1</bias_stddev><precision>.005</precision>"
+    rates = "".join(f"<{a}>{axis}</noise></{a}>" for a in "xyz")
+    return f"""<sensor name='imu' type='imu'><update_rate>{10 if number % 5 else 7}</update_rate><pose>.05
+    0 .1 0 .2 {0.1 * number}</pose><imu><angular_velocity>{rates}</angular_velocity></imu></sensor>"""
+
+
+SENSORS = {"lidar": lidar, "imu": imu}
 
 
 def robot(kind, number):
@@ -171,6 +183,37 @@ def test_lidars_of_a_kind_are_cast_in_one_call_whoever_listens(monkeypatch):
     # have 11 rays each and are alone.
     assert sorted(calls) == [2] * 7 + [4] * 10 + [11] * 17
     assert len(heard) - count == 7 + 3 * 10
+
+
+def test_imus_of_a_kind_feel_the_coming_step_in_one_call_whoever_listens(monkeypatch):
+    steps, heard = [], []
+    with yard("imu") as sim:
+        sim.robots["r1"].sensors["imu"].subscribe(lambda each: heard.append(each.read().stamp))
+        sim.run(0.3)
+        for name in ("link_acceleration", "link_accelerations"):
+            look = getattr(MujocoEngine, name)
+            monkeypatch.setattr(
+                MujocoEngine, name,
+                lambda *args, look=look: steps.append(args[1]) or look(*args),
+            )  # fmt: skip
+        sim.run(1.0)
+    # as the lidars: 17 looks at the two that are alone, and 17 at the six others
+    assert sorted(len(each) for each in steps if isinstance(each, tuple)) == [2] * 7 + [4] * 10
+    assert sum(isinstance(each, str) for each in steps) == 17
+
+
+def test_white_noise_that_is_changed_in_the_middle_of_a_run_is_each_sensors_own():
+    said = []
+    for together in (False, True):
+        with yard("imu", together=together, nworld=2) as sim:
+            sim.run(0.3)
+            for name, size in (("r1", 0.0), ("r4", 0.5)):
+                sim.robots[name].sensors["imu"].model.noises[0].stddev = size
+            sim.run(0.5)
+            sim.robots["r1"].sensors["imu"].model.noises[0].stddev = [0.0, 0.1]
+            sim.run(0.5)
+            said.append(told(sim))
+    assert said[0] == said[1]
 
 
 def test_readings_that_somebody_keeps_do_not_change():

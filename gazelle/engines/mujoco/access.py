@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 
 import mujoco
@@ -134,12 +135,16 @@ class StateAccess(ABC):
 
     def link_acceleration(self, link: str, worlds: Worlds | None = None) -> Motion:
         """How a link's motion changes in the next physics step [m/s², rad/s²]."""
-        before = self.link_motion(link, worlds)
+        return self._change_in_step(lambda: self.link_motion(link, worlds), worlds)
+
+    def _change_in_step(self, motion: Callable[[], Motion], worlds: Worlds | None) -> Motion:
+        """How a motion changes in the next physics step of some worlds; nothing moves."""
+        before = motion()
         state, warnings = self._batch.state.copy(), self._batch.warning.copy()
         with self._forced():
             self._batch.step(ids=worlds)
         self._stale = True
-        after = self.link_motion(link, worlds)
+        after = motion()
         self._batch.state[:], self._batch.warning[:] = state, warnings
         self._stale = True
         rate = 1.0 / self.time_step

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.motion import Placement
+from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.mujoco.access import StateAccess
 from gazelle.engines.mujoco.link_table import MujocoLinkTable
 from gazelle.engines.mujoco.rays import nearest
@@ -27,6 +27,17 @@ class ManyLinks(StateAccess):
         if table.moving:
             self._refresh()
         return table.placement(self._batch, self._state, worlds)
+
+    def link_motions(self, links: Sequence[str]) -> Motion:
+        """How many links move at once, shape (nworld, links, 3)."""
+        table = self._table_of(links)
+        if table.moving:
+            self._refresh()
+        return table.motion(self._batch, self._state)
+
+    def link_accelerations(self, links: Sequence[str]) -> Motion:
+        """How that changes in the next physics step, which is made once for all."""
+        return self._change_in_step(lambda: self.link_motions(links), None)
 
     def cast_ranges_together(
         self, links: Sequence[str], origins: Floats, directions: Floats
