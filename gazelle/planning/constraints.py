@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -35,6 +36,20 @@ class JointConstraint:
 
     def violation(self, robot: RobotModel, state: Floats) -> str | None:
         """What is wrong with a state, shape (variables,); None if nothing is."""
+        position, way = self._way(robot, state)
+        if -self.below - _ROUNDING <= way <= self.above + _ROUNDING:
+            return None
+        return (
+            f"joint '{self.joint}' at {position:.4f} is not within "
+            f"[{self.position - self.below:.4f}, {self.position + self.above:.4f}]"
+        )
+
+    def distance(self, robot: RobotModel, state: Floats) -> float:
+        """How far the joint is from its position [m or rad], in a state, shape (variables,)."""
+        return abs(self._way(robot, state)[1])
+
+    def _way(self, robot: RobotModel, state: Floats) -> tuple[float, float]:
+        """Where the joint is, and how far above its position."""
         column = robot.column(self.joint)
         # What is written in the column of a joint that follows another does not count.
         follows = robot.variables[column].mimics
@@ -42,12 +57,7 @@ class JointConstraint:
         way = position - self.position
         if robot.variables[column].endless:
             way = math.remainder(way, 2.0 * math.pi)
-        if -self.below - _ROUNDING <= way <= self.above + _ROUNDING:
-            return None
-        return (
-            f"joint '{self.joint}' at {position:.4f} is not within "
-            f"[{self.position - self.below:.4f}, {self.position + self.above:.4f}]"
-        )
+        return position, way
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,17 +69,37 @@ class PositionConstraint:
         region: A box, sphere or cylinder.
         pose: Of the region, in the robot's frame.
         point: In the link's frame [m].
+        others: More parts of the region, with their poses; the point may be in any of them.
     """
 
     link: str
     region: Region
     pose: Pose
     point: Vector3 = (0.0, 0.0, 0.0)
+    others: tuple[tuple[Region, Pose], ...] = ()
+
+    @property
+    def parts(self) -> tuple[PositionConstraint, ...]:
+        """A constraint for each part of the region, any of which will do."""
+        alone = replace(self, others=())
+        return (alone, *(replace(alone, region=part, pose=pose) for part, pose in self.others))
+
+    def distance(self, robot: RobotModel, state: Floats) -> float:
+        """How far the point is from the middle of the region [m], in a state, shape (variables,).
+
+        Of several parts it is the first that the point is in, else the last, as in MoveIt.
+        """
+        point = robot.pose(state, self.link).apply(self.point)
+        places = ((self.region, self.pose), *self.others)
+        inside = [pose for part, pose in places if _away(part, pose, point) <= _ROUNDING]
+        middle = (inside[0] if inside else places[-1][1]).position
+        return math.dist(middle, point)
 
     def violation(self, robot: RobotModel, state: Floats) -> str | None:
         """What is wrong with a state, shape (variables,); None if nothing is."""
         point = robot.pose(state, self.link).apply(self.point)
-        away = _outside(self.region, self.pose.inverse().apply(point))
+        places = ((self.region, self.pose), *self.others)
+        away = min(_away(part, pose, point) for part, pose in places)
         if away <= _ROUNDING:
             return None
         return f"link '{self.link}' is {away:.4f} m outside of its region"
@@ -94,9 +124,7 @@ class OrientationConstraint:
 
     def violation(self, robot: RobotModel, state: Floats) -> str | None:
         """What is wrong with a state, shape (variables,); None if nothing is."""
-        wanted = self.orientation.matrix()[:3, :3]
-        turn = wanted.T @ robot.forward(state, self.link)[:3, :3]
-        angles = _euler(turn) if self.measure == "euler" else rotation_vector(turn)
+        angles = self._angles(robot, state)
         for axis, angle, limit in zip("xyz", angles, self.tolerances, strict=True):
             if abs(angle) > limit + _ROUNDING:
                 return (
@@ -104,6 +132,15 @@ class OrientationConstraint:
                     f"more than {limit:.4f}"
                 )
         return None
+
+    def distance(self, robot: RobotModel, state: Floats) -> float:
+        """The sum of the angles by which the link is turned away [rad], in a state, shape (variables,)."""
+        return float(sum(map(abs, self._angles(robot, state))))
+
+    def _angles(self, robot: RobotModel, state: Floats) -> tuple[float, float, float]:
+        wanted = self.orientation.matrix()[:3, :3]
+        turn = wanted.T @ robot.forward(state, self.link)[:3, :3]
+        return _euler(turn) if self.measure == "euler" else rotation_vector(turn)
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,17 +176,30 @@ class ConstraintSet:
             if min(orientation.tolerances) < 0.0:
                 raise PlanningError(f"a tolerance of link '{orientation.link}' is below zero")
 
+    @property
+    def all(self) -> tuple[JointConstraint | PositionConstraint | OrientationConstraint, ...]:
+        """Of joints, then of points, then of links."""
+        return (*self.joints, *self.positions, *self.orientations)
+
     def violations(self, robot: RobotModel, state: Floats) -> list[str]:
         """What is wrong with a state, shape (variables,), a text each."""
-        parts: list[JointConstraint | PositionConstraint | OrientationConstraint] = []
-        parts += [*self.joints, *self.positions, *self.orientations]
-        return [text for part in parts if (text := part.violation(robot, state)) is not None]
+        return [text for part in self.all if (text := part.violation(robot, state)) is not None]
+
+    def alternatives(self) -> Iterator[ConstraintSet]:
+        """Constraints whose regions have one part each; what fulfils any of these fulfils all of this."""
+        for positions in itertools.product(*(each.parts for each in self.positions)):
+            yield replace(self, positions=positions)
 
     def __bool__(self) -> bool:
         return bool(self.joints or self.positions or self.orientations)
 
 
 _ROUNDING = 1e-9
+
+
+def _away(region: Region, pose: Pose, point: Vector3) -> float:
+    """How far a point is outside of a region at a pose [m]."""
+    return _outside(region, pose.inverse().apply(point))
 
 
 def _outside(region: Region, point: Sequence[float]) -> float:

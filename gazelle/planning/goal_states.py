@@ -27,6 +27,8 @@ _WANTED = 4
 """How many positions are looked for; planners go to the one that is found first."""
 _DRAWN = 10
 """Places within the tolerances of a goal that are tried."""
+_ALTERNATIVES = 100
+"""Parts of regions that are tried, one after the other."""
 
 
 class GoalStates:
@@ -85,10 +87,16 @@ class GoalStates:
         links |= {each.link for each in goal.orientations}
         if not links:
             return self._of_joints(goal)
-        if len(links) > 1:
-            return self._of_links(goal, sorted(links))
-        poses, aim = self._poses(goal)
-        return self._of_pose(next(iter(links)), aim, poses, goal)
+        failure: NoPlanError | None = None
+        for each in itertools.islice(goal.alternatives(), _ALTERNATIVES):
+            try:
+                if len(links) > 1:
+                    return self._of_links(each, sorted(links))
+                poses, aim = self._poses(each)
+                return self._of_pose(next(iter(links)), aim, poses, each)
+            except NoPlanError as error:
+                failure = failure or error
+        raise failure or NoPlanError("the goal says nothing", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
 
     def _poses(self, goal: ConstraintSet) -> tuple[list[Pose], Aim]:
         """Poses that fulfil constraints of one link, and what of them counts."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
@@ -97,6 +99,7 @@ class InverseKinematics:
         state: ArrayLike | None = None,
         *,
         valid: Callable[[Floats], bool] | None = None,
+        timeout: float = math.inf,
     ) -> Floats | None:
         """Positions of the group's joints for one pose.
 
@@ -105,12 +108,13 @@ class InverseKinematics:
             state: Of all variables: where it begins, and where other joints are; the zero state if
                 None. Shape (variables,).
             valid: Asked of each solution, shape (joints,); what it refuses is looked for further.
+            timeout: After so long nothing that was refused is looked for further [s].
 
         Returns:
             Shape (joints,); None if there is none.
         """
         full = self.robot.zero() if state is None else np.array(state, np.float64)
-        return self._solve_one(np.array(flat(pose)), full, valid)[0]
+        return self._solve_one(np.array(flat(pose)), full, valid, timeout)[0]
 
     def solve_many(self, poses: ArrayLike, states: ArrayLike | None = None) -> IkSolutions:
         """Positions for many poses, each by itself.
@@ -169,13 +173,17 @@ class InverseKinematics:
         return targets, np.broadcast_to(given, shape)
 
     def _solve_one(
-        self, target: Floats, state: Floats, valid: Callable[[Floats], bool] | None
+        self,
+        target: Floats,
+        state: Floats,
+        valid: Callable[[Floats], bool] | None,
+        timeout: float = math.inf,
     ) -> tuple[Floats | None, int]:
         """Positions and how often it began; ``state`` is written into."""
         columns = self.group.columns
         seed = np.clip(state[columns], self.group.lower, self.group.upper)
         starts = np.concatenate((seed[None], self._starts[1:]))
-        tried = 0
+        tried, end = 0, time.monotonic() + timeout
         while tried < len(starts):
             index = self._solver.solve(
                 target, starts[tried:], state, self._weights, self._tolerance
@@ -186,4 +194,6 @@ class InverseKinematics:
             found = seed + self.group.difference(seed, state[columns])
             if valid is None or valid(found):
                 return found, tried
-        return None, len(starts)
+            if time.monotonic() > end:
+                break
+        return None, tried

@@ -28,6 +28,7 @@ class StateValidity:
         state: Of all variables, shape (variables,).
         constraints: That hold in every state.
         segment: Distance of the states that are checked on a way, as a fraction of the extent.
+        collisions: Whether what touches counts.
 
     Attributes:
         resolution: That distance, as ``JointModelGroup.distance`` measures it.
@@ -41,6 +42,8 @@ class StateValidity:
         state: Floats,
         constraints: ConstraintSet | None = None,
         segment: float = LONGEST_SEGMENT,
+        *,
+        collisions: bool = True,
     ) -> None:
         self.scene, self.group = scene, group
         self.constraints = constraints or ConstraintSet()
@@ -48,7 +51,7 @@ class StateValidity:
         self.checks = 0
         self._state = np.array(state, np.float64)
         self._columns = group.columns
-        self._touches = scene.collision_check(group)
+        self._touches = scene.collision_check(group) if collisions else _nothing
         self._low, self._high = group.lower - 1e-9, group.upper + 1e-9
 
     def full(self, positions: Floats) -> Floats:
@@ -92,6 +95,10 @@ class StateValidity:
         return self(points[0]) and all(
             self.way(first, second, resolution) for first, second in pairwise(points)
         )
+
+
+def _nothing(_state: Floats) -> bool:
+    return False
 
 
 def extent_of(group: JointModelGroup) -> float:

@@ -33,6 +33,12 @@ _AXES = ("0 0 1", "0 1 0", "1 0 0", "0 1 0", "0 0 1", "1 0 0")
 
 def two_arms(apart=0.6, *, waist=False):
     """Two arms of six joints beside each other, each with a finger that follows its last joint."""
+    urdf, srdf = two_arms_text(apart, waist=waist)
+    return RobotModel(load_model_string(urdf), load_srdf_string(srdf))
+
+
+def two_arms_text(apart=0.6, *, waist=False):
+    """URDF and SRDF of these."""
     parts, base = ['<robot name="twins">', _LINK.format("base")], "base"
     if waist:
         parts += [_LINK.format("torso"), _JOINT.format("waist", base, "torso", "0 0 0.1", "0 0 1", "revolute", "")]  # fmt: skip
@@ -53,7 +59,7 @@ def two_arms(apart=0.6, *, waist=False):
     both = '<group name="both"><group name="left"/><group name="right"/>{}</group>'
     extra = '<joint name="waist"/>' if waist else ""
     srdf = f'<robot name="twins">{"".join(groups)}{both.format(extra)}</robot>'
-    return RobotModel(load_model_string("".join([*parts, "</robot>"])), load_srdf_string(srdf))
+    return "".join([*parts, "</robot>"]), srdf
 
 
 def posed(robot, seed):

@@ -20,6 +20,7 @@ from gazelle.planning.constraints import Region
 
 _BOX, _SPHERE, _CYLINDER = 1, 2, 3
 _ROTATION_VECTOR = 1
+_NO_WEIGHT = 2.3e-16
 
 
 def constraints_of_message(message: Any, frames: PlanningFrames, state: Floats) -> ConstraintSet:
@@ -48,18 +49,21 @@ def constraints_of_message(message: Any, frames: PlanningFrames, state: Floats) 
 
 def _position(message: Any, frames: PlanningFrames, state: Floats) -> PositionConstraint:
     region = message.constraint_region
-    if region.meshes or len(region.primitives) != 1 or len(region.primitive_poses) != 1:
+    count = len(region.primitives)
+    if region.meshes or not count or len(region.primitive_poses) != count:
         _refuse(
-            f"the region for link '{message.link_name}' is {len(region.primitives)} shapes at "
-            f"{len(region.primitive_poses)} poses and {len(region.meshes)} meshes, not one shape"
+            f"the region for link '{message.link_name}' is {count} shapes at "
+            f"{len(region.primitive_poses)} poses and {len(region.meshes)} meshes; it must be shapes "
+            "at as many poses"
         )
     base = frames.find(message.header.frame_id, state)
-    return PositionConstraint(
-        message.link_name,
-        _region(region.primitives[0]),
-        base * pose_of_message(region.primitive_poses[0]),
-        point(message.target_point_offset),
-    )
+    parts = [
+        (_region(shape), base * pose_of_message(pose))
+        for shape, pose in zip(region.primitives, region.primitive_poses, strict=True)
+    ]
+    (shape, pose), *others = parts
+    offset = point(message.target_point_offset)
+    return PositionConstraint(message.link_name, shape, pose, offset, tuple(others))
 
 
 def _region(primitive: Any) -> Region:
@@ -89,6 +93,17 @@ def _orientation(message: Any, frames: PlanningFrames, state: Floats) -> Orienta
     return OrientationConstraint(
         message.link_name, turned, tolerances, "rotation vector" if by_vector else "euler"
     )
+
+
+def weights_of_message(message: Any) -> list[float]:
+    """Weights of a ``Constraints``, in the order of a ``ConstraintSet``; 1 where it says none, as in MoveIt."""
+    parts = (
+        message.joint_constraints,
+        message.position_constraints,
+        message.orientation_constraints,
+    )
+    weights = [float(each.weight) for kind in parts for each in kind]
+    return [weight if weight > _NO_WEIGHT else 1.0 for weight in weights]
 
 
 def _refuse(text: str) -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 from gazelle.array_types import Floats
 from gazelle.bridges.conversions import set_point
+from gazelle.bridges.moveit.constraint_messages import weights_of_message
 from gazelle.bridges.moveit.frames import stamped_message
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.robot_states import state_message
@@ -18,12 +20,16 @@ from gazelle.planning import (
     NoPlanError,
     PlanOutcome,
     SceneContact,
+    goal_of_pose,
 )
+from gazelle.planning.goal_states import GoalStates
 from gazelle.planning.state_validity import StateValidity
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.time import Time
 
 _LINK, _OBJECT, _ATTACHED = 0, 1, 2
+_EXACT = (1e-5, 1e-5)
+"""How near several links come to their poses at once [m, rad]; one alone comes as near."""
 
 
 class KinematicsServices:
@@ -56,19 +62,62 @@ class KinematicsServices:
         asked, context = request.ik_request, self._context
         group = context.group(asked.group_name)
         state = context.state(asked.robot_state)
-        link, stamped = _target(asked)
-        pose = context.frames.pose(stamped, state)
         constraints = context.constraints(asked.constraints, state)
+        targets = _targets(asked)
+        if len(targets) > 1:
+            found = self._together(asked, group, state, constraints, targets)
+        else:
+            found = self._alone(asked, group, state, constraints, *targets[0])
+        state[group.columns] = found
+        response.solution = state_message(context.robot, context.robot.complete(state))
+
+    def _alone(
+        self,
+        asked: Any,
+        group: JointModelGroup,
+        state: Floats,
+        constraints: ConstraintSet,
+        link: str | None,
+        stamped: Any,
+    ) -> Floats:
+        """Positions of a group that bring one link to its pose."""
+        pose = self._context.frames.pose(stamped, state)
         solver = self._solver(group, link)
         valid = self._judge(group, state, constraints, avoid=asked.avoid_collisions)
-        found = solver.solve(pose, state, valid=valid)
+        found = solver.solve(pose, state, valid=valid, timeout=asked.timeout.to_sec() or math.inf)
         if found is None:
             raise NoPlanError(
                 f"no positions of '{group.name}' bring '{solver.link}' there",
                 PlanOutcome.NO_IK_SOLUTION,
             )
-        state[group.columns] = found
-        response.solution = state_message(context.robot, context.robot.complete(state))
+        return found
+
+    def _together(
+        self,
+        asked: Any,
+        group: JointModelGroup,
+        state: Floats,
+        constraints: ConstraintSet,
+        targets: list[tuple[str | None, Any]],
+    ) -> Floats:
+        """Positions of a group that bring several links to their poses, each by joints of its own."""
+        context = self._context
+        parts = [
+            goal_of_pose(link or group.tip, context.frames.pose(stamped, state), *_EXACT)
+            for link, stamped in targets
+        ]
+        goal = ConstraintSet(
+            positions=tuple(each for part in parts for each in part.positions),
+            orientations=tuple(each for part in parts for each in part.orientations),
+        )
+        validity = StateValidity(
+            context.scene, group, state, constraints, collisions=asked.avoid_collisions
+        )
+        try:
+            found: Floats = GoalStates(validity, state[group.columns]).find(goal)[0]
+        except PlanningError as error:  # whatever it is, MoveIt has one word for it
+            raise NoPlanError(error.message, PlanOutcome.NO_IK_SOLUTION, error.hint) from None
+        return found
 
     def _solver(self, group: JointModelGroup, link: str | None) -> InverseKinematics:
         try:
@@ -126,9 +175,12 @@ class KinematicsServices:
         contacts = context.scene.contacts(state, group)
         response.contacts = [self._contact(each) for each in contacts]
         made = load_message("moveit_msgs/ConstraintEvalResult")
-        for part in _parts(constraints):
-            kept = not part.violations(context.robot, state)
-            response.constraint_result.append(made(result=kept))
+        for part, weight in zip(
+            constraints.all, weights_of_message(request.constraints), strict=True
+        ):
+            kept = part.violation(context.robot, state) is None
+            away = weight * part.distance(context.robot, state)
+            response.constraint_result.append(made(result=kept, distance=away))
         response.valid = not contacts and all(each.result for each in response.constraint_result)
 
     def _contact(self, contact: SceneContact) -> Any:
@@ -149,29 +201,20 @@ class KinematicsServices:
         return _ATTACHED if name in self._context.scene.attached else _OBJECT
 
 
-def _parts(constraints: ConstraintSet) -> list[ConstraintSet]:
-    """Each constraint by itself."""
-    return [
-        *(ConstraintSet(joints=(each,)) for each in constraints.joints),
-        *(ConstraintSet(positions=(each,)) for each in constraints.positions),
-        *(ConstraintSet(orientations=(each,)) for each in constraints.orientations),
-    ]
-
-
-def _target(asked: Any) -> tuple[str | None, Any]:
-    """The link and pose that a request is about.
+def _targets(asked: Any) -> list[tuple[str | None, Any]]:
+    """The links and poses that a request is about.
 
     Raises:
-        NoPlanError: There are several.
+        NoPlanError: There are more of the ones than of the others.
     """
     if not asked.pose_stamped_vector:
-        return asked.ik_link_name or None, asked.pose_stamped
+        return [(asked.ik_link_name or None, asked.pose_stamped)]
     names = asked.ik_link_names or [asked.ik_link_name]
     if len(names) != len(asked.pose_stamped_vector):
         raise NoPlanError(
             f"{len(names)} links have {len(asked.pose_stamped_vector)} poses",
             PlanOutcome.INVALID_LINK_NAME,
         )
-    if len(names) > 1:
-        raise NoPlanError("several links at once are not solved for", PlanOutcome.NO_IK_SOLUTION)
-    return names[0] or None, asked.pose_stamped_vector[0]
+    return [
+        (name or None, pose) for name, pose in zip(names, asked.pose_stamped_vector, strict=True)
+    ]

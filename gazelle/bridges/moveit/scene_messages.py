@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from gazelle.bridges.moveit.object_messages import object_message
@@ -10,16 +11,17 @@ from gazelle.bridges.moveit.robot_states import state_message
 from gazelle.planning import OCTOMAP, AllowedCollisionMatrix, PlanningScene
 from gazelle.ros.messages import load_message
 
-STATE, ATTACHED, NAMES, GEOMETRY, MAP, ALLOWED, PADDING = 2, 4, 8, 16, 32, 128, 256
+STATE, ATTACHED, NAMES, GEOMETRY, MAP, ALLOWED, PADDING, COLORS = 2, 4, 8, 16, 32, 128, 256, 512
 """Of ``moveit_msgs/PlanningSceneComponents``."""
 
 
-def scene_message(scene: PlanningScene, parts: int) -> Any:
+def scene_message(scene: PlanningScene, parts: int, colors: Mapping[str, Any]) -> Any:
     """A scene.
 
     Args:
         scene: The scene; its state is where the robot is.
         parts: Which of it: a sum of the components' numbers.
+        colors: ``std_msgs/ColorRGBA`` by object or link.
     """
     message: Any = load_message("moveit_msgs/PlanningScene")()
     message.robot_model_name = scene.robot.model.name
@@ -59,6 +61,9 @@ def scene_message(scene: PlanningScene, parts: int) -> Any:
         message.link_scale = [
             scale(link_name=link, scale=scene.scale.get(link, 1.0)) for link in links
         ]
+    if parts & COLORS:
+        color = load_message("moveit_msgs/ObjectColor")
+        message.object_colors = [color(id=name, color=value) for name, value in colors.items()]
     return message
 
 

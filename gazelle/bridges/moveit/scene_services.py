@@ -29,6 +29,7 @@ class SceneServices:
 
     def __init__(self, context: PlanningContext) -> None:
         self._context, self._scene = context, context.scene
+        self._colors: dict[str, Any] = {}
         node = context.node
         whole = load_message("moveit_msgs/PlanningScene")
         self._shown = node.advertise("~monitored_planning_scene", whole, queue_size=100, latch=True)
@@ -60,7 +61,10 @@ class SceneServices:
     def _get(self, request: Any) -> dict[str, Any]:
         with self._context.lock:
             self._context.current()
-            return {"scene": scene_message(self._scene, request.components.components or _ALL)}
+            return {"scene": self._message(request.components.components or _ALL)}
+
+    def _message(self, parts: int) -> Any:
+        return scene_message(self._scene, parts, self._colors)
 
     def _clear_octomap(self, _request: Any) -> dict[str, Any]:
         self.change(self._forget_octomap)
@@ -71,7 +75,7 @@ class SceneServices:
         with self._context.lock:
             self._context.current()
             done = act()
-            self._shown.publish(scene_message(self._scene, _ALL))
+            self._shown.publish(self._message(_ALL))
         return done
 
     def _try(self, act: Callable[[], object]) -> bool:
@@ -96,6 +100,7 @@ class SceneServices:
         if not _says_something(message):
             yield  # all that is compiled stays
             return
+        colors = dict(self._colors)
         objects, attached, allowed = dict(scene.objects), dict(scene.attached), scene.allowed
         links = scene.robot.links
         padding = {link: scene.padding.get(link, 0.0) for link in links}
@@ -108,6 +113,7 @@ class SceneServices:
                 )
             yield
         finally:
+            self._colors = colors
             scene.objects, scene.attached = objects, attached
             scene.set_padding(padding)
             scene.set_scale(scale)
@@ -118,6 +124,7 @@ class SceneServices:
         scene = self._scene
         if not message.is_diff:
             scene.clear()
+            self._colors = {}
             for name in [*scene.attached]:
                 scene.drop(name)
         return self._merge(message)
@@ -135,6 +142,7 @@ class SceneServices:
         done &= self._try(lambda: scene.set_scale(scale))
         # What is held may be taken from what stands there, so things are put there before.
         done &= self._place(message.world)
+        self._colors |= {each.id: each.color for each in message.object_colors}
         for each in message.robot_state.attached_collision_objects:
             done &= self._hold(each)
         return done
@@ -190,6 +198,7 @@ class SceneServices:
         for name in [message.id] if message.id else [*self._scene.objects]:
             if name != OCTOMAP:
                 self._scene.remove(name)
+                self._colors.pop(name, None)
 
     def _append(self, message: Any) -> None:
         if message.id not in self._scene.objects:

@@ -269,3 +269,28 @@ def test_parts_are_those_that_are_asked_for(fetch):
     assert apply(fetch, link_padding=[padding])
     found = {each.link_name: each.padding for each in shown(fetch, 256).link_padding}
     assert found[TIP] == pytest.approx(0.05)
+
+
+def colors(client):
+    found = shown(client, 512).object_colors
+    return {each.id: (each.color.r, each.color.g, each.color.b, each.color.a) for each in found}
+
+
+def test_colours_are_kept_and_told(fetch):
+    made = message("ObjectColor", id="box")
+    made.color.r, made.color.a = 0.5, 1.0
+    assert apply(fetch, box(), box("other"), object_colors=[made])
+    assert colors(fetch) == {"box": (0.5, 0.0, 0.0, 1.0)}
+    made.color.g = 0.25
+    assert apply(fetch, object_colors=[made])
+    assert colors(fetch) == {"box": (0.5, 0.25, 0.0, 1.0)}
+    assert not shown(fetch, 8).object_colors
+    assert apply(fetch, box("other", operation=REMOVE))
+    assert {*colors(fetch)} == {"box"}
+    assert apply(fetch, box(operation=REMOVE))
+    assert colors(fetch) == {}
+    made.id = TIP
+    assert apply(fetch, object_colors=[made])
+    whole = message("PlanningScene", is_diff=False)
+    assert fetch.call("apply_planning_scene", "ApplyPlanningScene", scene=whole).success
+    assert colors(fetch) == {}

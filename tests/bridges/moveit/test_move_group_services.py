@@ -10,9 +10,10 @@ from bridges.moveit.moveit_graph import message, moveit_graph
 from gazelle.bridges.moveit.frames import pose_message, pose_of_message, stamped_message
 from gazelle.description import Box, Pose
 from gazelle.errors import PlanningError, PlanningWarning
-from gazelle.planning import PlanOutcome
+from gazelle.planning import InverseKinematics, PlanOutcome
 from gazelle.ros import Master, Node, load_message, load_service
 from gazelle.ros.builtin.registry import main_of
+from gazelle.ros.time import Duration
 
 MESSAGES = {
     "MoveGroupActionGoal": "b7138704cefd43a8dd9758d697350b85",
@@ -185,6 +186,76 @@ def test_states_are_judged(fetch):
     assert {("post", 1), (TIP, 0)} <= touching
     assert all(each.depth > 0.0 for each in found.contacts)
     assert not judged(robot_state=robot_state(nose=1.0)).valid
+
+
+def test_constraints_have_distances(fetch):
+    """As MoveIt measures them: from the position, from the region's middle, angles added up; times the weight."""
+    here = tip_pose(fetch)
+    joint = message(
+        "JointConstraint",
+        joint_name="elbow_flex_joint",
+        position=1.0,
+        tolerance_above=0.3,
+        weight=0.5,
+    )
+    goal = pose_goal(here * Pose(0.03, 0.04, 0.0, yaw=0.2))
+    goal.joint_constraints = [joint]
+    found = fetch.call(
+        "check_state_validity", "GetStateValidity", group_name="arm", constraints=goal
+    )
+    assert [each.result for each in found.constraint_result] == [True, False, False]
+    distances = [each.distance for each in found.constraint_result]
+    assert distances == pytest.approx([0.5 * 0.2, 0.05, 0.2], abs=1e-6)
+
+
+def test_a_region_may_have_several_shapes(fetch):
+    """Any of them will do, for states and for goals."""
+    here, far = tip_pose(fetch), Pose(5.0)
+    goal = pose_goal(here)
+    region = goal.position_constraints[0].constraint_region
+    sphere, place = region.primitives[0], region.primitive_poses[0]
+    box = load_message("shape_msgs/SolidPrimitive")(type=1, dimensions=[0.2, 0.2, 0.2])
+    judged = []
+    for shapes, centres in (
+        ([box, sphere], [pose_message(far), place]),
+        ([sphere, box], [pose_message(far), pose_message(far)]),
+    ):
+        region.primitives, region.primitive_poses = shapes, centres
+        answer = fetch.call(
+            "check_state_validity", "GetStateValidity", group_name="arm", constraints=goal
+        )
+        judged.append(
+            (answer.constraint_result[0].result, round(answer.constraint_result[0].distance, 6))
+        )
+    assert judged[0] == (True, 0.0)
+    assert judged[1][0] is False
+    assert judged[1][1] == pytest.approx(math.dist(here.position, far.position), abs=1e-5)
+    there = here * Pose(0.0, 0.1, 0.0)
+    region.primitives = [sphere, sphere]
+    region.primitive_poses = [pose_message(far), pose_message(Pose(*there.position))]
+    goal.orientation_constraints = pose_goal(there).orientation_constraints
+    found = plan(fetch, goal)
+    assert found.error_code.val == PlanOutcome.SUCCESS
+    region.primitive_poses = [pose_message(far), pose_message(far)]
+    assert plan(fetch, goal).error_code.val == PlanOutcome.NO_IK_SOLUTION
+
+
+def test_inverse_kinematics_end_in_time(fetch):
+    """Where all solutions are refused, it gives up when the time is over."""
+    here = tip_pose(fetch)
+    with fetch.group.context.lock:
+        fetch.group.context.scene.add("post", Box((0.3, 0.3, 0.3)), here)
+    solver = InverseKinematics(fetch.group.context.robot, fetch.group.context.robot.group("arm"))
+    asked = []
+    state = fetch.group.context.monitor.current()
+    assert (
+        solver.solve(here, state, valid=lambda found: bool(asked.append(found)), timeout=0.0)
+        is None
+    )
+    assert len(asked) == 1
+    timeout = Duration(nsecs=1)
+    found = ik(fetch, here, avoid_collisions=True, timeout=timeout)
+    assert found.error_code.val == PlanOutcome.NO_IK_SOLUTION
 
 
 def joint_goal(**positions):
