@@ -1,7 +1,7 @@
 """A trained policy as a few numpy arrays: acts without torch, many times faster on small batches.
 
 Every algorithm's policy is one multi-layer perceptron with a head, behind convolutions if it looks at
-pictures:
+pictures and behind layers with a memory if it remembers (`PolicyMemory`):
 
 - ``categorical``: logits of discrete actions; draws from them, or takes the likeliest (PPO);
 - ``greedy``: values of discrete actions; takes the best (DQN);
@@ -21,8 +21,9 @@ import numpy as np
 import numpy.typing as npt
 
 from gazelle.array_types import Floats32
-from gazelle.errors import FormatError
+from gazelle.errors import FormatError, TaskError
 from gazelle.training.features import Features
+from gazelle.training.memory_layers import MemoryLayers, PolicyMemory
 from gazelle.training.picture_layers import PictureLayers
 
 Head = Literal["categorical", "greedy", "gaussian", "squashed"]
@@ -30,6 +31,7 @@ Head = Literal["categorical", "greedy", "gaussian", "squashed"]
 _FORMAT = "gazelle-policy-1"
 _FEATURES = ("angles", "magnitudes", "spans")
 _PICTURE = "picture"
+_MEMORY = ("memory_inputs", "memory_hidden", "memory_bias")
 _OPTIONAL = ("log_std", "low", "high", "limits")
 
 
@@ -49,6 +51,7 @@ class Actor:
         limits: Where observations are cut first, least and greatest, shape (2, inputs), if they are.
         features: What is added to observations before the first layer, if anything.
         pictures: What makes pictures numbers for the first layer, of a policy that sees.
+        memory: What is before the first layer in a policy that remembers.
     """
 
     weights: tuple[Floats32, ...]
@@ -62,6 +65,7 @@ class Actor:
     limits: Floats32 | None = None
     features: Features | None = None
     pictures: PictureLayers | None = None
+    memory: MemoryLayers | None = None
 
     @property
     def inputs(self) -> int:
@@ -69,7 +73,8 @@ class Actor:
         if self.pictures is not None:
             return self.pictures.inputs
         added = 0 if self.features is None else self.features.count
-        return len(self.weights[0]) - added
+        first = self.weights[0] if self.memory is None else self.memory.inputs[0]
+        return len(first) - added
 
     @property
     def discrete(self) -> bool:
@@ -85,14 +90,22 @@ class Actor:
         """
         return _present(self.low), _present(self.high)
 
-    def outputs(self, obs: Floats32) -> Floats32:
+    def begin(self, copies: int) -> PolicyMemory | None:
+        """What it remembers of so many episodes that begin; None for a policy without a memory."""
+        return None if self.memory is None else self.memory.empty(copies)
+
+    def outputs(self, obs: Floats32, memory: PolicyMemory | None = None) -> Floats32:
         """The last layer's outputs.
 
         Args:
             obs: Observations, shape (N, inputs), float32.
+            memory: What a policy with a memory remembers, which changes; see `begin`.
 
         Returns:
             Shape (N, outputs), float32.
+
+        Raises:
+            TaskError: The policy has a memory and is given none.
         """
         if self.limits is not None:
             obs = np.clip(obs, *self.limits)
@@ -100,6 +113,11 @@ class Actor:
             x = self.pictures.features(obs)
         else:
             x = obs if self.features is None else self.features.added_to(obs)
+        if self.memory is not None:
+            if memory is None:
+                hint = "give it the memory that Actor.begin(copies) makes"
+                raise TaskError("this policy acts by what it remembers", hint=hint)
+            x = self.memory.outputs(x, memory)
         for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
             x = x @ weight
             x += bias
@@ -110,18 +128,24 @@ class Actor:
         result: Floats32 = x @ self.weights[-1] + self.biases[-1]
         return result
 
-    def act(self, obs: Floats32, rng: np.random.Generator | None = None) -> npt.NDArray[Any]:
+    def act(
+        self,
+        obs: Floats32,
+        rng: np.random.Generator | None = None,
+        memory: PolicyMemory | None = None,
+    ) -> npt.NDArray[Any]:
         """Actions for the environment.
 
         Args:
             obs: Observations, shape (N, ...).
             rng: Draws from the policy's distribution; without it the likeliest action is taken.
+            memory: As `outputs` takes it.
 
         Returns:
             Shape (N,) int64 for discrete actions, else (N, actions) float32 within the bounds.
         """
         given = np.asarray(obs, dtype=None if self.pictures is not None else np.float32)
-        outputs = self.outputs(given.reshape(len(obs), -1))
+        outputs = self.outputs(given.reshape(len(obs), -1), memory)
         if rng is None or self.head in {"greedy", "squashed"}:
             return self.to_env(self.mode(outputs))
         return self.to_env(self.sample(outputs, rng))
@@ -197,6 +221,8 @@ class Actor:
             arrays |= {name: getattr(self.features, name) for name in _FEATURES}
         if self.pictures is not None:
             arrays |= _picture_arrays(self.pictures)
+        if self.memory is not None:
+            arrays |= _memory_arrays(self.memory)
         about = {
             "format": _FORMAT,
             "layers": len(self.weights),
@@ -223,6 +249,8 @@ def load_actor(path: Path) -> Actor:
                 extra["features"] = Features(*(file[name] for name in _FEATURES))
             if _PICTURE in file:
                 extra["pictures"] = _picture_layers(file)
+            if f"{_MEMORY[0]}0" in file:
+                extra["memory"] = _memory_layers(file)
             return Actor(
                 weights=tuple(file[f"weight{i}"] for i in layers),
                 biases=tuple(file[f"bias{i}"] for i in layers),
@@ -255,6 +283,22 @@ def _picture_layers(file: Any) -> PictureLayers:
         tuple(file[f"convolution{number}"] for number in numbers),
         tuple(file[f"convolution_bias{number}"] for number in numbers),
     )
+
+
+def _memory_arrays(memory: MemoryLayers) -> dict[str, npt.NDArray[Any]]:
+    """Layers with a memory as arrays by name."""
+    parts = (memory.inputs, memory.hidden, memory.biases)
+    return {
+        f"{name}{number}": array
+        for name, part in zip(_MEMORY, parts, strict=True)
+        for number, array in enumerate(part)
+    }
+
+
+def _memory_layers(file: Any) -> MemoryLayers:
+    """What `_memory_arrays` gave."""
+    numbers = range(sum(name.startswith(_MEMORY[0]) for name in file))
+    return MemoryLayers(*(tuple(file[f"{name}{i}"] for i in numbers) for name in _MEMORY))
 
 
 def _read_about(text: str) -> dict[str, Any]:

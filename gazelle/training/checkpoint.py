@@ -13,7 +13,6 @@ without the break, as long as the environment can save its state.
 
 from __future__ import annotations
 
-import contextlib
 import pickle
 import random
 import warnings
@@ -25,7 +24,7 @@ import torch
 
 from gazelle.errors import FormatError, SimulationWarning
 from gazelle.training import portable
-from gazelle.training.export import NoActorError, export_actor
+from gazelle.training.export import export_actor
 from gazelle.training.learners import Learner
 
 _COUNTERS = (
@@ -50,8 +49,7 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
         extra: More to remember; see `portable.pack` for what it may hold.
     """
     torch.save(_torch_state(learner), folder / "learner.pt")
-    with contextlib.suppress(NoActorError):
-        export_actor(learner.policy).save(folder / "policy.npz")
+    export_actor(learner.policy).save(folder / "policy.npz")
     state: dict[str, Any] = {
         "counters": {name: getattr(learner, name) for name in _COUNTERS if hasattr(learner, name)},
         "generators": _generators(learner),

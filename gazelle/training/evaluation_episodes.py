@@ -154,9 +154,12 @@ def _play(actor: Actor, stepper: Stepper, ledger: Ledger, seed: int) -> int:
     trail = Trail(stepper.num_envs)
     trail.follow(obs, ~stepper.waiting)
     steps = 0
+    memory = actor.begin(stepper.num_envs)
     while ledger.left.any():
-        step = stepper.step(actor.act(obs))
+        step = stepper.step(actor.act(obs, memory=memory))
         steps += 1
+        if memory is not None:
+            memory.forget(step.begun)
         obs = step.obs
         if step.ended is not None and step.final_obs is not None:
             ledger.add(step.ended, trail.end(step.ended, step.final_obs))

@@ -12,11 +12,8 @@ from torch import nn
 from gazelle.array_types import Floats32
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor, Head
+from gazelle.training.memory_layers import MemoryLayers
 from gazelle.training.picture_features import PictureFeatures
-
-
-class NoActorError(TaskError):
-    """A policy cannot be copied into numpy arrays, so only its training shows how good it is."""
 
 
 def export_actor(policy: Any) -> Actor:
@@ -26,7 +23,8 @@ def export_actor(policy: Any) -> Actor:
 
     Args:
         policy: The ``policy`` of a Stable-Baselines3 PPO, DQN, SAC, TD3 or DDPG
-            with the features extractor `ScaledObservations` or `PictureFeatures`.
+            with the features extractor `ScaledObservations` or `PictureFeatures`, or of
+            sb3-contrib's RecurrentPPO.
 
     Raises:
         TaskError: The policy is not a multi-layer perceptron.
@@ -37,7 +35,15 @@ def export_actor(policy: Any) -> Actor:
     sees = isinstance(extractor, PictureFeatures)
     if hasattr(policy, "quantile_net"):
         _take_means(weights, biases, policy.quantile_net.n_quantiles)
-    if not sees:
+    memory = _memory(policy.lstm_actor) if hasattr(policy, "lstm_actor") else None
+    if memory is not None and not sees:
+        first, more = _unscaled(memory.inputs[0], extractor)
+        memory = MemoryLayers(
+            (first, *memory.inputs[1:]),
+            memory.hidden,
+            (memory.biases[0] + more, *memory.biases[1:]),
+        )
+    elif not sees:
         weights[0], more = _unscaled(weights[0], extractor)
         biases[0] = biases[0] + more
     relu = any(isinstance(module, nn.ReLU) for module in modules)
@@ -54,6 +60,7 @@ def export_actor(policy: Any) -> Actor:
         limits=_numpy(extractor.limits) if not sees and extractor.cuts else None,
         features=None if sees else extractor.features,
         pictures=extractor.exported() if sees else None,
+        memory=memory,
     )
 
 
@@ -78,8 +85,6 @@ def _unscaled(weight: Floats32, extractor: Any) -> tuple[Floats32, Floats32]:
 
 def _parts(policy: Any) -> tuple[Head, Any, list[nn.Module]]:
     """The head, the features extractor and the layers in order."""
-    if hasattr(policy, "lstm_actor"):
-        raise NoActorError("a policy with a memory cannot be copied into numpy arrays")
     if hasattr(policy, "mlp_extractor"):
         head: Head = "categorical"
         if isinstance(policy.action_space, gym.spaces.Box):
@@ -95,6 +100,19 @@ def _parts(policy: Any) -> tuple[Head, Any, list[nn.Module]]:
         layers = [*policy.actor.latent_pi, policy.actor.mu]
         return "squashed", policy.actor.features_extractor, layers
     return "squashed", policy.actor.features_extractor, list(policy.actor.mu)
+
+
+def _memory(lstm: nn.LSTM) -> MemoryLayers:
+    """The layers of a policy that remembers."""
+    numbers = range(lstm.num_layers)
+    return MemoryLayers(
+        tuple(_numpy(getattr(lstm, f"weight_ih_l{number}").T) for number in numbers),
+        tuple(_numpy(getattr(lstm, f"weight_hh_l{number}").T) for number in numbers),
+        tuple(
+            _numpy(getattr(lstm, f"bias_ih_l{number}") + getattr(lstm, f"bias_hh_l{number}"))
+            for number in numbers
+        ),
+    )
 
 
 def _linear_layers(modules: list[nn.Module]) -> tuple[list[Floats32], list[Floats32]]:

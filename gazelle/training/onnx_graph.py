@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from gazelle.errors import MissingExtraError
+from gazelle.errors import MissingExtraError, TaskError
 from gazelle.training.actor import Actor
 from gazelle.training.features import LEAST, MIDDLE, Features
 from gazelle.training.picture_layers import STRIDE, PictureLayers
@@ -42,7 +42,11 @@ def onnx_model(actor: Actor, *, metadata: dict[str, str] | None = None) -> onnx.
 
     Raises:
         MissingExtraError: The package ``onnx`` is not installed.
+        TaskError: The policy has a memory, which no graph of one step keeps.
     """
+    if actor.memory is not None:
+        hint = "--format numpy writes one that load_actor reads: give Actor.act its memory"
+        raise TaskError("a policy with a memory cannot be written as ONNX yet", hint=hint)
     graph = _Graph()
     name = "observation"
     if actor.limits is not None:

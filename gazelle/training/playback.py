@@ -52,10 +52,14 @@ class Playback(Closeable):
         self.period = control_period(self._env) or 0.1
         self._stepper = Stepper(self._env)
         self._obs = self._stepper.reset(seed=seed)
+        self._memory = self._actor.begin(1)
 
     def step(self) -> None:
         """Let the policy act once; a new episode begins where one is over."""
-        self._obs = self._stepper.step(self._actor.act(self._obs)).obs
+        step = self._stepper.step(self._actor.act(self._obs, memory=self._memory))
+        if self._memory is not None:
+            self._memory.forget(step.begun)
+        self._obs = step.obs
 
     def look(self) -> Picture:
         """What the environment draws now, shape (height, width, 3).

@@ -149,7 +149,7 @@ class Run:
             hint = "train with --eval-every N to have the best policy kept"
             raise FormatError("the run kept no best policy", file=str(self.folder), hint=hint)
         if not file.is_file():
-            hint = "it stopped before its first checkpoint, or its policy has a memory"
+            hint = "it stopped before its first checkpoint; train again"
             raise FormatError("the run has no policy", file=str(self.folder), hint=hint)
         return file
 

@@ -56,6 +56,15 @@ class TrainingStep:
     ended: Episodes | None
     """The ended episodes; None when no episode ended."""
 
+    @property
+    def begun(self) -> Bools:
+        """Where ``obs`` is not of the episode that the step was of, shape (N,).
+
+        A policy with a memory forgets there. In autoreset mode "next step" the last observation of an
+        episode is one of them, too, as nothing is done with it.
+        """
+        return self.terminated | self.truncated | ~self.valid
+
 
 class Stepper:
     """Steps a vector environment and keeps count of its episodes.

@@ -93,15 +93,6 @@ def test_their_policies_are_evaluated_as_the_library_predicts(tmp_path, algo, co
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)
 
 
-@pytest.mark.long
-def test_a_policy_with_a_memory_says_that_it_cannot_be_evaluated(tmp_path):
-    pytest.importorskip("sb3_contrib")
-    recipe = library("recurrent_ppo", {"n_steps": 16, "batch_size": 32, "n_epochs": 1})
-    result = train("test/Corridor-v0", recipe=recipe, out=tmp_path)
-    with pytest.raises(FormatError, match="memory"):
-        evaluate(result.run.folder)
-
-
 def test_wrong_algorithms_settings_and_actions_are_clear_errors(tmp_path):
     with pytest.raises(TaskError, match=r"no algorithm 'tcq'.*did you mean 'tqc'"):
         Recipe(algo="tcq")

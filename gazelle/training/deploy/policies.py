@@ -88,7 +88,7 @@ def open_policy(source: str | Path) -> Policy:
 
     Raises:
         FormatError: There is none, or it or its contract is damaged.
-        TaskError: Its actions are no velocities, or it is an ONNX file, and ONNX Runtime is not
+        TaskError: It has a memory, its actions are no velocities, or it is an ONNX file, and ONNX Runtime is not
             installed.
     """
     file, contract = load_policy(source)
@@ -105,6 +105,9 @@ def open_policy(source: str | Path) -> Policy:
 
 class _ArrayBrain:
     def __init__(self, actor: Actor) -> None:
+        if actor.memory is not None:
+            hint = "deploy one without, such as of --algo ppo; 'gazelle eval' runs this one"
+            raise TaskError("policies with a memory cannot drive robots yet", hint=hint)
         self._actor = actor
 
     def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:
