@@ -131,12 +131,22 @@ def _points(drive):
     return np.concatenate(pieces)
 
 
+def seen_hall():
+    """The map as a laser makes one: surfaces of walls are 100, what is inside them -1, shape (600, 600)."""
+    walls = hall()
+    ring = np.pad(walls, 1, constant_values=True)
+    inside = walls & ring[:-2, 1:-1] & ring[2:, 1:-1] & ring[1:-1, :-2] & ring[1:-1, 2:]
+    return np.where(inside, -1, np.where(walls, 100, 0)).astype(np.int8)
+
+
 def save_hall(folder, *names):
-    """Write the hall as the picture of a Stage world, and as maps of these names."""
+    """Write the hall as the picture of a Stage world, and what a laser sees of it as maps of these names."""
     picture = Image.fromarray(np.where(hall()[::-1], 0, 255).astype(np.uint8))
     picture.save(folder / "hall.png")
+    seen = seen_hall()[::-1]
+    seen = Image.fromarray(np.select([seen < 0, seen > 0], [205, 0], 254).astype(np.uint8))
     for name in names:
-        picture.save(folder / name)
+        seen.save(folder / name)
 
 
 def command(pose, target, yaw):

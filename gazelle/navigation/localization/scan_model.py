@@ -107,7 +107,10 @@ class ScanModel:
     def _field_for(self, most: float) -> LikelihoodField:
         """The field of terms for a greatest range, made once."""
         if self._field is None or self._field[0] != most:
-            squares = squared_distances((self._map.data == OCCUPIED).view(np.uint8))
+            marked = self._map.data == OCCUPIED
+            if self.settings.laser_surfaces_only:
+                marked = _surfaces(marked)
+            squares = squared_distances(marked.view(np.uint8))
             far = self.settings.laser_likelihood_max_dist
             away = np.minimum(np.sqrt(squares) * self._map.resolution, far)
             origin = self._map.origin.x, self._map.origin.y
@@ -140,6 +143,14 @@ class ScanModel:
         )
         beams = np.ascontiguousarray(np.stack((ranges, angles), axis=1))
         return model.scores(lasers, beams, most)
+
+
+def _surfaces(occupied: Bools) -> Bools:
+    """Those of the occupied cells that have a cell beside them that is not; off the map all are."""
+    ring = np.pad(occupied, 1, constant_values=True)
+    inside = ring[:-2, 1:-1] & ring[2:, 1:-1] & ring[1:-1, :-2] & ring[1:-1, 2:]
+    surfaces: Bools = occupied & ~inside
+    return surfaces
 
 
 def _ends(ranges: Floats, angles: Floats, laser: Pose2) -> Floats:
