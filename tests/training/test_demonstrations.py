@@ -10,7 +10,7 @@ import slider_task
 import torch
 
 from gazelle.errors import TaskError
-from gazelle.training import OffPolicySettings, Recipe, resume, train
+from gazelle.training import OffPolicySettings, Recipe, load_actor, resume, train
 from gazelle.training.demonstrations import find_demonstrator, with_demonstrator_found
 from gazelle.training.learners import _step_size, build_learner
 from gazelle.training.vecenv import VectorEnvAdapter
@@ -164,6 +164,29 @@ def test_a_run_knows_its_demonstrator_wherever_it_goes_on(shown, tmp_path, monke
     )
     assert homes == ()
     assert found.settings.demonstrator == "gazelle.envs.fetch.demonstrators:pick_and_place"
+
+
+@pytest.mark.slow
+def test_any_number_of_workers_is_shown_the_same(shown, tmp_path):
+    """Also if a run is broken off and goes on with another number of them."""
+
+    def weights(name, workers, *, imitation=5.0, stops=(640,)):
+        learner = dataclasses.replace(
+            recipe(f"{shown}:towards", imitation=imitation, learning_starts=320),
+            num_envs=16,
+            learning_rate_decay=False,
+        )
+        given = {"imports": [slider_task.__file__], "seed": 4, "out": tmp_path / name}
+        run = train("test/Slider-v0", recipe=learner, workers=workers, steps=stops[0], **given).run
+        for stop in stops[1:]:
+            run = resume(run.folder, steps=stop, workers=3 - workers).run
+        return load_actor(run.policy_file()).weights
+
+    one = weights("one", 1)
+    for other in (weights("two", 2), weights("broken", 2, stops=(480, 640))):
+        for left, right in zip(one, other, strict=True):
+            np.testing.assert_array_equal(left, right)
+    assert not np.array_equal(one[0], weights("plain", 2, imitation=0.0)[0])
 
 
 @pytest.mark.parametrize(

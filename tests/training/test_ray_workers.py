@@ -7,11 +7,13 @@ import os
 import signal
 from pathlib import Path
 
+import numpy as np
 import pytest
 from missing import skip_or_fail
 from test_workers import curves, trained
 
 from gazelle.errors import TaskError
+from gazelle.training import OffPolicySettings, Recipe, load_actor, train
 from gazelle.training.evaluation import evaluate
 from gazelle.training.progress import NoProgress
 from gazelle.training.workers.clusters import RayLink, connect
@@ -68,6 +70,24 @@ def test_a_cluster_gives_the_same_curve_as_processes_and_survives_a_death(tmp_pa
     killed = trained(tmp_path, tiny, 2, ray="auto", progress=KillAnActor(started, 256))
     assert curves(killed) == curves(here)
     assert len(started) == 3
+
+
+@pytest.mark.slow
+def test_actors_play_what_a_demonstrator_shows_as_processes_do(tmp_path):
+    shown = OffPolicySettings(
+        buffer_size=4000,
+        batch_size=64,
+        learning_starts=320,
+        demonstrator="gazelle.envs.fetch.demonstrators:push",
+        imitation=5.0,
+    )
+    recipe = Recipe(algo="ddpg", steps=480, num_envs=8, net_arch=(16,), settings=shown)
+    here = train("FetchPush", recipe=recipe, workers=1, out=tmp_path / "here")
+    there = train("FetchPush", recipe=recipe, workers=2, ray="auto", out=tmp_path / "there")
+    assert curves(there) == curves(here)
+    policies = [load_actor(each.run.policy_file()).weights for each in (here, there)]
+    for left, right in zip(*policies, strict=True):
+        np.testing.assert_array_equal(left, right)
 
 
 def test_an_error_of_the_task_is_told_as_it_is(tmp_path, tiny):

@@ -44,9 +44,10 @@ def envs():
         env.close()
 
 
+@pytest.mark.parametrize("reward", ["", "Dense"])
 @pytest.mark.parametrize("task", TASKS)
-def test_gymnasiums_checker_finds_nothing(task):
-    env = gym.make(f"gazelle/Fetch{task}Dense-v0")
+def test_gymnasiums_checker_finds_nothing(task, reward):
+    env = gym.make(f"gazelle/Fetch{task}{reward}-v0")
     check_env(env.unwrapped, skip_render_check=True)
     assert env.unwrapped.task.max_episode_steps is None or env.spec.max_episode_steps == 50
     env.close()
@@ -201,6 +202,34 @@ def test_rewards_are_the_published_ones(dense):
     assert reward == pytest.approx(float(told))
     assert info["is_success"] is False
     env.close()
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_dense_twins_pay_the_distance_in_every_world_and_differ_in_nothing_else(envs, task):
+    dense = gym.make_vec(
+        f"gazelle/Fetch{task}Dense-v0",
+        num_envs=64,
+        vectorization_mode="vector_entry_point",
+        threads=1,
+    )
+    sparse = envs[task]
+    for env in (dense, sparse):
+        env.reset(seed=6)
+    rng = np.random.default_rng(6)
+    for _ in range(5):
+        actions = rng.uniform(-1, 1, (64, 4))
+        obs, paid, *_ = dense.step(actions)
+        twin, told, *_ = sparse.step(actions)
+        for name, part in obs.items():
+            np.testing.assert_array_equal(part, twin[name])
+        apart = np.linalg.norm(obs["achieved_goal"] - obs["desired_goal"], axis=1)
+        np.testing.assert_allclose(paid, -apart, atol=1e-6)
+        np.testing.assert_array_equal(told, np.where(apart > 0.05, -1.0, 0.0))
+    # Any number of leading axes, as a replay memory asks.
+    goals = rng.uniform(-0.1, 0.1, (2, 7, 5, 3))
+    found = dense.unwrapped.compute_reward(goals[0], goals[1], {})
+    np.testing.assert_allclose(found, -np.linalg.norm(goals[0] - goals[1], axis=-1))
+    dense.close()
 
 
 def test_episodes_have_fifty_steps_and_a_world_does_the_same_among_others():
