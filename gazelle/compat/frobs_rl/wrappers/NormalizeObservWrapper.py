@@ -6,11 +6,10 @@ from typing import Any
 
 import gymnasium
 import numpy as np
-from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from gazelle.compat.frobs_rl.wrappers.modern import EitherInterface
-from gazelle.errors import TaskError
+from gazelle.compat.frobs_rl.wrappers.unit_boxes import UnitBox
 
 
 class NormalizeObservWrapper(EitherInterface, gymnasium.ObservationWrapper[Any, Any, Any]):
@@ -25,11 +24,9 @@ class NormalizeObservWrapper(EitherInterface, gymnasium.ObservationWrapper[Any, 
 
     def __init__(self, env: Any) -> None:
         super().__init__(env)
-        space = self.env.observation_space
-        if not isinstance(space, Box):
-            raise TaskError(f"this wants a box of observations, not {space}")
-        self.low, self.high = space.low, space.high
-        self.observation_space = Box(-1.0, 1.0, space.shape, np.float32)
+        self._box = UnitBox(self.env.observation_space, "observations")
+        self.low, self.high = self._box.low, self._box.high
+        self.observation_space = self._box.space
 
     def scale_observation(self, observation: Any) -> NDArray[Any]:
         """An observation, scaled.
@@ -40,8 +37,7 @@ class NormalizeObservWrapper(EitherInterface, gymnasium.ObservationWrapper[Any, 
         seen = np.asarray(observation)
         if seen.shape != self.low.shape:
             raise ValueError(f"an observation has the shape {self.low.shape}, not {seen.shape}")
-        scaled: NDArray[Any] = 2.0 * (seen - self.low) / (self.high - self.low) - 1.0
-        return scaled.astype(np.float32)
+        return self._box.shrunk(seen).astype(np.float32)
 
     def observation(self, observation: Any) -> NDArray[Any]:
         """The same."""

@@ -8,6 +8,7 @@ import numpy as np
 
 from gazelle.compat.gym.spaces import Discrete
 from gazelle.compat.openai_ros.robot_envs.wheeled_robot_env import WheeledRobotEnv
+from gazelle.compat.openai_ros.task_envs.geometry import samples, step_between, too_near
 from gazelle.ros.compat import rospy
 
 FORWARDS, TURN_LEFT, TURN_RIGHT = "FORWARDS", "TURN_LEFT", "TURN_RIGHT"
@@ -36,6 +37,27 @@ class SteeringTask(WheeledRobotEnv):
         self.cumulated_reward = 0.0
         self.cumulated_steps = 0.0
         self._episode_done = False
+
+    def _read_laser(self) -> None:
+        """Take what bounds ranges from the parameters [m]."""
+        self.min_range = float(self.parameter("min_range"))
+        self.max_laser_value = self.parameter("max_laser_value")
+        self.min_laser_value = self.parameter("min_laser_value")
+
+    def _metres_seen(self, scan: Any, count: int) -> list[float]:
+        """About so many ranges of a ``sensor_msgs/LaserScan``, cut to whole metres.
+
+        One below ``min_range`` ends the episode.
+        """
+        step = step_between(len(scan.ranges), count)
+        self._episode_done = too_near(scan.ranges, step, self.min_range)
+        return samples(
+            scan.ranges,
+            step,
+            nearest=self.min_laser_value,
+            farthest=self.max_laser_value,
+            convert=int,
+        )
 
     def parameter(self, name: str) -> Any:
         """A parameter of the task.

@@ -9,24 +9,15 @@ import numpy as np
 
 from gazelle.compat.gym.spaces import Box
 from gazelle.compat.openai_ros.robot_envs.sumitxl_env import SumitXlEnv
-from gazelle.compat.openai_ros.task_envs.geometry import (
-    distance,
-    euler_of,
-    is_at,
-    magnitude,
-    point,
-    samples,
-    step_between,
-    too_near,
-)
-from gazelle.compat.openai_ros.task_envs.steering import SteeringTask
+from gazelle.compat.openai_ros.task_envs.geometry import euler_of, magnitude, point
+from gazelle.compat.openai_ros.task_envs.places import PlaceTask
 from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 
 register_task("SumitXlRoom-v0")
 
 
-class SumitXlRoom(SteeringTask, SumitXlEnv):
+class SumitXlRoom(PlaceTask, SumitXlEnv):
     """Go to ``desired_pose``; parameters under ``/sumit_xl``.
 
     Observation: samples of the scan in whole metres, then x, y [m] and yaw [rad] with two decimals.
@@ -42,27 +33,18 @@ class SumitXlRoom(SteeringTask, SumitXlEnv):
         super().__init__(workspace)
         self._read_steering("sumit_xl")
         self.new_ranges = int(self.parameter("new_ranges"))
-        self.min_range = float(self.parameter("min_range"))
-        self.max_laser_value = self.parameter("max_laser_value")
-        self.min_laser_value = self.parameter("min_laser_value")
+        self._read_laser()
         self.max_linear_aceleration = float(self.parameter("max_linear_aceleration"))
         self.max_distance = float(self.parameter("max_distance"))
         self.closer_to_point_reward = self.parameter("closer_to_point_reward")
         self.not_ending_point_reward = self.parameter("not_ending_point_reward")
         self.end_episode_points = self.parameter("end_episode_points")
-        self.desired_point = point(*(self.parameter(f"desired_pose/{axis}") for axis in "xyz"))
-        self.previous_distance_from_des_point = 0.0
+        self._read_place()
         count = len(self.discretize_scan_observation(self.laser_scan, self.new_ranges))
         place = [self.max_distance, self.max_distance, math.pi]
         self.observation_space = Box(
             np.array([self.min_laser_value] * count + [-each for each in place], np.float32),
             np.array([self.max_laser_value] * count + place, np.float32),
-        )
-
-    def _init_env_variables(self) -> None:
-        super()._init_env_variables()
-        self.previous_distance_from_des_point = self.get_distance_from_desired_point(
-            self.odom.pose.pose.position
         )
 
     def _get_obs(self) -> list[float]:
@@ -81,9 +63,7 @@ class SumitXlRoom(SteeringTask, SumitXlEnv):
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
         place = point(*observations[-3:-1])
-        left = self.get_distance_from_desired_point(place)
-        nearer = left < self.previous_distance_from_des_point
-        self.previous_distance_from_des_point = left
+        nearer = self._comes_nearer(place)
         if not done:
             return self._count(
                 float(self.closer_to_point_reward if nearer else self.not_ending_point_reward)
@@ -93,20 +73,4 @@ class SumitXlRoom(SteeringTask, SumitXlEnv):
 
     def discretize_scan_observation(self, data: Any, new_ranges: int) -> list[float]:
         """Samples of a ``sensor_msgs/LaserScan`` [m]; notes whether one is too near."""
-        step = step_between(len(data.ranges), new_ranges)
-        self._episode_done = too_near(data.ranges, step, self.min_range)
-        return samples(
-            data.ranges,
-            step,
-            nearest=self.min_laser_value,
-            farthest=self.max_laser_value,
-            convert=int,
-        )
-
-    def is_in_desired_position(self, current_position: Any, epsilon: float = 0.05) -> bool:
-        """Whether a place is the goal."""
-        return is_at(current_position, self.desired_point, epsilon)
-
-    def get_distance_from_desired_point(self, current_position: Any) -> float:
-        """From a place to the goal [m]."""
-        return distance(current_position, self.desired_point)
+        return self._metres_seen(data, new_ranges)

@@ -8,15 +8,8 @@ import numpy as np
 
 from gazelle.compat.gym.spaces import Box
 from gazelle.compat.openai_ros.robot_envs.turtlebot2_env import TurtleBot2Env
-from gazelle.compat.openai_ros.task_envs.geometry import (
-    distance,
-    is_at,
-    point,
-    samples,
-    step_between,
-    too_near,
-)
-from gazelle.compat.openai_ros.task_envs.steering import SteeringTask
+from gazelle.compat.openai_ros.task_envs.geometry import point
+from gazelle.compat.openai_ros.task_envs.places import PlaceTask
 from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 
@@ -25,7 +18,7 @@ register_task("MyTurtleBot2Wall-v0", "TurtleBot2Wall-v0")
 _LEAST, _MOST = (-1.0, -3.0), (6.0, 3.0)  # where the robot may be: x and y [m]
 
 
-class TurtleBot2WallEnv(SteeringTask, TurtleBot2Env):
+class TurtleBot2WallEnv(PlaceTask, TurtleBot2Env):
     """Go to ``desired_pose``; parameters under ``/turtlebot2``.
 
     Observation: samples of the scan in whole metres, then x and y [m] with two decimals. Actions: see
@@ -45,25 +38,16 @@ class TurtleBot2WallEnv(SteeringTask, TurtleBot2Env):
         super().__init__(workspace)
         self._read_steering("turtlebot2")
         self.new_ranges = int(self.parameter("new_ranges"))
-        self.min_range = float(self.parameter("min_range"))
-        self.max_laser_value = self.parameter("max_laser_value")
-        self.min_laser_value = self.parameter("min_laser_value")
+        self._read_laser()
         self.forwards_reward = self.parameter("forwards_reward")
         self.turn_reward = self.parameter("turn_reward")
         self.end_episode_points = self.parameter("end_episode_points")
-        self.desired_point = point(*(self.parameter(f"desired_pose/{axis}") for axis in "xyz"))
-        self.previous_distance_from_des_point = 0.0
+        self._read_place()
         count = len(self.discretize_observation(self.laser_scan, self.new_ranges))
         # openai_ros declares the scan's part only.
         self.observation_space = Box(
             np.array([self.min_laser_value] * count + list(_LEAST), np.float32),
             np.array([self.max_laser_value] * count + list(_MOST), np.float32),
-        )
-
-    def _init_env_variables(self) -> None:
-        super()._init_env_variables()
-        self.previous_distance_from_des_point = self.get_distance_from_desired_point(
-            self.odom.pose.pose.position
         )
 
     def _get_obs(self) -> list[float]:
@@ -80,31 +64,14 @@ class TurtleBot2WallEnv(SteeringTask, TurtleBot2Env):
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
         place = point(*observations[-2:])
-        left = self.get_distance_from_desired_point(place)
+        nearer = self._comes_nearer(place)
         reward = self._way_reward(done)
         if done and self.is_in_desired_position(place):
             reward = float(self.end_episode_points)
-        elif not done and left < self.previous_distance_from_des_point:
+        elif not done and nearer:
             reward += float(self.forwards_reward)
-        self.previous_distance_from_des_point = left
         return self._count(reward)
 
     def discretize_observation(self, data: Any, new_ranges: int) -> list[float]:
         """Samples of a ``sensor_msgs/LaserScan`` [m]; notes whether one is too near."""
-        step = step_between(len(data.ranges), new_ranges)
-        self._episode_done = too_near(data.ranges, step, self.min_range)
-        return samples(
-            data.ranges,
-            step,
-            nearest=self.min_laser_value,
-            farthest=self.max_laser_value,
-            convert=int,
-        )
-
-    def is_in_desired_position(self, current_position: Any, epsilon: float = 0.05) -> bool:
-        """Whether a place is the goal."""
-        return is_at(current_position, self.desired_point, epsilon)
-
-    def get_distance_from_desired_point(self, current_position: Any) -> float:
-        """From a place to the goal [m]."""
-        return distance(current_position, self.desired_point)
+        return self._metres_seen(data, new_ranges)

@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.compat.gym.spaces import Box
 from gazelle.compat.openai_ros.robot_envs.turtlebot3_env import TurtleBot3Env
-from gazelle.compat.openai_ros.task_envs.geometry import magnitude, samples, step_between, too_near
+from gazelle.compat.openai_ros.task_envs.geometry import magnitude
 from gazelle.compat.openai_ros.task_envs.steering import SteeringTask
 from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
@@ -36,9 +36,7 @@ class TurtleBot3WorldEnv(SteeringTask, TurtleBot3Env):
         super().__init__(workspace)
         self._read_steering("turtlebot3")
         self.new_ranges = int(self.parameter("new_ranges"))
-        self.min_range = float(self.parameter("min_range"))
-        self.max_laser_value = self.parameter("max_laser_value")
-        self.min_laser_value = self.parameter("min_laser_value")
+        self._read_laser()
         self.max_linear_aceleration = float(self.parameter("max_linear_aceleration"))
         self.forwards_reward = self.parameter("forwards_reward")
         self.turn_reward = self.parameter("turn_reward")
@@ -67,15 +65,7 @@ class TurtleBot3WorldEnv(SteeringTask, TurtleBot3Env):
 
     def discretize_scan_observation(self, data: Any, new_ranges: int) -> list[float]:
         """Samples of a ``sensor_msgs/LaserScan`` [m]; notes whether one is too near."""
-        step = step_between(len(data.ranges), new_ranges)
-        self._episode_done = too_near(data.ranges, step, self.min_range)
-        return samples(
-            data.ranges,
-            step,
-            nearest=self.min_laser_value,
-            farthest=self.max_laser_value,
-            convert=int,
-        )
+        return self._metres_seen(data, new_ranges)
 
     def get_vector_magnitude(self, vector: Any) -> float:
         """Length of a vector."""
