@@ -3,7 +3,8 @@
 Every figure is frames a second of processor time, so that it counts what one core does, also where
 others work beside. Scenes are made here: a room with boxes and cylinders, and the same with balls
 of many triangles. A frame has colour, depth and labels; the rival's rays give distances and normals,
-which is less. With shadows the same lamp throws them.
+which is less. With shadows the same lamp throws them. Cameras of Stage's robots, which have colour
+and depth, are measured in a hall made here, all robots in one call.
 
     gazelle bench camera
 """
@@ -13,6 +14,8 @@ from __future__ import annotations
 import argparse
 import time
 from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -26,6 +29,10 @@ from gazelle.sensors.rendering import directions_of_view
 
 GOALS = {(5000, 320, 240): 1000.0, (5000, 84, 84): 10000.0, (40000, 320, 240): 200.0}
 """Frames a core-second that are wanted: triangles, width, height."""
+
+
+STAGE = ((10, 80, 60), (10, 320, 240), (72, 80, 60), (72, 320, 240))
+"""Robots in a Stage world, and pixels of their cameras."""
 
 
 def room(triangles: int) -> World:
@@ -111,6 +118,42 @@ def batch(worlds: int, steps: int, threads: int) -> float:
     return worlds / min(times)
 
 
+def hall(robots: int, width: int, height: int) -> str:
+    """A Stage world of four walls and robots in a grid, each with a ranger and a camera."""
+    text = "".join(
+        f'model ( size [{x} {y} 1] pose [{at} 0 0] color "{color}" )\n'
+        for x, y, at, color in (
+            (30, 0.2, "0 8", "red"),
+            (30, 0.2, "0 -8", "blue"),
+            (0.2, 16, "15 0", "green"),
+            (0.2, 16, "-15 0", "gray"),
+        )
+    )
+    ring = [(-0.2, 0.12), (-0.2, -0.12), (-0.12, -0.26), (0.12, -0.26)]
+    ring += [(-x, -y) for x, y in ring]
+    points = " ".join(f"point[{k}] [{x} {y}]" for k, (x, y) in enumerate(ring))
+    side = int(np.ceil(np.sqrt(robots)))
+    for k in range(robots):
+        text += (
+            f"position ( size [.44 .38 .22] pose [{1.2 * (k % side) - 5:.1f} {1.2 * (k // side) - 5:.1f} 0 "
+            f'{37 * k % 360}] color "random" block ( points 8 {points} z [0 1] ) '
+            f"ranger ( sensor ( samples 9 ) ) camera ( resolution [{width} {height}] range [.2 20] "
+            "fov [70 50] ) )\n"
+        )
+    return text
+
+
+def stage(robots: int, width: int, height: int, seconds: float) -> float:
+    """Frames a core-second of Stage's cameras: colour with a fourth byte, and depth."""
+    from gazelle.simulation.stage import StageSimulation
+
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "hall.world"
+        file.write_text(hall(robots, width, height), encoding="utf-8")
+        with StageSimulation(file, threads=1) as sim:
+            return robots / best(sim.pictures, seconds)
+
+
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(prog="gazelle bench camera", description=__doc__)
@@ -132,6 +175,10 @@ def main() -> None:
             f"| {triangles:,} | {width} x {height} | {own:,.0f} | {goal:,.0f}, "
             f"{'yes' if own >= goal else 'NO'} | {shady:,.0f} | {rival:,.1f} | {own / rival:,.0f} |"
         )
+    print("\n| robots of Stage | pixels | frames a core-second |\n|---|---|---|")
+    for robots, width, height in STAGE:
+        own = stage(robots, width, height, args.seconds)
+        print(f"| {robots} | {width} x {height} | {own:,.0f} |")
     made = batch(1024, args.steps, args.threads)
     print(
         f"\n1,024 worlds with an 84 x 84 camera, planar engine, {args.threads} threads: {made:,.0f} control "

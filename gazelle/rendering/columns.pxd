@@ -16,7 +16,8 @@ cdef enum:
     OUTER = 15
     LAMP = 16
 
-    CAMERA = 13
+    UNSEEN = 13
+    CAMERA = 14
 
     FIRST_VERTEX = 0
     LAST_VERTEX = 1

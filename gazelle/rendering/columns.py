@@ -22,8 +22,10 @@ INNER: Final = 14
 OUTER: Final = 15
 LAMP: Final = 16
 
-# Cameras: number of the world; place [m]; the directions of right, down and forward in the world.
-CAMERA: Final = 13
+# Cameras: number of the world; place [m]; the directions of right, down and forward in the world;
+# number of the link that the camera does not see, or -1.
+UNSEEN: Final = 13
+CAMERA: Final = 14
 
 # Meshes: their first vertex and the one after the last, the same of faces, whether both sides show.
 FIRST_VERTEX: Final = 0

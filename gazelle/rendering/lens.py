@@ -24,6 +24,7 @@ class PinholeLens:
         horizontal_fov: Horizontal field of view [rad].
         near: What is nearer along the axis is not drawn [m].
         far: What is farther along the axis is not drawn [m].
+        vertical_fov: Vertical field of view [rad]; None for square pixels.
 
     Raises:
         EngineError: There can be no such picture.
@@ -34,6 +35,7 @@ class PinholeLens:
     horizontal_fov: float = 1.047
     near: float = 0.02
     far: float = 1000.0
+    vertical_fov: float | None = None
 
     def __post_init__(self) -> None:
         """Check what a user gave."""
@@ -41,11 +43,12 @@ class PinholeLens:
             raise EngineError(
                 f"a picture has between 1 and {MAX_PIXELS} pixels, not {self.width} x {self.height}"
             )
-        if not 0.0 < self.horizontal_fov < math.pi:
-            raise EngineError(
-                f"the field of view of a camera is between 0 and 180 degrees, not "
-                f"{math.degrees(self.horizontal_fov):g}"
-            )
+        for fov in (self.horizontal_fov, self.vertical_fov):
+            if fov is not None and not 0.0 < fov < math.pi:
+                raise EngineError(
+                    f"the field of view of a camera is between 0 and 180 degrees, not "
+                    f"{math.degrees(fov):g}"
+                )
         if not 0.0 < self.near < self.far < math.inf:
             raise EngineError(
                 "a camera sees from a distance above zero to a greater one, not from "
@@ -59,11 +62,17 @@ class PinholeLens:
 
     @property
     def focal(self) -> float:
-        """Focal length along rows and columns [pixel]."""
+        """Focal length along rows, and along columns too where pixels are square [pixel]."""
         return self.width / (2.0 * math.tan(self.horizontal_fov / 2.0))
+
+    @property
+    def focals(self) -> tuple[float, float]:
+        """Focal lengths along rows and columns [pixel]."""
+        if self.vertical_fov is None:
+            return self.focal, self.focal
+        return self.focal, self.height / (2.0 * math.tan(self.vertical_fov / 2.0))
 
     @property
     def row(self) -> tuple[float, float, float, float, float, float]:
         """As the rasteriser wants it; the optical axis goes through the middle."""
-        f = self.focal
-        return (f, f, self.width / 2.0, self.height / 2.0, self.near, self.far)
+        return (*self.focals, self.width / 2.0, self.height / 2.0, self.near, self.far)

@@ -34,6 +34,7 @@ cdef class Rasterizer:
     @cython.locals(r=Py_ssize_t, c=Py_ssize_t)
     cdef void draw_clear(self, Py_ssize_t n) noexcept nogil
     cdef void draw_parts(self, Py_ssize_t n, bint clear) noexcept nogil
+    @cython.locals(inverse=cython.p_float, owner=cython.p_int, least=cython.float, k=Py_ssize_t)
     cdef void clear(self) noexcept nogil
     @cython.locals(dx=double, dy=double, dz=double, link=Py_ssize_t, world=Py_ssize_t, a=double,
                    b=double, c=double, x=double)

@@ -20,6 +20,7 @@ from cython.cimports.gazelle.rendering.columns import (
     LINK_OF_PART,
     MESH_OF_PART,
     TWO_SIDED,
+    UNSEEN,
 )  # fmt: skip
 from cython.cimports.libc.math import ceil, sqrt
 
@@ -133,8 +134,11 @@ class Rasterizer:
 
     def draw_parts(self, n: int, clear: bool) -> None:  # noqa: FBT001
         """Draw the parts that let see through, or those that do not."""
+        unseen = cython.cast(cython.Py_ssize_t, self.cameras[n, UNSEEN])
         for p in range(self.shapes.parts.shape[0]):
             if (self.shapes.alpha[p] < 1.0) != clear:
+                continue
+            if self.shapes.parts[p, LINK_OF_PART] == unseen:
                 continue
             self.place(n, p)
             if self.is_in_view(p):
@@ -144,10 +148,11 @@ class Rasterizer:
     def clear(self) -> None:
         """Begin a picture; nothing is drawn that is farther than the lens shows."""
         self.count = 0
-        for r in range(self.height):
-            for c in range(self.width):
-                self.inverse[r, c] = 1.0 / self.far
-                self.owner[r, c] = -1
+        inverse, owner = singles(self.inverse_at), integers(self.owner_at)
+        least = 1.0 / self.far
+        for k in range(self.width * self.height):
+            inverse[k] = least
+            owner[k] = -1
 
     def place(self, n: int, p: int) -> None:
         """Find where a part is in the frame of camera n: x right, y down, z forward."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.array_types import Bytes, Floats, Floats32, Ints32, Worlds
+from gazelle.array_types import Bytes, Floats, Floats32, Ints32, Ints64, Worlds
 from gazelle.description import World
 from gazelle.engines.planar.worker_pool import WorkerPool
 from gazelle.errors import EngineError
@@ -22,7 +22,7 @@ from gazelle.rendering.shadow_maps import (
     shadow_maps,
     side_of,
 )
-from gazelle.rendering.visible import VisiblePart, rows_of, visible_world
+from gazelle.rendering.visible import VisiblePart, VisibleWorld, rows_of, visible_world
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class Frames:
     """What some cameras see; what was not asked for has shape (0, height, width, ...).
 
     Attributes:
-        color: Red, green, blue, shape (n, height, width, 3), top row first.
+        color: Red, green, blue, shape (n, height, width, channels), top row first.
         depth: Along the optical axis [m], infinite where nothing is, shape (n, height, width).
         labels: Which of ``Renderer.parts`` is seen, -1 where nothing is, likewise.
     """
@@ -51,6 +51,7 @@ class Renderer:
         threads: That draw at once; all processors if None.
         gamma: Brightness b becomes b to the power 1 / gamma.
         shadows: Whether things throw shadows in the first directional light that has them.
+        seen: What is drawn in place of the world's visuals, whose lamps and sky stay.
 
     Attributes:
         shadows: Likewise; it can be set.
@@ -69,9 +70,10 @@ class Renderer:
         threads: int | None = None,
         gamma: float = 1.0,
         shadows: bool = False,
+        seen: VisibleWorld | None = None,
     ) -> None:
         self.shadows = shadows
-        seen = visible_world(world)
+        seen = visible_world(world) if seen is None else seen
         self.links: tuple[str, ...] = seen.links
         self.parts: tuple[VisiblePart, ...] = seen.parts
         self._numbers = {link: number for number, link in enumerate(seen.links)}
@@ -128,6 +130,8 @@ class Renderer:
         worlds: Worlds | None = None,
         *,
         want: tuple[str, ...] = ("color", "depth", "labels"),
+        unseen: Ints64 | None = None,
+        channels: int = 3,
     ) -> Frames:
         """Draw what cameras see.
 
@@ -137,6 +141,9 @@ class Renderer:
             quaternions: x, y, z, w; a camera looks along its x axis, z is up, shape (n, 4).
             worlds: That the cameras are in, shape (n,); the first n if None.
             want: Which of color, depth and labels.
+            unseen: Of each camera the link that it does not see, such as its own casing, counted as
+                in ``links``, or -1, shape (n,); none if None. Shadows of it stay.
+            channels: Bytes a pixel of colours, 4 with 255 after red, green and blue.
 
         Raises:
             EngineError: Something else is wanted, or there is no such world.
@@ -145,9 +152,10 @@ class Renderer:
         if strangers:
             raise EngineError(f"pictures have color, depth and labels, not {min(strangers)!r}")
         cameras = self._cameras(positions, quaternions, worlds)
+        cameras[:, c.UNSEEN] = -1 if unseen is None else unseen
         shape = (lens.height, lens.width)
         frames = Frames(
-            np.empty((len(cameras) if "color" in want else 0, *shape, 3), np.uint8),
+            np.empty((len(cameras) if "color" in want else 0, *shape, channels), np.uint8),
             np.empty((len(cameras) if "depth" in want else 0, *shape), np.float32),
             np.empty((len(cameras) if "labels" in want else 0, *shape), np.int32),
         )

@@ -25,7 +25,7 @@ cdef class Shader:
     cdef void draw_one(self, Py_ssize_t n) noexcept nogil
     @cython.locals(
         color=cython.uchar[:, :, :, ::1], owner=int[:, ::1], last=int, t=int, s=Py_ssize_t,
-        red=cython.uchar, green=cython.uchar, blue=cython.uchar, constant=cython.bint,
+        red=cython.uchar, green=cython.uchar, blue=cython.uchar, constant=cython.bint, fourth=cython.bint,
         r=int, c=int)
     cdef void put_color(self, Py_ssize_t n) noexcept nogil
     @cython.locals(r=int, c=int, t=int, k=int, s=Py_ssize_t, p=Py_ssize_t, alpha=double,

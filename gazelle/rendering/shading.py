@@ -39,7 +39,8 @@ class Shader:
     Args:
         seen: What finds the triangles.
         lighting: What lights them.
-        color: Red, green and blue come out, shape (n, height, width, 3); with n = 0 none.
+        color: Red, green and blue come out, and 255 if there is a fourth, shape (n, height, width,
+            3 or 4); with n = 0 none.
         depth: Along the optical axis [m], infinite where nothing is, shape (n, height, width);
             with n = 0 none.
         labels: Numbers of what is seen, -1 where nothing is, likewise.
@@ -120,9 +121,12 @@ class Shader:
         for k in range(3):
             self.flat[0, k] = self.lighting.tone(self.lighting.horizon[k])
         s, constant, red, green, blue = 0, False, 0, 0, 0
+        fourth = color.shape[3] > 3
         for r in range(self.seen.height):
             for c in range(self.seen.width):
                 t = owner[r, c]
+                if fourth:
+                    color[n, r, c, 3] = 255
                 if t < 0 and self.lighting.sky:
                     self.put_backdrop(n, r, c)
                     continue

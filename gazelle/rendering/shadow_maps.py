@@ -100,9 +100,9 @@ def shadow_maps(
     frame = _frame(np.asarray(along))
     made = np.empty_like(cameras)
     made[:, 0], made[:, 1:4] = cameras[:, 0], middles - _AWAY * half * frame[2]
-    made[:, 4:] = frame.ravel()
+    made[:, 4:13], made[:, c.UNSEEN] = frame.ravel(), -1.0
     turns = np.empty((len(cameras), 12))
-    axes = cameras[:, 4:].reshape(-1, 3, 3)
+    axes = cameras[:, 4:13].reshape(-1, 3, 3)
     turns[:, :9] = np.einsum("ij,nkj->nik", frame, axes).reshape(-1, 9)
     turns[:, 9:] = (cameras[:, 1:4] - made[:, 1:4]) @ frame.T
     focal = 0.5 * side * _AWAY

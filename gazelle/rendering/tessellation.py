@@ -114,6 +114,17 @@ def plane(shape: Plane) -> TriangleMesh:
     return TriangleMesh(flat @ turn.T, np.tile(normal, (4, 1)), _quads(1), uv=_WHOLE)
 
 
+def quadrangles(corners: Floats) -> TriangleMesh:
+    """Flat faces with four corners each [m], shape (n, 4, 3), the last or the first twice or not.
+
+    The corners go counter-clockwise, seen from where the face is seen.
+    """
+    across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    normals = np.repeat(_unit(across), 4, axis=0)
+    vertices = np.ascontiguousarray(corners.reshape(-1, 3))
+    return _without_lines(TriangleMesh(vertices, normals, _quads(len(corners))))
+
+
 def polyline(shape: Polyline) -> TriangleMesh:
     """Prisms on outlines."""
     from gazelle.formats.patches import prism

@@ -60,7 +60,7 @@ def visible_world(world: World) -> VisibleWorld:
         parts.append(VisiblePart(name, visual))
     links = tuple(poses)
     numbers = {name: number for number, name in enumerate(links)}
-    gathered = _Gathered()
+    gathered = GatheredShapes()
     for label, part in enumerate(parts):
         gathered.add(part.visual, numbers[part.link], label)
     rest = np.array([_row(pose) for pose in poses.values()]).reshape(-1, 12)
@@ -94,7 +94,7 @@ def _visuals(world: World) -> Iterator[tuple[str, Pose, Visual]]:
                         yield f"{placed.scope}::{link.name}", placed.pose * link.pose, visual
 
 
-class _Gathered:
+class GatheredShapes:
     """Shapes and parts as they come, each shape and each texture once."""
 
     def __init__(self) -> None:
@@ -102,7 +102,7 @@ class _Gathered:
         self._known: dict[Geometry, tuple[tuple[int, ShapePiece], ...]] = {}
         self._textures = TextureTable()
         self._parts: list[tuple[int, int, int, int]] = []
-        self._visuals: list[Visual] = []
+        self._places: list[Floats] = []
         self._looks: list[SurfaceLook] = []
 
     def add(self, visual: Visual, link: int, label: int) -> None:
@@ -113,12 +113,23 @@ class _Gathered:
             if number is not None and piece.mesh.uv is None:  # it is nowhere in the picture
                 look, number = replace(look, color=self._textures.mean(number)), None
             self._parts.append((mesh, link, label, -1 if number is None else number))
-            self._visuals.append(visual)
+            self._places.append(_row(visual.pose))
             self._looks.append(look)
+
+    def add_mesh(self, mesh: TriangleMesh) -> int:
+        """Add triangles that parts may have; returns their number."""
+        self._meshes.append(mesh)
+        return len(self._meshes) - 1
+
+    def add_part(self, mesh: int, look: SurfaceLook, link: int, label: int) -> None:
+        """Add a mesh in the frame of a link; it has no texture."""
+        self._parts.append((mesh, link, label, -1))
+        self._places.append(_row(Pose()))
+        self._looks.append(look)
 
     def drawn(self) -> DrawnShapes:
         """All as arrays."""
-        meshes, visuals = self._meshes, self._visuals
+        meshes = self._meshes
         together = joined(meshes)
         count = len(together.vertices)
         return DrawnShapes(
@@ -128,7 +139,7 @@ class _Gathered:
             _table(meshes),
             np.array([_ball(mesh) for mesh in meshes]).reshape(-1, 4),
             np.array(self._parts, np.int64).reshape(-1, c.PART),
-            np.array([_row(visual.pose) for visual in visuals]).reshape(-1, 12),
+            np.array(self._places).reshape(-1, 12),
             np.array([look.color for look in self._looks], np.float32).reshape(-1, 3),
             np.array([look.glow for look in self._looks], np.float32).reshape(-1, 3),
             np.array([look.alpha for look in self._looks], np.float32),

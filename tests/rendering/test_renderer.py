@@ -220,6 +220,47 @@ def digest(frames):
     ).hexdigest()
 
 
+def test_a_camera_may_leave_out_one_link():
+    world = World(
+        models=(
+            model("near", Box((1.0, 1.0, 1.0)), Pose(3.0)),
+            model("far", Box((1.0, 9.0, 9.0)), Pose(6.0)),
+        )
+    )
+    renderer = Renderer(world)
+    lens, eyes, ahead = (
+        PinholeLens(9, 9, 0.5),
+        np.zeros((3, 3)),
+        np.tile((0.0, 0.0, 0.0, 1.0), (3, 1)),
+    )
+    near, far = (renderer.links.index(f"{name}::link") for name in ("near", "far"))
+    frames = renderer.render(lens, eyes, ahead, np.zeros(3, int), unseen=np.array([-1, near, far]))
+    assert frames.depth[:, 4, 4] == pytest.approx([2.5, 5.5, 2.5])
+    assert frames.labels[:, 4, 4].tolist() == [near, far, near]
+    assert np.isinf(frames.depth[2, 0, 0])
+
+
+def test_a_fourth_byte_of_colours_is_255():
+    world, pose = boxes(0), look_at(EYES[0], (0.0, 0.0, 0.3))
+    where = np.array([pose.position]), np.array([pose.quaternion])
+    three = Renderer(world).render(LENS, *where).color
+    four = Renderer(world).render(LENS, *where, channels=4).color
+    np.testing.assert_array_equal(four[..., :3], three)
+    assert (four[..., 3] == 255).all()
+
+
+@pytest.mark.parametrize("fov", [0.5, 1.3])
+def test_pixels_need_not_be_square(fov):
+    lens = PinholeLens(80, 60, 1.0, 0.1, 20.0, vertical_fov=fov)
+    world = World(models=(model("wall", Box((0.2, 1.0, 1.0)), Pose(3.1)),))
+    _, depth, _ = shot(world, Pose(), lens)
+    rows, columns = (np.flatnonzero(np.isfinite(depth).any(axis=k)) for k in (1, 0))
+    for found, size, angle in ((rows, 60, fov), (columns, 80, 1.0)):
+        half = size / 2.0 / math.tan(angle / 2.0) * 0.5 / 3.0
+        assert found[0] == max(math.ceil(size / 2.0 - half - 0.5), 0)
+        assert found[-1] == min(math.ceil(size / 2.0 + half - 0.5), size) - 1
+
+
 def test_pictures_do_not_depend_on_threads():
     assert digest(many(1)) == digest(many(3))
 

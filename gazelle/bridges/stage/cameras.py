@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,9 +29,14 @@ class _Eye:
     info: Publisher
 
     @property
+    def watched(self) -> bool:
+        """Whether anybody looks."""
+        return bool(self.image.has_listener or self.depth.has_listener)
+
+    @property
     def wanted(self) -> bool:
         """Whether anybody listens."""
-        return bool(self.image.has_listener or self.depth.has_listener or self.info.has_listener)
+        return bool(self.watched or self.info.has_listener)
 
 
 class CameraTopics:
@@ -60,10 +66,16 @@ class CameraTopics:
             for place, (which, camera) in enumerate(direct)
         ]
 
+    def watched(self) -> Iterator[tuple[str, int, int]]:
+        """The robot, number and world of each camera whose pictures or depths are listened to."""
+        for eye in self._eyes:
+            if eye.watched:
+                yield self._robot.name, eye.which, self._world
+
     def publish(self, stamp: Time) -> None:
         """Draw and publish what is listened to."""
         for eye in self._eyes:
-            if eye.image.has_listener or eye.depth.has_listener:
+            if eye.watched:
                 seen = self._simulation.picture(self._robot.name, eye.which, self._world)
                 if eye.image.has_listener:
                     self._send(eye, eye.image, stamp, "rgba8", seen.color)
@@ -107,7 +119,7 @@ class CameraTopics:
 
     def _lens(self, eye: _Eye, stamp: Time) -> Any:
         lens = eye.camera.lens
-        (fx, fy), cx, cy = lens.focal, lens.width / 2.0, lens.height / 2.0
+        (fx, fy), cx, cy = lens.focals, lens.width / 2.0, lens.height / 2.0
         message = self._info()
         message.header.stamp, message.header.frame_id = stamp, eye.frame
         message.height, message.width = lens.height, lens.width

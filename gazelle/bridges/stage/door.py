@@ -104,6 +104,9 @@ class StageDoor(Closeable):
         """Publish what is true now, and the time, to all who listen."""
         self._tick()
         facts = facts_of(self._stage, self._world, self.now())
+        watched = [key for topics in self._topics for key in topics.cameras.watched()]
+        if watched:
+            self._stage.draw(watched)
         for topics in self._topics:
             topics.publish(facts)
         if self._tf.has_listener and self._topics:

@@ -81,6 +81,9 @@ class RobotTopics:
         at: The robot on the graph.
         messages: Classes.
         metres: Whether depths of cameras are in metres, not in millimetres.
+
+    Attributes:
+        cameras: Those on it.
     """
 
     def __init__(self, at: GraphRobot, messages: Messages, *, metres: bool = True) -> None:
@@ -95,7 +98,7 @@ class RobotTopics:
         self._footprint = at.frame("base_footprint")
         self._base = at.frame("base_link")
         self._lasers = self._open_lasers(at)
-        self._cameras = CameraTopics(at, metres=metres)
+        self.cameras = CameraTopics(at, metres=metres)
         self._finders = FinderTopics(at)
         self._grippers = GripperTopics(at)
         self._actuators = ActuatorTopics(at)
@@ -127,7 +130,7 @@ class RobotTopics:
         for laser in self._lasers:
             if laser.publisher.has_listener:
                 laser.publisher.publish(self._scan(facts, laser))
-        self._cameras.publish(facts.stamp)
+        self.cameras.publish(facts.stamp)
         self._finders.publish(facts.stamp)
         self._grippers.publish(facts.stamp)
         self._actuators.publish()
@@ -142,7 +145,7 @@ class RobotTopics:
         for laser in self._lasers:
             at = laser.ranger.pose
             found.append(self._transform(facts, self._base, laser.frame, at.x, at.y, at.z, at.yaw))
-        for frame, place, turn in self._cameras.places():
+        for frame, place, turn in self.cameras.places():
             transform = self._transform(facts, self._base, frame, *place, 0.0)
             q = transform.transform.rotation
             q.x, q.y, q.z, q.w = turn
@@ -151,7 +154,7 @@ class RobotTopics:
 
     def close(self) -> None:
         """Publish no more."""
-        self._cameras.close()
+        self.cameras.close()
         self._finders.close()
         self._grippers.close()
         self._actuators.close()

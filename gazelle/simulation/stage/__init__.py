@@ -1,9 +1,8 @@
 """Stage worlds that run: fleets of robots in the plane."""
 
-from gazelle.engines.planar.pictures import CameraPictures
 from gazelle.engines.planar.stage_layout import Ranger, StageRobot
 from gazelle.simulation.stage.actuators import Actuator
-from gazelle.simulation.stage.cameras import MountedCamera, cameras_of
+from gazelle.simulation.stage.cameras import CameraPictures, MountedCamera, cameras_of
 from gazelle.simulation.stage.controllers import FleetController, register_controller
 from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.fleet import StageFleet

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Bytes, Floats32, Worlds
 from gazelle.description import Camera
-from gazelle.engines.planar.pictures import CameraPictures
 from gazelle.sensors import CameraImage
+from gazelle.simulation.stage.cameras import CameraPictures
 
 
 class StageCameraModel:

@@ -2,20 +2,39 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gazelle.array_types import Worlds
+from gazelle.array_types import Floats, Worlds
 from gazelle.description import PlacedStageModel, StageCamera, StageModel, StagePose
-from gazelle.engines.planar.pictures import CameraMount, CameraPictures, Lens, Painter
+from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
-from gazelle.simulation.stage.scenery import scenery_of
+from gazelle.rendering import PinholeLens, Renderer, plain_surroundings
+from gazelle.simulation.stage.scenery import SKY, scenery_of
 
 if TYPE_CHECKING:
     from gazelle.simulation.stage.senses import Senses
+
+_PLACE = [c.X, c.Y, c.Z]
+
+
+@dataclass(frozen=True, slots=True)
+class CameraPictures:
+    """What some cameras see.
+
+    Attributes:
+        color: Red, green, blue and 255, bytes, shape (..., height, width, 4), top row first.
+        depth: Along the optical axis [m], infinite where nothing is, shape (..., height, width).
+    """
+
+    color: NDArray[np.uint8]
+    depth: NDArray[np.float32]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,16 +60,17 @@ class MountedCamera:
     owner: int
 
     @property
-    def lens(self) -> Lens:
-        """Its pixels, field of view and range."""
-        return Lens(*self.device.resolution, self.device.fov, *self.device.range)
+    def lens(self) -> PinholeLens:
+        """Its pixels, fields of view and range."""
+        wide, high = self.device.fov
+        return PinholeLens(*self.device.resolution, wide, *self.device.range, vertical_fov=high)
 
     @property
-    def view(self) -> CameraMount:
-        """Where it is on its body: as in Stage a pan is to the right, and a tilt down."""
+    def mount(self) -> tuple[float, float, float, float, float]:
+        """x, y, z [m], heading and tilt [rad] on its body: as in Stage a pan is to the right."""
         pan, tilt = self.device.pantilt
         x, y, z, yaw = self.pose
-        return CameraMount(self.body, x, y, z, yaw - pan, tilt, self.owner)
+        return x, y, z, yaw - pan, tilt
 
 
 class Cameras:
@@ -63,9 +83,17 @@ class Cameras:
 
     def __init__(self, simulation: Senses, models: list[StageModel]) -> None:
         self._simulation = simulation
-        self._painter = Painter(simulation.fleet, scenery_of(simulation.still, models))
+        self._scenery = scenery_of(simulation.still, models)
+        self._renderer = Renderer(
+            plain_surroundings(SKY),
+            nworld=simulation.nworld,
+            threads=simulation.fleet.pool.size,
+            seen=self._scenery.seen,
+        )
         self._seen: dict[tuple[int, int, int], CameraPictures] = {}
+        self._mounted: dict[int, tuple[MountedCamera, ...]] = {}
         self._changes = -1
+        self._placed = np.zeros(simulation.nworld, np.bool_)
 
     def picture(self, robot: int, which: int, world: int) -> CameraPictures:
         """What one camera sees, shape (height, width, ...).
@@ -73,15 +101,28 @@ class Cameras:
         Raises:
             SimulationError: The robot has no camera of this number.
         """
-        changes = self._simulation.fleet.changes
-        if self._changes != changes:  # something moved
-            self._changes = changes
-            self._seen.clear()
-        key = (robot, which, world)
-        if key not in self._seen:
-            many = self.pictures([robot], which, np.array([world]))
-            self._seen[key] = CameraPictures(many.color[0, 0], many.depth[0, 0])
-        return self._seen[key]
+        self.draw([(robot, which, world)])
+        return self._seen[robot, which, world]
+
+    def draw(self, wanted: Iterable[tuple[int, int, int]]) -> None:
+        """Draw what ``picture`` will be asked for, all with the same lens at once.
+
+        Args:
+            wanted: Robots, numbers of cameras on them, and worlds.
+
+        Raises:
+            SimulationError: A robot has no camera of this number.
+        """
+        self._forget_what_moved()
+        late: defaultdict[PinholeLens, list[tuple[int, int, int]]] = defaultdict(list)
+        for key in wanted:
+            if key not in self._seen:
+                late[self._camera(*key[:2]).lens].append(key)
+        for lens, keys in late.items():
+            views = self._views([self._camera(robot, which) for robot, which, _ in keys])
+            seen = self._draw(lens, views, np.array([world for *_, world in keys]))
+            for key, color, depth in zip(keys, seen.color, seen.depth, strict=True):
+                self._seen[key] = CameraPictures(color, depth)
 
     def pictures(self, robots: list[int], which: int, worlds: Worlds) -> CameraPictures:
         """What the cameras of a number see, shape (worlds, robots, height, width, ...).
@@ -96,12 +137,59 @@ class Cameras:
                 "only cameras with the same resolution, range and fov make one array",
                 hint="ask for their pictures one by one",
             )
-        views = [camera.view for camera in found]
-        return self._painter.draw(lenses.pop(), views, worlds)
+        self._forget_what_moved()
+        views = np.tile(self._views(found), (len(worlds), 1))
+        seen = self._draw(lenses.pop(), views, np.repeat(worlds, len(found)))
+        shape = (len(worlds), len(found), *seen.depth.shape[1:])
+        return CameraPictures(seen.color.reshape(*shape, 4), seen.depth.reshape(shape))
+
+    def _views(self, cameras: list[MountedCamera]) -> Floats:
+        """Body, place [m], heading and tilt [rad] on it, and link that is not seen, shape (n, 7)."""
+        casings = self._scenery.casings
+        return np.array([(v.body, *v.mount, casings[v.body, v.owner]) for v in cameras])
+
+    def _draw(self, lens: PinholeLens, views: Floats, worlds: Worlds) -> CameraPictures:
+        """Draw what views, one a row, see in worlds, one each."""
+        self._place(np.unique(worlds))
+        body, x, y, z, yaw, tilt, unseen = views.T
+        rows = self._rows(worlds, body.astype(np.int64))
+        cos, sin = rows[:, c.COS], rows[:, c.SIN]
+        offset = np.stack((cos * x - sin * y, sin * x + cos * y, z), axis=1)
+        frames = self._renderer.render(
+            lens,
+            rows[:, _PLACE] + offset,
+            _turned(rows[:, c.YAW] + yaw, tilt),
+            worlds,
+            want=("color", "depth"),
+            unseen=unseen.astype(np.int64),
+            channels=4,
+        )
+        return CameraPictures(frames.color, frames.depth)
+
+    def _forget_what_moved(self) -> None:
+        changes = self._simulation.fleet.changes
+        if self._changes != changes:
+            self._changes = changes
+            self._seen.clear()
+            self._placed[:] = False
+
+    def _place(self, worlds: Worlds) -> None:
+        """Put all bodies of some worlds where they are now."""
+        late = worlds[~self._placed[worlds]]
+        if len(late):
+            rows = self._rows(late[:, None], self._scenery.bodies)
+            links, turned = self._renderer.links[1:], _turned(rows[..., c.YAW], np.zeros(1))
+            self._renderer.place_all(links, rows[..., _PLACE], turned, late)
+            self._placed[late] = True
+
+    def _rows(self, worlds: Worlds, bodies: NDArray[np.int64]) -> Floats:
+        """Of bodies in worlds what the fleet knows, shape (..., columns.BODY)."""
+        fleet = self._simulation.fleet
+        return np.asarray(fleet.rows[worlds * fleet.nbody + bodies])
 
     def _camera(self, robot: int, which: int) -> MountedCamera:
         own = self._simulation.robots[robot]
-        found = cameras_of(own)
+        found = self._mounted.get(robot) or self._mounted.setdefault(robot, cameras_of(own))
         if not 0 <= which < len(found):
             raise SimulationError(f"'{own.name}' has {len(found)} cameras, no number {which}")
         return found[which]
@@ -124,6 +212,17 @@ def cameras_of(robot: StageRobot) -> tuple[MountedCamera, ...]:
         for owner, placed in enumerate(replace(model, pose=StagePose()).walk())
         if (device := placed.model.device_of(StageCamera)) is not None
     )
+
+
+def _turned(heading: Floats, tilt: Floats) -> Floats:
+    """Quaternions x, y, z, w of a heading about z after a tilt about y, which is down [rad]."""
+    cos, sin, level, low = (
+        np.cos(heading / 2),
+        np.sin(heading / 2),
+        np.cos(tilt / 2),
+        np.sin(tilt / 2),
+    )
+    return np.stack((-sin * low, cos * low, sin * level, cos * level), axis=-1)
 
 
 def _is_direct(placed: PlacedStageModel) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -11,11 +11,10 @@ import numpy as np
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.pictures import CameraPictures
 from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.bumpers import find_bumps
-from gazelle.simulation.stage.cameras import Cameras, cameras_of
+from gazelle.simulation.stage.cameras import CameraPictures, Cameras, cameras_of
 from gazelle.simulation.stage.devices import Devices, pick
 from gazelle.simulation.stage.finders import (
     Blob,
@@ -151,6 +150,19 @@ class Senses(ABC):
             SimulationError: There is no such robot or camera.
         """
         return self._cameras.picture(self.robot(name).index, camera, world)
+
+    def draw(self, wanted: Iterable[tuple[str, int, int]]) -> None:
+        """Draw at once, by all threads, what ``picture`` will be asked for this step.
+
+        Args:
+            wanted: Names of robots, numbers of cameras on them, and worlds.
+
+        Raises:
+            SimulationError: There is no such robot or camera.
+        """
+        self._cameras.draw(
+            (self.robot(name).index, camera, world) for name, camera, world in wanted
+        )
 
     def pictures(
         self,

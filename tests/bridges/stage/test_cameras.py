@@ -111,8 +111,19 @@ def test_the_frame_is_told_while_somebody_looks(stage):
 
 def test_nothing_is_drawn_without_listeners(stage, monkeypatch):
     world = stage(ROBOT)
-    monkeypatch.setattr(world.sim.stage_fleet, "picture", lambda *_: pytest.fail("nobody looks"))
+    for name in ("picture", "draw"):
+        monkeypatch.setattr(world.sim.stage_fleet, name, lambda *_: pytest.fail("nobody looks"))
     world.sim.step(3)
+
+
+def test_pictures_of_all_robots_are_drawn_in_one_call(stage, monkeypatch):
+    world = stage(ROBOT * 3 + WALL)
+    topics = [world.listen(f"/robot_{number}/image", IMAGE) for number in (0, 2)]
+    fleet, calls = world.sim.stage_fleet, []
+    draw = fleet.draw
+    monkeypatch.setattr(fleet, "draw", lambda keys: (calls.append(keys), draw(keys)))
+    world.step(topics[0])
+    assert calls == [[("position:0", 0, 0), ("position:2", 0, 0)]]
 
 
 @pytest.mark.long

@@ -1,0 +1,58 @@
+"""Things in plain colours that no lamp changes, as simple simulators draw them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from gazelle.description import Color, Empty, Material, Pose, Scene, Visual, World
+from gazelle.rendering.surface_looks import SurfaceLook
+from gazelle.rendering.tessellation import TriangleMesh
+from gazelle.rendering.visible import GatheredShapes, VisiblePart, VisibleWorld, rows_of
+
+_BLACK = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class PaintedPart:
+    """Triangles of one colour.
+
+    Attributes:
+        link: Number of the link that they are on.
+        mesh: In the link's frame; parts that look alike may share it, which is held once.
+        color: Red, green and blue, 0 to 1, as pictures show it.
+    """
+
+    link: int
+    mesh: TriangleMesh
+    color: tuple[float, float, float]
+
+
+def painted_world(links: Sequence[str], parts: Iterable[PaintedPart]) -> VisibleWorld:
+    """What cameras see of links that are all at the origin at first.
+
+    Args:
+        links: Their names.
+        parts: What is on them; labels in pictures count these.
+    """
+    gathered, numbers = GatheredShapes(), dict[int, int]()
+    found, held = [], []
+    for label, part in enumerate(parts):
+        key = id(part.mesh)
+        if key not in numbers:
+            numbers[key] = gathered.add_mesh(part.mesh)
+            held.append(part.mesh)  # as long as its id is in use
+        look = SurfaceLook(_BLACK, part.color)
+        gathered.add_part(numbers[key], look, part.link, label)
+        paint = Material(diffuse=(*_BLACK, 1.0), emissive=(*part.color, 1.0))
+        found.append(VisiblePart(links[part.link], Visual("paint", Empty(), material=paint)))
+    pose = Pose()
+    rest = np.tile(rows_of(np.asarray(pose.position), np.asarray(pose.quaternion)), (len(links), 1))
+    return VisibleWorld(tuple(links), tuple(found), gathered.drawn(), rest)
+
+
+def plain_surroundings(background: Color) -> World:
+    """A world with nothing in it but one colour behind all."""
+    return World(scene=Scene(ambient=(*_BLACK, 1.0), background=background))
