@@ -166,3 +166,30 @@ def from_yaw(yaw: Floats) -> Floats:
     np.sin(half, out=q[..., 2])
     np.cos(half, out=q[..., 3])
     return q
+
+
+def from_matrices(matrices: Floats) -> Floats:
+    """Unit quaternions (x, y, z, w), shape (..., 4), of rotation matrices, shape (..., 3, 3).
+
+    Of the four ways to compute one that which divides by the most (Shepperd, 1978).
+    """
+    m = matrices
+    a, b, c = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
+    xy, yz, zx = (
+        m[..., 1, 0] + m[..., 0, 1],
+        m[..., 2, 1] + m[..., 1, 2],
+        m[..., 0, 2] + m[..., 2, 0],
+    )
+    x, y, z = m[..., 2, 1] - m[..., 1, 2], m[..., 0, 2] - m[..., 2, 0], m[..., 1, 0] - m[..., 0, 1]
+    ways = np.stack(
+        [
+            np.stack((1.0 + a - b - c, xy, zx, x), axis=-1),
+            np.stack((xy, 1.0 - a + b - c, yz, y), axis=-1),
+            np.stack((zx, yz, 1.0 - a - b + c, z), axis=-1),
+            np.stack((x, y, z, 1.0 + a + b + c), axis=-1),
+        ],
+        axis=-2,
+    )
+    largest = np.argmax(np.diagonal(ways, axis1=-2, axis2=-1), axis=-1)
+    q = np.take_along_axis(ways, largest[..., None, None], axis=-2)[..., 0, :]
+    return np.asarray(q / np.linalg.norm(q, axis=-1, keepdims=True))

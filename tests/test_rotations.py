@@ -11,6 +11,7 @@ from hypothesis.extra.numpy import arrays
 from gazelle.rotations import (
     conjugate,
     cross,
+    from_matrices,
     from_yaw,
     multiply,
     rotate,
@@ -86,3 +87,13 @@ def test_what_is_seen_on_the_ground_is_turned_back_by_the_heading(q, v):
 def test_who_looks_straight_up_sees_the_ground_as_it_is():
     up = np.array([[-0.5, 0.5, 0.5, 0.5]])
     assert seen_on_ground(up, np.array([[1.0, 2.0, 3.0]]))[0] == pytest.approx([1.0, 2.0, 0.0])
+
+
+@given(quaternions)
+def test_a_matrix_has_the_quaternion_that_made_it(q):
+    q = q / np.linalg.norm(q)
+    half_turns = np.eye(4)  # where three of four ways divide by nothing
+    many = np.vstack((q, half_turns))
+    back = from_matrices(np.swapaxes(turns(many), 1, 2))
+    assert np.abs((back * many).sum(axis=1)) == pytest.approx(np.ones(5), abs=1e-12)
+    assert from_matrices(turns(many[:1])[0].T).shape == (4,)

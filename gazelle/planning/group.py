@@ -28,6 +28,7 @@ from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene import PlanningScene
 from gazelle.planning.scene_objects import SceneObject
 from gazelle.planning.variables import JointBounds
+from gazelle.simulation.joint_motion import JointMotion
 from gazelle.simulation.robot import Robot
 
 START_TOLERANCE = 0.01
@@ -62,6 +63,7 @@ class GroupPlan:
                 these joints.
         """
         self.group.check_start(self.plan)
+        self.group.tell(self.plan)
         return begin_execution(self.group.robot, self.plan, self.group.world)
 
     def run(self) -> ExecutionReport:
@@ -219,6 +221,7 @@ class Group:
         start = self.state()
         link = (self.tip if isinstance(goal, Pose) else None) if link is None else link
         found = self._planner().plan(goal, start=start, link=link, constraints=constraints)
+        self.tell(found)
         return GroupPlan(found, self)
 
     def follow(
@@ -251,6 +254,7 @@ class Group:
             avoid_collisions=avoid_collisions,
             constraints=constraints,
         )
+        self.tell(plan)
         return GroupPlan(plan, self, path.fraction, path.reason)
 
     def go(self, goal: Goal) -> ExecutionReport:
@@ -320,6 +324,17 @@ class Group:
                 f"{there[worst]:.4f}",
                 hint="plan again from where the robot is",
             )
+
+    def tell(self, plan: MotionPlan) -> None:
+        """Show a plan to who looks at the simulation (``simulation.events.planned``)."""
+        try:
+            tip = self.tip
+        except PlanningError:  # it has several ends
+            tip = ""
+        start = dict(zip(self.scene.robot.names, plan.start.tolist(), strict=True))
+        path = plan.trajectory
+        motion = JointMotion(plan.names, path.times, path.positions, start, tip)
+        self.robot.simulation.events.planned.tell(self.robot, self.world, motion)
 
     def with_options(self, **changes: object) -> None:
         """Change how it plans, such as ``velocity=0.5``; see ``PlanOptions``."""

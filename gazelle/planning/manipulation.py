@@ -28,6 +28,9 @@ class MovingGroup(Protocol):
     def check_start(self, plan: MotionPlan) -> None:
         """See that the robot is where a plan begins."""
 
+    def tell(self, plan: MotionPlan) -> None:
+        """Show a plan to who looks."""
+
 
 @dataclass(frozen=True, slots=True)
 class Manipulation:
@@ -61,6 +64,7 @@ class Manipulation:
     def _do(self, stage: ManipulationStage) -> ExecutionReport:
         if stage.motion is not None:
             self.group.check_start(stage.motion)
+            self.group.tell(stage.motion)
             execution = begin_execution(self.group.robot, stage.motion, self.group.world)
             return execution.run()
         report: GripperReport = self.gripper.take(stage.posture, stage.effort)

@@ -3,6 +3,7 @@
 from gazelle.simulation.base_plugin import Plugin
 from gazelle.simulation.clock import Clock, Schedule, Stopwatch
 from gazelle.simulation.faults import Fault
+from gazelle.simulation.joint_motion import JointMotion
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.known_plugins import KnownPlugin
 from gazelle.simulation.links import LinkHandle
@@ -32,6 +33,7 @@ __all__ = [
     "FramePrefix",
     "Input",
     "JointHandle",
+    "JointMotion",
     "JointStates",
     "KnownPlugin",
     "LinkHandle",

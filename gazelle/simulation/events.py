@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.array_types import Worlds
 
 if TYPE_CHECKING:
+    from gazelle.simulation.joint_motion import JointMotion
     from gazelle.simulation.robot import Robot
 
 
@@ -22,7 +23,7 @@ class Event:
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
-    def tell(self, *arguments: Robot | Worlds | bool | None) -> None:
+    def tell(self, *arguments: Robot | Worlds | JointMotion | bool | int | None) -> None:
         """It happened."""
         for listener in tuple(self._listeners):
             listener(*arguments)
@@ -39,6 +40,9 @@ class Events:
         managed: A model has one more controller manager: called with its ``Robot``, which may not
             be spawned yet.
         rested: A run of steps is over; others may follow at once.
+        planned: Somebody planned a motion, or begins to make one, in any thread: called with the
+            ``Robot``, the number of the world, and a ``JointMotion``. Planners of users tell it too,
+            by ``simulation.events.planned.tell(robot, world, motion)``.
     """
 
     def __init__(self) -> None:
@@ -47,3 +51,4 @@ class Events:
         self.reset = Event()
         self.managed = Event()
         self.rested = Event()
+        self.planned = Event()

@@ -19,6 +19,7 @@ from gazelle.viewer.page.context import ROOT, OptionalLayer, PageContext, PageLa
 from gazelle.viewer.page.driving import DriveControls
 from gazelle.viewer.page.joint_sliders import JointSliders
 from gazelle.viewer.page.model_tools import ModelTools
+from gazelle.viewer.page.motion_layer import MotionLayer
 from gazelle.viewer.page.overlays import ContactLayer, FrameLayer, NameLayer, RayLayer
 from gazelle.viewer.page.plan_layer import PlanLayer
 from gazelle.viewer.page.plots import PlotLayer
@@ -112,6 +113,7 @@ class LiveView(Closeable):
             steering: list[PageLayer] = []
             if not only_looking:
                 steering = [DriveControls(context, self._server), JointSliders(context)]
+            motions = MotionLayer(context)
             self._optional: dict[str, OptionalLayer] = {
                 "Collision shapes": ShapeLayer(context, "solid", collisions=True, shown=False),
                 "Names": NameLayer(context),
@@ -119,6 +121,7 @@ class LiveView(Closeable):
                 "Contacts": ContactLayer(context),
                 "Lidar rays": RayLayer(context),
                 "Plans and goals": PlanLayer(context),
+                "Planned motions": motions,
                 "Camera pictures": CameraInsets(context),
             }
             self._plots = PlotLayer(context)
@@ -132,6 +135,7 @@ class LiveView(Closeable):
                 events.spawned.subscribe(self._note),
                 events.deleted.subscribe(self._note),
                 self._plots.forget,
+                motions.forget,
             )
 
     def _offer(self) -> None:

@@ -10,8 +10,10 @@ pytest.importorskip("viser", reason="the extra 'web' is not installed")
 from PIL import Image as Pictures
 
 from gazelle.ros import Master, Node, Time, WallClock, load_message
+from gazelle.ros.tf import take_transforms
 from gazelle.viewer.graph import GraphView
 from gazelle.viewer.graph.drawing import points_of
+from gazelle.viewer.graph.motions import motion_of, robot_of
 from tests.ros.graph import until
 
 BODY = '<visual><geometry><box size="1 1 1"/></geometry></visual><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
@@ -219,6 +221,87 @@ def test_triangles_have_their_colours():
     assert mesh.visual.vertex_colors[:, :3].tolist() == tones[:6].tolist()
     plain = _triangles(points, np.array([255, 0, 0], np.uint8), color)
     assert (plain.visual.vertex_colors == [255, 0, 0, 255]).all()
+
+
+def plan_of(names, *rows, model="r", **start):
+    """A DisplayTrajectory with a point every second."""
+    part = message("moveit_msgs/RobotTrajectory")
+    part.joint_trajectory.joint_names = list(names)
+    for second, row in enumerate(rows):
+        point = message("trajectory_msgs/JointTrajectoryPoint", positions=list(row))
+        point.time_from_start.secs = second
+        part.joint_trajectory.points.append(point)
+    sent = message("moveit_msgs/DisplayTrajectory", model_id=model, trajectory=[part])
+    sent.trajectory_start.joint_state.name = list(start)
+    sent.trajectory_start.joint_state.position = list(start.values())
+    return sent
+
+
+def test_a_plan_is_shown_by_a_ghost_until_the_robot_has_made_it(node, view):
+    put_frames(node, view, base_link=(1.0, 2.0), tip=(1.0, 2.0))
+    say(node, view, "/move_group/display_planned_path", plan_of(["j"], [0.0], [1.0]))
+    motion = view._motions["/move_group/display_planned_path"]
+    ghost = motion._ghost
+    assert ghost.links == ("tip",)  # the base does not move
+    assert ghost._frame.position.tolist() == [1.0, 2.0, 0.0]
+    (batch,) = ghost._batches._batches
+    turns = []
+    for seconds in (0.0, 0.5, 1.5, 2.5):
+        ghost.show(np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]), ghost._begun + seconds)
+        turns.append(
+            2.0 * np.arctan2(batch.handle.batched_wxyzs[0, 3], batch.handle.batched_wxyzs[0, 0])
+        )
+    assert turns == pytest.approx([0.0, 0.5, 1.0, 0.5], abs=0.06)  # it rests, and begins again
+    assert not ghost.made
+    there = transform("base_link", "tip")
+    there.transform.rotation.z, there.transform.rotation.w = np.sin(0.5), np.cos(0.5)
+    later = [transform("map", "base_link", 1.0, 2.0), there]
+    for each in later:
+        each.header.stamp = Time.from_sec(2.0)
+    take_transforms(view._tree, message("tf2_msgs/TFMessage", transforms=later))
+    view._picture()
+    assert ghost.made
+    assert not ghost._frame.visible
+    say(node, view, "/move_group/display_planned_path", plan_of(["j"]))
+    until(lambda: view._picture() or motion._ghost is None)
+
+
+def test_plans_are_those_of_their_robots(node, view):
+    node.set_param("/left/robot_description", URDF.replace('name="r"', 'name="l"'))
+    node.set_param("/left/tf_prefix", "left")
+    view._discover()
+    robots = view._robots
+    assert robot_of("/move_group/plan", "r", robots) is robots["/robot_description"]
+    assert robot_of("/move_group/plan", "l", robots) is robots["/left/robot_description"]
+    assert robot_of("/left/move_group/plan", "", robots) is robots["/left/robot_description"]
+    assert robot_of("/plan", "", {}) is None
+
+
+def test_parts_of_a_plan_follow_each_other():
+    sent = plan_of(["a", "b"], [0.0, 1.0], [2.0, 3.0], c=5.0)
+    sent.trajectory += plan_of(["c"], [5.0], [6.0]).trajectory
+    motion = motion_of(sent)
+    assert motion.joints == ("a", "b", "c")
+    assert motion.times.tolist() == [0.0, 1.0, 1.0, 2.0]
+    assert motion.positions.tolist() == [[0, 1, 5], [2, 3, 5], [2, 3, 5], [2, 3, 6]]
+    assert motion_of(plan_of([])) is None
+
+
+@pytest.mark.parametrize(
+    ("names", "row", "words"),
+    [
+        (["j"], [0.0, 1.0], "2 positions for 1 joints"),
+        (["j"], [float("nan")], "no number"),
+        (["elsewhere"], [0.0], "none of the joints"),
+    ],
+)
+def test_what_is_wrong_with_a_plan_is_said(node, view, names, row, words):
+    put_frames(node, view, base_link=(1.0, 2.0))
+    say(node, view, "/plan", plan_of(names, row))
+    view._discover()
+    view._picture()
+    view._discover()
+    assert words in view._status.content
 
 
 def test_a_bad_message_does_not_end_the_view(node, view, monkeypatch):

@@ -28,13 +28,18 @@ class DescribedRobot:
         text: Its URDF.
         prefix: Before the names of its frames, such as ``robot1/``.
 
+    Attributes:
+        text: Likewise.
+        prefix: Likewise.
+        model: What it describes.
+
     Raises:
         Error: The text describes no robot.
     """
 
     def __init__(self, scene: SceneApi, root: str, text: str, prefix: str) -> None:
-        self.text = text
-        model = _model(text)
+        self.text, self.prefix = text, prefix
+        self.model = model = _model(text)
         self._batches = ShapeBatches(scene, root, World(models=(model,)), np.zeros((1, 3)))
         self._frames = [prefix + link.rpartition("::")[2] for link in self._batches.links]
         self._at = self._batches.rest[0][None].copy()

@@ -17,6 +17,8 @@ from gazelle.ros.errors import ApiError, UnreachableError
 from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.viewer.graph import drawing as d
 from gazelle.viewer.graph.markers import draw_marker, draw_markers
+from gazelle.viewer.graph.motions import KIND as MOTION
+from gazelle.viewer.graph.motions import MotionTopic
 from gazelle.viewer.graph.robots import DescribedRobot
 from gazelle.viewer.page.server import PageServer
 
@@ -70,6 +72,7 @@ class GraphView(Closeable):
         self._drawings: dict[str, d.Drawing] = {}
         self._anchors: dict[str, Any] = {}
         self._robots: dict[str, DescribedRobot] = {}
+        self._motions: dict[str, MotionTopic] = {}
         self._hidden: set[str] = set()
         self._refused: dict[str, tuple[str, str]] = {}
         self._subscribers: dict[str, Any] = {}
@@ -130,7 +133,7 @@ class GraphView(Closeable):
     def _discover(self) -> None:
         """Subscribe to topics that are new, and read robots that are."""
         for topic, kind in self._node.master.published_topics():
-            if kind in _KINDS and topic not in self._subscribers:
+            if (kind in _KINDS or kind == MOTION) and topic not in self._subscribers:
                 self._kinds[topic] = kind
                 self._subscribers[topic] = self._node.subscribe(
                     topic, load_message(kind), partial(self._came, topic), 50
@@ -180,6 +183,14 @@ class GraphView(Closeable):
                 self._anchor(topic, fixed, frame)
             for robot in self._robots.values():
                 robot.show(self._tree, fixed)
+            for topic, motion in self._motions.items():
+                self._move(topic, motion, fixed)
+
+    def _move(self, topic: str, motion: MotionTopic, fixed: str) -> None:
+        try:
+            motion.show(self._tree, fixed, self._robots)
+        except Error as error:
+            self._refused[topic] = "", f"{topic}: {error}"
 
     def _draw(self, topic: str, message: Any) -> None:
         page, kind = self._server.viser, self._kinds[topic]
@@ -192,7 +203,14 @@ class GraphView(Closeable):
             box.on_update(partial(self._toggle, topic))
         first = message.markers[0] if getattr(message, "markers", None) else message
         self._frames[topic] = getattr(getattr(first, "header", None), "frame_id", "").lstrip("/")
-        _KINDS[kind](self._drawings[topic], message)
+        if kind != MOTION:
+            _KINDS[kind](self._drawings[topic], message)
+            return
+        self._refused.pop(topic, None)
+        if topic not in self._motions:
+            name = f"{self._drawings[topic].name}/plan"
+            self._motions[topic] = MotionTopic(page.scene, name, topic)
+        self._motions[topic].take(message)
 
     def _toggle(self, topic: str, event: Any) -> None:
         (self._hidden.discard if event.target.value else self._hidden.add)(topic)

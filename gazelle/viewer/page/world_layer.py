@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.description import Link, Material, Model, Visual, World
+from gazelle.description import Link, Material, Visual
 from gazelle.viewer.page.context import ROOT, PageContext
+from gazelle.viewer.page.restyled import restyled
 from gazelle.viewer.page.shapes import Instance, ShapeBatches
 
 _ORANGE = (0.95, 0.55, 0.15, 1.0)
@@ -73,7 +74,7 @@ class ShapeLayer:
             context = self._context
             world = context.simulation.world
             if self._collisions:
-                world = _bare(world)
+                world = restyled(world, _bare_link)
             self._batches = ShapeBatches(
                 context.scene,
                 self._root,
@@ -87,19 +88,6 @@ class ShapeLayer:
             self._known = np.array([k for k, link in enumerate(links) if link in known], np.intp)
             self._links = tuple(links[k] for k in self._known.tolist())
         return self._batches
-
-
-def _bare(world: World) -> World:
-    """A world whose collision shapes are all that is seen."""
-    return replace(world, models=tuple(_bare_model(model) for model in world.models))
-
-
-def _bare_model(model: Model) -> Model:
-    return replace(
-        model,
-        links=tuple(_bare_link(link) for link in model.links),
-        models=tuple(_bare_model(nested) for nested in model.models),
-    )
 
 
 def _bare_link(link: Link) -> Link:

@@ -1,0 +1,21 @@
+"""Worlds whose links look otherwise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from gazelle.description import Link, Model, World
+
+
+def restyled(world: World, change: Callable[[Link], Link]) -> World:
+    """A world in which every link is changed, those of models in models too."""
+    return replace(world, models=tuple(_model(model, change) for model in world.models))
+
+
+def _model(model: Model, change: Callable[[Link], Link]) -> Model:
+    return replace(
+        model,
+        links=tuple(change(link) for link in model.links),
+        models=tuple(_model(nested, change) for nested in model.models),
+    )
