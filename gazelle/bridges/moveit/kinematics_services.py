@@ -18,6 +18,7 @@ from gazelle.planning import (
     InverseKinematics,
     JointModelGroup,
     NoPlanError,
+    PlanningScene,
     PlanOutcome,
     SceneContact,
     goal_of_pose,
@@ -64,54 +65,43 @@ class KinematicsServices:
         state = context.state(asked.robot_state)
         constraints = context.constraints(asked.constraints, state)
         targets = _targets(asked)
+        scene = context.scene_in(asked.robot_state, state)
+        validity = StateValidity(
+            scene, group, state, constraints, collisions=asked.avoid_collisions
+        )
         if len(targets) > 1:
-            found = self._together(asked, group, state, constraints, targets)
+            found = self._together(validity, state, targets)
         else:
-            found = self._alone(asked, group, state, constraints, *targets[0])
+            found = self._alone(validity, state, *targets[0], timeout=asked.timeout.to_sec())
         state[group.columns] = found
         response.solution = state_message(context.robot, context.robot.complete(state))
 
     def _alone(
-        self,
-        asked: Any,
-        group: JointModelGroup,
-        state: Floats,
-        constraints: ConstraintSet,
-        link: str | None,
-        stamped: Any,
+        self, validity: StateValidity, state: Floats, link: str | None, stamped: Any, timeout: float
     ) -> Floats:
         """Positions of a group that bring one link to its pose."""
         pose = self._context.frames.pose(stamped, state)
-        solver = self._solver(group, link)
-        valid = self._judge(group, state, constraints, avoid=asked.avoid_collisions)
-        found = solver.solve(pose, state, valid=valid, timeout=asked.timeout.to_sec() or math.inf)
+        solver = self._solver(validity.group, link)
+        found = solver.solve(pose, state, valid=validity, timeout=timeout or math.inf)
         if found is None:
             raise NoPlanError(
-                f"no positions of '{group.name}' bring '{solver.link}' there",
+                f"no positions of '{validity.group.name}' bring '{solver.link}' there",
                 PlanOutcome.NO_IK_SOLUTION,
             )
         return found
 
     def _together(
-        self,
-        asked: Any,
-        group: JointModelGroup,
-        state: Floats,
-        constraints: ConstraintSet,
-        targets: list[tuple[str | None, Any]],
+        self, validity: StateValidity, state: Floats, targets: list[tuple[str | None, Any]]
     ) -> Floats:
         """Positions of a group that bring several links to their poses, each by joints of its own."""
-        context = self._context
+        group, frames = validity.group, self._context.frames
         parts = [
-            goal_of_pose(link or group.tip, context.frames.pose(stamped, state), *_EXACT)
+            goal_of_pose(link or group.tip, frames.pose(stamped, state), *_EXACT)
             for link, stamped in targets
         ]
         goal = ConstraintSet(
             positions=tuple(each for part in parts for each in part.positions),
             orientations=tuple(each for part in parts for each in part.orientations),
-        )
-        validity = StateValidity(
-            context.scene, group, state, constraints, collisions=asked.avoid_collisions
         )
         try:
             found: Floats = GoalStates(validity, state[group.columns]).find(goal)[0]
@@ -124,18 +114,6 @@ class KinematicsServices:
             return InverseKinematics(self._context.robot, group, link)
         except PlanningError as error:  # as MoveIt has it: there is no solver for such a link
             raise NoPlanError(error.message, PlanOutcome.NO_IK_SOLUTION, error.hint) from None
-
-    def _judge(
-        self, group: JointModelGroup, state: Floats, constraints: ConstraintSet, *, avoid: bool
-    ) -> Callable[[Floats], bool] | None:
-        """What solutions are asked; None if nothing is asked of them."""
-        validity = StateValidity(self._context.scene, group, state, constraints)
-        if avoid:
-            return validity
-        robot = self._context.robot
-        if constraints:
-            return lambda found: not constraints.violations(robot, validity.full(found))
-        return None
 
     # -- forward -------------------------------------------------------------------------
 
@@ -172,8 +150,9 @@ class KinematicsServices:
         group = context.group(request.group_name) if request.group_name else None
         state = context.state(request.robot_state)
         constraints = context.constraints(request.constraints, state)
-        contacts = context.scene.contacts(state, group)
-        response.contacts = [self._contact(each) for each in contacts]
+        scene = context.scene_in(request.robot_state, state)
+        contacts = scene.contacts(state, group)
+        response.contacts = [self._contact(each, scene) for each in contacts]
         made = load_message("moveit_msgs/ConstraintEvalResult")
         for part, weight in zip(
             constraints.all, weights_of_message(request.constraints), strict=True
@@ -183,7 +162,7 @@ class KinematicsServices:
             response.constraint_result.append(made(result=kept, distance=away))
         response.valid = not contacts and all(each.result for each in response.constraint_result)
 
-    def _contact(self, contact: SceneContact) -> Any:
+    def _contact(self, contact: SceneContact, scene: PlanningScene) -> Any:
         message: Any = load_message("moveit_msgs/ContactInformation")()
         message.header.frame_id = self._context.robot.frame
         message.header.stamp = Time(nsecs=self._context.now())
@@ -191,14 +170,16 @@ class KinematicsServices:
         set_point(message.normal, contact.normal)
         message.depth = float(contact.depth)
         message.contact_body_1, message.contact_body_2 = contact.first, contact.second
-        message.body_type_1 = self._kind(contact.first)
-        message.body_type_2 = self._kind(contact.second)
+        message.body_type_1 = _kind(contact.first, scene)
+        message.body_type_2 = _kind(contact.second, scene)
         return message
 
-    def _kind(self, name: str) -> int:
-        if name in self._context.robot.links:
-            return _LINK
-        return _ATTACHED if name in self._context.scene.attached else _OBJECT
+
+def _kind(name: str, scene: PlanningScene) -> int:
+    """What kind of body ``moveit_msgs/ContactInformation`` says it is."""
+    if name in scene.robot.links:
+        return _LINK
+    return _ATTACHED if name in scene.attached else _OBJECT
 
 
 def _targets(asked: Any) -> list[tuple[str | None, Any]]:

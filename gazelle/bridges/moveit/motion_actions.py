@@ -65,7 +65,8 @@ class MoveGroupAction:
     def _plan(self, goal: Any, result: Any, *, from_here: bool) -> None:
         context, request = self._context, goal.request
         change = goal.planning_options.planning_scene_diff
-        if from_here and request.start_state.joint_state.name:
+        start = request.start_state
+        if from_here and (start.joint_state.name or start.attached_collision_objects):
             LOG.warning(
                 "move_group: a plan that is executed begins where the robot is, not at the "
                 "request's start_state"

@@ -12,6 +12,7 @@ from gazelle.bridges.moveit.capabilities import Capabilities
 from gazelle.bridges.moveit.constraint_messages import constraints_of_message
 from gazelle.bridges.moveit.description import margins_of_parameters, robot_of_parameters
 from gazelle.bridges.moveit.frames import PlanningFrames
+from gazelle.bridges.moveit.held_objects import scene_in_state
 from gazelle.bridges.moveit.robot_states import JointStateMonitor, state_of_message
 from gazelle.errors import Error, PlanningError
 from gazelle.planning import (
@@ -88,6 +89,14 @@ class PlanningContext:
             NoPlanError: It names what is not there.
         """
         return state_of_message(self.robot, message, self.current())
+
+    def scene_in(self, message: Any, state: Floats) -> PlanningScene:
+        """The scene with what a ``moveit_msgs/RobotState`` holds besides; hold ``lock``.
+
+        Raises:
+            NoPlanError: Something cannot be held.
+        """
+        return scene_in_state(self.scene, self.frames, message, state)
 
     def group(self, name: str) -> JointModelGroup:
         """A group.

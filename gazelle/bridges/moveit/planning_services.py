@@ -80,7 +80,8 @@ class PlanningServices:
                 state = context.current() if from_here else context.state(request.start_state)
                 goals, failure = self._goals(request, state)
                 held = context.constraints(request.path_constraints, state)
-                context.planned.follow(context.scene)
+                shown = context.scene if from_here else context.scene_in(request.start_state, state)
+                context.planned.follow(shown)
             return self._search(request, group, state, goals, held, failure)
 
     def _goals(self, request: Any, state: Floats) -> tuple[list[ConstraintSet], NoPlanError | None]:
@@ -182,7 +183,7 @@ class PlanningServices:
                 state = context.state(request.start_state)
                 base = context.frames.find(request.header.frame_id, state)
                 held = context.constraints(request.path_constraints, state)
-                context.planned.follow(context.scene)
+                context.planned.follow(context.scene_in(request.start_state, state))
             self._straight(request, response, group, state, base, held)
 
     def _straight(

@@ -8,12 +8,13 @@ from dataclasses import replace
 from typing import Any
 
 from gazelle.bridges.moveit.frames import pose_of_message
+from gazelle.bridges.moveit.held_objects import change_held, refuse_reserved
 from gazelle.bridges.moveit.object_messages import object_of_message, shapes_of_message
 from gazelle.bridges.moveit.octomap_messages import octomap_of_message
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.scene_messages import matrix_of_message, scene_message
 from gazelle.errors import Error, PlanningError
-from gazelle.planning import OCTOMAP, AttachedObject, NoPlanError, PlanOutcome
+from gazelle.planning import OCTOMAP, NoPlanError, PlanOutcome
 from gazelle.ros.messages import load_message, load_service
 
 _ALL = 1023
@@ -183,7 +184,7 @@ class SceneServices:
         }  # fmt: skip
 
         def act() -> None:
-            _refuse_reserved(message.id)
+            refuse_reserved(message.id)
             if message.operation not in actions:
                 raise PlanningError(f"the operation {message.operation} of an object is not known")
             actions[message.operation](message)
@@ -218,40 +219,7 @@ class SceneServices:
 
     def _hold(self, message: Any) -> bool:
         """Do what an ``AttachedCollisionObject`` says."""
-        removes = message.object.operation == _REMOVE
-
-        def act() -> None:
-            _refuse_reserved(message.object.id)
-            if removes:
-                self._leave(message)
-            else:
-                self._attach(message)
-
-        return self._try(act)
-
-    def _leave(self, message: Any) -> None:
-        """Leave one thing, or all that a link holds, or all, where it is."""
-        if message.object.id:
-            self._scene.detach(message.object.id)
-            return
-        for name, held in [*self._scene.attached.items()]:
-            if message.link_name in ("", held.link):
-                self._scene.detach(name)
-
-    def _attach(self, message: Any) -> None:
-        scene, thing = self._scene, message.object
-        if not (thing.primitives or thing.meshes or thing.planes):
-            scene.attach(thing.id, message.link_name, message.touch_links)
-            return
-        frame = self._context.frames.find(thing.header.frame_id, scene.state)
-        base = scene.robot.pose(scene.state, message.link_name).inverse()
-        made = object_of_message(thing, base * frame)
-        scene.hold(AttachedObject(made, message.link_name, frozenset(message.touch_links)))
-
-
-def _refuse_reserved(name: str) -> None:
-    if name == OCTOMAP:
-        raise PlanningError(f"an object cannot be named '{OCTOMAP}'; that is the scene's octomap")
+        return self._try(lambda: change_held(self._scene, self._context.frames, message))
 
 
 def _has_octomap(world: Any) -> bool:

@@ -258,6 +258,77 @@ def test_inverse_kinematics_end_in_time(fetch):
     assert found.error_code.val == PlanOutcome.NO_IK_SOLUTION
 
 
+def holding(pose, operation=0, name="stick", link=TIP, size=(0.3, 0.02, 0.02)):
+    """A state of a request in which a link holds a thing."""
+    state = message("RobotState", is_diff=True)
+    thing = message("CollisionObject", id=name, operation=operation, pose=pose_message(pose))
+    thing.header.frame_id = link
+    if operation == 0:
+        thing.primitives = [
+            load_message("shape_msgs/SolidPrimitive")(type=1, dimensions=list(size))
+        ]
+        thing.primitive_poses = [pose_message(Pose())]
+    touched = ["l_gripper_finger_link", "r_gripper_finger_link", "wrist_roll_link"]
+    state.attached_collision_objects = [
+        message("AttachedCollisionObject", link_name=link, object=thing, touch_links=touched)
+    ]
+    return state
+
+
+def test_what_a_requests_state_holds_counts_for_that_request(fetch):
+    scene = fetch.group.context.scene
+    with fetch.group.context.lock:
+        scene.add("post", Box((0.1, 0.1, 0.1)), tip_pose(fetch) * Pose(0.4))
+
+    def judged(**fields):
+        return fetch.call("check_state_validity", "GetStateValidity", group_name="arm", **fields)
+
+    assert judged().valid
+    found = judged(robot_state=holding(Pose(0.3)))
+    assert not found.valid
+    bodies = {(found.contacts[0].contact_body_1, found.contacts[0].body_type_1),
+              (found.contacts[0].contact_body_2, found.contacts[0].body_type_2)}  # fmt: skip
+    assert bodies == {("stick", 2), ("post", 1)}
+    # It is where its frame says, at the state that the request is about.
+    elsewhere = holding(Pose(0.3))
+    elsewhere.joint_state.name, elsewhere.joint_state.position = ["shoulder_pan_joint"], [0.8]
+    assert judged(robot_state=elsewhere).valid
+    here = tip_pose(fetch)
+    assert ik(fetch, here, avoid_collisions=True).error_code.val == PlanOutcome.SUCCESS
+    reaching = ik(fetch, here, avoid_collisions=True, robot_state=holding(Pose(0.3)))
+    assert reaching.error_code.val == PlanOutcome.NO_IK_SOLUTION
+    assert ik(fetch, here, robot_state=holding(Pose(0.3))).error_code.val == PlanOutcome.SUCCESS
+    # Nothing of it stays.
+    assert scene.attached == {}
+    assert judged().valid
+
+
+def test_plans_begin_with_what_the_start_holds(fetch):
+    """The way is free for the arm alone, and not for what it holds."""
+    goal, here = joint_goal(shoulder_pan_joint=0.5), tip_pose(fetch)
+    free = plan(fetch, goal)
+    assert free.error_code.val == PlanOutcome.SUCCESS
+    robot = fetch.group.context.robot
+    state = robot.zero() + fetch.group.context.monitor.current()
+    state[robot.column("shoulder_pan_joint")] = 0.5
+    there = robot.pose(state, TIP) * Pose(0.4)
+    with fetch.group.context.lock:
+        fetch.group.context.scene.add("post", Box((0.1, 0.1, 0.1)), there)
+    assert plan(fetch, goal).error_code.val == PlanOutcome.SUCCESS
+    held = plan(fetch, goal, start_state=holding(Pose(0.3)))
+    assert held.error_code.val == PlanOutcome.GOAL_IN_COLLISION
+    assert plan(fetch, goal).error_code.val == PlanOutcome.SUCCESS
+    wrong = plan(fetch, goal, start_state=holding(Pose(0.3), link="nose"))
+    assert wrong.error_code.val == PlanOutcome.INVALID_ROBOT_STATE
+    missing = plan(fetch, goal, start_state=holding(Pose(), operation=1, name="nothing"))
+    assert missing.error_code.val == PlanOutcome.INVALID_ROBOT_STATE
+    along = here * Pose(0.05)
+    with fetch.group.context.lock:
+        fetch.group.context.scene.add("post", Box((0.1, 0.1, 0.1)), along * Pose(0.45))
+    assert straight(fetch, along).fraction == pytest.approx(1.0)
+    assert straight(fetch, along, start_state=holding(Pose(0.3))).fraction < 0.9
+
+
 def joint_goal(**positions):
     return message("Constraints", joint_constraints=[
         message("JointConstraint", joint_name=name, position=position, tolerance_above=1e-3,

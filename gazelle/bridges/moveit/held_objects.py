@@ -1,0 +1,84 @@
+"""What links hold: ``moveit_msgs/AttachedCollisionObject``, for good or in a request's state."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gazelle.array_types import Floats
+from gazelle.bridges.moveit.frames import PlanningFrames
+from gazelle.bridges.moveit.object_messages import object_of_message
+from gazelle.errors import Error, PlanningError
+from gazelle.planning import OCTOMAP, AttachedObject, NoPlanError, PlanningScene, PlanOutcome
+
+_REMOVE = 1
+
+
+def change_held(scene: PlanningScene, frames: PlanningFrames, message: Any) -> None:
+    """Do what an ``AttachedCollisionObject`` says; the robot is where the scene's state is.
+
+    Raises:
+        PlanningError: It names what is not there, or a shape cannot be.
+    """
+    refuse_reserved(message.object.id)
+    if message.object.operation == _REMOVE:
+        _leave(scene, message)
+    else:
+        _attach(scene, frames, message)
+
+
+def scene_in_state(
+    scene: PlanningScene, frames: PlanningFrames, message: Any, state: Floats
+) -> PlanningScene:
+    """A scene with what a ``RobotState`` holds besides: another one, or the same if that is nothing.
+
+    Args:
+        scene: The scene; it stays as it is.
+        frames: Of the messages.
+        message: The state.
+        state: Its positions, by which things of other frames are placed, shape (variables,).
+
+    Raises:
+        NoPlanError: Something cannot be held.
+    """
+    if not message.attached_collision_objects:
+        return scene
+    made = scene.copy()
+    made.state = state.copy()
+    for each in message.attached_collision_objects:
+        try:
+            change_held(made, frames, each)
+        except Error as error:
+            text = f"the request's state cannot hold '{each.object.id}': {error.message}"
+            raise NoPlanError(text, PlanOutcome.INVALID_ROBOT_STATE, error.hint) from None
+    return made
+
+
+def refuse_reserved(name: str) -> None:
+    """See that a thing does not take the octomap's name.
+
+    Raises:
+        PlanningError: It does.
+    """
+    if name == OCTOMAP:
+        raise PlanningError(f"an object cannot be named '{OCTOMAP}'; that is the scene's octomap")
+
+
+def _leave(scene: PlanningScene, message: Any) -> None:
+    """Leave one thing, or all that a link holds, or all, where it is."""
+    if message.object.id:
+        scene.detach(message.object.id)
+        return
+    for name, held in [*scene.attached.items()]:
+        if message.link_name in ("", held.link):
+            scene.detach(name)
+
+
+def _attach(scene: PlanningScene, frames: PlanningFrames, message: Any) -> None:
+    thing = message.object
+    if not (thing.primitives or thing.meshes or thing.planes):
+        scene.attach(thing.id, message.link_name, message.touch_links)
+        return
+    frame = frames.find(thing.header.frame_id, scene.state)
+    base = scene.robot.pose(scene.state, message.link_name).inverse()
+    made = object_of_message(thing, base * frame)
+    scene.hold(AttachedObject(made, message.link_name, frozenset(message.touch_links)))
