@@ -29,7 +29,9 @@ LIDAR = """<sensor name='s' type='ray'><update_rate>10</update_rate><pose>0 0 .2
 </sensor>"""
 IMU = """<sensor name='s' type='imu'><update_rate>50</update_rate><imu><angular_velocity><x><noise
 type='gaussian'><stddev>.01</stddev></noise></x></angular_velocity></imu></sensor>"""
+CONTACT = "<sensor name='s' type='contact'><update_rate>10</update_rate></sensor>"
 SENSORS = {
+    "contact, 10 Hz": CONTACT,
     "IMU, 50 Hz": IMU,
     "lidar, 24 rays, 10 Hz": LIDAR.format(24),
     "lidar, 360 rays, 10 Hz": LIDAR.format(360),

@@ -9,7 +9,7 @@ from gazelle.engines.engine import PARAMETERS, DivergenceError, Engine
 from gazelle.engines.history import CHANGES, Call
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.range_rays import RangeRays
-from gazelle.engines.reactions import Contacts, Wrench
+from gazelle.engines.reactions import Contacts, TouchTable, Wrench
 from gazelle.engines.registry import EngineFactory, find
 from gazelle.engines.registry import names as engine_names
 from gazelle.engines.registry import register as register_engine
@@ -31,6 +31,7 @@ __all__ = [
     "RangeRays",
     "SystemEngine",
     "TableEngine",
+    "TouchTable",
     "Wrench",
     "changes_of",
     "engine_names",

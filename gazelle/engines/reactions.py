@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Indices
 from gazelle.rotations import cross
 
 
@@ -19,6 +20,27 @@ class Wrench:
 
     force: Floats
     torque: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class TouchTable:
+    """What touches some sets of collisions, set by set and world by world; see ``Contacts``.
+
+    Attributes:
+        sets: Which set each contact is one of, shape (k,).
+        worlds: Which world it is in, shape (k,).
+        names: Scoped names of collisions; another object when models have changed.
+        collisions: Of the set, as indices of ``names``, shape (k,).
+        others: What touches them, likewise.
+        terms: Position, normal, depth, force and torque side by side, shape (k, 13).
+    """
+
+    sets: Indices
+    worlds: Indices
+    names: Sequence[str]
+    collisions: Indices
+    others: Indices
+    terms: Floats
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Worlds
-from gazelle.engines import Contacts, Engine
+from gazelle.array_types import Floats, Indices, Worlds
+from gazelle.engines import Contacts, Engine, TableEngine, TouchTable
 from gazelle.sensors.model import NoisySensor
 
 # Values of one contact: two names, position, normal, depth, force, torque.
@@ -69,6 +69,30 @@ class ContactModel(NoisySensor):
             values[row[kept], place[kept]] = self._rows(touching)[kept]
         return values.reshape(len(chosen), -1)
 
+    @property
+    def by_system(self) -> bool:
+        """No: Python measures many in one call."""
+        return False
+
+    def kind(self) -> Hashable | None:
+        """Equal for those with room for as much, where the engine can."""
+        return self._most if isinstance(self._engine, TableEngine) else None
+
+    @classmethod
+    def together(cls, models: Sequence[ContactModel]) -> ContactGroup:
+        """What measures contacts of many sensors at once."""
+        return ContactGroup(models)
+
+    @property
+    def engine(self) -> Engine:
+        """What knows the contacts."""
+        return self._engine
+
+    @property
+    def most(self) -> int:
+        """Contacts kept of each world."""
+        return self._most
+
     def reading(self, values: Floats, stamp: int) -> ContactReading:
         """The contacts of one world's measurement, shape (most * 15,)."""
         table = values.reshape(-1, _WIDTH)
@@ -96,8 +120,8 @@ class ContactModel(NoisySensor):
         self._names = [str(name) for name in state["names"]]
 
     def _rows(self, touching: Contacts) -> Floats:
-        mine = [self._number(name) for name in touching.collisions]
-        others = [self._number(name) for name in touching.others]
+        mine = [self.number(name) for name in touching.collisions]
+        others = [self.number(name) for name in touching.others]
         return np.column_stack(
             (
                 mine,
@@ -110,8 +134,66 @@ class ContactModel(NoisySensor):
             )
         )
 
-    def _number(self, name: str) -> float:
+    def number(self, name: str) -> float:
         """A name as a number that a measurement can hold."""
         if name not in self._names:
             self._names.append(name)
         return float(self._names.index(name))
+
+
+class ContactGroup:
+    """Contact sensors of many robots, measured at once: forces are computed once for all.
+
+    Args:
+        models: Of one kind.
+
+    Raises:
+        TypeError: Their engine looks at one sensor at a time.
+    """
+
+    def __init__(self, models: Sequence[ContactModel]) -> None:
+        engine = models[0].engine
+        if not isinstance(engine, TableEngine):
+            raise TypeError("the engine measures each contact sensor by itself")
+        self._engine: TableEngine = engine
+        self._models, self._most = models, models[0].most
+        self._sets = tuple(each.collisions for each in models)
+        self._names: Sequence[str] = ()
+        self._codes = self._numbers = np.zeros(0, np.intp)
+
+    def measure_all(self, interval: float) -> Floats:  # noqa: ARG002  touch has no drift
+        """Contacts now, shape (nworld, n, most * 15); see ``ContactModel.measure``."""
+        found = self._engine.touching_each(self._sets)
+        shape = self._engine.nworld, len(self._sets), self._most
+        values = np.full((*shape, _WIDTH), np.nan)
+        if len(found.sets):
+            # Contacts come set by set and world by world: each one's place in its world.
+            run = found.sets * shape[0] + found.worlds
+            first = np.flatnonzero(np.diff(run, prepend=-1))
+            place = np.arange(len(run)) - np.repeat(first, np.diff(first, append=len(run)))
+            kept = place < self._most
+            rows = np.column_stack((*self._named(found), found.terms))
+            values[found.worlds[kept], found.sets[kept], place[kept]] = rows[kept]
+        return values.reshape(*shape[:2], -1)
+
+    def _named(self, found: TouchTable) -> tuple[Indices, Indices]:
+        """The numbers by which each sensor knows its collisions, and what touches them."""
+        if self._names is not found.names:
+            self._names = found.names
+            self._codes = self._numbers = np.zeros(0, np.intp)
+        owners = np.concatenate((found.sets, found.sets))
+        codes = owners * len(self._names) + np.concatenate((found.collisions, found.others))
+        new = ~np.isin(codes, self._codes)
+        if new.any():
+            self._learn(codes[new][np.argsort(owners[new], kind="stable")])
+        numbers = self._numbers[np.searchsorted(self._codes, codes)]
+        return numbers[: len(found.sets)], numbers[len(found.sets) :]
+
+    def _learn(self, codes: Indices) -> None:
+        """Have sensors number names that they meet for the first time."""
+        given = dict(zip(self._codes.tolist(), self._numbers.tolist(), strict=True))
+        for code in codes.tolist():
+            owner, name = divmod(code, len(self._names))
+            given[code] = int(self._models[owner].number(self._names[name]))
+        self._codes = np.array(sorted(given), np.intp)
+        self._numbers = np.array([given[code] for code in self._codes.tolist()], np.intp)

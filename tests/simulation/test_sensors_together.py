@@ -47,7 +47,14 @@ def imu(number):
     0 .1 0 .2 {0.1 * number}</pose><imu><angular_velocity>{rates}</angular_velocity></imu></sensor>"""
 
 
-SENSORS = {"lidar": lidar, "imu": imu}
+def contact(number):
+    """Of all of a link; one robot has two for the same."""
+    text = """<sensor name='{0}' type='contact'><update_rate>{1}</update_rate></sensor>"""
+    names = ("touch", "again") if number == 6 else ("touch",)
+    return "".join(text.format(name, 10 if number % 5 else 7) for name in names)
+
+
+SENSORS = {"lidar": lidar, "imu": imu, "contact": contact}
 
 
 def robot(kind, number):
@@ -200,6 +207,28 @@ def test_imus_of_a_kind_feel_the_coming_step_in_one_call_whoever_listens(monkeyp
     # as the lidars: 17 looks at the two that are alone, and 17 at the six others
     assert sorted(len(each) for each in steps if isinstance(each, tuple)) == [2] * 7 + [4] * 10
     assert sum(isinstance(each, str) for each in steps) == 17
+
+
+def test_contacts_of_all_are_found_in_one_step_whoever_listens(monkeypatch):
+    probes = []
+    with yard("contact", nworld=2) as sim:
+        touching = []
+        sim.robots["r4"].sensors["touch"].subscribe(
+            lambda each: touching.append(each.read().contacts.others)
+        )
+        sim.run(0.3)
+        probe = MujocoEngine._probe
+        monkeypatch.setattr(
+            MujocoEngine, "_probe", lambda *args: probes.append(args[1]) or probe(*args)
+        )
+        sim.run(1.0)
+        both = [sim.robots["r6"].sensors[name].read().contacts for name in ("touch", "again")]
+        ground = sim.robots["ground"].sensors["touch"].read().contacts
+    assert probes == [0, 1] * 17  # 10 Hz for most of them, 7 Hz for r0's, r5's and the ground's
+    assert both[0].others == both[1].others == ("ground::l::c",) * len(both[0])
+    assert len(both[0])
+    assert {name for name in ground.others if name.startswith("r6")} == {"r6::base::b"}
+    assert any(touching)
 
 
 def test_white_noise_that_is_changed_in_the_middle_of_a_run_is_each_sensors_own():

@@ -19,13 +19,13 @@ from mujoco.batch import Batch, SimulationError
 from gazelle.array_types import Floats
 from gazelle.description import World
 from gazelle.engines.mujoco.laws import spun
-from gazelle.engines.mujoco.reactions import ForceAccess
 from gazelle.engines.mujoco.suspects import suspect
+from gazelle.engines.mujoco.touching import TouchAccess
 from gazelle.engines.mujoco.wind import wind_strength
 from gazelle.errors import EngineWarning
 
 
-class ForcedSteps(ForceAccess):
+class ForcedSteps(TouchAccess):
     """The part of ``gazelle.engines.engine.Engine`` that steps."""
 
     _spun = False

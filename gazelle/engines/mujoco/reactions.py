@@ -6,9 +6,6 @@ when asked for, so that a step costs nothing more.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
@@ -17,58 +14,14 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.mujoco.access import rows_of
 from gazelle.engines.mujoco.bodies import BodyAccess
-from gazelle.engines.mujoco.layout import LoopSlot, MujocoLayout, look_up
+from gazelle.engines.mujoco.layout import LoopSlot, look_up
 from gazelle.engines.mujoco.options import SENSORS_OFF
 from gazelle.engines.mujoco.order import xyzw_from_wxyz
-from gazelle.engines.reactions import Contacts, Wrench
+from gazelle.engines.reactions import Wrench
 from gazelle.rotations import cross, rotate
 
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 _FIELDS = ("cfrc_int", "subtree_com", "xipos", "xpos", "xmat")
-
-
-# What ``_read_contacts`` says of a world where nothing touches.
-_NOTHING = tuple(
-    np.zeros(shape, kind)
-    for shape, kind in (
-        ((0, 2), np.int32),
-        (0, np.int32),
-        (0, np.int32),
-        ((0, 3), np.float64),
-        (0, np.float64),
-        ((0, 9), np.float64),
-        ((0, 5), np.float64),
-        (0, np.float64),
-    )
-)
-
-
-class _GeomList:
-    """What MuJoCo's geoms stand for.
-
-    Attributes:
-        names: Scoped names of their collisions.
-    """
-
-    def __init__(self, layout: MujocoLayout, count: int) -> None:
-        self.names = np.empty(count, np.object_)
-        for name, geoms in layout.collisions.items():
-            self.names[geoms] = name
-        self._ranks: dict[tuple[str, ...], NDArray[np.intp]] = {}
-
-    def ranks(self, layout: MujocoLayout, collisions: tuple[str, ...]) -> NDArray[np.intp]:
-        """How early each geom's collision is named; the last number is that of those that are not.
-
-        Raises:
-            EngineError: There is no such collision.
-        """
-        known = self._ranks.get(collisions)
-        if known is None:
-            known = np.full(len(self.names) + 1, len(collisions))
-            for rank, name in enumerate(collisions):
-                known[look_up("collision", name, layout.collisions)] = rank
-            self._ranks[collisions] = known
-        return known
 
 
 class ForceAccess(BodyAccess):
@@ -79,9 +32,6 @@ class ForceAccess(BodyAccess):
 
     _probed: tuple[Batch, mujoco.MjModel, mujoco.MjData] | None = None
     """A world apart from the batch, for what only a single world of MuJoCo has."""
-
-    _listed: tuple[MujocoLayout, _GeomList] | None = None
-    """The layout for which geoms were listed last, and the list."""
 
     def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
         """What the child of a joint exerts on the parent; see the protocol."""
@@ -194,51 +144,6 @@ class ForceAccess(BodyAccess):
         """Where a body of MuJoCo's is, and how it is turned (x, y, z, w), as ``_refresh`` left it."""
         return self._batch.xpos[worlds, body], xyzw_from_wxyz(self._batch.xquat[worlds, body])
 
-    # -- contacts ----------------------------------------------------------------------
-
-    def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
-        """The points where some collisions touch others in one world; see the protocol."""
-        return self.touching(collisions, np.array([world]))[1]
-
-    def touching(
-        self, collisions: Sequence[str], worlds: Worlds | None = None
-    ) -> tuple[Worlds, Contacts]:
-        """The same in many worlds; see the protocol."""
-        layout = self._now()
-        listed = self._list_of(layout)
-        ranks = listed.ranks(layout, tuple(collisions))
-        chosen = np.arange(self._nworld) if worlds is None else np.asarray(worlds)
-        with self._forced():
-            found = [_read_contacts(self._probe(world)[1]) for world in chosen.tolist()]
-        every = [np.concatenate(part) for part in zip(*(found or [_NOTHING]), strict=True)]
-        geoms, address, dims, points, depth, axes, rubs, forces = every
-        counts = np.array([(len(each[0]), len(each[-1])) for each in found], np.intp).reshape(-1, 2)
-        where = np.repeat(chosen, counts[:, 0])
-        starts = np.repeat(counts[:, 1].cumsum() - counts[:, 1], counts[:, 0])
-        acts = (ranks[geoms].min(axis=1, initial=ranks[-1]) < ranks[-1]) & (address >= 0)
-        address = address + starts
-        where, pairs, points, depth = where[acts], geoms[acts], points[acts], -depth[acts]
-        axes = axes[acts].reshape(-1, 3, 3)
-        cone = self._batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
-        wrench = _contact_forces(forces, address[acts], dims[acts], None if cone else rubs[acts])
-        rows, mine = np.arange(len(where)), ranks[pairs].argmin(axis=1)
-        # MuJoCo's normals and forces are those from the first geom on the second.
-        sign = np.where(mine == 1, 1.0, -1.0)[:, None]
-        return where, Contacts(
-            collisions=tuple(listed.names[pairs[rows, mine]]),
-            others=tuple(listed.names[pairs[rows, 1 - mine]]),
-            position=points,
-            normal=sign * axes[:, 0],
-            depth=depth,
-            force=sign * (wrench[:, None, :3] @ axes)[:, 0],
-            torque=sign * (wrench[:, None, 3:] @ axes)[:, 0],
-        )
-
-    def _list_of(self, layout: MujocoLayout) -> _GeomList:
-        if self._listed is None or self._listed[0] is not layout:
-            self._listed = (layout, _GeomList(layout, int(self._batch.model.ngeom)))
-        return self._listed[1]
-
     def _probe(self, world: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
         """One world with all its forces computed, apart from the batch."""
         batch, known = self._batch, self._probed
@@ -260,49 +165,3 @@ def _read_pulls(slot: LoopSlot, data: mujoco.MjData, out: Floats) -> None:
     for row, equality in zip(out, slot.equalities, strict=True):
         pull = data.efc_force[tied & (data.efc_id == equality)]
         row[: len(pull)] = pull
-
-
-def _read_contacts(data: mujoco.MjData) -> tuple[NDArray[Any], ...]:
-    """All contacts of one world: geoms, addresses, widths, points, distances, axes, coefficients.
-
-    Last come the forces of all constraints. Copies: the next world is computed in the same
-    memory.
-    """
-    found = data.contact
-    return (
-        found.geom.reshape(-1, 2).copy(),
-        found.efc_address.copy(),
-        found.dim.copy(),
-        found.pos.reshape(-1, 3).copy(),
-        found.dist.copy(),
-        found.frame.reshape(-1, 9).copy(),
-        found.friction.reshape(-1, 5).copy(),
-        data.efc_force.copy(),
-    )
-
-
-def _contact_forces(
-    forces: Floats, address: NDArray[Any], dims: NDArray[Any], rubs: Floats | None
-) -> Floats:
-    """Force and torque of contacts, each in its own frame, shape (k, 6).
-
-    Args:
-        forces: Of all constraints.
-        address: Of each contact's first, shape (k,).
-        dims: How many directions each contact acts in, shape (k,).
-        rubs: Coefficients of friction where friction is a pyramid, shape (k, 5); each of its
-            edges is the normal and one direction times its coefficient. None for a cone.
-    """
-    wrench = np.zeros((len(address), 6))
-    for width in sorted(set(dims.tolist())):
-        rows = np.flatnonzero(dims == width)
-        edges = None if width == 1 else rubs
-        count = width if edges is None else 2 * (width - 1)
-        values = forces[address[rows, None] + np.arange(count)]
-        if edges is not None:
-            wrench[rows, 0] = values.sum(axis=1)
-            lean = values[:, 0::2] - values[:, 1::2]
-            wrench[rows[:, None], np.arange(1, width)] = lean * edges[rows, : width - 1]
-        else:
-            wrench[rows[:, None], np.arange(width)] = values
-    return wrench

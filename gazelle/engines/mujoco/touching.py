@@ -1,0 +1,267 @@
+"""What touches what, and how hard: the contacts of all worlds, and whose they are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats, Indices, Worlds
+from gazelle.engines.mujoco.layout import MujocoLayout, look_up
+from gazelle.engines.mujoco.reactions import ForceAccess
+from gazelle.engines.reactions import Contacts, TouchTable
+
+# What ``_read_contacts`` says of a world where nothing touches.
+_NOTHING = tuple(
+    np.zeros(shape, kind)
+    for shape, kind in (
+        ((0, 2), np.int32),
+        (0, np.int32),
+        (0, np.int32),
+        ((0, 3), np.float64),
+        (0, np.float64),
+        ((0, 9), np.float64),
+        ((0, 5), np.float64),
+        (0, np.float64),
+    )
+)
+
+
+@dataclass(frozen=True, slots=True)
+class _ContactRows:
+    """All contacts of some worlds, world by world; see ``_read_contacts``.
+
+    Attributes:
+        worlds: Which world each is in, shape (k,).
+        starts: Where its world's constraints begin among ``forces``, shape (k,).
+    """
+
+    worlds: Worlds
+    starts: Indices
+    geoms: NDArray[np.int32]
+    address: NDArray[np.int32]
+    dims: NDArray[np.int32]
+    points: Floats
+    depth: Floats
+    axes: Floats
+    rubs: Floats
+    forces: Floats
+
+
+@dataclass(frozen=True, slots=True)
+class _Layer:
+    """Sets of collisions that have none in common.
+
+    Attributes:
+        sets: Which each geom's collision is in, shape (geoms + 1,); -1 for none.
+        ranks: How early it is named there, likewise.
+    """
+
+    sets: Indices
+    ranks: Indices
+
+
+class _GeomList:
+    """What MuJoCo's geoms stand for.
+
+    Attributes:
+        names: Scoped names of their collisions.
+        distinct: The same, each once.
+        numbers: Which of those each is.
+    """
+
+    def __init__(self, layout: MujocoLayout, count: int) -> None:
+        self.names = np.empty(count, np.object_)
+        self.distinct = list(layout.collisions)
+        self.numbers = np.full(count, -1)
+        for number, (name, geoms) in enumerate(layout.collisions.items()):
+            self.names[geoms], self.numbers[geoms] = name, number
+        self._ranks: dict[tuple[str, ...], NDArray[np.intp]] = {}
+        self._layers: dict[tuple[tuple[str, ...], ...], list[_Layer]] = {}
+
+    def ranks(self, layout: MujocoLayout, collisions: tuple[str, ...]) -> NDArray[np.intp]:
+        """How early each geom's collision is named; the last number is that of those that are not.
+
+        Raises:
+            EngineError: There is no such collision.
+        """
+        known = self._ranks.get(collisions)
+        if known is None:
+            known = np.full(len(self.names) + 1, len(collisions))
+            for rank, name in enumerate(collisions):
+                known[look_up("collision", name, layout.collisions)] = rank
+            self._ranks[collisions] = known
+        return known
+
+    def layers(self, layout: MujocoLayout, sets: tuple[tuple[str, ...], ...]) -> list[_Layer]:
+        """Sets of collisions in as few layers as need be; one where none is in two of them.
+
+        Raises:
+            EngineError: There is no such collision.
+        """
+        known = self._layers.get(sets)
+        if known is None:
+            known = self._layers[sets] = []
+            for number, collisions in enumerate(sets):
+                found = [look_up("collision", name, layout.collisions) for name in collisions]
+                every = np.concatenate([np.asarray(geoms, np.intp) for geoms in found])
+                layer = next((each for each in known if (each.sets[every] < 0).all()), None)
+                if layer is None:
+                    layer = _Layer(*np.full((2, len(self.names) + 1), -1))
+                    known.append(layer)
+                for rank, geoms in enumerate(found):
+                    layer.sets[geoms], layer.ranks[geoms] = number, rank
+        return known
+
+
+class TouchAccess(ForceAccess):
+    """The part of ``gazelle.engines.engine.Engine`` that knows what touches."""
+
+    _listed: tuple[MujocoLayout, _GeomList] | None = None
+    """The layout for which geoms were listed last, and the list."""
+
+    def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
+        """The points where some collisions touch others in one world; see the protocol."""
+        return self.touching(collisions, np.array([world]))[1]
+
+    def touching(
+        self, collisions: Sequence[str], worlds: Worlds | None = None
+    ) -> tuple[Worlds, Contacts]:
+        """The same in many worlds; see the protocol."""
+        layout = self._now()
+        listed = self._list_of(layout)
+        ranks = listed.ranks(layout, tuple(collisions))
+        found = self._all_contacts(np.arange(self._nworld) if worlds is None else worlds)
+        acts = ranks[found.geoms].min(axis=1, initial=ranks[-1]) < ranks[-1]
+        chosen = np.flatnonzero(acts & (found.address >= 0))
+        pairs = found.geoms[chosen]
+        mine = ranks[pairs].argmin(axis=1)
+        terms, rows = self._terms(found, chosen, mine), np.arange(len(chosen))
+        return found.worlds[chosen], Contacts(
+            collisions=tuple(listed.names[pairs[rows, mine]]),
+            others=tuple(listed.names[pairs[rows, 1 - mine]]),
+            position=terms[:, :3],
+            normal=terms[:, 3:6],
+            depth=terms[:, 6],
+            force=terms[:, 7:10],
+            torque=terms[:, 10:],
+        )
+
+    def touching_each(self, sets: Sequence[tuple[str, ...]]) -> TouchTable:
+        """What touches each of some sets of collisions, in all worlds; see the protocol."""
+        layout = self._now()
+        listed = self._list_of(layout)
+        found = self._all_contacts(np.arange(self._nworld))
+        acting = np.flatnonzero(found.address >= 0)
+        parts = [
+            _touches_of(layer, found.geoms[acting]) for layer in listed.layers(layout, tuple(sets))
+        ]
+        which, rows, mine = (np.concatenate(each) for each in zip(*parts, strict=True))
+        chosen = acting[rows]
+        order = np.lexsort((chosen, which))  # contacts are listed world by world
+        which, chosen, mine = which[order], chosen[order], mine[order]
+        numbers = listed.numbers[found.geoms[chosen]]
+        index = np.arange(len(chosen))
+        return TouchTable(
+            which,
+            found.worlds[chosen],
+            listed.distinct,
+            numbers[index, mine],
+            numbers[index, 1 - mine],
+            self._terms(found, chosen, mine),
+        )
+
+    def _all_contacts(self, worlds: Worlds) -> _ContactRows:
+        """All contacts of some worlds, in this order."""
+        chosen = np.asarray(worlds)
+        with self._forced():
+            found = [_read_contacts(self._probe(world)[1]) for world in chosen.tolist()]
+        every = [np.concatenate(part) for part in zip(*(found or [_NOTHING]), strict=True)]
+        counts = np.array([(len(each[0]), len(each[-1])) for each in found], np.intp).reshape(-1, 2)
+        starts = np.repeat(counts[:, 1].cumsum() - counts[:, 1], counts[:, 0])
+        return _ContactRows(np.repeat(chosen, counts[:, 0]), starts, *every)
+
+    def _terms(self, found: _ContactRows, rows: Indices, mine: Indices) -> Floats:
+        """What acts in some contacts on one of their two geoms, as ``TouchTable.terms``."""
+        axes = found.axes[rows].reshape(-1, 3, 3)
+        cone = self._batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+        rubs = None if cone else found.rubs[rows]
+        address = found.address[rows] + found.starts[rows]
+        wrench = _contact_forces(found.forces, address, found.dims[rows], rubs)
+        # MuJoCo's normals and forces are those from the first geom on the second.
+        sign = np.where(mine == 1, 1.0, -1.0)[:, None]
+        force = sign * (wrench[:, None, :3] @ axes)[:, 0]
+        torque = sign * (wrench[:, None, 3:] @ axes)[:, 0]
+        depth = -found.depth[rows]
+        return np.column_stack((found.points[rows], sign * axes[:, 0], depth, force, torque))
+
+    def _list_of(self, layout: MujocoLayout) -> _GeomList:
+        if self._listed is None or self._listed[0] is not layout:
+            self._listed = (layout, _GeomList(layout, int(self._batch.model.ngeom)))
+        return self._listed[1]
+
+
+def _touches_of(layer: _Layer, geoms: NDArray[np.int32]) -> tuple[Indices, Indices, Indices]:
+    """Which sets contacts are of, which contacts they are, and which of the two geoms is the set's.
+
+    A contact between two of one set is listed once, for the one that is named first; one between
+    two sets for both.
+    """
+    sets, ranks = layer.sets[geoms], layer.ranks[geoms]
+    own = sets[:, 0] == sets[:, 1]
+    first = (sets[:, 0] >= 0) & ~(own & (ranks[:, 1] < ranks[:, 0]))
+    second = (sets[:, 1] >= 0) & ~(own & (ranks[:, 0] <= ranks[:, 1]))
+    rows = [np.flatnonzero(first), np.flatnonzero(second)]
+    which = [sets[row, side] for side, row in enumerate(rows)]
+    mine = [np.full(len(row), side) for side, row in enumerate(rows)]
+    return np.concatenate(which), np.concatenate(rows), np.concatenate(mine)
+
+
+def _read_contacts(data: mujoco.MjData) -> tuple[NDArray[Any], ...]:
+    """All contacts of one world: geoms, addresses, widths, points, distances, axes, coefficients.
+
+    Last come the forces of all constraints. Copies: the next world is computed in the same
+    memory.
+    """
+    found = data.contact
+    return (
+        found.geom.reshape(-1, 2).copy(),
+        found.efc_address.copy(),
+        found.dim.copy(),
+        found.pos.reshape(-1, 3).copy(),
+        found.dist.copy(),
+        found.frame.reshape(-1, 9).copy(),
+        found.friction.reshape(-1, 5).copy(),
+        data.efc_force.copy(),
+    )
+
+
+def _contact_forces(
+    forces: Floats, address: NDArray[Any], dims: NDArray[Any], rubs: Floats | None
+) -> Floats:
+    """Force and torque of contacts, each in its own frame, shape (k, 6).
+
+    Args:
+        forces: Of all constraints.
+        address: Of each contact's first, shape (k,).
+        dims: How many directions each contact acts in, shape (k,).
+        rubs: Coefficients of friction where friction is a pyramid, shape (k, 5); each of its
+            edges is the normal and one direction times its coefficient. None for a cone.
+    """
+    wrench = np.zeros((len(address), 6))
+    for width in sorted(set(dims.tolist())):
+        rows = np.flatnonzero(dims == width)
+        edges = None if width == 1 else rubs
+        count = width if edges is None else 2 * (width - 1)
+        values = forces[address[rows, None] + np.arange(count)]
+        if edges is not None:
+            wrench[rows, 0] = values.sum(axis=1)
+            lean = values[:, 0::2] - values[:, 1::2]
+            wrench[rows[:, None], np.arange(1, width)] = lean * edges[rows, : width - 1]
+        else:
+            wrench[rows[:, None], np.arange(width)] = values
+    return wrench
