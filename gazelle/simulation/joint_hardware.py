@@ -136,7 +136,8 @@ class JointHardware(SimulatedHardware):
             kinds.append(_WAYS[active][joint.gains is not None])
             columns.append(self.interfaces[active].resources.index(joint.name))
         self._kinds = np.array(kinds, np.int64)
-        self._put = np.flatnonzero(self._kinds == BY_PLACE).tolist()
+        self._put = np.flatnonzero(self._kinds == BY_PLACE)
+        self._put_names = tuple(self._names[index] for index in self._put.tolist())
         self._memory.previous[:] = math.nan
         self._pid.reset()
         self.law.arrange(self._kinds, columns, self._limits, self._pid.law)
@@ -248,7 +249,7 @@ class JointHardware(SimulatedHardware):
         if own.read is not JointHardware.read or own.write is not JointHardware.write:
             return None
         carrier = self.robot.simulation.carrier
-        if carrier is None or self._put or self._loads.turns(self._names) or not self._names:
+        if carrier is None or self._put_names or self._loads.turns(self._names) or not self._names:
             return None
         if not carrier.carries:
             return None
@@ -259,8 +260,8 @@ class JointHardware(SimulatedHardware):
     def write(self, time: float, period: float) -> None:  # noqa: ARG002  it needs no time
         """Hold the commands within limits, and act on them."""
         self.law.write_all(period)
-        for index in self._put:
-            self._place(index, self._memory.wanted[:, index], period)
+        if self._put_names:
+            self._place(period)
         self._act()
 
     def _act(self) -> None:
@@ -279,23 +280,27 @@ class JointHardware(SimulatedHardware):
             self._handles[index].drive(cycle.speed_out[rows, index], rows)
         cycle.pushed_out[:] = cycle.driven_out[:] = 0
 
-    def _place(self, index: int, wanted: Floats, period: float) -> None:
-        """Put a joint where it has to be after the step, as fast as its command moves."""
-        handle, before = self._handles[index], self._placed[:, index]
+    def _place(self, period: float) -> None:
+        """Put joints where they have to be after the step, as fast as their commands move."""
+        put = self._put
+        wanted, before = self._memory.wanted[:, put], self._placed[:, put]
         good = np.isfinite(wanted)
-        speed = np.zeros(self.nworld)
+        speed = np.zeros(wanted.shape)
         if period > 0.0:
             moved = np.isfinite(before) & good
             speed[moved] = (wanted[moved] - before[moved]) / period
             speed[np.abs(speed) > _JUMP] = 0.0
-        self._placed[:, index] = np.where(good, wanted, before)
-        self._memory.placed_speed[:, index] = speed
-        rows = None if good.all() else np.flatnonzero(good)
-        chosen = slice(None) if rows is None else rows
+        self._placed[:, put] = np.where(good, wanted, before)
+        self._memory.placed_speed[:, put] = speed
+        begin, carrier = wanted - speed * period, self._carrier()
+        if carrier is not None:
+            carrier.place_joints(self._put_names, begin, speed, good)
+            return
         engine = self.robot.simulation.engine
-        start = wanted - speed * period
-        engine.set_joint_position(handle.name, start[chosen, None], rows)
-        engine.set_joint_velocity(handle.name, speed[chosen, None], rows)
+        for column, name in enumerate(self._put_names):
+            rows = np.flatnonzero(good[:, column])
+            engine.set_joint_position(name, begin[rows, column, None], rows)
+            engine.set_joint_velocity(name, speed[rows, column, None], rows)
 
     # -- beginning anew ----------------------------------------------------------------
 

@@ -11,11 +11,14 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
+from gazelle.array_types import Bools, Floats
 from gazelle.engines.engine import DivergenceError
 from gazelle.engines.mujoco.compiler import CompilerInput
 from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.hooks import Hooks
+from gazelle.engines.mujoco.joint_cells import JointCells
 from gazelle.engines.mujoco.laws.numbers import WORLD
+from gazelle.engines.mujoco.parameters import ParameterStore
 from gazelle.native.joint_system import JointSystem
 
 # Integrators that look at forces once in a step.
@@ -31,6 +34,8 @@ class CarryingSteps(ForcedSteps):
     """The part of ``gazelle.engines.carrying.CarryingEngine``."""
 
     _recipe: CompilerInput
+    _parameters: ParameterStore
+    _cells: dict[tuple[str, ...], tuple[int, JointCells]]
     _revision = 0
     _looks_once = False
 
@@ -66,6 +71,7 @@ class CarryingSteps(ForcedSteps):
     def _begin_carrying(self, batch: Batch, recipe: CompilerInput) -> None:
         """Tell a new batch which world is which, and what is too fast in it."""
         self._revision += 1
+        self._cells = {}
         self._looks_once = batch.model.opt.integrator in _ONCE
         if not recipe.hooks:
             return
@@ -96,6 +102,18 @@ class CarryingSteps(ForcedSteps):
         """Let act what a bound system says."""
         system.act(self._state.qfrc_applied, self._state.userdata)
         self._stale = True
+
+    def place_joints(
+        self, joints: tuple[str, ...], position: Floats, velocity: Floats, chosen: Bools
+    ) -> None:
+        """Put many joints somewhere, to their limits at most."""
+        layout, writes = self._now(), self._parameters.writes
+        known = self._cells.get(joints)
+        if known is None or known[0] != writes:
+            known = writes, JointCells.find(layout, joints, self.parameter)
+            self._cells[joints] = known
+        known[1].put(self._state.qpos, self._state.qvel, position, velocity, chosen)
+        self._placed = self._stale = True
 
     def carry(self, systems: Sequence[JointSystem], count: int, now_ns: int) -> None:
         """Advance every world, and bring bound systems at the beginning of every step."""

@@ -257,10 +257,14 @@ class ParameterStore:
 
     Args:
         nworld: Number of worlds.
+
+    Attributes:
+        writes: How often something was set.
     """
 
     def __init__(self, nworld: int) -> None:
         self._nworld = nworld
+        self.writes = 0
         self._values: dict[Key, Floats] = {}
 
     @property
@@ -277,6 +281,7 @@ class ParameterStore:
 
     def write(self, batch: Batch, layout: MujocoLayout, key: Key, values: Floats) -> None:
         """Let worlds have these values from now on, shape (nworld, width)."""
+        self.writes += 1
         _WRITERS[key[0]](_Target(batch, layout), key[1], values)
         self._values[key] = values
         if key[0] in _DERIVED_FROM:
