@@ -432,3 +432,32 @@ def test_a_new_engine_becomes_the_same_by_its_history():
     for each in (engine, other):
         each.step(100)
     np.testing.assert_array_equal(engine.snapshot(), other.snapshot())
+
+
+def _hinged(upper):
+    return Model(
+        "arm",
+        links=(
+            Link("base"),
+            Link("rod", inertial=Inertial(mass=1.0, inertia=Inertia(0.1, 0.1, 0.1))),
+        ),
+        joints=(
+            Joint("fix", "fixed", "world", "base"),
+            Joint("hinge", "revolute", "base", "rod", axes=(JointAxis(upper=upper),)),
+        ),
+    )
+
+
+def test_limits_are_those_of_the_model_that_runs():
+    """What is read once a layout must not outlive it, nor what was set since."""
+    engine = make_engine("mujoco", scenes.world(), nworld=2)
+    for upper in (1.0, 2.0):
+        engine.spawn(_hinged(upper))
+        for _ in range(2):
+            assert engine.parameter("joint_upper", "arm::hinge").tolist() == [[upper]] * 2
+        engine.parameter("joint_upper", "arm::hinge")[:] = 9.0  # the caller's own
+        engine.set_joint_position("arm::hinge", [5.0])
+        assert engine.joint_position("arm::hinge").tolist() == [[upper]] * 2
+        engine.set_parameter("joint_upper", "arm::hinge", [0.5], np.array([1]))
+        assert engine.parameter("joint_upper", "arm::hinge").tolist() == [[upper], [0.5]]
+        engine.delete("arm")

@@ -252,6 +252,10 @@ _DERIVED_FROM = frozenset(
 )
 
 
+_CONSTANT = {"joint_lower", "joint_upper"}
+"""What is compiled stays for a layout's life, and joints that are placed ask in every step."""
+
+
 class ParameterStore:
     """All that worlds have of their own.
 
@@ -266,6 +270,8 @@ class ParameterStore:
         self._nworld = nworld
         self.writes = 0
         self._values: dict[Key, Floats] = {}
+        self._compiled: dict[Key, Floats] = {}
+        self._compiled_for: MujocoLayout | None = None
 
     @property
     def values(self) -> Mapping[Key, Floats]:
@@ -276,8 +282,16 @@ class ParameterStore:
         """Values of all worlds, shape (nworld, width)."""
         if (kind, name) in self._values:
             return self._values[kind, name].copy()
-        compiled = look_up("parameter", kind, _READERS)(_Target(batch, layout), name)
-        return np.tile(compiled, (self._nworld, 1))
+        reader = look_up("parameter", kind, _READERS)
+        if kind not in _CONSTANT:
+            return np.tile(reader(_Target(batch, layout), name), (self._nworld, 1))
+        if self._compiled_for is not layout:
+            self._compiled.clear()
+            self._compiled_for = layout
+        if (kind, name) not in self._compiled:
+            compiled = reader(_Target(batch, layout), name)
+            self._compiled[kind, name] = np.tile(compiled, (self._nworld, 1))
+        return self._compiled[kind, name].copy()
 
     def write(self, batch: Batch, layout: MujocoLayout, key: Key, values: Floats) -> None:
         """Let worlds have these values from now on, shape (nworld, width)."""
