@@ -26,12 +26,18 @@ from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import expressions, xml
 from gazelle.formats.reading import Reading
+from gazelle.formats.xacro_hints import hint_of
 
 _LOCK = threading.Lock()  # the package keeps its state in module globals
 _PREFIX = "xacro:"
 
 
 MAX_MADE = 60_000
+
+_BUNDLED_HINT = (
+    "this package is the one that comes with Gazelle, which holds less than its namesake: "
+    "put the folder of yours on ROS_PACKAGE_PATH, or give it as a path"
+)
 
 
 class _Made(threading.local):
@@ -176,7 +182,11 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
     def _checked(filename: str) -> Path:
         path = Path(filename)
         if not path.is_file():
-            raise FormatError(f"there is no file '{filename}' to include")
+            bundled = path.is_relative_to(reading.resolver.assets)
+            raise FormatError(
+                f"there is no file '{filename}' to include",
+                hint=_BUNDLED_HINT if bundled else None,
+            )
         if not reading.resolver.readable(path):
             raise FormatError(f"'{filename}' lies outside of the folders that may be read")
         return path
@@ -240,7 +250,8 @@ def _explain(error: Exception, name: str) -> FormatError:
     if isinstance(root, FormatError):
         return FormatError(root.message, file=file, line=line, element=element, hint=root.hint)
     text = " ".join(str(error).split()) or type(error).__name__
-    return FormatError(f"xacro: {text}", file=file, line=line, element=element)
+    hint = hint_of(text, error.__traceback__)
+    return FormatError(f"xacro: {text}", file=file, line=line, element=element, hint=hint)
 
 
 def _current(name: str) -> str:

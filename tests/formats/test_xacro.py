@@ -79,6 +79,30 @@ def test_errors_of_xacro_name_file_line_and_element(tmp_path, line, reason):
     assert caught.value.element is not None
 
 
+@pytest.mark.parametrize(
+    ("line", "hint"),
+    [
+        ("<xacro:whel/>", "did you mean 'wheel'?"),
+        ("<link name='${lenght}'/>", "did you mean 'length'?"),
+        ("<xacro:wheel/>", "did you mean 'length'?"),
+        ("<link name='$(arg missing)'/>", "xacro_args={'missing': ...}"),
+        ("<xacro:include filename='$(find ur_description)/no.xacro'/>", "ROS_PACKAGE_PATH"),
+        ("<xacro:zzzzz/>", None),
+    ],
+)
+def test_common_mistakes_get_a_hint(tmp_path, monkeypatch, line, hint):
+    monkeypatch.delenv("ROS_PACKAGE_PATH", raising=False)
+    file = tmp_path / "a.xacro"
+    file.write_text(
+        f"<robot name='r' {NAMESPACE}><xacro:property name='length' value='1'/>"
+        "<xacro:macro name='wheel'><link name='${lengt}'/></xacro:macro>"
+        f"{line}</robot>"
+    )
+    with pytest.raises(FormatError) as caught:
+        formats.load(file)
+    assert (caught.value.hint is None) if hint is None else (hint in caught.value.hint)
+
+
 def test_files_outside_of_the_neighbourhood_are_not_read(tmp_path):
     file = tmp_path / "a" / "b.xacro"
     file.parent.mkdir()
