@@ -126,6 +126,10 @@ class PlanningWarning(GazelleWarning):
     """A planner, or something it was told, is replaced or ignored."""
 
 
+class TaskWarning(GazelleWarning):
+    """A task or its training is valid, but not done as written."""
+
+
 class PluginWarning(SimulationWarning):
     """A plugin failed; the simulation goes on without it."""
 

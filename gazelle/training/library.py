@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 from typing import Any
 
 import gymnasium as gym
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 
-from gazelle.errors import MissingExtraError, TaskError
+from gazelle.errors import MissingExtraError, TaskError, did_you_mean
+from gazelle.training.heeded import unheeded_error
 from gazelle.training.memories import replay_options
+from gazelle.training.overrides import algorithms_heeding
 from gazelle.training.recipes import LIBRARY_ALGORITHMS, LibrarySettings, Recipe
 from gazelle.training.vecenv import VectorEnvAdapter
 
 _POLICIES = {"recurrent_ppo": "MlpLstmPolicy"}
 _DISCRETE_ONLY = {"qrdqn"}
 _CONTINUOUS_ONLY = {"tqc"}
+_GIVEN = {"policy", "env", "replay_buffer_class", "replay_buffer_kwargs"}
 
 
 def build_library_learner(recipe: Recipe, env: VectorEnvAdapter, common: dict[str, Any]) -> Any:
@@ -37,16 +41,24 @@ def build_library_learner(recipe: Recipe, env: VectorEnvAdapter, common: dict[st
         kind = type(env.action_space).__name__
         fitting = "qrdqn, a2c or trpo" if discrete else "tqc, a2c or trpo"
         raise TaskError(f"{recipe.algo} cannot learn {kind} actions", hint=f"use {fitting}")
-    algorithm = _rescaling(_find(recipe.algo))
-    options = common | dict(recipe.settings.options)
-    if issubclass(algorithm, OffPolicyAlgorithm):
-        options |= replay_options(recipe, env)
-    try:
-        return algorithm(_POLICIES.get(recipe.algo, "MlpPolicy"), env, **options)
-    except TypeError as error:
-        if "unexpected keyword argument" not in str(error):
-            raise
-        raise TaskError(f"{recipe.algo} does not take this: {error}") from error
+    found = _find(recipe.algo)
+    memory = replay_options(recipe, env) if issubclass(found, OffPolicyAlgorithm) else {}
+    _check_options(recipe.algo, recipe.settings, found)
+    options = common | dict(recipe.settings.options) | memory
+    return _rescaling(found)(_POLICIES.get(recipe.algo, "MlpPolicy"), env, **options)
+
+
+def _check_options(algo: str, settings: LibrarySettings, kind: type[Any]) -> None:
+    """Refuse what the class does not take, or what is given to it anyway."""
+    taken = set(inspect.signature(kind).parameters) - _GIVEN
+    for name in settings.options:
+        if name in _GIVEN:
+            raise TaskError(f"{algo} is given its '{name}'", hint="leave it out")
+        if name not in taken:
+            if heeding := algorithms_heeding(name):
+                raise unheeded_error(algo, name, heeding)
+            hint = did_you_mean(name, taken)
+            raise TaskError(f"{algo} does not take '{name}'", hint=hint)
 
 
 def _find(name: str) -> type[Any]:

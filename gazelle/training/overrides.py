@@ -8,9 +8,17 @@ from typing import Any
 
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.training.goal_reward import GoalReward
-from gazelle.training.recipes import LibrarySettings, Recipe
+from gazelle.training.heeded import SOME_HEED, heeds, unheeded_error
+from gazelle.training.recipes import (
+    ALGORITHM_NAMES,
+    LibrarySettings,
+    OffPolicySettings,
+    PPOSettings,
+    Recipe,
+)
 
 _OWN = {"algo", "settings", "training_options", "evaluation_options"}
+_REPLAYING = tuple(name for name in ALGORITHM_NAMES if name != "ppo")
 
 
 def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
@@ -23,7 +31,7 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
             For an algorithm with `LibrarySettings`, any argument of its class.
 
     Raises:
-        TaskError: There is no such value, or it cannot be.
+        TaskError: There is no such value, the algorithm takes no notice of it, or it cannot be.
     """
     fields = {each.name for each in dataclasses.fields(Recipe)} - _OWN
     library = isinstance(recipe.settings, LibrarySettings)
@@ -33,6 +41,8 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     settings: dict[str, Any] = {}
     reward: dict[str, Any] = {}
     for name, value in values.items():
+        if name in fields | inner and not heeds(recipe.algo, name):
+            raise unheeded_error(recipe.algo, name, SOME_HEED[name])
         if name in fields:
             outer[name] = tuple(value) if isinstance(value, list) else value
         elif name in rewards:
@@ -40,6 +50,8 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         elif library or name in inner:
             settings[name] = value
         else:
+            if heeding := algorithms_heeding(name):
+                raise unheeded_error(recipe.algo, name, heeding)
             hint = did_you_mean(name, fields | inner | rewards)
             raise TaskError(f"a recipe for {recipe.algo} has no '{name}'", hint=hint)
     if settings:
@@ -50,6 +62,17 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         return dataclasses.replace(recipe, **outer)
     except TypeError as error:
         raise TaskError(f"a value of the recipe cannot be: {error}") from error
+
+
+def algorithms_heeding(name: str) -> tuple[str, ...]:
+    """The algorithms with `PPOSettings` or `OffPolicySettings` that take notice of one of these."""
+    kinds = {"ppo": PPOSettings} | dict.fromkeys(_REPLAYING, OffPolicySettings)
+    having = [
+        algo
+        for algo, kind in kinds.items()
+        if name in {each.name for each in dataclasses.fields(kind)}
+    ]
+    return tuple(algo for algo in having if heeds(algo, name))
 
 
 def _changed(settings: Any, values: dict[str, Any]) -> Any:

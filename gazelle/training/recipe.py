@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.training.goal_reward import GoalReward
+from gazelle.training.heeded import check_heeded, heeded_only, heeds
 
 Activation = Literal["tanh", "relu"]
 
@@ -152,10 +153,10 @@ class Recipe:
     """What only this algorithm knows."""
 
     def __post_init__(self) -> None:
-        """Check that the numbers can work.
+        """Check that the numbers can work, and that the algorithm takes notice of them.
 
         Raises:
-            TaskError: One of them cannot.
+            TaskError: One of them cannot, or it does not.
         """
         known = (*ALGORITHM_NAMES, *LIBRARY_ALGORITHMS)
         if self.algo not in known:
@@ -173,9 +174,21 @@ class Recipe:
         for name in ("hindsight", "hindsight_redraw"):
             if not 0 <= getattr(self, name) <= 1:
                 raise TaskError(f"{name} must be between 0 and 1, not {getattr(self, name)}")
-        wanted = _settings_of(self.algo)
-        if not isinstance(self.settings, wanted):
-            raise TaskError(f"a recipe for {self.algo} needs {wanted.__name__}")
+        check_heeded(self.algo, self)
+        _check_settings(self.algo, self.settings)
+
+
+def _check_settings(algo: str, settings: Settings) -> None:
+    """Check that settings are those of an algorithm, and that it takes notice of them."""
+    wanted = _settings_of(algo)
+    if not isinstance(settings, wanted):
+        raise TaskError(f"a recipe for {algo} needs {wanted.__name__}")
+    if not isinstance(settings, OffPolicySettings):
+        return
+    check_heeded(algo, settings)
+    if settings.imitation and settings.demonstrator is None:
+        hint = "name a demonstrator, or set imitation to 0"
+        raise TaskError("there is nobody to imitate", hint=hint)
 
 
 def _settings_of(algo: str) -> type[Settings]:
@@ -193,12 +206,17 @@ def recipe_to_dict(recipe: Recipe) -> dict[str, Any]:
 def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     """The recipe that `recipe_to_dict` wrote.
 
+    Runs of earlier versions may have values that their algorithm took no notice of: the default
+    stands in their place.
+
     Raises:
         TaskError: A key is not part of a recipe.
     """
-    kind = _settings_of(values.get("algo", "ppo"))
-    settings = kind(**_checked(kind, values.get("settings", {})))
-    rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
+    algo = values.get("algo", "ppo")
+    kind = _settings_of(algo)
+    settings = heeded_only(algo, kind(**_checked(kind, values.get("settings", {}))))
+    outer = {key: item for key, item in values.items() if key != "settings"}
+    rest = _checked(Recipe, {key: item for key, item in outer.items() if heeds(algo, key)})
     if "net_arch" in rest:
         rest["net_arch"] = tuple(rest["net_arch"])
     if rest.get("goal_reward") is not None:

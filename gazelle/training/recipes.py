@@ -7,8 +7,11 @@ recipe, its seed and the options of its environment.
 from __future__ import annotations
 
 import dataclasses
+import warnings
 
+from gazelle.errors import TaskWarning
 from gazelle.training.goal_reward import GoalReward
+from gazelle.training.heeded import SOME_HEED, heeded_only
 from gazelle.training.recipe import (
     ALGORITHM_NAMES,
     LIBRARY_ALGORITHMS,
@@ -272,7 +275,9 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
     """The recipe for a task, by default with the algorithm that suits it best.
 
     A task without a recipe of its own gets the defaults of the algorithm. A
-    continuous twin (``...Continuous``) uses the recipe of its task.
+    continuous twin (``...Continuous``) uses the recipe of its task. Another algorithm than the
+    recipe's own gets those of its values that it takes notice of; a `TaskWarning` says so where
+    that costs it the demonstrator.
 
     Args:
         task: Name or id, such as ``TurtleBot3Stage1`` or ``gazelle/TurtleBot3Stage1-v0``.
@@ -284,6 +289,7 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
     own = RECIPES.get(task_name(task).removesuffix("Continuous"))
     if algo is None or (own is not None and own.algo == algo):
         return own or _DEFAULT
+    _tell_of_demonstrator(own, algo)
     if algo == "ppo":
         return _DEFAULT
     if own is not None and isinstance(own.settings, OffPolicySettings):
@@ -308,12 +314,21 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
 def _with_memory(own: Recipe, settings: OffPolicySettings, algo: str) -> Recipe:
     """The recipe of a task for another algorithm; those that learn from a memory keep its numbers."""
     if algo in _OFF_POLICY:
-        return dataclasses.replace(own, algo=algo)
+        return dataclasses.replace(own, algo=algo, settings=heeded_only(algo, settings))
     if algo != "tqc":
         return dataclasses.replace(_library(algo), gamma=own.gamma)
     shared = ("buffer_size", "batch_size", "learning_starts", "gradient_steps", "tau")
     options = {name: getattr(settings, name) for name in shared}
     return dataclasses.replace(own, algo=algo, settings=LibrarySettings(options=options))
+
+
+def _tell_of_demonstrator(own: Recipe | None, algo: str) -> None:
+    """Say that a recipe has one, and an algorithm does not learn from it."""
+    shown = own is not None and getattr(own.settings, "demonstrator", None) is not None
+    able = SOME_HEED["demonstrator"]
+    if shown and algo in (*_OFF_POLICY, *LIBRARY_ALGORITHMS, "ppo") and algo not in able:
+        text = f"{algo} cannot be shown what to do, so this recipe's demonstrator is left out"
+        warnings.warn(TaskWarning(f"{text}; {' and '.join(able)} can"), stacklevel=3)
 
 
 def _reward_of(task: str, own: Recipe, algo: str) -> GoalReward | None:

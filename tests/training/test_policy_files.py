@@ -22,6 +22,7 @@ from gazelle.training import (
     train,
 )
 from gazelle.training.checkpoint import read_checkpoint
+from gazelle.training.heeded import heeded_only
 from gazelle.training.learners import build_learner
 from gazelle.training.tasks import make_task
 from gazelle.training.vecenv import VectorEnvAdapter
@@ -35,7 +36,7 @@ QUICK = PPOSettings(n_steps=16, batch_size=32, n_epochs=2)
 
 
 def recipe(algo, **values):
-    settings = QUICK if algo == "ppo" else SMALL
+    settings = QUICK if algo == "ppo" else heeded_only(algo, SMALL)
     return Recipe(algo=algo, steps=600, num_envs=4, settings=settings, **values)
 
 

@@ -17,6 +17,7 @@ from gazelle.training.recipes import (
 )
 
 
+@pytest.mark.filterwarnings("ignore:.* cannot be shown what to do:gazelle.errors.TaskWarning")
 @pytest.mark.parametrize("algo", ["ppo", "dqn", "sac", "td3", "ddpg"])
 @pytest.mark.parametrize("task", [*RECIPES, "Unknown"])
 def test_recipes_survive_json(task, algo):

@@ -20,6 +20,7 @@ from tensorboard.backend.event_processing.event_file_loader import EventFileLoad
 
 from gazelle.errors import FormatError, MissingExtraError, SimulationWarning, TaskError
 from gazelle.training import GoalReward, OffPolicySettings, Recipe, Run, evaluate, resume, train
+from gazelle.training.heeded import heeded_only
 from gazelle.training.progress import NoProgress
 
 SMALL = OffPolicySettings(
@@ -28,7 +29,8 @@ SMALL = OffPolicySettings(
 
 
 def off_policy(algo):
-    return Recipe(algo=algo, steps=600, num_envs=4, net_arch=(16,), settings=SMALL)
+    settings = heeded_only(algo, SMALL)
+    return Recipe(algo=algo, steps=600, num_envs=4, net_arch=(16,), settings=settings)
 
 
 class StopAt(NoProgress):

@@ -1,0 +1,82 @@
+"""Which algorithms take notice of which of a recipe's values.
+
+A value that changes nothing is an error and not a comment, so it is said here, once, which
+algorithms read it; a test compares this with what they read.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from gazelle.errors import TaskError
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
+Held = TypeVar("Held", bound="DataclassInstance")
+
+_NOISY = ("td3", "ddpg")
+_EXPLORING = ("dqn",)
+_REMEMBERING = ("dqn", "sac", "td3", "ddpg", "tqc", "qrdqn")
+
+SOME_HEED: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("hindsight", "hindsight_redraw"), _REMEMBERING),
+    **dict.fromkeys(
+        (
+            "action_noise",
+            "random_actions",
+            "action_penalty",
+            "bound_values",
+            "policy_delay",
+            "demonstrator",
+            "imitation",
+        ),
+        _NOISY,
+    ),
+    "bfloat16": ("ppo", *_NOISY),
+    **dict.fromkeys(
+        ("exploration_fraction", "exploration_final", "target_update_interval"), _EXPLORING
+    ),
+}
+"""Of a `Recipe` or of `OffPolicySettings`, what not all heed that such a recipe can be for."""
+
+
+def heeds(algo: str, name: str) -> bool:
+    """Whether an algorithm takes notice of a value that such a recipe has."""
+    return algo in SOME_HEED.get(name, (algo,))
+
+
+def check_heeded(algo: str, holder: DataclassInstance) -> None:
+    """Refuse values other than the defaults that an algorithm takes no notice of.
+
+    Args:
+        algo: Name of the algorithm.
+        holder: A `Recipe`, or `OffPolicySettings`.
+
+    Raises:
+        TaskError: There is one.
+    """
+    for name in _unheeded(algo, holder):
+        raise unheeded_error(algo, name, SOME_HEED[name])
+
+
+def heeded_only(algo: str, holder: Held) -> Held:
+    """The same, with the default in place of each value that an algorithm takes no notice of."""
+    return dataclasses.replace(holder, **_unheeded(algo, holder))
+
+
+def unheeded_error(algo: str, name: str, others: Iterable[str]) -> TaskError:
+    """What is said of a value that only other algorithms take notice of."""
+    hint = f"leave it out; {', '.join(others)} would take notice"
+    return TaskError(f"{algo} takes no notice of '{name}'", hint=hint)
+
+
+def _unheeded(algo: str, holder: DataclassInstance) -> dict[str, Any]:
+    """What an algorithm takes no notice of and is not the default; the defaults by name."""
+    return {
+        each.name: each.default
+        for each in dataclasses.fields(holder)
+        if not heeds(algo, each.name) and getattr(holder, each.name) != each.default
+    }

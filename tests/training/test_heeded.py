@@ -1,0 +1,165 @@
+"""Values that an algorithm takes no notice of: refused, and by the table that says who does."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import corridor
+import pytest
+import slider_task
+
+from gazelle.errors import TaskError, TaskWarning
+from gazelle.training import (
+    LibrarySettings,
+    OffPolicySettings,
+    PPOSettings,
+    Recipe,
+    recipe_for,
+    train,
+    with_values,
+)
+from gazelle.training.heeded import SOME_HEED, heeded_only, heeds
+from gazelle.training.learners import build_learner
+from gazelle.training.recipes import recipe_from_dict, recipe_to_dict
+from gazelle.training.vecenv import VectorEnvAdapter
+
+PUSH = "gazelle.envs.fetch.demonstrators:push"
+SHOWS = """import numpy as np
+
+def nothing(rows):
+    return np.zeros((len(rows), 2))
+"""
+read: set[str] = set()
+
+
+def watching(kind):
+    """Settings of a kind that note which of their values are read."""
+    names = {each.name for each in dataclasses.fields(kind)}
+
+    class Watching(kind):
+        def __getattribute__(self, name):
+            if name in names:
+                read.add(name)
+            return super().__getattribute__(name)
+
+    return names, Watching
+
+
+@pytest.fixture
+def shows(tmp_path):
+    file = tmp_path / "shows_nothing.py"
+    file.write_text(SHOWS)
+    return f"{file}:nothing"
+
+
+def values_of(algo, demonstrator):
+    if algo == "ppo":
+        return {"n_steps": 8, "batch_size": 16, "n_epochs": 1}
+    values = {"buffer_size": 400, "batch_size": 8, "learning_starts": 16}
+    if algo in SOME_HEED["demonstrator"]:
+        values |= {"demonstrator": demonstrator, "imitation": 1.0, "bound_values": True}
+    return values
+
+
+@pytest.mark.parametrize("algo", ["ppo", "dqn", "sac", "td3", "ddpg"])
+def test_what_is_said_to_be_heeded_is_what_an_algorithm_reads(algo, shows):
+    names, watching_settings = watching(PPOSettings if algo == "ppo" else OffPolicySettings)
+    made = (
+        corridor.Corridor(4, mode="SameStep", limit=9)
+        if algo == "dqn"
+        else slider_task.SliderVectorEnv(4)
+    )
+    env = VectorEnvAdapter(made)
+    given = Recipe(algo=algo, net_arch=(8,), settings=watching_settings(**values_of(algo, shows)))
+    read.clear()  # of what the check itself read
+    build_learner(given, env, seed=0).learn(40, log_interval=None)
+    env.close()
+    assert read == {name for name in names if heeds(algo, name)}
+
+
+@pytest.mark.parametrize(
+    ("algo", "values", "complaint"),
+    [
+        ("sac", {"demonstrator": PUSH}, r"sac takes no notice of 'demonstrator'.*td3, ddpg"),
+        ("sac", {"policy_delay": 2}, r"sac takes no notice of 'policy_delay'.*td3, ddpg"),
+        ("dqn", {"action_noise": 0.3}, r"dqn takes no notice of 'action_noise'.*td3, ddpg"),
+        ("td3", {"exploration_final": 0.1}, r"td3 takes no notice of 'exploration_final'.*dqn"),
+        ("ddpg", {"imitation": 2.0}, "nobody to imitate; name a demonstrator"),
+    ],
+)
+def test_settings_that_change_nothing_are_refused(algo, values, complaint):
+    with pytest.raises(TaskError, match=complaint):
+        Recipe(algo=algo, settings=OffPolicySettings(**values))
+
+
+def test_a_recipe_refuses_hindsight_where_nothing_is_remembered():
+    with pytest.raises(TaskError, match=r"ppo takes no notice of 'hindsight'.*dqn, sac, td3"):
+        Recipe(hindsight=0.5)
+    with pytest.raises(TaskError, match="a2c takes no notice of 'hindsight_redraw'"):
+        Recipe(algo="a2c", hindsight_redraw=0.5, settings=LibrarySettings())
+    assert Recipe(algo="qrdqn", hindsight=0.5, settings=LibrarySettings()).hindsight == 0.5
+
+
+@pytest.mark.parametrize(
+    ("algo", "name", "complaint"),
+    [
+        ("sac", "imitation", r"sac takes no notice of 'imitation'.*td3, ddpg would"),
+        ("ppo", "policy_delay", r"ppo takes no notice of 'policy_delay'.*td3, ddpg would"),
+        ("ppo", "tau", r"ppo takes no notice of 'tau'.*dqn, sac, td3, ddpg would"),
+        ("sac", "n_epochs", r"sac takes no notice of 'n_epochs'.*ppo would"),
+        ("sac", "bfloat16", r"sac takes no notice of 'bfloat16'.*ppo, td3, ddpg would"),
+        ("ppo", "hindsight", r"ppo takes no notice of 'hindsight'.*dqn, sac"),
+        ("td3", "policy_dellay", r"has no 'policy_dellay'; did you mean 'policy_delay'"),
+    ],
+)
+def test_a_value_by_name_is_refused_even_if_it_is_the_default(algo, name, complaint):
+    with pytest.raises(TaskError, match=complaint):
+        with_values(recipe_for("Unknown", algo), {name: 0})
+
+
+@pytest.mark.parametrize(
+    ("options", "complaint"),
+    [
+        ({"imitation": 5.0}, r"tqc takes no notice of 'imitation'.*td3, ddpg would"),
+        ({"batchsize": 5}, r"tqc does not take 'batchsize'; did you mean 'batch_size'"),
+        ({"replay_buffer_class": None}, "tqc is given its 'replay_buffer_class'; leave it out"),
+    ],
+)
+def test_arguments_that_a_librarys_class_does_not_take_are_refused(tmp_path, options, complaint):
+    pytest.importorskip("sb3_contrib")
+    recipe = Recipe(algo="tqc", num_envs=4, settings=LibrarySettings(options=options))
+    with pytest.raises(TaskError, match=complaint):
+        train("test/Slider-v0", recipe=recipe, imports=["slider_task"], out=tmp_path)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("algo", ["sac", "tqc", "ppo"])
+def test_a_recipe_for_another_algorithm_says_that_its_demonstrator_is_left_out(algo):
+    with pytest.warns(TaskWarning, match=f"{algo} cannot be shown what to do.*td3 and ddpg can"):
+        recipe = recipe_for("FetchPush", algo)
+    assert getattr(recipe.settings, "demonstrator", None) is None
+    assert recipe_for("FetchPush", "td3").settings.demonstrator == PUSH
+
+
+def test_what_is_heeded_is_kept():
+    own = recipe_for("FetchPush").settings
+    left = heeded_only("sac", own)
+    assert left.batch_size == own.batch_size != OffPolicySettings().batch_size
+    assert left.policy_delay is None
+    assert heeded_only("ddpg", own) == own
+
+
+def test_runs_of_earlier_versions_are_read():
+    values = recipe_to_dict(Recipe(algo="sac", settings=OffPolicySettings(tau=0.02)))
+    values["settings"] |= {"action_noise": 0.3, "demonstrator": PUSH, "imitation": 5.0}
+    assert recipe_from_dict(values).settings == OffPolicySettings(tau=0.02)
+    assert recipe_from_dict(recipe_to_dict(Recipe()) | {"hindsight": 0.3}) == Recipe()
+
+
+def test_the_command_line_says_it(cli, tmp_path):
+    code, _, err = cli(
+        "train", "FetchReach", "--algo", "sac", "--set", f"demonstrator={PUSH}", "--out", tmp_path
+    )
+    assert code != 0
+    assert "sac takes no notice of 'demonstrator'" in err
+    assert not list(tmp_path.iterdir())
