@@ -12,7 +12,7 @@ from PIL import Image as Pictures
 from gazelle.ros import Master, Node, Time, WallClock, load_message
 from gazelle.ros.tf import take_transforms
 from gazelle.viewer.graph import GraphView
-from gazelle.viewer.graph.drawing import points_of
+from gazelle.viewer.graph.drawing import points_of, rainbow
 from gazelle.viewer.graph.motions import motion_of, robot_of
 from tests.ros.graph import until
 
@@ -154,6 +154,36 @@ def test_clouds_of_any_layout_are_read():
     points, colors = points_of(cloud)
     assert points.tolist() == values.reshape(6, 3).tolist()
     assert colors.tolist() == [[10, 20, 30]] * 6
+
+
+@pytest.mark.parametrize(
+    ("number", "kind"), [*enumerate(("i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8"), 1)]
+)
+@pytest.mark.parametrize("order", "<>")
+def test_clouds_are_coloured_by_intensities_of_any_type(number, kind, order):
+    layout = np.dtype([(name, order + "f4") for name in "xyz"] + [("intensity", order + kind)])
+    rows = np.zeros(3, layout)
+    rows["x"], rows["intensity"] = [1.0, 2.0, 3.0], [20, 60, 100]
+    fields = [
+        message("sensor_msgs/PointField", name=name, offset=4 * k, datatype=7, count=1)
+        for k, name in enumerate("xyz")
+    ]
+    fields.append(
+        message("sensor_msgs/PointField", name="intensity", offset=12, datatype=number, count=1)
+    )
+    cloud = message("sensor_msgs/PointCloud2", height=1, width=3, fields=fields)
+    cloud.point_step, cloud.row_step = layout.itemsize, 3 * layout.itemsize
+    cloud.data, cloud.is_bigendian = rows.tobytes(), order == ">"
+    points, colors = points_of(cloud)
+    assert points[:, 0].tolist() == [1.0, 2.0, 3.0]
+    assert colors.tolist() == [[0, 0, 255], [0, 255, 0], [255, 0, 0]]
+
+
+def test_a_rainbow_needs_no_good_numbers():
+    odd = rainbow(np.array([np.nan, 0.0, np.inf, 4.0, 1.0]))
+    assert odd.tolist() == [[0, 0, 255], [0, 0, 255], [0, 0, 255], [255, 0, 0], [0, 255, 255]]
+    assert rainbow(np.array([7.0, 7.0])).tolist() == [[0, 0, 255]] * 2
+    assert rainbow(np.zeros(0)).shape == (0, 3)
 
 
 def test_images_are_on_the_panel(node, view):

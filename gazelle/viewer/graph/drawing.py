@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 _MOST = 100_000  # points of a cloud
 _RED, _GREEN, _BLUE = (210, 40, 40), (40, 160, 70), (50, 110, 190)
+_NUMBERS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+"""Of ``PointField.datatype``."""
 _WAY = np.array([1.0, 0.0, 0.0, 0.0])
 
 
@@ -65,7 +67,7 @@ def draw_scan(drawing: Drawing, message: Any) -> None:
 
 
 def draw_cloud(drawing: Drawing, message: Any) -> None:
-    """Points of a PointCloud2, in their colours if they have any."""
+    """Points of a PointCloud2, in their colours or by their intensities if they have any."""
     points, colors = points_of(message)
     finite = np.isfinite(points).all(axis=1)
     every = max(1, -(-int(finite.sum()) // _MOST))
@@ -88,15 +90,35 @@ def points_of(message: Any) -> tuple[Floats, Bytes]:
     points = np.full((count, 3), np.nan)
     for column, name in enumerate("xyz"):
         if name in fields:
-            field = fields[name]
-            width, kind = (8, "f8") if field.datatype == 8 else (4, "f4")
-            part = np.ascontiguousarray(rows[:, field.offset : field.offset + width])
-            points[:, column] = part.view(order + kind)[:, 0]
+            points[:, column] = _column(rows, fields[name], order)
     color = fields.get("rgb") or fields.get("rgba")
+    if color is None and "intensity" in fields:
+        return points, rainbow(_column(rows, fields["intensity"], order))
     if color is None:
         return points, np.array(_BLUE, np.uint8)
     part = rows[:, color.offset : color.offset + 3]
     return points, np.ascontiguousarray(part[:, ::-1] if order == "<" else part)
+
+
+def _column(rows: Bytes, field: Any, order: str) -> Floats:
+    """The numbers of one field of a PointCloud2, shape (n,)."""
+    kind = np.dtype(order + _NUMBERS[field.datatype])
+    part = np.ascontiguousarray(rows[:, field.offset : field.offset + kind.itemsize])
+    return np.asarray(part.view(kind)[:, 0], np.float64)
+
+
+def rainbow(values: Floats) -> Bytes:
+    """Colours from blue for the least value over green to red for the most, shape (n, 3).
+
+    What is no number is blue; so is all where all values are alike.
+    """
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if len(known) else (0.0, 0.0)
+    span = high - low
+    share = np.where(np.isfinite(values), values - low, 0.0) / (span if span > 0.0 else 1.0)
+    hue = 4.0 * np.clip(1.0 - share, 0.0, 1.0)[:, None]  # red 0, green 2, blue 4, as in HSV
+    away = np.abs(hue - np.array([0.0, 2.0, 4.0]))
+    return np.asarray(255.0 * np.clip(2.0 - away, 0.0, 1.0) + 0.5, np.uint8)
 
 
 def draw_map(drawing: Drawing, message: Any) -> None:
