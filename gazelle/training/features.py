@@ -18,6 +18,8 @@ LEAST = 0.03
 """Share of an entry's upper bound below which its logarithm hardly changes."""
 MIDDLE = 1.75
 """Added to logarithms, so that they lie between -1.76 and 1.78."""
+_ROUNDED = 0.01
+"""Bounds of an angle may be off by so much [rad]: published tasks write 3.14 or 3.15."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +42,7 @@ class Features:
         low, high = space.low.reshape(-1), space.high.reshape(-1)
         pi = np.float32(np.pi)
         with np.errstate(invalid="ignore"):
-            angles = np.isclose(low, -pi) & np.isclose(high, pi)
+            angles = (np.abs(low + pi) < _ROUNDED) & (np.abs(high - pi) < _ROUNDED)
         magnitudes = (low >= 0) & (high > low) & np.isfinite(high)
         return cls(
             np.flatnonzero(angles),

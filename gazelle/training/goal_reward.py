@@ -27,6 +27,8 @@ class GoalReward:
     """Taken for a collision (``is_collision``)."""
     progress: float = 1.0
     """For each metre that the robot comes nearer to its goal (``distance`` [m])."""
+    other_end: float = 0.0
+    """Taken where the task ends an episode otherwise, such as out of its work space."""
 
 
 class GoalRewards:
@@ -53,6 +55,7 @@ class GoalRewards:
         info: dict[str, Any],
         last: dict[str, Any] | None,
         slots: npt.NDArray[np.intp],
+        terminated: Bools,
         valid: Bools,
     ) -> Floats:
         """What a step is worth, shape (N,).
@@ -61,6 +64,7 @@ class GoalRewards:
             info: Of the step.
             last: Where the ended episodes tell of their last moment, if not in ``info``.
             slots: Copies whose episodes ended.
+            terminated: Where the task ended them, shape (N,).
             valid: False where the step was spent on a reset, shape (N,).
 
         Raises:
@@ -73,6 +77,7 @@ class GoalRewards:
         nearer[np.isnan(nearer)] = 0.0
         pay = self._pay
         reward = pay.goal * success - pay.collision * collision + pay.progress * nearer
+        reward -= pay.other_end * (terminated & (success == 0.0) & (collision == 0.0))
         # After a goal another one is under way, whose distance the next step tells.
         self.distance = np.where(success.astype(np.bool_), np.nan, now)
         result: Floats = np.where(valid, reward, 0.0)

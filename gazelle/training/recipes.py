@@ -70,6 +70,15 @@ _DRIVING = Recipe(
     settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
 )
 
+# The same bases on the way to a place.
+_TO_PLACE = dataclasses.replace(
+    _DRIVING,
+    steps=1_000_000,
+    gamma=0.98,
+    reward_scale=1.0,
+    goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3),
+)
+
 # frobs_rl's goals are far away: what counts is coming nearer.
 _KOBUKI = Recipe(
     steps=300_000,
@@ -183,6 +192,18 @@ RECIPES: dict[str, Recipe] = {
         training_options={"engine": "mujoco"},
         settings=PPOSettings(n_steps=32, n_epochs=6, ent_coef=0.0),
     ),
+    "ABBIRB140Reach": Recipe(
+        steps=300_000,
+        num_envs=128,
+        net_arch=(128, 128),
+        activation="relu",
+        learning_rate=2e-3,
+        gamma=0.95,
+        goal_reward=GoalReward(collision=0.0, progress=2.0),
+        features=True,
+        training_options={"engine": "mujoco"},
+        settings=PPOSettings(n_steps=16, n_epochs=6, ent_coef=0.0),
+    ),
     **dict.fromkeys(("KobukiEmpty", "KobukiDynamic1", "KobukiDynamic2", "KobukiDynamic3"), _KOBUKI),
     "KobukiMaze": dataclasses.replace(_KOBUKI, steps=1_000_000),
     # As published the goal is out of the work space; see the data sheet.
@@ -190,7 +211,11 @@ RECIPES: dict[str, Recipe] = {
         _DRIVING,
         training_options={**_DRIVING.training_options, "goal": [-2.9, 2.5]},
     ),
+    "SummitXLRoom": dataclasses.replace(
+        _TO_PLACE, goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3, other_end=2.0)
+    ),
     "TurtleBot2Maze": _DRIVING,
+    "TurtleBot2Wall": _TO_PLACE,
     "TurtleBot3World": _DRIVING,
     "TurtleBot3CameraWorld": Recipe(
         steps=80_000,

@@ -143,7 +143,7 @@ class Stepper:
         slots = np.flatnonzero(done)
         if len(slots):
             final_obs, last = self._last(obs, info, slots)
-        taught = self._taught(rewards, info, last, slots, valid)
+        taught = self._taught(rewards, info, last, slots, terminated, valid)
         if last is not None:
             ended = self._close_episodes(slots, last, truncated)
             if self.mode is AutoresetMode.DISABLED:
@@ -164,12 +164,13 @@ class Stepper:
         info: dict[str, Any],
         last: dict[str, Any] | None,
         slots: npt.NDArray[np.intp],
+        terminated: Bools,
         valid: Bools,
     ) -> Floats:
         """What the learner is given for a step."""
         if self._teacher is None:
             return rewards
-        return self._teacher.of_step(info, last, slots, valid)
+        return self._teacher.of_step(info, last, slots, terminated, valid)
 
     def _count_goals(self, info: dict[str, Any], valid: Bools, done: Bools) -> None:
         """Count goals reached on the way; those of a last step are counted when it is closed."""

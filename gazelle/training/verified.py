@@ -33,11 +33,12 @@ VERIFIED: dict[str, Verified] = {
         seeds=2,
         seconds=70,
     ),
-    "Husarion": Verified(success={"planar": SuccessRate(180, 200)}, seeds=1, seconds=18),
+    "Husarion": Verified(success={"planar": SuccessRate(195, 200)}, seeds=1, seconds=18),
     "KobukiDynamic1": Verified(success={"planar": SuccessRate(199, 200)}, seeds=1, seconds=16),
     "KobukiDynamic2": Verified(success={"planar": SuccessRate(199, 200)}, seeds=1, seconds=15),
     "KobukiDynamic3": Verified(success={"planar": SuccessRate(200, 200)}, seeds=1, seconds=17),
     "KobukiEmpty": Verified(success={"planar": SuccessRate(200, 200)}, seeds=1, seconds=11),
+    "SummitXLRoom": Verified(success={"planar": SuccessRate(118, 200)}, seeds=1, seconds=25),
     "TurtleBot2Maze": Verified(success={"planar": SuccessRate(166, 200)}, seeds=1, seconds=17),
     "TurtleBot3World": Verified(success={"planar": SuccessRate(187, 200)}, seeds=1, seconds=21),
     "FetchPush": Verified(success={"mujoco": SuccessRate(298, 300)}, seeds=3, seconds=172),
@@ -82,7 +83,7 @@ VERIFIED: dict[str, Verified] = {
 _DENSE = "{task}'s recipe, which was not tried with a reward at every step"
 UNVERIFIED: dict[str, str] = {
     "ABBIRB120Reach": "not trained yet",
-    "ABBIRB140Reach": "not trained yet",
+    "ABBIRB140Reach": "learns little yet: 69 of 200 after 300,000 steps, 138 s",
     "ABBIRB140VelocityReach": "not trained yet",
     "UR5Reach": "not trained yet",
     **{f"{task}Dense": _DENSE.format(task=task) for task in ("FetchPickAndPlace", "FetchPush")},
@@ -90,7 +91,6 @@ UNVERIFIED: dict[str, str] = {
     "HopperStayUp": "not trained yet",
     "KobukiMaze": "none learns yet: 0 of 200 after 1,000,000 steps, 30 s",
     "MovingCubeOneDiskWalk": "none learns yet: after 400,000 steps it rolls a metre in 1.6 s, then tilts",
-    "SummitXLRoom": "not trained yet",
-    "TurtleBot2Wall": "not trained yet",
+    "TurtleBot2Wall": "learns little yet: 68 of 200 after 1,000,000 steps, 23 s; no yaw is seen",
 }
 """Why a task has no figure, by its name: one line each."""

@@ -37,6 +37,12 @@ def test_bounds_tell_angles_and_magnitudes():
     assert found.count == 4
 
 
+@pytest.mark.parametrize(("bound", "angles"), [(3.14, [0]), (3.15, [0]), (3.0, []), (3.3, [])])
+def test_bounds_of_an_angle_may_be_rounded(bound, angles):
+    found = Features.of(gym.spaces.Box(-bound, bound, (1,), np.float32))
+    assert found.angles.tolist() == angles
+
+
 @given(
     st.floats(-0.5, 4.0, width=32), st.floats(-4.0, 4.0, width=32), st.floats(0.0, 7.0, width=32)
 )

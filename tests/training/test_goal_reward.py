@@ -61,6 +61,32 @@ def test_goals_collisions_and_progress_are_paid_in_every_mode(mode):
     assert min(ended.values()) > 5
 
 
+class Unnamed(Measured):
+    """As `Measured`, but ends beside the corridor are not called collisions."""
+
+    def step(self, actions):
+        obs, reward, terminated, truncated, info = super().step(actions)
+        for told in (info, info.get("final_info", {})):
+            if "is_collision" in told:
+                told["is_collision"] = np.zeros(self.num_envs, bool)
+        return obs, reward, terminated, truncated, info
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_an_end_that_is_neither_goal_nor_collision_has_its_own_price_in_every_mode(mode):
+    named = Stepper(Measured(8, mode=mode.value, limit=12), goal_reward=PAY)
+    pay = GoalReward(goal=3.0, collision=70.0, progress=2.0, other_end=5.0)
+    unnamed = Stepper(Unnamed(8, mode=mode.value, limit=12), goal_reward=pay)
+    named.reset(seed=2)
+    unnamed.reset(seed=2)
+    dear = 0
+    for actions in moves(8, 400):
+        expected = named.step(actions).taught
+        np.testing.assert_array_equal(unnamed.step(actions).taught, expected)
+        dear += int((expected < -4.0).sum())
+    assert dear > 5
+
+
 def test_without_one_the_learner_is_given_the_tasks_own():
     stepper = Stepper(Measured(4))
     stepper.reset(seed=0)
