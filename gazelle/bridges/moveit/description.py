@@ -56,7 +56,7 @@ def margins_of_parameters(
         made.append(found)
     for name in ("default_object_padding", "default_attached_padding"):
         if given.get(name):
-            text = f"{description}_planning/{name} is not known; paddings are of the robot's links"
+            text = f"{description}_planning/{name} has no effect, as in MoveIt; paddings are of the robot's links"
             warnings.warn(PlanningWarning(text), stacklevel=2)
     return made[0], made[1]
 

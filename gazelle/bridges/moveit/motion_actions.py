@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
+from gazelle.bridges.moveit.path_monitor import PathMonitor
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.planning_services import PlanningServices
 from gazelle.bridges.moveit.robot_states import state_message
@@ -11,9 +13,15 @@ from gazelle.bridges.moveit.scene_services import SceneServices
 from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
 from gazelle.bridges.moveit.trajectory_messages import trajectory_message
 from gazelle.errors import PlanningError
-from gazelle.planning import NoPlanError, PlanOutcome
+from gazelle.planning import MotionPlan, NoPlanError, PlanOutcome
 from gazelle.ros.actions import SimpleActionServer
 from gazelle.ros.messages import load_message
+
+_BLOCKED = PlanOutcome.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE
+_RECOVERABLE = (PlanOutcome.PLANNING_FAILED, PlanOutcome.INVALID_MOTION_PLAN, _BLOCKED)
+_REPLANS = 5
+"""How often it is planned where a goal allows that and says no number, as in MoveIt."""
+_LONGEST_DELAY_S = 60.0
 
 
 class MoveGroupAction:
@@ -48,13 +56,7 @@ class MoveGroupAction:
         only = goal.planning_options.plan_only or not self._executor.allowed
         text = ""
         try:
-            self._plan(goal, result, from_here=not only)
-            if self._server.is_preempt_requested():
-                raise NoPlanError("preempted while planning", PlanOutcome.PREEMPTED)
-            if not only:
-                self._say("MONITOR")
-                self._executor.execute(result.planned_trajectory, self._server.is_preempt_requested)
-                result.executed_trajectory = result.planned_trajectory
+            self._try_often(goal, result, only=only)
             result.error_code.val = int(PlanOutcome.SUCCESS)
         except PlanningError as error:
             LOG.error("move_group: %s", error)
@@ -62,7 +64,49 @@ class MoveGroupAction:
         self._say("IDLE")
         finish(self._server, result, text)
 
-    def _plan(self, goal: Any, result: Any, *, from_here: bool) -> None:
+    def _try_often(self, goal: Any, result: Any, *, only: bool) -> None:
+        """Plan and go, and plan anew as often as the goal allows where that may help."""
+        options = goal.planning_options
+        left = (options.replan_attempts or _REPLANS) if options.replan else 1
+        while True:
+            try:
+                self._try(goal, result, only=only)
+            except NoPlanError as error:
+                left -= 1
+                if left <= 0 or error.outcome not in _RECOVERABLE or self._preempted():
+                    raise
+                LOG.warning("move_group: planning anew: %s", error)
+                time.sleep(max(0.0, min(options.replan_delay, _LONGEST_DELAY_S)))
+                self._say("PLANNING")
+            else:
+                return
+
+    def _try(self, goal: Any, result: Any, *, only: bool) -> None:
+        seen = self._scene.revision
+        plan = self._plan(goal, result, from_here=not only)
+        if self._preempted():
+            raise NoPlanError("preempted while planning", PlanOutcome.PREEMPTED)
+        if only:
+            return
+        self._say("MONITOR")
+        change = goal.planning_options.planning_scene_diff
+        monitor = PathMonitor(
+            self._context, self._scene, plan, seen, lambda: self._scene.changed(change)
+        )
+        try:
+            self._executor.execute(
+                result.planned_trajectory, lambda: self._preempted() or monitor.look()
+            )
+        except NoPlanError:
+            if not monitor.blocked:
+                raise
+            raise NoPlanError("something came into the way of the motion", _BLOCKED) from None
+        result.executed_trajectory = result.planned_trajectory
+
+    def _preempted(self) -> bool:
+        return self._server.is_preempt_requested()
+
+    def _plan(self, goal: Any, result: Any, *, from_here: bool) -> MotionPlan:
         context, request = self._context, goal.request
         change = goal.planning_options.planning_scene_diff
         start = request.start_state
@@ -82,6 +126,7 @@ class MoveGroupAction:
                 trajectory_start=result.trajectory_start,
             )
         )
+        return plan
 
     def _say(self, state: str) -> None:
         feedback = load_message("moveit_msgs/MoveGroupFeedback")(state=state)

@@ -26,9 +26,13 @@ class SceneServices:
 
     Args:
         context: The robot and its scene.
+
+    Attributes:
+        revision: How often the scene was changed.
     """
 
     def __init__(self, context: PlanningContext) -> None:
+        self.revision = 0
         self._context, self._scene = context, context.scene
         self._colors: dict[str, Any] = {}
         node = context.node
@@ -76,6 +80,7 @@ class SceneServices:
         with self._context.lock:
             self._context.current()
             done = act()
+            self.revision += 1
             self._shown.publish(self._message(_ALL))
         return done
 

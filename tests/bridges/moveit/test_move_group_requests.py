@@ -215,7 +215,7 @@ def test_margins_of_links_come_from_parameters():
         assert padding == dict.fromkeys(robot.links, 0.02) | {TIP: 0.05}
         assert scale == dict.fromkeys(robot.links, 1.0)
         node.set_param(f"{space}/default_object_padding", 0.01)
-        with pytest.warns(PlanningWarning, match="default_object_padding is not known"):
+        with pytest.warns(PlanningWarning, match="default_object_padding has no effect"):
             margins_of_parameters(node, robot)
         node.set_param(f"{space}/default_robot_padding", "much")
         with pytest.raises(PlanningError, match="'default_robot_padding' is a number"):
