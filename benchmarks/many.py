@@ -1,7 +1,7 @@
 """Many robots in one world: what their sensors cost together, and each by itself.
 
 100 robots lie on a ground in three dimensions, each with one sensor of a kind that measures at its
-rate. The peer is the same world in the same run, stepped in turns with it, in which Python measures
+rate, or with a plugin whose topic somebody listens to. The peer is the same world in the same run, stepped in turns with it, in which Python measures
 every sensor by itself; both are printed without what the physics takes alone.
 """
 
@@ -30,6 +30,8 @@ LIDAR = """<sensor name='s' type='ray'><update_rate>10</update_rate><pose>0 0 .2
 IMU = """<sensor name='s' type='imu'><update_rate>50</update_rate><imu><angular_velocity><x><noise
 type='gaussian'><stddev>.01</stddev></noise></x></angular_velocity></imu></sensor>"""
 CONTACT = "<sensor name='s' type='contact'><update_rate>10</update_rate></sensor>"
+P3D = """<plugin name='p' filename='libgazebo_ros_p3d.so'><bodyName>base</bodyName><topicName>true</topicName>
+<updateRate>50</updateRate></plugin>"""
 SENSORS = {
     "contact, 10 Hz": CONTACT,
     "IMU, 50 Hz": IMU,
@@ -48,11 +50,12 @@ def main() -> None:
         f"second in turns, step {STEP * 1e3:g} ms: ms of processor time"
     )
     print(f"{'one on each robot':<28}{'alone':>10}{'together':>10}{'times':>8}")
-    for name, sensor in SENSORS.items():
+    parts = {name: (sensor, "") for name, sensor in SENSORS.items()}
+    for name, part in {**parts, "p3d, 50 Hz": ("", P3D)}.items():
         alone, together, bare = least(
             [
-                world(args.robots, sensor, grouped=False),
-                world(args.robots, sensor),
+                world(args.robots, *part, grouped=False),
+                world(args.robots, *part),
                 world(args.robots),
             ]
         )
@@ -60,10 +63,12 @@ def main() -> None:
         print(f"{name:<28}{alone:10.1f}{together:10.1f}{alone / together:8.1f}")
 
 
-def world(count: int, sensor: str = "", *, grouped: bool = True) -> gazelle.Simulation:
-    """Robots whose sensors are awake."""
+def world(
+    count: int, sensor: str = "", plugin: str = "", *, grouped: bool = True
+) -> gazelle.Simulation:
+    """Robots whose sensors are awake, and whose plugins are listened to."""
     physics = f"<physics name='p' type='ode'><max_step_size>{STEP}</max_step_size></physics>"
-    robots = "".join(ROBOT.format(i, i % 10, i // 10, sensor, "") for i in range(count))
+    robots = "".join(ROBOT.format(i, i % 10, i // 10, sensor, plugin) for i in range(count))
     text = f"<sdf version='1.7'><world name='w'>{physics}{GROUND}{robots}</world></sdf>"
     sim = gazelle.Simulation(formats.load_string(text), "mujoco", threads=1)
     for robot in sim.robots.values():
@@ -72,6 +77,12 @@ def world(count: int, sensor: str = "", *, grouped: bool = True) -> gazelle.Simu
             if not grouped:
                 changed.kind = lambda: None
             unit.latest()
+        for output in robot.outputs.values():
+            output.subscribe(lambda _: None)
+    for entry in sim.entities.plugins:
+        alone: Any = entry.plugin
+        if not grouped:
+            alone.kind = lambda: None
     sim.run(1.0)
     return sim
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
+
 import numpy as np
 
 from gazelle.description import Noise, Parameters, Pose
-from gazelle.engines import Motion, Placement
-from gazelle.plugins.frames import placed, relative
+from gazelle.engines import Motion, Placement, TableEngine
+from gazelle.plugins.frames import Frame, placed, relative
 from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
 from gazelle.rotations import conjugate, multiply, rotate
@@ -43,14 +45,14 @@ class P3D(Noisy, Publishing):
         self.update_rate = parameters.get("updateRate", 0.0)
         self._child = body
         namespace = namespace_of(robot, parameters)
-        output = robot.outputs[topic.strip("/")] = Output(
+        self._output = robot.outputs[topic.strip("/")] = Output(
             absolute(namespace, topic),
             TruePose,
             self._measure,
             namespace=namespace,
             prefix=FramePrefix.OWN,
         )
-        self._published.append(output)
+        self._published.append(self._output)
 
     def _make_noise(self, robot: Robot, body: str, stddev: float) -> None:
         simulation = robot.simulation
@@ -59,8 +61,52 @@ class P3D(Noisy, Publishing):
         self._noise = NoiseModel(noise, simulation.seed, name, simulation.nworld, 6)
         self._noises = {"noise": self._noise}
 
+    def kind(self) -> Hashable | None:
+        """All that see bodies from the world, where the engine looks at many links at once."""
+        alike = self._frame is None and isinstance(self._robot.simulation.engine, TableEngine)
+        return "P3D" if alike else None
+
+    @classmethod
+    def measure_together(cls, plugins: Sequence[P3D]) -> list[tuple[Placement, Motion]]:
+        """Where the bodies of all are, and how they move."""
+        engine = plugins[0].robot.simulation.engine
+        if not isinstance(engine, TableEngine):
+            raise TypeError("the engine looks at one link at a time")
+        links = tuple(each.body[0].name for each in plugins)
+        place, motion = engine.link_placements(links), engine.link_motions(links)
+        at = np.array([each.body[1].position for each in plugins])
+        turn = np.array([each.body[1].quaternion for each in plugins])
+        position = place.position + rotate(place.quaternion, at)
+        quaternion = multiply(place.quaternion, np.broadcast_to(turn, place.quaternion.shape))
+        return [
+            (
+                Placement(position[:, i], quaternion[:, i]),
+                Motion(motion.linear[:, i], motion.angular[:, i]),
+            )
+            for i in range(len(plugins))
+        ]
+
+    def publish_measured(self, measured: tuple[Placement, Motion] | None) -> None:
+        """Publish what was measured of the body."""
+        if self._output.wanted:
+            place, motion = measured or (placed(self._body), self._body[0].motion())
+            self._output.hand(self._seen(place, motion))
+
+    @property
+    def robot(self) -> Robot:
+        """Whose body it is."""
+        return self._robot
+
+    @property
+    def body(self) -> Frame:
+        """What it looks at."""
+        return self._body
+
     def _measure(self) -> TruePose:
-        place, motion = placed(self._body), self._body[0].motion()
+        return self._seen(placed(self._body), self._body[0].motion())
+
+    def _seen(self, place: Placement, motion: Motion) -> TruePose:
+        """What is published of a body, with new noise."""
         if self._frame is not None:
             place, motion = self._seen_from_frame(place, motion)
         turn = np.broadcast_to(self._turn, place.quaternion.shape)

@@ -71,7 +71,8 @@ class Plugin:
         """Equal for plugins of one class that ``together`` makes one system of; None for none.
 
         It is asked when somebody subscribed to an output or ended that, and when models came or
-        went, not between. What such plugins do must not depend on each other.
+        went, not between. What such plugins do must not depend on each other. Of those that only
+        publish no system is made: they are asked to ``measure_together`` and ``publish_measured``.
         """
         return None
 

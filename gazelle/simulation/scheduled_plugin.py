@@ -31,6 +31,12 @@ class ScheduledPlugin:
     schedule: Schedule | None
     requests: RequestQueue | None = None
     detached: bool = False
+    group: tuple[ScheduledPlugin, ...] = ()
+    """In whose place it is."""
+
+    def members(self) -> list[int]:
+        """What tells it, or those in whose place it is, from others."""
+        return [id(each) for each in self.group or (self,)]
 
     def detach(self, error: Exception, when: str) -> None:
         """Go on without it."""

@@ -13,6 +13,7 @@ from gazelle.native.system import System
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
 from gazelle.simulation.plugin_groups import PluginGroup, with_groups
+from gazelle.simulation.publisher_groups import group_publishers
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.sensor_groups import PythonGroup, group_sensors
 from gazelle.simulation.sensors import SensorUnit
@@ -48,7 +49,7 @@ class StepPlan:
         awake = [unit for unit in sensors if unit.awake]
         # Sensors first: asking for their kind may change the engine.
         self.sensors, self.groups = group_sensors(awake, native=native is not None and not alone)
-        entries = [each for each in plugins if not each.rests]
+        entries, self._publishers = group_publishers([each for each in plugins if not each.rests])
         self.late = [entry for entry in entries if entry.may_be_carried]
         self.early = [entry for entry in entries if not entry.may_be_carried]
         self._plugin_groups: list[PluginGroup] = []
@@ -64,6 +65,8 @@ class StepPlan:
         """Let everything be updated by itself again."""
         for each in self._plugin_groups:
             each.release()
+        for publisher in self._publishers:
+            publisher.release()
         for group in self.groups:
             group.release()
         for unit in self.sensors:

@@ -163,7 +163,10 @@ class StepLoop:
             if simulation.native is not None:
                 self._systems, self._schedules, others = with_systems(plan.plugins)
             plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
-            update_plugins([each for each in plugins if id(each) not in asked], simulation.clock)
+            fresh = plugins
+            if asked:
+                fresh = [each for each in plugins if asked.isdisjoint(each.members())]
+            update_plugins(fresh, simulation.clock)
             if simulation.native is None and plan.late:
                 late = self._not_carried(asked)
                 update_plugins([each for each in late if id(each) not in asked], simulation.clock)
@@ -171,7 +174,8 @@ class StepLoop:
             # One of them may have woken a sensor, let others come or go, or changed the engine.
             if simulation.requests.closed or self._is_settled():
                 return plugins
-            asked.update(map(id, plugins))
+            for each in plugins:
+                asked.update(each.members())
 
     def _not_carried(self, updated: set[int]) -> list[ScheduledPlugin]:
         """Of the plugins that steps may carry those that Python updates now."""

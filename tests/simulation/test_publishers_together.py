@@ -1,0 +1,118 @@
+"""Plugins of many robots that only publish, measured at once: the bits of each alone."""
+
+import numpy as np
+import pytest
+
+import gazelle
+from gazelle import formats
+from gazelle.engines.mujoco import MujocoEngine
+from gazelle.errors import PluginWarning
+
+P3D = """<plugin name='p3d' filename='libgazebo_ros_p3d.so'><bodyName>{body}</bodyName><topicName>true</topicName>
+<updateRate>{rate}</updateRate><gaussianNoise>{noise}</gaussianNoise><xyzOffset>.1 0 .2</xyzOffset>
+<rpyOffset>0 0 .3</rpyOffset><frameName>{frame}</frameName></plugin>"""
+ROBOT = """<model name='r{0}'><pose>{0} 0 1 .1 0 {0}</pose><link name='base'><collision name='b'><geometry><box>
+<size>.3 .2 .1</size></box></geometry></collision></link><link name='head'><pose>0 0 .2 0 0 0</pose><collision
+name='h'><geometry><sphere><radius>.06</radius></sphere></geometry></collision></link><joint name='neck'
+type='continuous'><parent>base</parent><child>head</child><axis><xyz>0 0 1</xyz></axis></joint>{1}</model>"""
+
+
+def yard(*, together=True, nworld=2, rate=20):
+    """Six robots that fall and turn; one of them sees its head from its base."""
+    robots = "".join(
+        ROBOT.format(
+            i,
+            P3D.format(
+                body="head" if i % 2 else "base", rate=rate if i < 5 else 0,
+                noise=0.1 if i in (1, 2) else 0.0, frame="base" if i == 3 else "world",
+            ),
+        )
+        for i in range(6)
+    )  # fmt: skip
+    physics = "<physics name='p' type='ode'><max_step_size>.01</max_step_size></physics>"
+    text = f"<sdf version='1.7'><world name='w'>{physics}{robots}</world></sdf>"
+    sim = gazelle.Simulation(formats.load_string(text), "mujoco", seed=5, nworld=nworld)
+    if not together:
+        for entry in sim.entities.plugins:
+            entry.plugin.kind = lambda: None
+    for i, each in enumerate(sim.robots.values()):
+        each.set_twist((0.1 * i, 0.2, 0.0), (0.3, 0.1 * i, 1.0))
+    return sim
+
+
+def lived(sim):
+    """Listeners that come and go, a reset and a snapshot."""
+    heard = []
+
+    def listen(name):
+        def note(value):
+            arrays = (value.position, value.quaternion, value.linear, value.angular)
+            heard.append((name, value.stamp, *(np.ascontiguousarray(a).tobytes() for a in arrays)))
+
+        return sim.robots[name].outputs["true"].subscribe(note)
+
+    ends = [listen(f"r{i}") for i in range(6)]
+    sim.run(0.33)
+    ends.pop(1)()
+    saved = sim.snapshot()
+    sim.run(0.3)
+    sim.restore(saved)
+    sim.run(0.12)
+    sim.delete("r4")
+    ends.append(listen("r1"))
+    sim.run(0.2)
+    sim.reset()
+    sim.run(0.2)
+    # Each robot's own, in order: those measured together are told one after another.
+    return sorted(heard, key=lambda each: each[0]), sim.state_hash()
+
+
+@pytest.mark.parametrize("nworld", [1, 3])
+def test_true_poses_are_published_together_as_alone(nworld):
+    with yard(together=False, nworld=nworld) as sim:
+        wanted = lived(sim)
+    with yard(nworld=nworld) as sim:
+        got = lived(sim)
+    assert got == wanted
+    assert len(wanted[0]) > 100
+
+
+def test_true_poses_of_all_are_looked_up_at_once(monkeypatch):
+    looks, stamps = [], []
+    with yard() as sim:
+        for name in ("r0", "r1", "r2", "r4"):
+            sim.robots[name].outputs["true"].subscribe(lambda each: stamps.append(each.stamp))
+        monkeypatch.setattr(MujocoEngine, "link_placement", None)
+        look = MujocoEngine.link_placements
+        monkeypatch.setattr(
+            MujocoEngine, "link_placements", lambda *a: looks.append(len(a[1])) or look(*a)
+        )
+        sim.run(1.0)
+    assert looks == [4] * 20
+    assert len(stamps) == 4 * 20
+
+
+def test_a_listener_that_fails_detaches_its_own_publisher_alone():
+    heard = []
+    with yard() as sim:
+        sim.robots["r0"].outputs["true"].subscribe(lambda each: heard.append(each.stamp))
+        sim.robots["r1"].outputs["true"].subscribe(lambda _: 1 / 0)
+        sim.robots["r2"].outputs["true"].subscribe(lambda each: heard.append(each.stamp))
+        with pytest.warns(PluginWarning, match="ZeroDivisionError"):
+            sim.run(0.5)
+    assert len(heard) == 2 * 10
+
+
+def test_each_publishes_once_in_a_step_though_somebody_subscribes_in_its_middle():
+    stamps = []
+    with yard(rate=0) as sim:
+
+        def note(value):
+            stamps.append(value.stamp)
+            if len(stamps) == 7:
+                sim.robots["r2"].outputs["true"].subscribe(lambda _: None)
+
+        sim.robots["r0"].outputs["true"].subscribe(note)
+        sim.robots["r1"].outputs["true"].subscribe(lambda _: None)
+        sim.run(0.2)
+    assert stamps == [10_000_000 * step for step in range(20)]
