@@ -32,6 +32,8 @@ type='gaussian'><stddev>.01</stddev></noise></x></angular_velocity></imu></senso
 CONTACT = "<sensor name='s' type='contact'><update_rate>10</update_rate></sensor>"
 P3D = """<plugin name='p' filename='libgazebo_ros_p3d.so'><bodyName>base</bodyName><topicName>true</topicName>
 <updateRate>50</updateRate></plugin>"""
+IMU_PLUGIN = """<plugin name='p' filename='libgazebo_ros_imu.so'><bodyName>base</bodyName><updateRate>50</updateRate>
+</plugin>"""
 SENSORS = {
     "contact, 10 Hz": CONTACT,
     "IMU, 50 Hz": IMU,
@@ -51,7 +53,11 @@ def main() -> None:
     )
     print(f"{'one on each robot':<28}{'alone':>10}{'together':>10}{'times':>8}")
     parts = {name: (sensor, "") for name, sensor in SENSORS.items()}
-    for name, part in {**parts, "p3d, 50 Hz": ("", P3D)}.items():
+    for name, part in {
+        **parts,
+        "p3d, 50 Hz": ("", P3D),
+        "IMU plugin, 50 Hz": ("", IMU_PLUGIN),
+    }.items():
         alone, together, bare = least(
             [
                 world(args.robots, *part, grouped=False),

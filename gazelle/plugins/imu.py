@@ -6,12 +6,16 @@ leaves gravity out. This one reports what an IMU on the body measures, gravity i
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
+
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.description import Imu, Noise, Parameters, Pose
 from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
 from gazelle.sensors import ImuModel, ImuReading
+from gazelle.sensors.imu import ImuGroup
 from gazelle.simulation import Output, Robot, Service, absolute, namespace_of
 
 
@@ -35,13 +39,14 @@ class ImuPlugin(Noisy, Publishing):
         self._clock = simulation.clock
         self.update_rate = parameters.get("updateRate", 0.0)
         namespace = namespace_of(robot, parameters)
-        robot.outputs["imu"] = Output(
+        self._group: tuple[Sequence[ImuModel], ImuGroup] | None = None
+        self._output = robot.outputs["imu"] = Output(
             absolute(namespace, parameters.get("topicName", "/default_imu")),
             ImuReading,
             self._measure,
             frame=parameters.get("frameName", body),
         )
-        self._published.append(robot.outputs["imu"])
+        self._published.append(self._output)
         # The original offers a calibration that does nothing.
         robot.services["imu"] = Service(
             absolute(namespace, parameters.get("serviceName", "/default_imu")),
@@ -50,6 +55,36 @@ class ImuPlugin(Noisy, Publishing):
             lambda _request, _worlds: None,
         )
 
+    def kind(self) -> Hashable | None:
+        """All of the same noise, where the engine looks at many links at once."""
+        return self._model.kind()
+
+    @classmethod
+    def measure_together(cls, plugins: Sequence[ImuPlugin]) -> list[Floats]:
+        """What the IMUs of all feel, for which the coming step is made once."""
+        values = plugins[0].group_of([each.model for each in plugins]).measure_all(0.0)
+        return [values[:, i] for i in range(len(plugins))]
+
+    def group_of(self, models: Sequence[ImuModel]) -> ImuGroup:
+        """What measures some IMUs; the same as before as long as they are the same."""
+        if self._group is None or self._group[0] != models:
+            self._group = models, ImuModel.together(models)
+        return self._group[1]
+
+    def publish_measured(self, measured: Floats | None) -> None:
+        """Publish what was measured."""
+        if self._output.wanted:
+            self._output.hand(
+                self._reading(self._model.measure() if measured is None else measured)
+            )
+
+    @property
+    def model(self) -> ImuModel:
+        """What measures it."""
+        return self._model
+
     def _measure(self) -> ImuReading:
-        values = self._model.measure()
+        return self._reading(self._model.measure())
+
+    def _reading(self, values: Floats) -> ImuReading:
         return self._model.reading(np.asarray(values), self._clock.now_ns)

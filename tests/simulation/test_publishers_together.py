@@ -11,6 +11,8 @@ from gazelle.errors import PluginWarning
 P3D = """<plugin name='p3d' filename='libgazebo_ros_p3d.so'><bodyName>{body}</bodyName><topicName>true</topicName>
 <updateRate>{rate}</updateRate><gaussianNoise>{noise}</gaussianNoise><xyzOffset>.1 0 .2</xyzOffset>
 <rpyOffset>0 0 .3</rpyOffset><frameName>{frame}</frameName></plugin>"""
+IMU = """<plugin name='imu' filename='libgazebo_ros_imu.so'><bodyName>{body}</bodyName><topicName>imu</topicName>
+<updateRate>{rate}</updateRate><gaussianNoise>{noise}</gaussianNoise><rpyOffset>0 0 .3</rpyOffset></plugin>"""
 ROBOT = """<model name='r{0}'><pose>{0} 0 1 .1 0 {0}</pose><link name='base'><collision name='b'><geometry><box>
 <size>.3 .2 .1</size></box></geometry></collision></link><link name='head'><pose>0 0 .2 0 0 0</pose><collision
 name='h'><geometry><sphere><radius>.06</radius></sphere></geometry></collision></link><joint name='neck'
@@ -22,7 +24,7 @@ def yard(*, together=True, nworld=2, rate=20):
     robots = "".join(
         ROBOT.format(
             i,
-            P3D.format(
+            (P3D + IMU).format(
                 body="head" if i % 2 else "base", rate=rate if i < 5 else 0,
                 noise=0.1 if i in (1, 2) else 0.0, frame="base" if i == 3 else "world",
             ),
@@ -40,16 +42,22 @@ def yard(*, together=True, nworld=2, rate=20):
     return sim
 
 
-def lived(sim):
+ARRAYS = {
+    "true": ("position", "quaternion", "linear", "angular"),
+    "imu": ("orientation", "angular_velocity", "linear_acceleration"),
+}
+
+
+def lived(sim, output):
     """Listeners that come and go, a reset and a snapshot."""
     heard = []
 
     def listen(name):
         def note(value):
-            arrays = (value.position, value.quaternion, value.linear, value.angular)
-            heard.append((name, value.stamp, *(np.ascontiguousarray(a).tobytes() for a in arrays)))
+            arrays = [np.ascontiguousarray(getattr(value, each)) for each in ARRAYS[output]]
+            heard.append((name, value.stamp, *(each.tobytes() for each in arrays)))
 
-        return sim.robots[name].outputs["true"].subscribe(note)
+        return sim.robots[name].outputs[output].subscribe(note)
 
     ends = [listen(f"r{i}") for i in range(6)]
     sim.run(0.33)
@@ -68,11 +76,12 @@ def lived(sim):
 
 
 @pytest.mark.parametrize("nworld", [1, 3])
-def test_true_poses_are_published_together_as_alone(nworld):
+@pytest.mark.parametrize("output", ARRAYS)
+def test_many_publish_together_as_alone(output, nworld):
     with yard(together=False, nworld=nworld) as sim:
-        wanted = lived(sim)
+        wanted = lived(sim, output)
     with yard(nworld=nworld) as sim:
-        got = lived(sim)
+        got = lived(sim, output)
     assert got == wanted
     assert len(wanted[0]) > 100
 
@@ -90,6 +99,21 @@ def test_true_poses_of_all_are_looked_up_at_once(monkeypatch):
         sim.run(1.0)
     assert looks == [4] * 20
     assert len(stamps) == 4 * 20
+
+
+def test_imus_of_all_feel_one_coming_step(monkeypatch):
+    looks, stamps = [], []
+    with yard() as sim:
+        for name in ("r0", "r3", "r4"):
+            sim.robots[name].outputs["imu"].subscribe(lambda each: stamps.append(each.stamp))
+        monkeypatch.setattr(MujocoEngine, "link_acceleration", None)
+        look = MujocoEngine.link_accelerations
+        monkeypatch.setattr(
+            MujocoEngine, "link_accelerations", lambda *a: looks.append(len(a[1])) or look(*a)
+        )
+        sim.run(1.0)
+    assert looks == [3] * 20
+    assert len(stamps) == 3 * 20
 
 
 def test_a_listener_that_fails_detaches_its_own_publisher_alone():
