@@ -90,7 +90,7 @@ UNVERIFIED: dict[str, str] = {
     "FetchPickAndPlaceDense": _DENSE.format(task="FetchPickAndPlace"),
     "FetchPushDense": _DENSE.format(task="FetchPush"),
     "FetchSlideDense": _DENSE.format(task="FetchSlide"),
-    "HopperStayUp": "not trained yet",
+    "HopperStayUp": "none learns yet: 0 of 100 after 200,000 steps, 55 s; it falls after 1.5 s",
     "KobukiMaze": "none learns yet: 0 of 200 after 1,000,000 steps, 30 s",
     "MovingCubeOneDiskWalk": "none learns yet: after 400,000 steps it rolls a metre in 1.6 s, then tilts",
     "TurtleBot2Wall": "learns little yet: 68 of 200 after 1,000,000 steps, 23 s; no yaw is seen",
