@@ -173,10 +173,15 @@ def many_arms(seconds: float) -> None:
         robot.controllers.start("arm")
         robot.controllers["arm"].inputs["command"].send(JointTrajectory(JOINTS, tuple(points)))
     bare = arms(1, 100)[0]
-    free, full = least([stepping(bare, 20), stepping(sim, 20)], seconds)
+    kinds = [(bare, 20), (sim, 20), (bare, 1), (sim, 1)]
+    free, full, one_free, one_full = least([stepping(each, n) for each, n in kinds], seconds)
     print(
         f"100 arms with a trajectory controller each: {1000.0 / full:.2f} times real time "
         f"(goal: above 1), {full - free:,.0f} us of {full:,.0f} us a step are control"
+    )
+    print(
+        f"the same in calls of step() for one step each: {1000.0 / one_full:.2f} times real time, "
+        f"{one_full - one_free:,.0f} us of {one_full:,.0f} us a step are control"
     )
 
 
