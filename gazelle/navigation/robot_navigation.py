@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from gazelle.navigation.move_base import GoalOutcome, navigation_stack
 from gazelle.navigation.move_base.state_machine import goal_of
 from gazelle.navigation.outline import outline_of
 from gazelle.navigation.plugin import laser_of
+from gazelle.navigation.right_of_way import RightOfWay, RightOfWaySettings
 from gazelle.navigation.true_map import true_map
 from gazelle.navigation.usual_parameters import USUAL, merged, with_outline
 from gazelle.navigation.world_pilot import WorldPilot
@@ -38,6 +39,10 @@ class RobotNavigation(ModelPlugin):
     It uses the model's own ports: its laser's scans, its odometry, and its drive's ``cmd_vel``, which it
     commands only while there is a goal. Worlds are gone through one by one, and only those with a goal:
     right for some worlds, not for thousands.
+
+    Attributes:
+        pilots: Of the worlds where it has had a goal.
+        traffic: Of each world, what sees that robots make way; all robots share it.
     """
 
     update_rate = 10.0
@@ -64,9 +69,17 @@ class RobotNavigation(ModelPlugin):
         self._values: Mapping[str, Any] = USUAL
         self._grid: OccupancyMap | None = None
         self._source = "truth"
-        self._pilots: dict[int, WorldPilot] = {}
+        self.pilots: dict[int, WorldPilot] = {}
         self._scan: LaserScan | None = None
         self._sleep: Callable[[], None] | None = None
+        # Shared by all robots of the simulation; one for each world.
+        self.traffic: dict[int, RightOfWay] = next((p.traffic for p in self._peers()), {})
+
+    def _peers(self) -> Iterator[RobotNavigation]:
+        """All of the simulation that are there, by now."""
+        for entry in self._robot.simulation.plugins:
+            if isinstance(entry.plugin, RobotNavigation):
+                yield entry.plugin
 
     def configure(
         self,
@@ -102,10 +115,11 @@ class RobotNavigation(ModelPlugin):
             )
         values = merged(USUAL, parameters or {})
         navigation_stack({**values, **with_outline(values, self._outline())})
+        RightOfWaySettings.read(values)
         self._values, self._source = values, localization
         self._grid = grid if grid is not None else self._grid
         self._keep_to(float(values["controller_frequency"]))
-        self._pilots.clear()
+        self.pilots.clear()
 
     def _keep_to(self, rate: float) -> None:
         """Take cycles at another rate [Hz]."""
@@ -139,7 +153,7 @@ class RobotNavigation(ModelPlugin):
             goal = goal_of(float(x), float(y), float(heading))
             self._pilot(world).go(goal, self._robot.simulation.time)
         self._listen()
-        return GoalTask(self._robot, [self._pilots[world] for world in chosen])
+        return GoalTask(self._robot, [self.pilots[world] for world in chosen])
 
     def explore(
         self, settings: ExploreSettings | None = None, *, worlds: Worlds | None = None
@@ -156,7 +170,7 @@ class RobotNavigation(ModelPlugin):
         for world in chosen:
             self._pilot(world).explore(settings or ExploreSettings())
         self._listen()
-        return GoalTask(self._robot, [self._pilots[world] for world in chosen])
+        return GoalTask(self._robot, [self.pilots[world] for world in chosen])
 
     def map(self, world: int = 0) -> OccupancyMap | None:
         """The map that a world's robot works on; None before the first scan of one that is made."""
@@ -164,25 +178,25 @@ class RobotNavigation(ModelPlugin):
 
     def cancel(self, worlds: Worlds | None = None) -> None:
         """Have no goal, and stand."""
-        chosen = list(self._pilots) if worlds is None else worlds.tolist()
+        chosen = list(self.pilots) if worlds is None else worlds.tolist()
         for world in chosen:
-            pilot = self._pilots.get(world)
+            pilot = self.pilots.get(world)
             if pilot is not None and pilot.busy:
                 pilot.cancel()
                 self._robot.inputs["cmd_vel"].send(0.0, 0.0, np.array([world]))
 
     def plans(self) -> dict[int, NavigationPlan]:
         """The goal of each world that has one, and the way there."""
-        goals = {world: pilot.goal for world, pilot in self._pilots.items()}
+        goals = {world: pilot.goal for world, pilot in self.pilots.items()}
         return {
-            world: NavigationPlan(goal, self._pilots[world].path)
+            world: NavigationPlan(goal, self.pilots[world].path)
             for world, goal in goals.items()
             if goal is not None
         }
 
     def on_update(self, time: float) -> None:
         """Take a cycle in each world with a goal."""
-        busy = {world: pilot for world, pilot in self._pilots.items() if pilot.busy}
+        busy = {world: pilot for world, pilot in self.pilots.items() if pilot.busy}
         scan = self._scan
         if not busy or scan is None:
             if not busy:
@@ -203,17 +217,31 @@ class RobotNavigation(ModelPlugin):
                 command = self._robot.inputs["cmd_vel"]
                 linear_command = forward if not aside else (forward, aside, 0.0)
                 command.send(linear_command, turning, np.array([world]))
+            self._make_way(time, world)
+
+    def _make_way(self, time: float, world: int) -> None:
+        """See to it that the robots of a world do not wait for one another for ever."""
+        traffic = self.traffic.setdefault(world, RightOfWay())
+        if time < traffic.due - 1e-6:
+            return
+        pilots = [peer.pilots.get(world) for peer in self._peers()]
+        present = [pilot for pilot in pilots if pilot is not None and pilot.makes_way]
+        if len(present) > 1:
+            traffic.update(time, present)
 
     # What it is made of -------------------------------------------------------------------
 
     def _pilot(self, world: int) -> WorldPilot:
-        if world not in self._pilots:
+        if world not in self.pilots:
             values = {**self._values, **with_outline(self._values, self._outline())}
             stack = navigation_stack(values)
             grid = None if self._source == "slam" else self._map()
             place = self._localizer(world)
-            self._pilots[world] = WorldPilot(stack, grid, self._height(), place)
-        return self._pilots[world]
+            rules = RightOfWaySettings.read(values)
+            self.pilots[world] = WorldPilot(
+                stack, grid, self._height(), place, self._robot.name, rules
+            )
+        return self.pilots[world]
 
     def _localizer(self, world: int) -> Localizer | LiveMap | None:
         """What says where a world's robot is; None for the truth."""
@@ -269,8 +297,9 @@ class RobotNavigation(ModelPlugin):
 
     def reset(self, worlds: Worlds | None) -> None:
         """Have no goal and know nothing but the map."""
-        for world in list(self._pilots) if worlds is None else worlds.tolist():
-            self._pilots.pop(world, None)
+        for world in [*self.pilots] if worlds is None else worlds.tolist():
+            self.pilots.pop(world, None)
+            self.traffic.pop(world, None)
         self._fall_asleep()
 
 
@@ -283,22 +312,22 @@ class GoalTask:
     """
 
     def __init__(self, robot: Robot, pilots: list[WorldPilot]) -> None:
-        self._robot, self._pilots = robot, pilots
+        self._robot, self.pilots = robot, pilots
 
     @property
     def done(self) -> bool:
         """Whether it is reached or given up, in all of its worlds."""
-        return not any(pilot.busy for pilot in self._pilots)
+        return not any(pilot.busy for pilot in self.pilots)
 
     @property
     def succeeded(self) -> bool:
         """Whether it is reached in all of its worlds."""
-        return all(pilot.outcome is GoalOutcome.SUCCEEDED for pilot in self._pilots)
+        return all(pilot.outcome is GoalOutcome.SUCCEEDED for pilot in self.pilots)
 
     @property
     def text(self) -> str:
         """What is said of it in the first world that is done."""
-        return next((pilot.text for pilot in self._pilots if pilot.text), "")
+        return next((pilot.text for pilot in self.pilots if pilot.text), "")
 
     def wait(self, seconds: float = 300.0) -> bool:
         """Run the simulation until it is done, or for so long [simulated s]; whether it succeeded."""

@@ -10,17 +10,22 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.costmap import Layer, ObstacleLayer, StaticLayer
+from gazelle.navigation.costmap.values import LETHAL
 from gazelle.navigation.exploration import ExploreSettings
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.live_map import LiveMap
 from gazelle.navigation.localization import Localizer, PlanarScan
 from gazelle.navigation.move_base import GoalOutcome, NavigationStack, RobotState
-from gazelle.navigation.planners.planar import composed
+from gazelle.navigation.planners.planar import composed, inverse
 from gazelle.navigation.planners.plugins import STOP, Velocity
+from gazelle.navigation.refuges import RefugeMap, RobotDisc
+from gazelle.navigation.right_of_way import RightOfWaySettings
 from gazelle.navigation.world_exploration import WorldExploration
 
 EXPLORED = "Exploration stopped."
 """As explore_lite says it."""
+_ASIDE = 0.1
+"""How near to a place is there [m]."""
 
 
 class WorldPilot:
@@ -31,12 +36,15 @@ class WorldPilot:
         grid: The map; None for one that is made on the way.
         height: Of the laser [m].
         localizer: Says where the robot is, and may make the map; None for the truth.
+        name: Of the robot.
+        right_of_way: How it makes way for others, which `RightOfWay` sees to.
 
     Attributes:
         outcome: How the last goal ended.
         text: What was said of it.
         path: The last global plan to the goal, shape (n, 3): x, y and heading [m, rad].
         grid: The map; None before the first scan of one that is made on the way.
+        aside: Whether it stands where it was told to step aside to.
     """
 
     def __init__(
@@ -45,7 +53,10 @@ class WorldPilot:
         grid: OccupancyMap | None,
         height: float,
         localizer: Localizer | LiveMap | None,
+        name: str,
+        right_of_way: RightOfWaySettings,
     ) -> None:
+        self.name, self.right_of_way = name, right_of_way
         self._stack, self._height, self._localizer = stack, height, localizer
         self._due = -math.inf
         self._seen = -1
@@ -53,6 +64,11 @@ class WorldPilot:
         self.text = ""
         self.path: Floats = np.zeros((0, 3))
         self._exploration: WorldExploration | None = None
+        self._pose: Pose2 | None = None
+        self._local_pose: Pose2 = (0.0, 0.0, 0.0)
+        self._put_off: Pose2 | None = None
+        self._refuge: Pose2 | None = None
+        self.aside = False
         self.grid = grid
         if grid is not None:
             self._lay(grid)
@@ -68,29 +84,95 @@ class WorldPilot:
     @property
     def goal(self) -> Pose2 | None:
         """Where it goes: x, y and heading [m, rad]."""
-        return self._stack.move_base.goal
+        return self._stack.move_base.goal if self._put_off is None else self._put_off
 
     @property
     def busy(self) -> bool:
         """Whether it has a goal, or explores."""
-        return self._stack.move_base.goal is not None or self._exploration is not None
+        return self.goal is not None or self._exploration is not None
+
+    @property
+    def makes_way(self) -> bool:
+        """Whether it makes way for others: not if it makes its map, whose frame is its own."""
+        explores = self._exploration is not None or isinstance(self._localizer, LiveMap)
+        return self.right_of_way.enabled and not explores
+
+    @property
+    def body(self) -> RobotDisc | None:
+        """Where it was in its last cycle; None before."""
+        if self._pose is None:
+            return None
+        costmap = self._stack.whole.costmap
+        return RobotDisc(*self._pose[:2], costmap.inscribed, costmap.circumscribed)
 
     def go(self, goal: Pose2, time: float) -> None:
         """Go there."""
         self.outcome, self.text, self.path = None, "", np.zeros((0, 3))
         self._exploration = None
+        self._have_way()
         self._stack.move_base.set_goal(goal, time)
 
     def explore(self, settings: ExploreSettings) -> None:
         """Go from frontier to frontier of the map until none is left."""
         self.outcome, self.text, self.path = None, "", np.zeros((0, 3))
+        self._have_way()
         self._stack.move_base.cancel()
         self._exploration = WorldExploration(settings)
 
     def cancel(self) -> None:
         """Have no goal."""
         self._exploration = None
+        self._have_way()
         self._stack.move_base.cancel()
+
+    # Making way; see `RightOfWay` --------------------------------------------------------------
+
+    def stand(self) -> None:
+        """Wait, with the goal put off."""
+        self._put_off, self._refuge, self.aside = self.goal, None, False
+        self._stack.move_base.cancel()
+
+    def step_aside(self, x: float, y: float, time: float) -> None:
+        """Go to a place and wait there, in whatever heading."""
+        heading = 0.0 if self._pose is None else self._pose[2]
+        self._refuge, self.aside = (x, y, heading), False
+        self._look_anew()
+        self._stack.move_base.set_goal(self._refuge, time)
+
+    def go_on(self, time: float, known: RefugeMap, others: Sequence[RobotDisc]) -> None:
+        """Go to the goal that was put off, and forget what was seen that is neither on the map nor a robot.
+
+        Where others stood their outlines stay else, as a beam that meets nothing takes none away. Walls
+        and robots beside and behind this one are kept, as it may not see them again.
+        """
+        goal = self._put_off
+        self._have_way()
+        if goal is None or self._pose is None:
+            return
+        self._look_anew()
+        local = self._stack.local.costmap
+        rows, columns = np.nonzero(local.cells == LETHAL)
+        cells = np.stack((columns, rows), axis=1)
+        seen = np.array(local.origin) + (cells + 0.5) * local.resolution
+        x, y, turn = composed(self._pose, inverse(self._local_pose))
+        cos, sin = math.cos(turn), math.sin(turn)
+        places = seen @ np.array([[cos, sin], [-sin, cos]]) + (x, y)
+        kept = known.has(places)
+        for other in others:
+            kept |= np.hypot(*(places - (other.x, other.y)).T) < other.circumscribed + _ASIDE
+        names = [layer.name for layer in local.layers if isinstance(layer, ObstacleLayer)]
+        for spot in seen[~kept].tolist():
+            local.clear((*spot, 0.0), 0.1 * local.resolution, names, outside=False)
+        self._stack.move_base.set_goal(goal, time)
+
+    def _have_way(self) -> None:
+        self._put_off, self._refuge, self.aside = None, None, False
+
+    def _look_anew(self) -> None:
+        """Forget all obstacles of the global costmap: others have moved since they were seen."""
+        for layer in self._stack.whole.costmap.layers:
+            if isinstance(layer, ObstacleLayer):
+                layer.reset()
 
     def cycle(
         self,
@@ -112,6 +194,7 @@ class WorldPilot:
             stamp: When it was taken [ns].
         """
         whole_pose, local_pose = self._place(time, true, odom, scan, fresh=stamp != self._seen)
+        self._pose, self._local_pose = whole_pose, local_pose
         stack = self._stack
         if stamp != self._seen:
             self._seen = stamp
@@ -124,14 +207,27 @@ class WorldPilot:
         stack.local.costmap.update(local_pose)
         if self._exploration is not None and self._explored(self._exploration, time, whole_pose):
             return STOP
+        if self._put_off is not None and (self._refuge is None or self._is_aside(whole_pose)):
+            return STOP
         step = stack.move_base.update(time, RobotState(whole_pose, local_pose, speed))
         if step.plan is not None:
             self.path = step.plan
         if step.outcome is not None and self._exploration is not None:
             self._exploration.ended(step.outcome)
+        elif step.outcome is not None and self._refuge is not None:
+            stack.move_base.set_goal(self._refuge, time)  # those behind it may have moved by now
         elif step.outcome is not None:
             self.outcome, self.text = step.outcome, step.text
         return step.velocity
+
+    def _is_aside(self, pose: Pose2) -> bool:
+        """Whether it is where it was told to step aside to; it need not turn there."""
+        refuge = self._refuge
+        if refuge is not None and not self.aside:
+            self.aside = math.dist(refuge[:2], pose[:2]) < _ASIDE
+            if self.aside:
+                self._stack.move_base.cancel()
+        return self.aside
 
     def _explored(self, exploration: WorldExploration, time: float, pose: Pose2) -> bool:
         """Whether nothing is left to explore; it stands then."""

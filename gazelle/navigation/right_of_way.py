@@ -1,0 +1,373 @@
+"""Robots that wait for one another: the one of least priority makes way.
+
+Each robot plans by itself, and takes the others for obstacles. Where two meet in a corridor each finds
+its way blocked by the other. So robots that stand are looked at together: who stands on the way that
+another one would go, were it alone. Of those that hang together the first by priority goes on, and the
+others wait; those on its way first go to the nearest place beside it, backwards if they have to.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final, Protocol
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.description.occupancy import OccupancyMap
+from gazelle.navigation.costmap.parameters import Values, fields_of
+from gazelle.navigation.following import Pose2
+from gazelle.navigation.refuges import RefugeMap, RobotDisc
+
+_PERIOD: Final = 0.5
+"""Between two looks at all robots [s]."""
+_MOVED: Final = 0.3
+"""A robot that stays within it stands [m]."""
+_MOST_ENCOUNTERS: Final = 12
+"""For one goal of a robot; then it is left to ``move_base``, which gives up at last."""
+_STUCK: Final = 20.0
+"""How long one that is to make way may stand on the way there, until it is waited for no more [s]."""
+_BESIDE: Final = 0.8
+"""How near others that move keep a robot that made way where it is [m]."""
+_RETRY: Final = 3.0
+"""After robots were looked at that cannot make way [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class RightOfWaySettings:
+    """Parameters below ``right_of_way``.
+
+    Attributes:
+        enabled: Whether the robot makes way, and has way made for it.
+        priority: The greater one goes first; among equals the first by name.
+        patience: How long it stands before anything is done [s].
+    """
+
+    enabled: bool = False
+    priority: float = 0.0
+    patience: float = 4.0
+
+    @classmethod
+    def read(cls, values: Values) -> RightOfWaySettings:
+        """From parameters of ``move_base``.
+
+        Raises:
+            Error: One is of the wrong kind.
+        """
+        own = values.get("right_of_way", {})
+        return cls(**fields_of(cls, own if isinstance(own, Mapping) else {}))
+
+
+class Traveller(Protocol):
+    """A robot with a goal.
+
+    Attributes:
+        name: Of the robot.
+        right_of_way: Its settings.
+        aside: Whether it stands where it was told to step aside to.
+    """
+
+    name: str
+    right_of_way: RightOfWaySettings
+
+    aside: bool
+
+    @property
+    def goal(self) -> Pose2 | None:
+        """Its own, even while it makes way; None if it has none."""
+
+    @property
+    def grid(self) -> OccupancyMap | None:
+        """Its map; None before the first scan of one that is made."""
+
+    @property
+    def body(self) -> RobotDisc | None:
+        """Where it was last seen; None before."""
+
+    def stand(self) -> None:
+        """Wait."""
+
+    def step_aside(self, x: float, y: float, time: float) -> None:
+        """Go to a place and wait there."""
+
+    def go_on(self, time: float, known: RefugeMap, others: Sequence[RobotDisc]) -> None:
+        """Go to its own goal, and forget what was seen that is neither on the map nor another robot."""
+
+
+@dataclass(slots=True)
+class _Watch:
+    """Since when a robot stands, and where."""
+
+    place: tuple[float, float]
+    since: float
+    goal: Pose2 | None
+    encounters: int = 0
+
+
+@dataclass(slots=True)
+class _Waiting:
+    """A robot that waits until another one has passed.
+
+    Attributes:
+        traveller: That.
+        goal: Its own; with another one it is its own master again.
+        refuge: Where it steps aside to; None if it stands out of the way.
+        until: How far the other one has to come on its way [m].
+    """
+
+    traveller: Traveller
+    goal: Pose2 | None
+    refuge: RobotDisc | None
+    until: float
+
+
+@dataclass(slots=True)
+class _Encounter:
+    """A robot that others make way for.
+
+    Attributes:
+        leader: That.
+        goal: Its goal.
+        way: Its way, shape (n, 2) [m].
+        along: How far along it each point is, shape (n,) [m].
+        waiting: The others.
+        begun: When the others began to make way [s].
+        involved: Names of all whose matter it still is.
+        under_way: Whether the leader has set off.
+    """
+
+    leader: Traveller
+    goal: Pose2 | None
+    way: Floats
+    along: Floats
+    waiting: list[_Waiting]
+    begun: float
+    involved: list[str]
+    under_way: bool = False
+
+
+class RightOfWay:
+    """Sees that robots of one world do not wait for one another for ever.
+
+    Attributes:
+        due: When all robots are to be looked at again [s].
+    """
+
+    def __init__(self) -> None:
+        self.due = -math.inf
+        self._watches: dict[str, _Watch] = {}
+        self._encounters: list[_Encounter] = []
+        self._present: Sequence[Traveller] = ()
+        self._maps: dict[int, tuple[OccupancyMap, RefugeMap]] = {}
+
+    def update(self, time: float, travellers: Sequence[Traveller]) -> None:
+        """Look at all robots, when it is due.
+
+        Args:
+            time: Now [s].
+            travellers: The robots; those without a goal stand where they are.
+        """
+        self.due = time + _PERIOD
+        ordered = sorted(travellers, key=lambda each: (-each.right_of_way.priority, each.name))
+        self._present = ordered
+        for each in ordered:
+            self._watch(time, each)
+        self._encounters = [each for each in self._encounters if self._go_on(time, each, ordered)]
+        met = {name for encounter in self._encounters for name in encounter.involved}
+        free = [each for each in ordered if each.name not in met]
+        if sum(self._stands(time, each) for each in free) > 1:
+            self._meet(time, free, ordered)
+
+    # Who stands ---------------------------------------------------------------------------
+
+    def _watch(self, time: float, traveller: Traveller) -> None:
+        body = traveller.body
+        if body is None:
+            return
+        here, watch = (body.x, body.y), self._watches.get(traveller.name)
+        if watch is None or watch.goal != traveller.goal:
+            self._watches[traveller.name] = _Watch(here, time, traveller.goal)
+        elif math.dist(here, watch.place) > _MOVED:
+            watch.place, watch.since = here, time
+
+    def _stands(self, time: float, traveller: Traveller) -> bool:
+        """Whether it has a goal and does not get on."""
+        watch = self._watches.get(traveller.name)
+        return (
+            watch is not None
+            and traveller.goal is not None
+            and watch.encounters < _MOST_ENCOUNTERS
+            and time - watch.since >= traveller.right_of_way.patience
+        )
+
+    def _map(self, grid: OccupancyMap) -> RefugeMap:
+        """Made once for each map that robots have."""
+        found = self._maps.get(id(grid))
+        if found is None or found[0] is not grid:
+            found = self._maps[id(grid)] = grid, RefugeMap(grid)
+        return found[1]
+
+    # Who waits for whom -------------------------------------------------------------------
+
+    def _meet(self, time: float, free: Sequence[Traveller], everyone: Sequence[Traveller]) -> None:
+        """Let the first of those that hang together go on."""
+        standing = [each for each in free if self._stands(time, each)]
+        ways = {each.name: self._way(each) for each in standing}
+        groups = [{each.name} for each in standing]
+        for each in standing:
+            for other in standing:
+                if each is not other and _blocks(other, each, ways[each.name]) is not None:
+                    joined = [group for group in groups if group & {each.name, other.name}]
+                    groups = [group for group in groups if group not in joined]
+                    groups.append(set().union(*joined))
+        for group in groups:
+            members = [each for each in standing if each.name in group]
+            if len(members) > 1 and not any(
+                self._begin(time, leader, ways[leader.name], members, everyone)
+                for leader in members
+            ):
+                for each in members:
+                    self._watches[each.name].since += _RETRY
+
+    def _way(self, traveller: Traveller) -> Floats:
+        goal, grid, body = traveller.goal, traveller.grid, traveller.body
+        if goal is None or grid is None or body is None:
+            return np.zeros((0, 2))
+        return self._map(grid).way(body, goal)
+
+    def _begin(
+        self,
+        time: float,
+        leader: Traveller,
+        way: Floats,
+        members: Sequence[Traveller],
+        everyone: Sequence[Traveller],
+    ) -> bool:
+        """Let others make way for one, if there is room to."""
+        reached = {each.name: _blocks(each, leader, way) for each in members}
+        # The nearest chooses first: who stands behind it can go farther back.
+        in_way = sorted(
+            (each for each in members if reached[each.name] is not None),
+            key=lambda each: reached[each.name] or 0,
+        )
+        along = np.append(0.0, np.hypot(*np.diff(way, axis=0).T).cumsum())
+        moving = {leader.name, *(each.name for each in in_way)}
+        fixed = [e.body for e in everyone if e.name not in moving and e.body is not None]
+        waiting = self._steps_aside(leader, way, along, in_way, fixed)
+        if not waiting:
+            return False
+        waiting += [
+            _Waiting(each, each.goal, None, math.inf) for each in members if each.name not in moving
+        ]
+        involved = [each.name for each in members]
+        for name in involved:
+            self._watches[name].encounters += 1
+        leader.stand()
+        for one in waiting:
+            one.traveller.stand()
+            if one.refuge is not None:
+                one.traveller.step_aside(one.refuge.x, one.refuge.y, time)
+        self._encounters.append(
+            _Encounter(leader, leader.goal, way, along, waiting, time, involved)
+        )
+        return True
+
+    def _steps_aside(
+        self,
+        leader: Traveller,
+        way: Floats,
+        along: Floats,
+        in_way: Sequence[Traveller],
+        fixed: Sequence[RobotDisc],
+    ) -> list[_Waiting]:
+        """Where those go that are in a leader's way; empty if one of them can go nowhere."""
+        first, found = leader.body, list[_Waiting]()
+        taken: list[RobotDisc] = []
+        for each in in_way:
+            body, grid = each.body, each.grid
+            if first is None or body is None or grid is None:
+                return []
+            place = self._map(grid).refuge(body, first, way, fixed, taken)
+            if place is None:
+                return []
+            taken.append(place)
+            near = int(np.hypot(*(way - (place.x, place.y)).T).argmin())
+            until = min(float(along[near]) + place.apart(first), float(along[-1]))
+            found.append(_Waiting(each, each.goal, place, until))
+        return found
+
+    # Going on -----------------------------------------------------------------------------
+
+    def _go_on(self, time: float, met: _Encounter, present: Sequence[Traveller]) -> bool:
+        """Take an encounter further; returns whether it lasts."""
+        met.waiting = [
+            each
+            for each in met.waiting
+            if each.traveller in present and each.traveller.goal == each.goal
+        ]
+        leader, body = met.leader, met.leader.body
+        if leader not in present or leader.goal != met.goal or body is None:
+            return self._end(time, met)
+        if not met.under_way:
+            going = [each for each in met.waiting if each.refuge and not each.traveller.aside]
+            since = [self._watches[each.traveller.name].since for each in going]
+            if not going or time - max(met.begun, *since) > _STUCK:
+                self._send(time, leader)
+                met.under_way = True
+                self._watches[leader.name].since = time
+            return True
+        come = float(met.along[int(np.hypot(*(met.way - (body.x, body.y)).T).argmin())])
+        for each in list(met.waiting):
+            if come < each.until or self._is_passed_by(time, each.traveller, present):
+                continue
+            met.waiting.remove(each)
+            self._send(time, each.traveller)
+            met.involved.remove(each.traveller.name)
+        late = time - self._watches[leader.name].since > 2.0 * leader.right_of_way.patience
+        if late or not any(each.refuge is not None for each in met.waiting):
+            return self._end(time, met)
+        return True
+
+    def _send(self, time: float, traveller: Traveller) -> None:
+        if traveller.grid is not None:
+            others = [e.body for e in self._present if e is not traveller and e.body is not None]
+            traveller.go_on(time, self._map(traveller.grid), others)
+
+    def _is_passed_by(
+        self, time: float, traveller: Traveller, present: Sequence[Traveller]
+    ) -> bool:
+        """Whether somebody is on the move beside a robot, and had better go by first."""
+        body = traveller.body
+        for each in present:
+            other, watch = each.body, self._watches.get(each.name)
+            if each is traveller or body is None or other is None or watch is None:
+                continue
+            moves = each.goal is not None and time - watch.since < each.right_of_way.patience
+            near = math.dist((body.x, body.y), (other.x, other.y)) < body.apart(other) + _BESIDE
+            if moves and near:
+                return True
+        return False
+
+    def _end(self, time: float, met: _Encounter) -> bool:
+        """Let all go on."""
+        if not met.under_way and met.leader.goal == met.goal:
+            self._send(time, met.leader)
+        for each in met.waiting:
+            self._send(time, each.traveller)
+        for name in met.involved:
+            if name in self._watches:
+                self._watches[name].since = time
+        return False
+
+
+def _blocks(other: Traveller, traveller: Traveller, way: Floats) -> int | None:
+    """Which point of a robot's way another one stands at; None if it is beside it or behind."""
+    body, own = other.body, traveller.body
+    if body is None or own is None or not len(way):
+        return None
+    away = np.hypot(*(way - (body.x, body.y)).T)
+    nearest = int(away.argmin())
+    near = away[nearest] < body.circumscribed + own.circumscribed
+    return nearest if near and nearest > 0 else None
