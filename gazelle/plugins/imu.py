@@ -20,7 +20,11 @@ from gazelle.simulation import Output, Robot, Service, absolute, namespace_of
 
 
 class ImuPlugin(Noisy, Publishing):
-    """Opens an output of IMU readings of one body."""
+    """Opens an output of IMU readings of one body.
+
+    Attributes:
+        group: What measured it together with others last.
+    """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the body, open the port."""
@@ -39,7 +43,7 @@ class ImuPlugin(Noisy, Publishing):
         self._clock = simulation.clock
         self.update_rate = parameters.get("updateRate", 0.0)
         namespace = namespace_of(robot, parameters)
-        self._group: tuple[Sequence[ImuModel], ImuGroup] | None = None
+        self.group: ImuGroup | None = None
         self._output = robot.outputs["imu"] = Output(
             absolute(namespace, parameters.get("topicName", "/default_imu")),
             ImuReading,
@@ -62,14 +66,13 @@ class ImuPlugin(Noisy, Publishing):
     @classmethod
     def measure_together(cls, plugins: Sequence[ImuPlugin]) -> list[Floats]:
         """What the IMUs of all feel, for which the coming step is made once."""
-        values = plugins[0].group_of([each.model for each in plugins]).measure_all(0.0)
+        group, models = plugins[0].group, [each.model for each in plugins]
+        if group is None or not group.is_of(models) or any(p.group is not group for p in plugins):
+            group = ImuModel.together(models)  # noise moves: older groups hold no more
+            for each in plugins:
+                each.group = group
+        values = group.measure_all(0.0)
         return [values[:, i] for i in range(len(plugins))]
-
-    def group_of(self, models: Sequence[ImuModel]) -> ImuGroup:
-        """What measures some IMUs; the same as before as long as they are the same."""
-        if self._group is None or self._group[0] != models:
-            self._group = models, ImuModel.together(models)
-        return self._group[1]
 
     def publish_measured(self, measured: Floats | None) -> None:
         """Publish what was measured."""

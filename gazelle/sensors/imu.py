@@ -129,6 +129,7 @@ class ImuGroup:
         if not isinstance(engine, TableEngine):
             raise TypeError("the engine measures each IMU by itself")
         self._engine: TableEngine = engine
+        self._models = list(models)
         self._links = tuple(each.link for each in models)
         self._mount = (
             np.array([each.mount[0] for each in models]),
@@ -136,6 +137,10 @@ class ImuGroup:
         )
         noises = zip(*(each.noises for each in models), strict=True)
         self._noises = [JoinedNoise(channel) for channel in noises]
+
+    def is_of(self, models: Sequence[ImuModel]) -> bool:
+        """Whether it measures just these."""
+        return self._models == list(models)
 
     def measure_all(self, interval: float) -> Floats:
         """Measure now, shape (nworld, n, 10); see ``ImuModel.measure``."""
