@@ -71,6 +71,8 @@ class JointAxis:
         friction: Static friction [N or N m].
         spring_reference: Position of rest of the spring [m or rad].
         spring_stiffness: [N/m or N m/rad].
+        armature: Inertia of what turns in the drive, seen from the joint [kg or kg m²]: it resists
+            the joint's acceleration and nothing else. No file format that is read has it.
         mimic: The joint this axis follows, or None.
     """
 
@@ -85,6 +87,7 @@ class JointAxis:
     friction: float = 0.0
     spring_reference: float = 0.0
     spring_stiffness: float = 0.0
+    armature: float = 0.0
     mimic: Mimic | None = None
 
 

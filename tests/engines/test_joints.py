@@ -243,6 +243,18 @@ def test_damping_slows_a_hinge_as_an_exponential():
     assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=0.01)
 
 
+def test_an_armature_resists_acceleration_alone():
+    axis = JointAxis(X, armature=0.03)
+    engine = engine_of(Joint("j", "continuous", "a", "b", axes=(axis,)))
+    engine.set_joint_effort("m::j", 0.02)
+    engine.step(500)
+    expected = 0.02 / (0.01 + 0.03) * 0.5  # as far as effort and inertia say
+    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=1e-3)
+    engine.set_joint_effort("m::j", 0.0)
+    engine.step(500)
+    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=1e-3)
+
+
 def test_friction_stops_a_hinge_evenly():
     axis = JointAxis(X, friction=0.02)
     engine = engine_of(Joint("j", "continuous", "a", "b", axes=(axis,)))

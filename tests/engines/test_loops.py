@@ -70,7 +70,13 @@ def test_joints_that_close_no_loop_are_kept_in_the_tree(kind):
 
 
 def test_a_joint_with_limits_damping_or_a_spring_is_kept_in_the_tree():
-    for own in ({"damping": 0.1}, {"friction": 0.1}, {"spring_stiffness": 1.0}, {"upper": 1.0}):
+    for own in (
+        {"damping": 0.1},
+        {"friction": 0.1},
+        {"spring_stiffness": 1.0},
+        {"armature": 1.0},
+        {"upper": 1.0},
+    ):
         last = hinge("last", "world", "slider", **own)
         model = crank_slider()
         model = Model("m", links=model.links, joints=(*model.joints[:3], last))

@@ -157,6 +157,15 @@ def test_it_asks_for_no_newer_version_than_it_needs():
     assert version(Model("m", links=(cone,))) == "1.12"
 
 
+@pytest.mark.parametrize("suffix", ["sdf", "urdf"])
+def test_an_armature_that_no_format_has_is_left_out_with_a_warning(tmp_path, suffix):
+    axis = JointAxis(armature=0.2)
+    joint = Joint("elbow", "continuous", "a", "b", axes=(axis,))
+    model = Model("m", links=(Link("a"), Link("b")), joints=(joint,))
+    with pytest.warns(FormatWarning, match="no format has an armature: that of 'elbow'"):
+        formats.save(model, tmp_path / f"m.{suffix}")
+
+
 @quiet
 def test_gazebo_classic_can_create_what_is_written():
     """It has no continuous, floating or planar joints, no quaternions and no %20."""

@@ -136,6 +136,7 @@ def _axis_options(joint: Joint, axis: JointAxis, time_step: float) -> dict[str, 
         "solref_friction": hold,
         "solimp_friction": stiff,
         "stiffness": [axis.spring_stiffness, 0.0, 0.0],
+        "armature": axis.armature,
         "springref": axis.spring_reference,
     }
     if joint.type != "continuous" and (math.isfinite(axis.lower) or math.isfinite(axis.upper)):

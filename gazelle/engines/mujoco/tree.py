@@ -191,6 +191,7 @@ def lost_in_loop(joint: Joint) -> tuple[str, ...]:
             ("damping", axis.damping != 0.0),
             ("friction", axis.friction != 0.0),
             ("spring", axis.spring_stiffness != 0.0),
+            ("armature", axis.armature != 0.0),
             ("mimic", axis.mimic is not None),
             ("limits", joint.type != "continuous" and _is_limited(axis)),
         )

@@ -66,9 +66,9 @@ class FetchEnv(TaskGoalEnv):
     =====================  =====  =====  =====  =====  =====  =====
 
     ``control="original"`` has such a body and such a weld (0.02 s), an arm without motors whose joints
-    are damped as there (50 N m s/rad), and the physics step of there. Its joints lack the armature of
-    there (1 kg m²), for which no file format of ours has a word, so that steps differ by up to 1.3 mm and
-    places after 30 random steps by up to 10 mm; fingers move as below.
+    have the dampers (50 N m s/rad), armatures (1 kg m²) and spring of there, fingers of 4 kg as there,
+    and the physics step of there. Gravity pulls at the arm in both. The links are not those of there,
+    and fingers move as below: those of there are servos with an armature of 100 kg, which coast.
 
     The physics step is 0.01 s, of ``original`` 0.002 s as there. Fingers open and close at up to
     0.5 m/s with 60 N (there position servos of 30,000 N/m against 1,000 N s/m).

@@ -170,7 +170,7 @@ def flying_model(robot: Model, start: tuple[float, float, float], *, fingers_mov
             each,
             pose=moved * each.pose,
             gravity=False,
-            inertial=_heavy(each.inertial)
+            inertial=heavy_finger(each).inertial
             if fingers_move and each.name != _WRIST
             else each.inertial,
         )
@@ -204,9 +204,10 @@ def flying_model(robot: Model, start: tuple[float, float, float], *, fingers_mov
     )
 
 
-def _heavy(inertial: Inertial | None) -> Inertial:
-    """Of a finger that weighs more; how it would turn matters to nothing."""
-    return dataclasses.replace(inertial or Inertial(), mass=_FINGER)
+def heavy_finger(link: Link) -> Link:
+    """A finger that weighs as much as there; how it would turn matters to nothing."""
+    inertial = dataclasses.replace(link.inertial or Inertial(), mass=_FINGER)
+    return dataclasses.replace(link, inertial=inertial)
 
 
 def _homogeneous(turned: Floats, position: Floats) -> Floats:

@@ -9,7 +9,7 @@ import numpy as np
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Inertia, Inertial, Joint, Link, Model
 from gazelle.envs.fetch.arm import ARM, ReachingArm
-from gazelle.envs.fetch.gripper import TIP, driven
+from gazelle.envs.fetch.gripper import FINGERS, TIP, driven, heavy_finger
 from gazelle.simulation import Simulation
 
 WELDED_STEP = 0.002
@@ -17,7 +17,9 @@ WELDED_STEP = 0.002
 
 _SETTLING = 0.02  # time constant of the weld there [s]
 _HELD = "gripper_held"
-_DAMPING = 50.0  # of the arm's joints there [N m s/rad]
+# Of the arm's joints there: damping [N m s/rad], spring [N m/rad] and armature [kg m²].
+_DYNAMICS = 50.0, 0.0, 1.0
+_OF_JOINT = {"forearm_roll_joint": (3.5247, 10.0, 2.7538)}  # that differ
 _DOWN = np.array([0.0, 1.0, 0.0, 1.0])  # quaternion (x, y, z, w), not normalised, that is added
 
 
@@ -70,17 +72,23 @@ class WeldedArm(ReachingArm):
     def _changed(self, joint: Joint) -> Joint:
         if joint.name not in ARM:
             return driven(joint)
-        axes = tuple(dataclasses.replace(axis, damping=_DAMPING) for axis in joint.axes)
+        damping, spring, armature = _OF_JOINT.get(joint.name, _DYNAMICS)
+        axes = tuple(
+            dataclasses.replace(axis, damping=damping, spring_stiffness=spring, armature=armature)
+            for axis in joint.axes
+        )
         return dataclasses.replace(joint, axes=axes)
 
     def _completed(self, model: Model) -> Model:
-        """With a link where the gripper's frame is, which the weld holds there."""
+        """With fingers as heavy as there, and a link in the gripper's frame, which the weld holds."""
         frame = next(each for each in model.frames if each.name == TIP)
         wrist = next(link for link in model.links if link.name == frame.attached_to)
         speck = Inertial(mass=1e-3, inertia=Inertia(1e-6, 1e-6, 1e-6))
         held = Link(name=_HELD, pose=wrist.pose * frame.pose, inertial=speck)
         joint = Joint(name=f"{_HELD}_fixed", type="fixed", parent=wrist.name, child=_HELD)
-        return dataclasses.replace(model, links=(*model.links, held), joints=(*model.joints, joint))
+        fingers = {each.child for each in model.joints if each.name in FINGERS}
+        links = [heavy_finger(link) if link.name in fingers else link for link in model.links]
+        return dataclasses.replace(model, links=(*links, held), joints=(*model.joints, joint))
 
     def _add_motors(self) -> None:
         pass  # the weld alone moves the arm

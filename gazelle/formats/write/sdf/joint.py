@@ -21,6 +21,7 @@ def write_joint(joint: Joint, writing: Writing) -> Parameters:
             f"SDF has no '{joint.type}' joint: for other programs '{joint.name}' is not there",
             joint.source,
         )
+    note_armature(joint, writing)
     with inside("joint", joint):
         return element(
             JOINT if joint.type in _NOT_SDF else "joint",
@@ -38,6 +39,12 @@ def write_joint(joint: Joint, writing: Writing) -> Parameters:
             name=joint.name,
             **_types(joint),
         )
+
+
+def note_armature(joint: Joint, writing: Writing) -> None:
+    """Say that no format has a word for what resists acceleration in a joint."""
+    if any(axis.armature for axis in joint.axes):
+        writing.note(f"no format has an armature: that of '{joint.name}' is left out", joint.source)
 
 
 def _types(joint: Joint) -> dict[str, str]:

@@ -6,13 +6,14 @@ import math
 
 from gazelle.description import Joint, JointAxis, Mimic, Parameters, Pose
 from gazelle.formats.write.element import element, endless, inside, written
-from gazelle.formats.write.sdf.joint import write_safety
+from gazelle.formats.write.sdf.joint import note_armature, write_safety
 from gazelle.formats.write.urdf.link import write_origin
 from gazelle.formats.write.writing import Writing
 
 
 def write_joint(joint: Joint, origin: Pose, writing: Writing) -> Parameters:
     """A joint that stands, as its child's frame does, at ``origin`` in its parent's frame."""
+    note_armature(joint, writing)
     with inside("joint", joint):
         kind = joint_kind(joint)
         axis = joint.axes[0] if joint.axes and kind not in {"fixed", "floating"} else None
