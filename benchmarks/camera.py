@@ -3,7 +3,9 @@
 Every figure is frames a second of processor time, so that it counts what one core does, also where
 others work beside. Scenes are made here: a room with boxes and cylinders, and the same with balls
 of many triangles. A frame has colour, depth and labels; the rival's rays give distances and normals,
-which is less. With shadows the same lamp throws them. Cameras of Stage's robots, which have colour
+which is less. With shadows the same lamp throws them. Where PyOpenGL and Debian's libosmesa6 are
+there, MuJoCo's classic renderer draws the same triangles beside, colour, depth and labels one after
+another. Cameras of Stage's robots, which have colour
 and depth, are measured in a hall made here, all robots in one call.
 
     gazelle bench camera
@@ -12,6 +14,7 @@ and depth, are measured in a hall made here, all robots in one call.
 from __future__ import annotations
 
 import argparse
+import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -30,6 +33,9 @@ from gazelle.sensors.rendering import directions_of_view
 GOALS = {(5000, 320, 240): 1000.0, (5000, 84, 84): 10000.0, (40000, 320, 240): 200.0}
 """Frames a core-second that are wanted: triangles, width, height."""
 
+
+LOOK = ((5.0, 4.0, 2.5), (0.0, 0.0, 0.3))
+"""From where to where pictures are drawn."""
 
 STAGE = ((10, 80, 60), (10, 320, 240), (72, 80, 60), (72, 320, 240))
 """Robots in a Stage world, and pixels of their cameras."""
@@ -154,6 +160,29 @@ def stage(robots: int, width: int, height: int, seconds: float) -> float:
             return robots / best(sim.pictures, seconds)
 
 
+def classic(seconds: float) -> None:
+    """Print the classic renderer's figures beside ours, with shadows and without."""
+    sys.path.insert(0, str(Path(__file__).resolve().parent))
+    import _classic_renderer
+
+    lack = _classic_renderer.missing()
+    if lack:
+        print(f"\nMuJoCo's classic renderer is not measured: {lack}")
+        return
+    print("\n| triangles | pixels | shadows | ours | MuJoCo's classic renderer | ratio |")
+    print("|---|---|---|---|---|---|")
+    pose = look_at(*LOOK)
+    for triangles, width, height in GOALS:
+        for shadows in (False, True):
+            own = ours(room(triangles), pose, width, height, seconds, shadows=shadows)
+            rival = _classic_renderer.measured(triangles, width, height, seconds, shadows=shadows)
+            print(
+                f"| {triangles:,} | {width} x {height} | {'yes' if shadows else 'no'} | {own:,.0f} | "
+                f"{rival.whole:,.1f} | {own / rival.whole:,.0f} |",
+                flush=True,
+            )
+
+
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(prog="gazelle bench camera", description=__doc__)
@@ -161,7 +190,7 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=5, help="of the batch (%(default)s)")
     parser.add_argument("--threads", type=int, default=2, help="of the batch (%(default)s)")
     args = parser.parse_args()
-    pose = look_at((5.0, 4.0, 2.5), (0.0, 0.0, 0.3))
+    pose = look_at(*LOOK)
     print(
         "| triangles | pixels | frames a core-second | wanted | with shadows | MuJoCo's rays | ratio |"
     )
@@ -175,6 +204,7 @@ def main() -> None:
             f"| {triangles:,} | {width} x {height} | {own:,.0f} | {goal:,.0f}, "
             f"{'yes' if own >= goal else 'NO'} | {shady:,.0f} | {rival:,.1f} | {own / rival:,.0f} |"
         )
+    classic(args.seconds)
     print("\n| robots of Stage | pixels | frames a core-second |\n|---|---|---|")
     for robots, width, height in STAGE:
         own = stage(robots, width, height, args.seconds)
