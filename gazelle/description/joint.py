@@ -87,8 +87,8 @@ class JointAxis:
     friction: float = 0.0
     spring_reference: float = 0.0
     spring_stiffness: float = 0.0
-    armature: float = 0.0
     mimic: Mimic | None = None
+    armature: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
