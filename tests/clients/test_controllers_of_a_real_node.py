@@ -76,9 +76,10 @@ def follow(goal):
     feedback.desired.time_from_start = goal.trajectory.points[-1].time_from_start
     server.publish_feedback(feedback)
     if "three" in goal.trajectory.joint_names:
-        server.set_aborted(kind("Result")(error_code=-4, error_string="three is slow"), "too slow")
-    else:
-        server.set_succeeded()
+        return server.set_aborted(kind("Result")(error_code=-4, error_string="three is slow"), "too slow")
+    while not rospy.has_param("/told"):  # the result goes another way, and may come first
+        time.sleep(0.02)
+    server.set_succeeded()
 server = actionlib.SimpleActionServer("/r1/follower/follow_joint_trajectory", kind("Action"), follow, False)
 server.start()
 say("ready")
@@ -142,7 +143,12 @@ def test_a_real_nodes_joints_are_commanded(node):
         real.expect("ready")
         assert joints.move([1.0, 2.0], timeout=60.0) == {"one": 1.0, "two": 2.0}
         told = []
-        outcome = follower.move({"one": 0.5, "two": 0.25}, 3.0, progress=told.append)
+
+        def note(progress):
+            told.append(progress)
+            node.set_param("/told", True)
+
+        outcome = follower.move({"one": 0.5, "two": 0.25}, 3.0, progress=note)
         assert outcome.succeeded
         assert told[-1].seconds == 3.0
         assert told[-1].actual == {"one": 0.5, "two": 0.25}
