@@ -8,14 +8,18 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 from gazelle.errors import TaskError
 
-if TYPE_CHECKING:
-    from _typeshed import DataclassInstance
 
-Held = TypeVar("Held", bound="DataclassInstance")
+class RecipeValues(Protocol):
+    """A dataclass with values of a recipe."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+
+Held = TypeVar("Held", bound=RecipeValues)
 
 _NOISY = ("td3", "ddpg")
 _EXPLORING = ("dqn",)
@@ -48,7 +52,7 @@ def heeds(algo: str, name: str) -> bool:
     return algo in SOME_HEED.get(name, (algo,))
 
 
-def check_heeded(algo: str, holder: DataclassInstance) -> None:
+def check_heeded(algo: str, holder: RecipeValues) -> None:
     """Refuse values other than the defaults that an algorithm takes no notice of.
 
     Args:
@@ -73,7 +77,7 @@ def unheeded_error(algo: str, name: str, others: Iterable[str]) -> TaskError:
     return TaskError(f"{algo} takes no notice of '{name}'", hint=hint)
 
 
-def _unheeded(algo: str, holder: DataclassInstance) -> dict[str, Any]:
+def _unheeded(algo: str, holder: RecipeValues) -> dict[str, Any]:
     """What an algorithm takes no notice of and is not the default; the defaults by name."""
     return {
         each.name: each.default
