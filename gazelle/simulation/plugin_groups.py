@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 
 from gazelle.engines import SystemEngine
 from gazelle.native.system import System
 from gazelle.simulation.base_plugin import Plugin
-from gazelle.simulation.clock import NANOSECONDS, Schedule
+from gazelle.simulation.clock import NANOSECONDS
+from gazelle.simulation.grouping import of_one_kind, with_replacements
 from gazelle.simulation.plugin_errors import warn_of_fault
-from gazelle.simulation.scheduled_plugin import ScheduledPlugin, title
+from gazelle.simulation.scheduled_plugin import (
+    ScheduledPlugin,
+    due_with,
+    part_schedule,
+    publish_together,
+    share_schedule,
+    title,
+)
 
 
 class PluginGroup:
@@ -24,9 +32,7 @@ class PluginGroup:
 
     def __init__(self, entries: Sequence[ScheduledPlugin], system: System) -> None:
         self._entries, self._system = entries, system
-        self.schedule: Schedule | None = (entries[0].schedule or Schedule(0.0)).copy()
-        for entry in entries:
-            entry.schedule = self.schedule
+        self.schedule = share_schedule(entries)
 
     def system(self) -> System:
         """What is updated in the plugins' place."""
@@ -34,9 +40,7 @@ class PluginGroup:
 
     def release(self) -> None:
         """Give each plugin a schedule of its own."""
-        for entry in self._entries:
-            if entry.schedule is self.schedule and self.schedule is not None:
-                entry.schedule = self.schedule.copy()
+        part_schedule(self._entries, self.schedule)
 
     def publishing(self, nworld: int) -> ScheduledPlugin | None:
         """What updates the system and then publishes, from Python; None if nobody listens."""
@@ -63,36 +67,22 @@ class _PublishingGroup(Plugin):
         """Act and publish."""
         self._system.bring(0, self._nworld * self._system.rows, round(time * NANOSECONDS))
         heard = [entry for entry in self._entries if entry.is_heard()]
-        if not heard:
-            return
-        plugins = [entry.plugin for entry in heard]
-        try:
-            measured = type(plugins[0]).measure_together(plugins)
-        except Exception:  # noqa: BLE001  each measures by itself, so that it is seen whose fault it is
-            measured = [None] * len(plugins)
-        for entry, value in zip(heard, measured, strict=True):
-            entry.publish_measured(value)
+        if heard:
+            publish_together(heard)
 
 
 def with_groups(
     entries: Sequence[ScheduledPlugin], engine: SystemEngine
 ) -> tuple[list[ScheduledPlugin | PluginGroup], list[PluginGroup]]:
     """Plugins, those of one kind in the place of the first of them, and all groups."""
-    kinds: dict[Hashable, list[ScheduledPlugin]] = {}
-    for entry in entries:
-        kind = entry.kind()
-        if kind is not None and entry.schedule is not None:
-            kinds.setdefault((type(entry.plugin), kind, *_due(entry.schedule)), []).append(entry)
-    first: dict[int, ScheduledPlugin | PluginGroup] = {}
-    others, groups = set[int](), list[PluginGroup]()
-    for some in kinds.values():
+    groups = list[PluginGroup]()
+    places: list[tuple[list[ScheduledPlugin], ScheduledPlugin | PluginGroup]] = []
+    for some in of_one_kind(entries, due_with):
         system = _together(some)
         if system is not None:
-            group = PluginGroup(some, system)
-            groups.append(group)
-            first[id(some[0])] = group.publishing(engine.nworld) or group
-            others.update(id(entry) for entry in some[1:])
-    return [first.get(id(entry), entry) for entry in entries if id(entry) not in others], groups
+            groups.append(PluginGroup(some, system))
+            places.append((some, groups[-1].publishing(engine.nworld) or groups[-1]))
+    return with_replacements(entries, places), groups
 
 
 def _together(entries: Sequence[ScheduledPlugin]) -> System | None:
@@ -104,7 +94,3 @@ def _together(entries: Sequence[ScheduledPlugin]) -> System | None:
         name = title(entries[0].name, entries[0].owner)
         warn_of_fault(plugin, name, "in together(), and is updated alone", error)
         return None
-
-
-def _due(schedule: Schedule) -> tuple[float, int]:
-    return schedule.rate, schedule.due_ns

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -106,6 +106,40 @@ class ScheduledPlugin:
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
             self.detach(error, when)
             return None
+
+
+def due_with(entry: ScheduledPlugin) -> Hashable | None:
+    """Equal for plugins of one kind that are due together; None for those updated alone."""
+    kind = entry.kind()
+    if kind is None or entry.schedule is None:
+        return None
+    return type(entry.plugin), kind, entry.schedule.rate, entry.schedule.due_ns
+
+
+def share_schedule(entries: Sequence[ScheduledPlugin]) -> Schedule:
+    """One schedule for all, that of the first."""
+    schedule = (entries[0].schedule or Schedule(0.0)).copy()
+    for entry in entries:
+        entry.schedule = schedule
+    return schedule
+
+
+def part_schedule(entries: Iterable[ScheduledPlugin], shared: Schedule) -> None:
+    """Give each that still has a shared schedule one of its own."""
+    for entry in entries:
+        if entry.schedule is shared:
+            entry.schedule = shared.copy()
+
+
+def publish_together(entries: Sequence[ScheduledPlugin]) -> None:
+    """Measure for all at once, and let each publish; they are of one class."""
+    plugins = [entry.plugin for entry in entries]
+    try:
+        measured = type(plugins[0]).measure_together(plugins)
+    except Exception:  # noqa: BLE001  each measures by itself, so that it is seen whose fault it is
+        measured = [None] * len(plugins)
+    for entry, value in zip(entries, measured, strict=True):
+        entry.publish_measured(value)
 
 
 def title(name: str, owner: str) -> str:

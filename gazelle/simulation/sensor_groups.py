@@ -13,6 +13,7 @@ from gazelle.native.system import System
 from gazelle.sensors.lidar_group import LidarGroup
 from gazelle.sensors.model import MeasuredTogether
 from gazelle.simulation.clock import Schedule
+from gazelle.simulation.grouping import of_one_kind, with_replacements
 
 
 class GroupedUnit(Protocol):
@@ -148,22 +149,22 @@ def group_sensors(
         units: All that are awake.
         native: Whether systems may measure those that nobody listens to.
     """
-    kinds: dict[Hashable, list[U]] = {}
-    for unit in units:
-        kind = unit.kind()
-        if kind is not None:
-            kinds.setdefault((kind, unit.heard and _by_system(unit)), []).append(unit)
-    first: dict[int, PythonGroup] = {}
-    grouped, systems = set[int](), list[NativeGroup]()
-    for some in kinds.values():
+    systems = list[NativeGroup]()
+    places: list[tuple[list[U], PythonGroup | None]] = []
+    for some in of_one_kind(units, _measured_with):
         if _by_system(some[0]):
             if native and not some[0].heard:
                 systems.append(NativeGroup(some))
-                grouped.update(map(id, some))
+                places.append((some, None))
         elif len(some) > 1:
-            first[id(some[0])] = PythonGroup(some)
-            grouped.update(id(unit) for unit in some[1:])
-    return [first.get(id(unit), unit) for unit in units if id(unit) not in grouped], systems
+            places.append((some, PythonGroup(some)))
+    return with_replacements(units, places), systems
+
+
+def _measured_with(unit: GroupedUnit) -> Hashable | None:
+    """Equal for sensors that are measured together; None for one that is measured alone."""
+    kind = unit.kind()
+    return None if kind is None else (kind, unit.heard and _by_system(unit))
 
 
 def _together(units: Sequence[GroupedUnit]) -> Any:
