@@ -8,18 +8,10 @@ from __future__ import annotations
 
 import ast
 import sys
+import types
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
-from types import (
-    AsyncGeneratorType,
-    CodeType,
-    CoroutineType,
-    FrameType,
-    FunctionType,
-    GeneratorType,
-    TracebackType,
-)
 from typing import Any
 
 from gazelle.errors import FormatError
@@ -33,13 +25,13 @@ _INNARDS = ("gi_", "cr_", "ag_", "f_", "tb_", "co_")
 _LEADS_OUT = {
     name
     for kind in (
-        AsyncGeneratorType,
-        CodeType,
-        CoroutineType,
-        FrameType,
-        FunctionType,
-        GeneratorType,
-        TracebackType,
+        types.AsyncGeneratorType,
+        types.CodeType,
+        types.CoroutineType,
+        types.FrameType,
+        types.FunctionType,
+        types.GeneratorType,
+        types.TracebackType,
     )
     for name in dir(kind)
     if name.startswith(_INNARDS)
@@ -70,7 +62,7 @@ def evaluate(text: str, symbols: dict[str, Any], local: Mapping[str, Any] | None
 
 
 @lru_cache(maxsize=4096)
-def _compiled(text: str) -> tuple[CodeType, bool]:
+def _compiled(text: str) -> tuple[types.CodeType, bool]:
     """The guarded code of an expression, and whether it may run in circles."""
     try:
         tree = ast.parse(text, "<expression>", "eval")
@@ -95,16 +87,14 @@ class _Guard(ast.NodeTransformer):
 
     def visit_Name(self, node: ast.Name) -> ast.AST:
         """Check a name: a file may call its properties almost as it likes."""
-        if node.id.startswith("__"):
+        if node.id.startswith("__") or node.id in _RUNS_AWAY:
             raise _refused(node.id)
-        _check_name(node.id)
         return node
 
     def visit_Attribute(self, node: ast.Attribute) -> ast.AST:
         """Check an attribute."""
-        if node.attr.startswith("_") or node.attr in _LEADS_OUT:
+        if node.attr.startswith("_") or node.attr in _LEADS_OUT | _RUNS_AWAY:
             raise _refused(node.attr)
-        _check_name(node.attr)
         return self.generic_visit(node)
 
     def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
@@ -120,11 +110,6 @@ class _Guard(ast.NodeTransformer):
         if pads:
             node.args = [_call(_WIDTH, argument) for argument in node.args]
         return node
-
-
-def _check_name(name: str) -> None:
-    if name in _RUNS_AWAY:
-        raise _refused(name)
 
 
 def _refused(name: str) -> FormatError:
@@ -196,7 +181,7 @@ def _counted() -> Iterator[None]:
     """Stop after ``MAX_STEPS`` lines and calls of Python."""
     left = MAX_STEPS
 
-    def step(_: FrameType, __: str, ___: Any) -> Callable[..., Any]:
+    def step(_: types.FrameType, __: str, ___: Any) -> Callable[..., Any]:
         nonlocal left
         left -= 1
         if left < 0:
