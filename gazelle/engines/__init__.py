@@ -14,7 +14,7 @@ from gazelle.engines.registry import EngineFactory, find
 from gazelle.engines.registry import names as engine_names
 from gazelle.engines.registry import register as register_engine
 from gazelle.engines.system_engine import SystemEngine
-from gazelle.engines.table_engine import TableEngine
+from gazelle.engines.table_engine import TableEngine, as_table_engine
 
 __all__ = [
     "CHANGES",
@@ -33,6 +33,7 @@ __all__ = [
     "TableEngine",
     "TouchTable",
     "Wrench",
+    "as_table_engine",
     "changes_of",
     "engine_names",
     "make_engine",

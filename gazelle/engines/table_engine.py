@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
 from gazelle.array_types import Floats
+from gazelle.engines.engine import Engine
 from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.reactions import TouchTable
 
@@ -47,3 +48,14 @@ class TableEngine(Protocol):
 
     def touching_each(self, sets: Sequence[tuple[str, ...]]) -> TouchTable:
         """What ``touching`` says of each of some sets of collisions, in all worlds."""
+
+
+def as_table_engine(engine: Engine) -> TableEngine:
+    """An engine that is one of these.
+
+    Raises:
+        TypeError: It looks at one link at a time.
+    """
+    if not isinstance(engine, TableEngine):
+        raise TypeError(f"{type(engine).__name__} looks at one link at a time")
+    return engine

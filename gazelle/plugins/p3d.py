@@ -7,7 +7,7 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 
 from gazelle.description import Noise, Parameters, Pose
-from gazelle.engines import Motion, Placement, TableEngine
+from gazelle.engines import Motion, Placement, TableEngine, as_table_engine
 from gazelle.plugins.frames import Frame, placed, relative
 from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
@@ -69,9 +69,7 @@ class P3D(Noisy, Publishing):
     @classmethod
     def measure_together(cls, plugins: Sequence[P3D]) -> list[tuple[Placement, Motion]]:
         """Where the bodies of all are, and how they move."""
-        engine = plugins[0].robot.simulation.engine
-        if not isinstance(engine, TableEngine):
-            raise TypeError("the engine looks at one link at a time")
+        engine = as_table_engine(plugins[0].robot.simulation.engine)
         links = tuple(each.body[0].name for each in plugins)
         place, motion = engine.link_placements(links), engine.link_motions(links)
         at = np.array([each.body[1].position for each in plugins])

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices, Worlds
-from gazelle.engines import Contacts, Engine, TableEngine, TouchTable
+from gazelle.engines import Contacts, Engine, TableEngine, TouchTable, as_table_engine
 from gazelle.sensors.model import NoisySensor
 
 # Values of one contact: two names, position, normal, depth, force, torque.
@@ -33,14 +33,20 @@ class ContactModel(NoisySensor):
     """Watches some collisions in every world.
 
     A measurement has room for ``most`` contacts a world, the rest is left out; the room not
-    used is NaN. Contacts of each world are listed at the price of two steps of the physics, so a batch that only has to know whether something is touched is better
-    served by a lidar or by positions.
+    used is NaN. Contacts of each world are listed at the price of two steps of the physics, so
+    a batch that only has to know whether something is touched is better served by a lidar or
+    by positions.
 
     Args:
         engine: Knows the contacts.
         collisions: Scoped names, ``model::link::collision``.
         most: Contacts kept of each world.
+
+    Attributes:
+        by_system: No: Python measures many in one call.
     """
+
+    by_system = False
 
     def __init__(self, engine: Engine, collisions: Sequence[str], most: int = 20) -> None:
         super().__init__({}, 0, "", engine.nworld)
@@ -68,11 +74,6 @@ class ContactModel(NoisySensor):
             kept = place < self._most
             values[row[kept], place[kept]] = self._rows(touching)[kept]
         return values.reshape(len(chosen), -1)
-
-    @property
-    def by_system(self) -> bool:
-        """No: Python measures many in one call."""
-        return False
 
     def kind(self) -> Hashable | None:
         """Equal for those with room for as much, where the engine can."""
@@ -152,10 +153,7 @@ class ContactGroup:
     """
 
     def __init__(self, models: Sequence[ContactModel]) -> None:
-        engine = models[0].engine
-        if not isinstance(engine, TableEngine):
-            raise TypeError("the engine measures each contact sensor by itself")
-        self._engine: TableEngine = engine
+        self._engine = as_table_engine(models[0].engine)
         self._models, self._most = models, models[0].most
         self._sets = tuple(each.collisions for each in models)
         self._names: Sequence[str] = ()

@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Imu, Pose
-from gazelle.engines import Engine, Motion, Placement, TableEngine
+from gazelle.engines import Engine, Motion, Placement, TableEngine, as_table_engine
 from gazelle.rotations import conjugate, cross, multiply, rotate
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import JoinedNoise
@@ -45,7 +45,12 @@ class ImuModel(NoisySensor):
         pose: The sensor frame in the link frame.
         seed: The run's seed.
         name: Scoped name of the sensor; names its random streams.
+
+    Attributes:
+        by_system: No: Python measures many in one call.
     """
+
+    by_system = False
 
     def __init__(
         self, imu: Imu, engine: Engine, link: str, pose: Pose, seed: int, name: str
@@ -77,11 +82,6 @@ class ImuModel(NoisySensor):
             self._engine.parameter("gravity", "", worlds),
         )
         return np.concatenate((orientation, self.noisy(felt, interval, worlds)), axis=1)
-
-    @property
-    def by_system(self) -> bool:
-        """No: Python measures many in one call."""
-        return False
 
     def kind(self) -> Hashable | None:
         """Equal for those whose files say the same of their noise, where the engine can."""
@@ -125,10 +125,7 @@ class ImuGroup:
     """
 
     def __init__(self, models: Sequence[ImuModel]) -> None:
-        engine = models[0].engine
-        if not isinstance(engine, TableEngine):
-            raise TypeError("the engine measures each IMU by itself")
-        self._engine: TableEngine = engine
+        self._engine = as_table_engine(models[0].engine)
         self._models = list(models)
         self._links = tuple(each.link for each in models)
         self._mount = (

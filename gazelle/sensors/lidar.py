@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, UInts64, Worlds
 from gazelle.description import Lidar, Pose, Scan
-from gazelle.engines import Engine, RangeRays, SystemEngine, TableEngine
+from gazelle.engines import Engine, RangeRays, SystemEngine, TableEngine, as_table_engine
 from gazelle.sensors.lidar_group import CastLidars, LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
 from gazelle.sensors.noise import NoiseModel
@@ -155,9 +155,7 @@ class LidarModel:
         rays = [each.rays for each in models]
         if isinstance(engine, SystemEngine):
             return LidarGroup(engine, rays, law, begin, *tables)
-        if isinstance(engine, TableEngine):
-            return CastLidars(engine, rays, law, begin, LidarNoise(*tables))
-        raise TypeError("the engine measures each lidar by itself")
+        return CastLidars(as_table_engine(engine), rays, law, begin, LidarNoise(*tables))
 
     @classmethod
     def _noise_together(
