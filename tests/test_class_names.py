@@ -45,9 +45,6 @@ OPENAI_ROS = "compat/openai_ros/"
 SAME_PROGRAM = {"JointStatePublisher": 2}
 """ROS has a node and a Gazebo plugin of this name, and we have both."""
 
-KNOWN = {"Plugin": 2}
-"""How often names outside the ROS room are still used; to be emptied, never to grow."""
-
 
 @functools.cache
 def class_names(root, *, skip=("assets",)):
@@ -64,11 +61,10 @@ def class_names(root, *, skip=("assets",)):
 def repeated(found):
     """Names used more often than they may be, with their files."""
     own = [(name, file) for name, file in found if not file.startswith(COMPAT)]
-    allowed = {**SAME_PROGRAM, **KNOWN}
     files = {}
     for name, file in own:
         files.setdefault(name, []).append(file)
-    wrong = {name: where for name, where in files.items() if len(where) > allowed.get(name, 1)}
+    wrong = {name: where for name, where in files.items() if len(where) > SAME_PROGRAM.get(name, 1)}
     for name, file in found:
         given = name in GIVEN_BY_ROS or (file.startswith(OPENAI_ROS) and name.endswith("Env"))
         if file.startswith(COMPAT) and name in files and not given:

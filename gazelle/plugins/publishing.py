@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from gazelle.simulation import ModelPlugin, Plugin
+from gazelle.simulation import BasePlugin, ModelPlugin
 
 
 class Published(Protocol):
@@ -18,7 +18,7 @@ class Published(Protocol):
         """Hand a new value to all who listen."""
 
 
-class PublishingPlugin(Plugin):
+class PublishingPlugin(BasePlugin):
     """Publishes its outputs at its rate, and needs no updates while nobody listens."""
 
     only_publishes = True

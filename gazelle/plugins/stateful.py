@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
-from gazelle.simulation import Plugin
+from gazelle.simulation import BasePlugin
 from gazelle.states import Restorable, restore_all, states_of
 
 
@@ -23,7 +23,7 @@ class Stateful(Restorable, Protocol):
         """Forget drifts."""
 
 
-class Noisy(Plugin):
+class Noisy(BasePlugin):
     """Keeps all in ``_noises``, which ``load`` fills, with the simulation's resets and seeds."""
 
     _noises: dict[str, Stateful]

@@ -1,6 +1,6 @@
 """One running set of worlds: clock, requests, spawn and delete, sensors, plugins and ports."""
 
-from gazelle.simulation.base_plugin import Plugin
+from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.clock import Clock, Schedule, Stopwatch
 from gazelle.simulation.faults import Fault
 from gazelle.simulation.joint_motion import JointMotion
@@ -28,6 +28,7 @@ from gazelle.simulation.topics import absolute, namespace_of
 from gazelle.simulation.values import JointStates, Odometry, Transform, Transforms, WrenchValue
 
 __all__ = [
+    "BasePlugin",
     "Clock",
     "Fault",
     "FramePrefix",
@@ -41,7 +42,6 @@ __all__ = [
     "Odometry",
     "Output",
     "PhysicsProperties",
-    "Plugin",
     "Ports",
     "Recorder",
     "Replay",

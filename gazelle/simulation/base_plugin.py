@@ -30,7 +30,7 @@ class Carried:
     lasting: bool = False
 
 
-class Plugin:
+class BasePlugin:
     """What all plugins have in common.
 
     Attributes:

@@ -8,7 +8,7 @@ from collections.abc import Container, Hashable, Sequence
 import numpy as np
 
 from gazelle.native.joint_system import JointSystem
-from gazelle.simulation.base_plugin import Carried, Plugin
+from gazelle.simulation.base_plugin import BasePlugin, Carried
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 
 _ASK = -1.0
@@ -43,7 +43,7 @@ class CarriedPlugins:
         self._loose = False  # whether an answer that was given does not hold any more
         self._count(changed=True)
 
-    def stir(self, plugin: Plugin) -> None:
+    def stir(self, plugin: BasePlugin) -> None:
         """Ask a plugin anew before the next step: something was done to it."""
         place = self._places.get(id(plugin))
         if place is not None:

@@ -11,7 +11,7 @@ from gazelle.description import Link, Model, StagePlugin
 from gazelle.errors import SimulationWarning, located
 from gazelle.formats.stage.plugins import without_stage_plugins
 from gazelle.simulation import registry
-from gazelle.simulation.base_plugin import Plugin
+from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.plugin import (
     ModelPlugin,
     SensorPlugin,
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
     from gazelle.simulation.stage.fleet import StageFleet
 
-_PLACES: dict[type[Plugin], str] = {
+_PLACES: dict[type[BasePlugin], str] = {
     ModelPlugin: "model",
     SensorPlugin: "sensor",
     VisualPlugin: "visual",
@@ -103,7 +103,7 @@ def load_world_plugin(simulation: Simulation, plugin: description.Plugin) -> Non
 
 def _start(
     simulation: Simulation,
-    kind: type[Plugin],
+    kind: type[BasePlugin],
     entity: object,
     plugin: description.Plugin,
     robot: Robot | None,
@@ -126,7 +126,9 @@ def _start(
     simulation.plugins.append(make_scheduled(loaded, plugin.name, owner, simulation.requests))
 
 
-def _fits(found: type[Plugin], kind: type[Plugin], name: str, plugin: description.Plugin) -> bool:
+def _fits(
+    found: type[BasePlugin], kind: type[BasePlugin], name: str, plugin: description.Plugin
+) -> bool:
     """Whether a plugin is in an element of its kind; says so if it is not."""
     if issubclass(found, kind):
         return True

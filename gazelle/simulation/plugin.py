@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gazelle.description import Parameters
-from gazelle.simulation.base_plugin import Plugin
+from gazelle.simulation.base_plugin import BasePlugin
 
 if TYPE_CHECKING:
     from gazelle.simulation.robot import Robot
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from gazelle.simulation.simulation import Simulation
 
 
-class WorldPlugin(Plugin):
+class WorldPlugin(BasePlugin):
     """A plugin of the world."""
 
     def load(self, simulation: Simulation, parameters: Parameters) -> None:
@@ -32,21 +32,21 @@ class SystemPlugin(WorldPlugin):
     """
 
 
-class ModelPlugin(Plugin):
+class ModelPlugin(BasePlugin):
     """A plugin of a model."""
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Start: read the parameters, open ports on the robot."""
 
 
-class VisualPlugin(Plugin):
+class VisualPlugin(BasePlugin):
     """A plugin of a visual, such as one that shows a video on it."""
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Start, on the robot that has the visual."""
 
 
-class SensorPlugin(Plugin):
+class SensorPlugin(BasePlugin):
     """A plugin of a sensor."""
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from gazelle.engines import SystemEngine
 from gazelle.native.system import System
-from gazelle.simulation.base_plugin import Plugin
+from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.grouping import of_one_kind, with_replacements
 from gazelle.simulation.plugin_errors import warn_of_fault
@@ -51,7 +51,7 @@ class PluginGroup:
         return ScheduledPlugin(plugin, first.name, first.owner, self.schedule)
 
 
-class _PublishingGroup(Plugin):
+class _PublishingGroup(BasePlugin):
     """Updates plugins by one system, measures at once what is heard of them, and publishes it.
 
     Args:

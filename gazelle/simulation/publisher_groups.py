@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gazelle.simulation.base_plugin import Plugin
+from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.grouping import of_one_kind, with_replacements
 from gazelle.simulation.scheduled_plugin import (
     ScheduledPlugin,
@@ -15,7 +15,7 @@ from gazelle.simulation.scheduled_plugin import (
 )
 
 
-class PublisherGroup(Plugin):
+class PublisherGroup(BasePlugin):
     """Publishes in the place of plugins that are due together and that somebody listens to.
 
     Args:

@@ -15,13 +15,13 @@ from typing import TypeVar, cast
 from gazelle import description
 from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean, located
-from gazelle.simulation.base_plugin import Plugin
+from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.known_plugins import known_plugins
 
-P = TypeVar("P", bound=type[Plugin])
+P = TypeVar("P", bound=type[BasePlugin])
 
 _GROUP = "gazelle.plugins"
-_registered: dict[str, type[Plugin]] = {}
+_registered: dict[str, type[BasePlugin]] = {}
 _missing: set[str] = set()
 
 
@@ -53,7 +53,7 @@ def purpose(filename: str) -> str:
     return row.purpose if row is not None else ""
 
 
-def find(plugin: description.Plugin) -> type[Plugin] | None:
+def find(plugin: description.Plugin) -> type[BasePlugin] | None:
     """The class for a ``<plugin>``; None, with a warning where the world is without something.
 
     A plugin that is not known is warned of once a file name.
@@ -72,7 +72,7 @@ def find(plugin: description.Plugin) -> type[Plugin] | None:
     row = known_plugins().get(stem)
     if row is not None and row.code:
         module, _, name = row.code.partition(":")
-        return cast("type[Plugin]", getattr(importlib.import_module(module), name))
+        return cast("type[BasePlugin]", getattr(importlib.import_module(module), name))
     if row is not None and row.missing:
         _warn(plugin, f": {row.missing}")
     elif row is None and stem not in _missing:
@@ -93,7 +93,7 @@ def _nearest(filename: str) -> str:
     return f"{hint} " if hint.startswith("did you mean") else ""
 
 
-def _import(plugin: description.Plugin) -> type[Plugin]:
+def _import(plugin: description.Plugin) -> type[BasePlugin]:
     """The Python class that a file names as ``package.module:Class``."""
     name, _, attribute = plugin.filename.partition(":")
     try:
@@ -118,21 +118,21 @@ def _import(plugin: description.Plugin) -> type[Plugin]:
             source=plugin.source,
             hint="subclass gazelle.simulation's WorldPlugin, ModelPlugin or SensorPlugin",
         )
-    return cast("type[Plugin]", found)
+    return cast("type[BasePlugin]", found)
 
 
 def _is_plugin(value: object) -> bool:
-    return isinstance(value, type) and issubclass(value, Plugin)
+    return isinstance(value, type) and issubclass(value, BasePlugin)
 
 
-def _load(point: EntryPoint) -> type[Plugin]:
+def _load(point: EntryPoint) -> type[BasePlugin]:
     loaded = point.load()
-    if not (isinstance(loaded, type) and issubclass(loaded, Plugin)):
+    if not (isinstance(loaded, type) and issubclass(loaded, BasePlugin)):
         raise SimulationError(f"the entry point '{point.name}' ({point.value}) is no plugin class")
     return loaded
 
 
-def _first_line(plugin: type[Plugin]) -> str:
+def _first_line(plugin: type[BasePlugin]) -> str:
     return (plugin.__doc__ or "").strip().partition("\n")[0]
 
 

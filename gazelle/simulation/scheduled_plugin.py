@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.native.system import System
-from gazelle.simulation.base_plugin import Carried, Plugin
+from gazelle.simulation.base_plugin import BasePlugin, Carried
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.requests import RequestQueue
@@ -25,7 +25,7 @@ class ScheduledPlugin:
     One that raises is detached with a warning: it is never asked again, and all else goes on.
     """
 
-    plugin: Plugin
+    plugin: BasePlugin
     name: str
     owner: str
     schedule: Schedule | None
@@ -68,7 +68,7 @@ class ScheduledPlugin:
     @property
     def may_be_carried(self) -> bool:
         """Whether it is worth asking."""
-        return type(self.plugin).carried is not Plugin.carried
+        return type(self.plugin).carried is not BasePlugin.carried
 
     def kind(self) -> Hashable | None:
         """What it has in common with those that are updated together with it."""
@@ -148,7 +148,7 @@ def title(name: str, owner: str) -> str:
 
 
 def make_scheduled(
-    plugin: Plugin, name: str, owner: str, requests: RequestQueue | None = None
+    plugin: BasePlugin, name: str, owner: str, requests: RequestQueue | None = None
 ) -> ScheduledPlugin:
     """A plugin with the schedule it asks for, once it is loaded."""
     schedule = None if plugin.update_rate is None else Schedule(plugin.update_rate)

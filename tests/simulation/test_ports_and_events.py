@@ -7,9 +7,9 @@ import gazelle
 from gazelle.description import Parameters
 from gazelle.errors import SimulationWarning
 from gazelle.simulation import (
+    BasePlugin,
     Input,
     Output,
-    Plugin,
     Service,
     absolute,
     namespace_of,
@@ -90,7 +90,7 @@ def test_spawn_delete_and_reset_are_told(sim):
 
 
 def test_a_plugin_that_fails_is_detached_and_named_and_the_rest_goes_on(sim):
-    class Broken(Plugin):
+    class Broken(BasePlugin):
         update_rate = 0.0
         calls = 0
 

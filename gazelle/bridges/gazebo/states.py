@@ -14,7 +14,7 @@ from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.outbox import Outbox
 from gazelle.engines import Motion, Placement
 from gazelle.ros import load_message
-from gazelle.simulation import LinkHandle, Plugin, Robot
+from gazelle.simulation import BasePlugin, LinkHandle, Robot
 
 # How often the performance is published, in simulated time [Hz].
 _PERFORMANCE_RATE = 5.0
@@ -22,7 +22,7 @@ _COUNT = struct.Struct("<I")
 _STAMP = struct.Struct("<II")
 
 
-class ClockPublisher(Plugin):
+class ClockPublisher(BasePlugin):
     """Publishes ``/clock`` while somebody listens.
 
     Args:
@@ -71,7 +71,7 @@ class ClockPublisher(Plugin):
         self._context.simulation.requests.post(work)
 
 
-class StatesPublisher(Plugin):
+class StatesPublisher(BasePlugin):
     """Publishes ``model_states`` and ``link_states`` at every step while somebody listens."""
 
     update_rate = 0.0
@@ -172,7 +172,7 @@ def _strings(names: Iterable[str]) -> bytes:
     return b"".join([_COUNT.pack(len(encoded)), *(_COUNT.pack(len(e)) + e for e in encoded)])
 
 
-class PerformancePublisher(Plugin):
+class PerformancePublisher(BasePlugin):
     """Publishes ``performance_metrics`` while somebody listens."""
 
     update_rate = _PERFORMANCE_RATE
