@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.training.goal_reward import GoalReward
-from gazelle.training.heeded import check_heeded, heeded_only, heeds
+from gazelle.training.heeded import check_heeded
 
 Activation = Literal["tanh", "relu"]
 
@@ -206,17 +206,12 @@ def recipe_to_dict(recipe: Recipe) -> dict[str, Any]:
 def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     """The recipe that `recipe_to_dict` wrote.
 
-    Runs of earlier versions may have values that their algorithm took no notice of: the default
-    stands in their place.
-
     Raises:
-        TaskError: A key is not part of a recipe.
+        TaskError: A key is not part of a recipe, or its algorithm takes no notice of a value.
     """
-    algo = values.get("algo", "ppo")
-    kind = _settings_of(algo)
-    settings = heeded_only(algo, kind(**_checked(kind, values.get("settings", {}))))
-    outer = {key: item for key, item in values.items() if key != "settings"}
-    rest = _checked(Recipe, {key: item for key, item in outer.items() if heeds(algo, key)})
+    kind = _settings_of(values.get("algo", "ppo"))
+    settings = kind(**_checked(kind, values.get("settings", {})))
+    rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
     if "net_arch" in rest:
         rest["net_arch"] = tuple(rest["net_arch"])
     if rest.get("goal_reward") is not None:

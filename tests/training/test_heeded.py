@@ -149,11 +149,14 @@ def test_what_is_heeded_is_kept():
     assert heeded_only("ddpg", own) == own
 
 
-def test_runs_of_earlier_versions_are_read():
+def test_a_saved_recipe_with_such_a_value_is_refused():
     values = recipe_to_dict(Recipe(algo="sac", settings=OffPolicySettings(tau=0.02)))
-    values["settings"] |= {"action_noise": 0.3, "demonstrator": PUSH, "imitation": 5.0}
     assert recipe_from_dict(values).settings == OffPolicySettings(tau=0.02)
-    assert recipe_from_dict(recipe_to_dict(Recipe()) | {"hindsight": 0.3}) == Recipe()
+    values["settings"]["action_noise"] = 0.3
+    with pytest.raises(TaskError, match="sac takes no notice of 'action_noise'"):
+        recipe_from_dict(values)
+    with pytest.raises(TaskError, match="ppo takes no notice of 'hindsight'"):
+        recipe_from_dict(recipe_to_dict(Recipe()) | {"hindsight": 0.3})
 
 
 def test_the_command_line_says_it(cli, tmp_path):
