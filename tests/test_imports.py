@@ -112,19 +112,21 @@ def parsed(text):
 @functools.cache
 def imports_of(module, text, *, is_package=False):
     """Imports of Gazelle's own modules, those for types too."""
-    tree = parsed(text)
-    lazy = {
-        id(node)
-        for function in ast.walk(tree)
-        if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef)
-        for node in ast.walk(function)
-    }
     return [
-        Import(module, target, node.lineno, id(node) in lazy, taken(node))
-        for node in ast.walk(tree)
+        Import(module, target, node.lineno, lazy, taken(node))
+        for node, lazy in statements(parsed(text))
         for target in targets(node, module, is_package=is_package)
         if target.split(".")[0] == "gazelle"
     ]
+
+
+def statements(node, *, lazy=False):
+    """Every statement below a node, and whether it is within a function; expressions hold none."""
+    for field in ("body", "orelse", "finalbody", "handlers", "cases"):
+        for child in getattr(node, field, ()):
+            yield child, lazy
+            function = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef)
+            yield from statements(child, lazy=lazy or function)
 
 
 def taken(node):
@@ -326,7 +328,7 @@ def strangers_of(module, text):
     """Libraries that a module imports, and that are another package's."""
     names = {
         name.split(".")[0]
-        for node in ast.walk(parsed(text))
+        for node, _ in statements(parsed(text))
         if not isinstance(node, ast.ImportFrom) or not node.level
         for name in targets(node, module, is_package=False)
     }
