@@ -1,7 +1,9 @@
 """What never moves comes into the model by thousands, and is the same as one by one."""
 
+import time
 from dataclasses import replace
 
+import mujoco
 import numpy as np
 import pytest
 import scenes
@@ -10,6 +12,7 @@ from PIL import Image
 
 from gazelle.description import (
     Box,
+    Contact,
     Cylinder,
     Heightmap,
     Link,
@@ -19,10 +22,12 @@ from gazelle.description import (
     Polyline,
     Pose,
     Sphere,
+    Surface,
 )
 from gazelle.engines import make_engine
-from gazelle.engines.mujoco import world_geoms
+from gazelle.engines.mujoco import contacts, world_geoms
 from gazelle.engines.mujoco.compiler import CompilerInput, compile_world
+from gazelle.engines.mujoco.shapes import ShapeBuilder
 
 FIELDS = ("geom_pos", "geom_quat", "geom_size", "geom_type", "geom_friction", "geom_group")
 
@@ -108,3 +113,49 @@ def test_collisions_and_frictions_of_ten_thousand_shapes_are_found_by_name():
     assert engine.link_placement("ball::link").position[0, 2] > 0.1
     engine.set_parameter("collision_friction", "m::l::c9999", 0.3)
     assert engine.parameter("collision_friction", "m::l::c9999").tolist() == [[0.3]]
+
+
+def processor_time_of(count):
+    """Of a wall of meshes, each there once, that comes into a world [s]."""
+    spec = mujoco.MjSpec()
+    world = world_geoms.WorldGeoms(spec)
+    builder = ShapeBuilder(spec, world.name_later)
+    corners, sides = np.vstack([np.zeros(3), np.eye(3)]), np.array([[0, 2, 1], [0, 1, 3]])
+    start = time.process_time()
+    for i in range(count):
+        shape = builder.mesh_geom(
+            i, corners, sides, Pose(), mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+        )
+        world.add_geom(name=f"g{i}", **shape)
+    world.finish()
+    return time.process_time() - start
+
+
+def test_four_times_as_many_shapes_take_hardly_more_than_four_times_as_long():
+    """With each four thousand that come all names of the model were listed, of meshes as well."""
+    few, many = processor_time_of(25_000), processor_time_of(100_000)
+    assert many < 8.0 * few
+
+
+@pytest.mark.parametrize("count", [500, 1000, 2000, 4000])
+def test_a_mesh_of_many_pieces_is_told_from_springs_piece_by_piece_no_more(
+    tmp_path, monkeypatch, count
+):
+    """What bounces, is soft or rubs by direction is compared with collisions, not with pieces."""
+    parts = [trimesh.creation.box((0.1, 0.1, 0.1)) for _ in range(5)]
+    for k, part in enumerate(parts):
+        part.apply_translation((0.5 * k, 0.0, 0.0))
+    file = tmp_path / "row.stl"
+    trimesh.util.concatenate(parts).export(file)
+    still = [
+        scenes.solid(f"m{i}", Mesh(file.name, file), static=True, pose=Pose(y=0.5 * i))
+        for i in range(count // 5)
+    ]
+    asked = []
+    monkeypatch.setattr(contacts, "_may_touch", lambda *pair: bool(asked.append(pair)))
+    ball = scenes.solid("ball", Sphere(0.1), pose=Pose(z=3.0))
+    soft = replace(ball.links[0].collisions[0], surface=Surface(contact=Contact(kp=1e4, kd=1.0)))
+    ball = replace(ball, links=(replace(ball.links[0], collisions=(soft,)),))
+    compiled = compile_world(CompilerInput(scenes.world(ball, *still), 0.001))
+    assert compiled.model.ngeom >= count
+    assert 0 < len(asked) <= count // 5 + 1

@@ -252,7 +252,7 @@ class _SpecBuilder:
         self._bodies = bodies
         self._by_name = {body.name: body for parts in bodies.values() for body in parts}
         self._tyres = tyres
-        self.shapes = ShapeBuilder(spec)
+        self.shapes = ShapeBuilder(spec, self.world.name_later)
         self.geoms: dict[str, list[str]] = {}
         self._masses = {
             name: sum((part.link.inertial or Inertial()).mass for part in parts)

@@ -195,20 +195,35 @@ def _with_shares(solids: list[ContactGeom]) -> list[ContactGeom]:
 def _special_pairs(
     solids: list[ContactGeom], time_step: float
 ) -> Iterable[tuple[ContactGeom, ContactGeom]]:
-    special = [s for s in solids if _bounces(s) or _is_soft(s) or is_directional(s.collision)]
+    """All pieces of a collision have one surface, so they are decided upon together."""
+    pieces = [list(each) for _, each in itertools.groupby(solids, _collision_of)]
     seen: set[tuple[str, str]] = set()
-    for first, second in itertools.product(special, solids):
-        names = (min(first.geom, second.geom), max(first.geom, second.geom))
-        if names in seen or not _may_touch(first, second):
+    for own in pieces:
+        if not _may_be_special(own[0]):
             continue
-        seen.add(names)
-        directional = is_directional(first.collision) or is_directional(second.collision)
-        if (
-            directional
-            or _restitution(first, second) > 0.0
-            or _spring_between(first, second, time_step) is not None
-        ):
-            yield first, second
+        others = [other for other in pieces if _is_special(own[0], other[0], time_step)]
+        for first, second in itertools.product(own, itertools.chain.from_iterable(others)):
+            names = (min(first.geom, second.geom), max(first.geom, second.geom))
+            if names not in seen:
+                seen.add(names)
+                yield first, second
+
+
+def _collision_of(solid: ContactGeom) -> tuple[str, str, int]:
+    return solid.model, solid.body, id(solid.collision)
+
+
+def _may_be_special(solid: ContactGeom) -> bool:
+    return _bounces(solid) or _is_soft(solid) or is_directional(solid.collision)
+
+
+def _is_special(first: ContactGeom, second: ContactGeom, time_step: float) -> bool:
+    return _may_touch(first, second) and (
+        is_directional(first.collision)
+        or is_directional(second.collision)
+        or _restitution(first, second) > 0.0
+        or _spring_between(first, second, time_step) is not None
+    )
 
 
 def tune_springs(model: mujoco.MjModel, springs: Iterable[Spring]) -> None:

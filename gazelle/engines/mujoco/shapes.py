@@ -63,9 +63,18 @@ _SHELL = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
 
 @dataclass(slots=True)
 class ShapeBuilder:
-    """Makes geoms in one ``MjSpec``; meshes used twice are stored once."""
+    """Makes geoms in one ``MjSpec``; meshes used twice are stored once.
+
+    Attributes:
+        spec: What the geoms are for.
+        name_mesh: Gives a mesh its name, at once or later.
+        meshes: Names of what is stored already.
+        heightmaps: Likewise.
+        grounds: What was found out on meshes that may be ground.
+    """
 
     spec: mujoco.MjSpec
+    name_mesh: Callable[[Any, str], None] = lambda mesh, name: setattr(mesh, "name", name)
     meshes: dict[Any, str] = field(default_factory=dict)
     heightmaps: dict[Heightmap, str] = field(default_factory=dict)
     grounds: dict[Any, Ground | None] = field(default_factory=dict)
@@ -216,12 +225,12 @@ class ShapeBuilder:
         """A mesh geom; its vertices are stored on first use of the key."""
         if key not in self.meshes:
             name = f"mesh_{len(self.meshes)}"
-            self.spec.add_mesh(
-                name=name,
+            mesh = self.spec.add_mesh(
                 uservert=np.asarray(vertices, dtype=np.float64).ravel(),
                 userface=np.asarray(faces, dtype=np.int32).ravel(),
                 inertia=_inertia_of(np.asarray(vertices)) if inertia is None else inertia,
             )
+            self.name_mesh(mesh, name)
             self.meshes[key] = name
         return {
             "type": mujoco.mjtGeom.mjGEOM_MESH,
