@@ -1,8 +1,10 @@
-"""Many robots in one world: what their sensors cost together, and each by itself.
+"""Many robots: what their sensors and drives cost together, and each by itself.
 
 100 robots lie on a ground in three dimensions, each with one sensor of a kind that measures at its
-rate, or with a plugin whose topic somebody listens to. The peer is the same world in the same run, stepped in turns with it, in which Python measures
-every sensor by itself; both are printed without what the physics takes alone.
+rate, or with a plugin whose topic somebody listens to; or they hang in the air and a drive turns
+their wheels. The last case is a batch of worlds with one robot each. The peer is the same world in the
+same run, stepped in turns with it, in which Python updates every sensor and plugin by itself; both are
+printed without what the physics takes alone.
 """
 
 from __future__ import annotations
@@ -10,6 +12,7 @@ from __future__ import annotations
 import argparse
 import os
 import time
+from dataclasses import dataclass
 from typing import Any
 
 import gazelle
@@ -17,6 +20,7 @@ from gazelle import formats
 
 ROBOTS = 100
 WINDOWS = 5
+BATCH = 256
 STEP = 0.005
 ROBOT = """<model name='r{0}'><pose>{1} {2} .1 0 0 {0}</pose><link name='base'><inertial><mass>2</mass>
 <inertia><ixx>.02</ixx><iyy>.03</iyy><izz>.04</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>
@@ -42,6 +46,58 @@ SENSORS = {
 }
 
 
+WHEEL = """<link name='{0}'><pose>0 {1} 0 -1.5708 0 0</pose><inertial><mass>.3</mass><inertia><ixx>.0004</ixx>
+<iyy>.0004</iyy><izz>.0004</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial></link><joint
+name='{0}_joint' type='continuous'><parent>base</parent><child>{0}</child><axis><xyz>0 0 1</xyz></axis></joint>"""
+SLIDE = "<plugin name='p' filename='libgazebo_ros_planar_move.so'/>"
+CORNERS = [f"{side}_{end}" for end in ("front", "rear") for side in ("left", "right")]
+TAGS = "".join(
+    f"<{side}{end}Joint>{side}_{end.lower()}_joint</{side}{end}Joint>"
+    for end in ("Front", "Rear")
+    for side in ("left", "right")
+)
+DIFF = """<plugin name='p' filename='libgazebo_ros_diff_drive.so'><leftJoint>left_front_joint</leftJoint>
+<rightJoint>right_front_joint</rightJoint><updateRate>50</updateRate></plugin>"""
+SKID = f"""<plugin name='p' filename='libgazebo_ros_skid_steer_drive.so'>{TAGS}<updateRate>50</updateRate>
+</plugin>"""
+
+
+@dataclass(frozen=True)
+class Case:
+    """What each robot has.
+
+    Attributes:
+        name: As it is printed.
+        sensor: In the robot's link.
+        plugin: In the robot.
+        wheels: How many wheels it has, with motors.
+        air: Whether robots hang in the air; all with wheels do.
+        heard: Whether somebody listens.
+        nworld: Worlds of one such robot each; 0: many robots in one world.
+    """
+
+    name: str
+    sensor: str = ""
+    plugin: str = ""
+    wheels: int = 0
+    air: bool = False
+    heard: bool = True
+    nworld: int = 0
+
+
+CASES = (
+    *(Case(name, sensor) for name, sensor in SENSORS.items()),
+    Case("p3d, 50 Hz", plugin=P3D),
+    Case("IMU plugin, 50 Hz", plugin=IMU_PLUGIN),
+    Case("diff drive, 50 Hz", plugin=DIFF, wheels=2, heard=False),
+    Case("diff drive, odometry heard", plugin=DIFF, wheels=2),
+    Case("skid steer, 50 Hz", plugin=SKID, wheels=4, heard=False),
+    Case("skid steer, odometry heard", plugin=SKID, wheels=4),
+    Case("planar move, every step", plugin=SLIDE, heard=False, air=True),
+    Case(f"{BATCH} worlds, one diff drive", plugin=DIFF, wheels=2, nworld=BATCH),
+)
+
+
 def main() -> None:
     """Print the figures."""
     parser = argparse.ArgumentParser(prog="gazelle bench many", description=__doc__)
@@ -52,45 +108,68 @@ def main() -> None:
         f"second in turns, step {STEP * 1e3:g} ms: ms of processor time"
     )
     print(f"{'one on each robot':<28}{'alone':>10}{'together':>10}{'times':>8}")
-    parts = {name: (sensor, "") for name, sensor in SENSORS.items()}
-    for name, part in {
-        **parts,
-        "p3d, 50 Hz": ("", P3D),
-        "IMU plugin, 50 Hz": ("", IMU_PLUGIN),
-    }.items():
-        alone, together, bare = least(
-            [
-                world(args.robots, *part, grouped=False),
-                world(args.robots, *part),
-                world(args.robots),
-            ]
-        )
+    for case in CASES:
+        count = 1 if case.nworld else args.robots
+        sims = [running(count, case, how) for how in ("alone", "together", "bare")]
+        alone, together, bare = least(sims)
         alone, together = alone - bare, together - bare
-        print(f"{name:<28}{alone:10.1f}{together:10.1f}{alone / together:8.1f}")
+        print(f"{case.name:<28}{alone:10.1f}{together:10.1f}{alone / together:8.1f}")
 
 
-def world(
-    count: int, sensor: str = "", plugin: str = "", *, grouped: bool = True
-) -> gazelle.Simulation:
-    """Robots whose sensors are awake, and whose plugins are listened to."""
-    physics = f"<physics name='p' type='ode'><max_step_size>{STEP}</max_step_size></physics>"
-    robots = "".join(ROBOT.format(i, i % 10, i // 10, sensor, plugin) for i in range(count))
-    text = f"<sdf version='1.7'><world name='w'>{physics}{GROUND}{robots}</world></sdf>"
-    sim = gazelle.Simulation(formats.load_string(text), "mujoco", threads=1)
+def running(count: int, case: Case, how: str) -> gazelle.Simulation:
+    """Robots that move, whose sensors are awake, and whose plugins are listened to.
+
+    Args:
+        count: How many.
+        case: What they have.
+        how: Whether that is updated ``alone`` or ``together``, or they are ``bare`` of it.
+    """
+    sim = gazelle.Simulation(
+        formats.load_string(world(count, case, bare=how == "bare")),
+        "mujoco",
+        nworld=max(1, case.nworld),
+        threads=1,
+    )
     for robot in sim.robots.values():
         for unit in robot.sensors.values():
             changed: Any = unit
-            if not grouped:
+            if how == "alone":
                 changed.kind = lambda: None
             unit.latest()
-        for output in robot.outputs.values():
+        for output in robot.outputs.values() if case.heard else ():
             output.subscribe(lambda _: None)
+        set_off(robot, case)
     for entry in sim.entities.plugins:
-        alone: Any = entry.plugin
-        if not grouped:
-            alone.kind = lambda: None
+        plugin: Any = entry.plugin
+        if how == "alone":
+            plugin.kind = lambda: None
+        elif how == "bare":
+            entry.schedule = None  # it gave the wheels their motors
     sim.run(1.0)
     return sim
+
+
+def set_off(robot: gazelle.Robot, case: Case) -> None:
+    """Let them move, whether a drive is told or the motors are."""
+    for port in robot.inputs.values():
+        port.send(0.3)
+    for wheel in CORNERS[: case.wheels]:
+        robot.joints[f"{wheel}_joint"].drive(4.0)
+
+
+def world(count: int, case: Case, *, bare: bool) -> str:
+    """The world as text."""
+    physics = f"<physics name='p' type='ode'><max_step_size>{STEP}</max_step_size></physics>"
+    wheels = "".join(
+        WHEEL.format(name, 0.12 if "left" in name else -0.12) for name in CORNERS[: case.wheels]
+    )
+    sensor = "" if bare else case.sensor
+    plugin = "" if bare and not case.wheels else case.plugin
+    robots = "".join(
+        ROBOT.format(i, i % 10, i // 10, sensor, wheels + plugin) for i in range(count)
+    )
+    rest = "<gravity>0 0 0</gravity>" if case.wheels or case.air else GROUND
+    return f"<sdf version='1.7'><world name='w'>{physics}{rest}{robots}</world></sdf>"
 
 
 def least(sims: list[gazelle.Simulation]) -> list[float]:

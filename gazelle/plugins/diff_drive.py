@@ -16,7 +16,6 @@ from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
 from gazelle.plugins.dead_reckoning import DeadReckoning
-from gazelle.plugins.diff_drive_law import DiffDriveLaw, WheelTables
 from gazelle.plugins.frames import frames_output, joint_transforms
 from gazelle.plugins.odometry import (
     POSE_VARIANCE,
@@ -25,7 +24,9 @@ from gazelle.plugins.odometry import (
     measure_wanted,
 )
 from gazelle.plugins.publishing import Published
+from gazelle.plugins.wheel_motors import WheelMotors, wheels_together
 from gazelle.simulation import (
+    BasePlugin,
     JointStates,
     ModelPlugin,
     Odometry,
@@ -50,6 +51,7 @@ class DiffDrive(ModelPlugin):
         radius: Of a wheel [m].
         acceleration: Most change of a wheel's speed on the ground [m/s²]; 0 for no limit.
         wheel_joints: Names of the left and the right joint, as the file has them.
+        motors: Of the wheels.
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
@@ -79,28 +81,18 @@ class DiffDrive(ModelPlugin):
         self._wheels = tuple(robot.joints[name] for name in names)
         for wheel in self._wheels:
             wheel.add_motor(torque)
-        nworld = robot.simulation.nworld
         self._reckoning = DeadReckoning(self.separation, self.radius, self._angles())
         self._reckoned_ns = robot.simulation.clock.now_ns
-        self._open_ports(robot, parameters, nworld)
-        self._tables = WheelTables.empty(nworld, 1)
-        self._tables.last_ns[:] = robot.simulation.clock.now_ns
-        self._keep_in(self._tables)
-        self._targets = np.zeros((nworld, 2))  # that the motors have [rad/s]
-        self._bound = -1  # revision of the engine whose motors the law drives by itself
-
-    def _keep_in(self, tables: WheelTables) -> None:
-        """Keep commands and speeds in other tables of one drive from now on."""
-        tables.take_over(self._tables)
-        self._tables = tables
-        self._command.keep_in(tables.linear[:, 0], tables.angular[:, 0])
-        self._law = DiffDriveLaw(
-            tables,
+        self._open_ports(robot, parameters, robot.simulation.nworld)
+        self.motors = WheelMotors(
+            robot,
+            self._command,
+            self._wheels[:1],
+            self._wheels[1:],
             separation=self.separation,
             radius=self.radius,
             acceleration=self.acceleration,
         )
-        self._bound = -1
 
     def _open_ports(self, robot: Robot, parameters: Parameters, nworld: int) -> None:
         namespace = namespace_of(robot, parameters, robot.name)
@@ -127,26 +119,13 @@ class DiffDrive(ModelPlugin):
 
     def kind(self) -> Hashable | None:
         """All drives that do not count the turns of their wheels."""
-        if self._from_encoders or self._robot.simulation.native is None:
-            return None
-        return "DiffDriveLaw"
+        return None if self._from_encoders else "DiffDrive"
 
     @classmethod
-    def together(cls, plugins: Sequence[DiffDrive]) -> System:
-        """The law of many robots; what they are told and remember is in its tables from then on."""
-        first = plugins[0]
-        tables = WheelTables.empty(first.nworld, len(plugins))
-        for part, each in enumerate(plugins):
-            each.join(tables.column(part))
-        law = DiffDriveLaw(
-            tables,
-            separation=[each.separation for each in plugins],
-            radius=[each.radius for each in plugins],
-            acceleration=[each.acceleration for each in plugins],
-        )
-        motors = [each.motors() for each in plugins]
-        law.send_to(motors[0][0], [wheels for _, wheels in motors])
-        return law
+    def together(cls, plugins: Sequence[DiffDrive]) -> System | BasePlugin:
+        """The wheels of many robots; what they are told and remember is in tables of all then."""
+        eager = bool(plugins[0].update_rate)
+        return wheels_together([each.motors for each in plugins], eager=eager)
 
     @property
     def is_heard(self) -> bool:
@@ -169,36 +148,9 @@ class DiffDrive(ModelPlugin):
             else:
                 output.publish()
 
-    @property
-    def nworld(self) -> int:
-        """Number of worlds."""
-        return self._robot.simulation.nworld
-
-    def join(self, tables: WheelTables) -> None:
-        """Be driven by a law of many robots; what was told and is remembered moves to its tables."""
-        self._keep_in(tables)
-        self._targets[:] = np.nan
-
-    def motors(self) -> tuple[Floats, list[list[int]]]:
-        """Where the engine keeps motors' velocities, and the columns of left and right wheels."""
-        engine = self._robot.simulation.native
-        if engine is None:
-            raise SimulationError("the engine's motors are not to be driven by systems now")
-        names = [f"{self._robot.name}::{name}" for name in self.wheel_joints]
-        targets, left = engine.motor_targets(names[0])
-        return targets, [[left], [engine.motor_targets(names[1])[1]]]
-
     def system(self) -> System | None:
         """The law alone, while nobody listens and nothing else is to be done."""
-        engine = self._robot.simulation.native
-        if engine is None or self._from_encoders or self.is_heard:
-            return None
-        if self._bound != engine.revision:
-            targets, wheels = self.motors()
-            self._law.send_to(targets, [wheels])
-            self._bound = engine.revision
-            self._targets[:] = np.nan  # what Python told the motors last is not what they have
-        return self._law
+        return None if self._from_encoders or self.is_heard else self.motors.system()
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Drive the wheels and publish the odometry."""
@@ -206,17 +158,8 @@ class DiffDrive(ModelPlugin):
         if self._from_encoders:
             self._reckoning.advance(self._angles(), (now_ns - self._reckoned_ns) / NANOSECONDS)
             self._reckoned_ns = now_ns
-        self._drive(now_ns)
+        self.motors.drive()
         self.publish_measured()
-
-    def _drive(self, now_ns: int) -> None:
-        wanted, self._bound = np.empty_like(self._targets), -1
-        self._law.send_to(wanted, [[[0], [1]]])
-        self._law.bring(0, len(wanted), now_ns)
-        if not np.array_equal(wanted, self._targets):
-            self._targets = wanted
-            for column, wheel in enumerate(self._wheels):
-                wheel.drive(wanted[:, column])
 
     def _angles(self) -> Floats:
         return np.concatenate([wheel.positions() for wheel in self._wheels], axis=1)
@@ -234,7 +177,7 @@ class DiffDrive(ModelPlugin):
         return joint_transforms(self._robot, self._wheel_joints)
 
     def _read_wheels(self) -> JointStates:
-        nothing = np.zeros((self.nworld, 0))
+        nothing = np.zeros((self._robot.simulation.nworld, 0))
         now = self._robot.simulation.clock.now_ns
         # The original names the right wheel first.
         return JointStates(now, self.wheel_joints[::-1], self._angles()[:, ::-1], nothing)
@@ -242,28 +185,30 @@ class DiffDrive(ModelPlugin):
     def reset(self, worlds: Worlds | None) -> None:
         """Stand still at the origin of the odometry."""
         rows = slice(None) if worlds is None else worlds
-        self._tables.speeds[:, 0][rows] = 0.0
-        self._targets[rows] = np.nan
+        tables = self.motors.tables
+        tables.speeds[:, 0][rows] = 0.0
+        self.motors.forget(worlds)
         if self._from_encoders:
             self._reckoning.reset(worlds, self._angles())
         if worlds is None:
-            self._tables.last_ns[:, 0][:] = self._reckoned_ns = self._robot.simulation.clock.now_ns
+            tables.last_ns[:, 0][:] = self._reckoned_ns = self._robot.simulation.clock.now_ns
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Wheel speeds, odometry and times of the last update."""
         rolled = {f"encoder_{name}": value for name, value in self._reckoning.state().items()}
+        tables = self.motors.tables
         times = {
-            "last_ns": self._tables.last_ns[:, 0].copy(),
+            "last_ns": tables.last_ns[:, 0].copy(),
             "reckoned_ns": np.array(self._reckoned_ns),
         }
-        return {"speeds": self._tables.speeds[:, 0].copy(), **rolled, **times}
+        return {"speeds": tables.speeds[:, 0].copy(), **rolled, **times}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._tables.speeds[:, 0][:] = state["speeds"]
-        self._targets[:] = np.nan  # the motors are given their speeds anew
+        tables = self.motors.tables
+        tables.speeds[:, 0][:], tables.last_ns[:, 0][:] = state["speeds"], state["last_ns"]
+        self.motors.forget(None)  # the motors are given their speeds anew
         self._reckoning.restore({n: state[f"encoder_{n}"] for n in ("pose", "twist", "angles")})
-        self._tables.last_ns[:, 0][:] = state["last_ns"]
         self._reckoned_ns = int(state["reckoned_ns"])
 
 

@@ -29,32 +29,39 @@ class WheelTables:
         linear: Commanded velocities [m/s], shape (nworld, n, 3).
         angular: Commanded turning rates [rad/s], likewise.
         speeds: Of the left and right wheels on the ground [m/s], shape (nworld, n, 2).
+        sent: What Python told the motors of each side last [rad/s], shape (nworld, n, 2); NaN where
+            that is not what they have.
         last_ns: Time of the last update [ns], shape (nworld, n).
     """
 
     linear: Floats
     angular: Floats
     speeds: Floats
+    sent: Floats
     last_ns: NDArray[np.int64]
 
     @classmethod
     def empty(cls, nworld: int, count: int) -> WheelTables:
-        """Tables of ``count`` drives, all zero."""
+        """Tables of ``count`` drives, all zero, with nothing sent."""
         linear, angular = np.zeros((2, nworld, count, 3))
         speeds, last_ns = np.zeros((nworld, count, 2)), np.zeros((nworld, count), np.int64)
-        return cls(linear, angular, speeds, last_ns)
+        return cls(linear, angular, speeds, np.full_like(speeds, np.nan), last_ns)
 
     def column(self, part: int) -> WheelTables:
         """The same memory, of one drive."""
         own = slice(part, part + 1)
         return WheelTables(
-            self.linear[:, own], self.angular[:, own], self.speeds[:, own], self.last_ns[:, own]
+            self.linear[:, own],
+            self.angular[:, own],
+            self.speeds[:, own],
+            self.sent[:, own],
+            self.last_ns[:, own],
         )
 
     def take_over(self, other: WheelTables) -> None:
         """Remember what other tables of as many drives do."""
         self.linear[:], self.angular[:] = other.linear, other.angular
-        self.speeds[:], self.last_ns[:] = other.speeds, other.last_ns
+        self.speeds[:], self.sent[:], self.last_ns[:] = other.speeds, other.sent, other.last_ns
 
 
 @cython.cclass

@@ -2,15 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
+from itertools import accumulate
+
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.description import Parameters
 from gazelle.plugins.publishing import Publishing
-from gazelle.simulation import JointStates, Output, Robot, absolute, namespace_of
+from gazelle.simulation import (
+    JointArray,
+    JointHandle,
+    JointStates,
+    Output,
+    Robot,
+    absolute,
+    namespace_of,
+)
+
+_WITHOUT_AXIS = frozenset({"ball", "floating"})
 
 
 class JointStatePublisher(Publishing):
-    """Publishes positions and velocities of some joints."""
+    """Publishes positions and velocities of some joints.
+
+    Attributes:
+        joints: Those.
+    """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the joints, open the port."""
@@ -18,21 +36,44 @@ class JointStatePublisher(Publishing):
         own = f"{robot.name}::"
         names = (name.strip().removeprefix(own) for name in given.split(","))
         self._names = tuple(name for name in names if name)
-        self._joints = [robot.joints[name] for name in self._names]
-        self._clock = robot.simulation.clock
+        self.joints: list[JointHandle] = [robot.joints[name] for name in self._names]
+        kinds = {robot.joint_description(name).type for name in self._names}
+        self._alike = bool(kinds) and not kinds & _WITHOUT_AXIS
+        self._simulation = robot.simulation
         self.update_rate = parameters.get("updateRate", 100.0)
         namespace = namespace_of(robot, parameters, robot.name)
-        robot.outputs["joint_states"] = Output(
+        self._output = robot.outputs["joint_states"] = Output(
             absolute(namespace, "joint_states"), JointStates, self._measure, queue_size=1000
         )
-        self._published.append(robot.outputs["joint_states"])
+        self._published.append(self._output)
+
+    def kind(self) -> Hashable | None:
+        """All, where the engine looks at many joints at once."""
+        alike = self._alike and self._simulation.tables is not None
+        return "JointStatePublisher" if alike else None
+
+    @classmethod
+    def measure_together(
+        cls, plugins: Sequence[JointStatePublisher]
+    ) -> list[tuple[Floats, Floats]]:
+        """Positions and velocities of the joints of all."""
+        group = JointArray([joint for each in plugins for joint in each.joints])
+        positions, velocities = group.positions(), group.velocities()
+        ends = accumulate(len(each.joints) for each in plugins)
+        parts = [
+            slice(end - len(each.joints), end) for end, each in zip(ends, plugins, strict=True)
+        ]
+        return [(positions[:, part], velocities[:, part]) for part in parts]
+
+    def publish_measured(self, measured: tuple[Floats, Floats] | None) -> None:
+        """Publish what was measured of the joints."""
+        if self._output.wanted:
+            self._output.hand(self._states(*measured) if measured else self._measure())
 
     def _measure(self) -> JointStates:
-        positions = [joint.positions()[:, :1] for joint in self._joints]
-        velocities = [joint.velocities()[:, :1] for joint in self._joints]
-        return JointStates(
-            self._clock.now_ns,
-            self._names,
-            np.concatenate(positions, axis=1),
-            np.concatenate(velocities, axis=1),
-        )
+        positions = [joint.positions()[:, :1] for joint in self.joints]
+        velocities = [joint.velocities()[:, :1] for joint in self.joints]
+        return self._states(np.concatenate(positions, axis=1), np.concatenate(velocities, axis=1))
+
+    def _states(self, positions: Floats, velocities: Floats) -> JointStates:
+        return JointStates(self._simulation.clock.now_ns, self._names, positions, velocities)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.engines import Motion, Placement
 from gazelle.plugins.frames import frames_output
 from gazelle.rotations import seen_on_ground
 from gazelle.simulation import Odometry, Output, Robot, Transform, Transforms
@@ -124,14 +125,10 @@ def measure_wanted(outputs: Sequence[OdometryOutputs]) -> list[Odometry | None]:
 
 def _measured_together(sources: Sequence[TrueOdometry]) -> list[Odometry]:
     """The odometry of many robots of one simulation; at once where its engine can."""
-    if not sources:
-        return []
-    native = sources[0].robot.simulation.native
-    table = None if native is None else native.model_table([each.robot.name for each in sources])
-    if table is None or not table.rigid:
+    found = _looked_up(sources) if len(sources) > 1 else None
+    if found is None:
         return [each() for each in sources]
-    place = table.placement()
-    motion = table.motion(place.quaternion)
+    place, motion = found
     quaternions, linear = place.quaternion.reshape(-1, 4), motion.linear.reshape(-1, 3)
     seen = seen_on_ground(quaternions, linear).reshape(motion.linear.shape)
     turning = motion.angular * _ABOUT_Z
@@ -139,6 +136,25 @@ def _measured_together(sources: Sequence[TrueOdometry]) -> list[Odometry]:
         each.of(place.position[:, i], place.quaternion[:, i], seen[:, i], turning[:, i])
         for i, each in enumerate(sources)
     ]
+
+
+def _looked_up(sources: Sequence[TrueOdometry]) -> tuple[Placement, Motion] | None:
+    """Where robots are and how they move, shapes (nworld, n, ...); None where it is not known."""
+    simulation, names = sources[0].robot.simulation, [each.robot.name for each in sources]
+    if simulation.tables is not None:
+        links = [each.robot.first_link for each in sources]
+        if None in links:
+            return None
+        first = [link.name for link in links if link is not None]
+        place = simulation.tables.model_placements(names)
+        return place, simulation.tables.link_motions(first)
+    if simulation.native is None:
+        return None
+    table = simulation.native.model_table(names)
+    if not table.rigid:
+        return None
+    place = table.placement()
+    return place, table.motion(place.quaternion)
 
 
 def as_transforms(odometry: Odometry) -> Transforms:

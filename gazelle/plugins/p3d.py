@@ -7,7 +7,7 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 
 from gazelle.description import Noise, Parameters, Pose
-from gazelle.engines import Motion, Placement, TableEngine, as_table_engine
+from gazelle.engines import Motion, Placement
 from gazelle.plugins.frames import Frame, placed, relative
 from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
@@ -63,13 +63,15 @@ class P3D(Noisy, Publishing):
 
     def kind(self) -> Hashable | None:
         """All that see bodies from the world, where the engine looks at many links at once."""
-        alike = self._frame is None and isinstance(self._robot.simulation.engine, TableEngine)
+        alike = self._frame is None and self._robot.simulation.tables is not None
         return "P3D" if alike else None
 
     @classmethod
     def measure_together(cls, plugins: Sequence[P3D]) -> list[tuple[Placement, Motion]]:
         """Where the bodies of all are, and how they move."""
-        engine = as_table_engine(plugins[0].robot.simulation.engine)
+        engine = plugins[0].robot.simulation.tables
+        if engine is None:
+            raise TypeError("the engine looks at one link at a time")
         links = tuple(each.body[0].name for each in plugins)
         place, motion = engine.link_placements(links), engine.link_motions(links)
         at = np.array([each.body[1].position for each in plugins])

@@ -14,9 +14,11 @@ from gazelle.errors import SimulationError
 from gazelle.native.system import System
 from gazelle.plugins.odometry import OdometryOutputs, TrueOdometry, measure_wanted
 from gazelle.simulation import (
+    BasePlugin,
     ModelPlugin,
     Odometry,
     Robot,
+    Simulation,
     Stopwatch,
     TwistInput,
     absolute,
@@ -51,23 +53,24 @@ class PlanarMove(ModelPlugin):
         self.odometry = OdometryOutputs(robot, odometry, measure, namespace)
 
     def kind(self) -> Hashable | None:
-        """All that never give up an old command."""
-        if self._robot.simulation.native is None or self._timeout >= 0.0:
+        """All that never give up an old command, where the engine moves many at once."""
+        simulation = self._robot.simulation
+        if self._timeout >= 0.0 or (simulation.native is None and simulation.tables is None):
             return None
-        return "TwistCommands"
+        return "PlanarMove"
 
     @classmethod
-    def together(cls, plugins: Sequence[PlanarMove]) -> System:
+    def together(cls, plugins: Sequence[PlanarMove]) -> System | BasePlugin:
         """The commands of many bases; they are kept in arrays of all from then on."""
         simulation = plugins[0].robot.simulation
-        engine = simulation.native
-        if engine is None:
-            raise SimulationError("the engine's bodies are not to be moved by systems now")
         linear, angular = np.zeros((2, simulation.nworld, len(plugins), 3))
         for part, each in enumerate(plugins):
             each.keep_in(linear[:, part], angular[:, part])
+        names = [each.robot.name for each in plugins]
+        if simulation.native is None:
+            return SlidingGroup(simulation, names, linear, angular)
         law = TwistCommands(linear, angular)
-        engine.model_table([each.robot.name for each in plugins]).command(law)
+        simulation.native.model_table(names).command(law)
         return law
 
     @property
@@ -145,3 +148,29 @@ class PlanarMove(ModelPlugin):
             self._command.clear()
             self._heard = self._command.revision
             self._silence.restart()
+
+
+class SlidingGroup(BasePlugin):
+    """Sets the velocities of some models at every step.
+
+    Args:
+        simulation: Has them.
+        models: Their names.
+        linear: What they are told [m/s], shape (nworld, n, 3).
+        angular: Likewise [rad/s].
+    """
+
+    def __init__(
+        self, simulation: Simulation, models: Sequence[str], linear: Floats, angular: Floats
+    ) -> None:
+        self._simulation, self._models = simulation, tuple(models)
+        self._linear, self._angular = linear, angular
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the last command holds
+        """Move."""
+        engine = self._simulation.tables
+        if engine is None:
+            raise SimulationError("the engine moves one model at a time")
+        twist = self._linear.copy()
+        twist[:, :, 2] = self._angular[:, :, 2]
+        engine.set_ground_motions(self._models, twist)

@@ -6,13 +6,13 @@ from collections.abc import Hashable, Sequence
 from enum import Enum
 from typing import Any
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Worlds
 from gazelle.description.source import Source
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
-from gazelle.plugins.diff_drive_law import DiffDriveLaw, WheelTables
 from gazelle.plugins.odometry import OdometryOutputs, measure_wanted
-from gazelle.simulation import JointHandle, ModelPlugin, Odometry, Robot, TwistInput
+from gazelle.plugins.wheel_motors import WheelMotors, wheels_together
+from gazelle.simulation import BasePlugin, JointHandle, ModelPlugin, Odometry, Robot, TwistInput
 
 
 class Side(Enum):
@@ -29,16 +29,13 @@ class WheeledDrive(ModelPlugin):
 
     Attributes:
         odometry: What is published, if anything is.
-        half: Half the distance between the sides [m].
-        radius: Of the wheels [m].
+        motors: Of the wheels.
     """
 
     odometry: OdometryOutputs | None = None
-    half: float
-    radius: float
+    motors: WheelMotors
 
     def __init__(self) -> None:
-        self._wheels: list[tuple[JointHandle, Side]] = []
         self._settled = -1  # the command whose speeds the motors already have
 
     def drive(
@@ -68,15 +65,23 @@ class WheeledDrive(ModelPlugin):
             raise SimulationError(
                 "wheelSeparation and wheelDiameter must be positive", source=source
             )
-        self._robot = robot
-        self.half, self.radius = separation / 2.0, diameter / 2.0
-        self._wheels = [(robot.joints[name], side) for name, side in wheels]
-        for wheel, _ in self._wheels:
-            wheel.add_motor(torque)
+        self._sides: dict[Side, list[JointHandle]] = {side: [] for side in Side}
+        for name, side in wheels:
+            self._sides[side].append(robot.joints[name])
+            self._sides[side][-1].add_motor(torque)
+        self._separation, self._radius = separation, diameter / 2.0
 
     def listen(self, robot: Robot, topic: str) -> None:
         """Open the port for commands."""
         self._command = robot.inputs["cmd_vel"] = TwistInput(robot.simulation.nworld, topic)
+        self.motors = WheelMotors(
+            robot,
+            self._command,
+            self._sides[Side.LEFT],
+            self._sides[Side.RIGHT],
+            separation=self._separation,
+            radius=self._radius,
+        )
 
     def tell(self, odometry: OdometryOutputs) -> None:
         """Publish the odometry at every update."""
@@ -89,43 +94,13 @@ class WheeledDrive(ModelPlugin):
 
     def kind(self) -> Hashable | None:
         """All of them."""
-        return None if self._robot.simulation.native is None else "DiffDriveLaw"
+        return "WheeledDrive"
 
     @classmethod
-    def together(cls, plugins: Sequence[WheeledDrive]) -> System:
-        """The wheels of many robots; commands are kept in arrays of all from then on."""
-        simulation = plugins[0].robot.simulation
-        tables = WheelTables.empty(simulation.nworld, len(plugins))
-        for part, each in enumerate(plugins):
-            each.keep_in(tables.linear[:, part], tables.angular[:, part])
-        law = DiffDriveLaw(
-            tables,
-            separation=[2.0 * each.half for each in plugins],
-            radius=[each.radius for each in plugins],
-            acceleration=[0.0] * len(plugins),
-        )
-        wheels = [each.motors() for each in plugins]
-        law.send_to(wheels[0][0], [columns for _, columns in wheels])
-        return law
-
-    @property
-    def robot(self) -> Robot:
-        """What is driven."""
-        return self._robot
-
-    def keep_in(self, linear: Floats, angular: Floats) -> None:
-        """Keep commands in other arrays, shape (nworld, 3) each."""
-        self._command.keep_in(linear, angular)
-        self._settled = -1
-
-    def motors(self) -> tuple[Floats, list[list[int]]]:
-        """Where the engine keeps motors' velocities, and the columns of left and right wheels."""
-        engine = self._robot.simulation.native
-        if engine is None:
-            raise SimulationError("the engine's motors are not to be driven by systems now")
-        found = [(engine.motor_targets(wheel.name), side) for wheel, side in self._wheels]
-        sides = [[at for (_, at), each in found if each is side] for side in Side]
-        return found[0][0][0], sides
+    def together(cls, plugins: Sequence[WheeledDrive]) -> System | BasePlugin:
+        """The wheels of many robots; commands are kept in tables of all from then on."""
+        eager = bool(plugins[0].update_rate)
+        return wheels_together([each.motors for each in plugins], eager=eager)
 
     @property
     def is_heard(self) -> bool:
@@ -146,17 +121,15 @@ class WheeledDrive(ModelPlugin):
         """Drive the wheels and publish."""
         if self._settled != self._command.revision:
             self._settled = self._command.revision
-            forward, turning = self._command.linear[:, 0], self._command.angular[:, 2]
-            for wheel, side in self._wheels:
-                wheel.drive((forward + side.value * turning * self.half) / self.radius)
+            self.motors.drive()
         self.publish_measured()
 
     def reset(self, worlds: Worlds | None) -> None:
         """The motors forgot their speeds: give them the command anew."""
-        del worlds
+        self.motors.forget(worlds)
         self._settled = -1
 
     def restore(self, state: Any) -> None:
         """Give the motors the command anew."""
         del state
-        self._settled = -1
+        self.reset(None)

@@ -3,6 +3,7 @@
 from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.clock import Clock, Schedule, Stopwatch
 from gazelle.simulation.faults import Fault
+from gazelle.simulation.joint_array import JointArray
 from gazelle.simulation.joint_motion import JointMotion
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.known_plugins import KnownPlugin
@@ -33,6 +34,7 @@ __all__ = [
     "Fault",
     "FramePrefix",
     "Input",
+    "JointArray",
     "JointHandle",
     "JointMotion",
     "JointStates",

@@ -68,30 +68,38 @@ class BasePlugin:
         """What ``carried`` gave made steps."""
 
     def kind(self) -> Hashable | None:
-        """Equal for plugins of one class that ``together`` makes one system of; None for none.
+        """Equal for plugins of one class that ``together`` makes one of; None for none.
 
         It is asked when somebody subscribed to an output or ended that, and when models came or
-        went, not between. What such plugins do must not depend on each other. Of those that only
-        publish no system is made: they are asked to ``measure_together`` and ``publish_measured``.
+        went, not between. What such plugins do must not depend on each other. Those that only
+        publish are not put together: they are asked to ``measure_together`` and ``publish_measured``.
         """
         return None
 
     @classmethod
-    def together(cls, plugins: Sequence[Any]) -> System:
-        """One system for plugins of one kind that are due together, in the place of each one's."""
+    def together(cls, plugins: Sequence[Any]) -> System | BasePlugin:
+        """What does the work of plugins of one kind that are due together, in the place of each.
+
+        A system, whose ``rows`` are the plugins, or a plugin, which is updated when they are due
+        and ``active``, and asked for nothing else. What is to be reset, saved and restored stays
+        with the plugins, such as in columns of arrays of all. One plugin is put together, too.
+
+        Args:
+            plugins: At least one, in the order they were loaded.
+        """
         raise NotImplementedError(f"{cls.__name__} says kind() and lacks together()")
 
     @property
     def is_heard(self) -> bool:
-        """Whether somebody listens to what it publishes beside what its system does.
+        """Whether somebody listens to what it publishes beside what ``together`` does.
 
-        Then ``publish_measured`` follows the system. It may change when somebody subscribed.
+        Then ``publish_measured`` follows that. It may change when somebody subscribed.
         """
         return False
 
     @classmethod
     def measure_together(cls, plugins: Sequence[Any]) -> Sequence[Any]:
-        """What each plugin's ``publish_measured`` is given: measured at once, after their system.
+        """What each plugin's ``publish_measured`` is given: measured at once, after all acted.
 
         Where it fails, each is given None.
         """

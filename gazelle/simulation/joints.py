@@ -28,6 +28,11 @@ class JointHandle:
         self._engine = simulation.engine
 
     @property
+    def simulation(self) -> Simulation:
+        """What it is in."""
+        return self._simulation
+
+    @property
     @between_steps
     def position(self) -> float:
         """Position of the first axis [m or rad].

@@ -168,6 +168,11 @@ class Robot(Ports):
         """Heading [rad], shape (nworld,)."""
         return self.planar_pose()[:, 2]
 
+    @property
+    def first_link(self) -> LinkHandle | None:
+        """The canonical link, with which the model frame moves; None of a model without links."""
+        return next(iter(self._links.values()), None)
+
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Pose of the model frame in many worlds."""
@@ -181,7 +186,7 @@ class Robot(Ports):
     @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:
         """Velocity of the canonical link in many worlds, in the world frame; 0 without a link."""
-        first = next(iter(self._links.values()), None)
+        first = self.first_link
         if first is None:
             count = self.simulation.nworld if worlds is None else len(worlds)
             return Motion(np.zeros((count, 3)), np.zeros((count, 3)))

@@ -33,6 +33,8 @@ class ScheduledPlugin:
     detached: bool = False
     group: tuple[ScheduledPlugin, ...] = ()
     """In whose place it is."""
+    alone: bool = False
+    """Whether it is updated by itself, whatever its kind, as it failed together with others."""
 
     def members(self) -> list[int]:
         """What tells it, or those in whose place it is, from others."""
@@ -44,6 +46,11 @@ class ScheduledPlugin:
         if self.requests is not None:
             self.requests.changes += 1
         warn_of_fault(self.plugin, title(self.name, self.owner), f"{when} and is detached", error)
+
+    def update(self, time: float) -> None:
+        """Let it act, if it needs to [s]."""
+        if self._ask(lambda: self.plugin.active, "when asked"):
+            self._ask(lambda: self.plugin.on_update(time), f"at {time:g} s")
 
     def system(self) -> System | None:
         """What is updated in its place now."""
@@ -110,7 +117,7 @@ class ScheduledPlugin:
 
 def due_with(entry: ScheduledPlugin) -> Hashable | None:
     """Equal for plugins of one kind that are due together; None for those updated alone."""
-    kind = entry.kind()
+    kind = None if entry.alone else entry.kind()
     if kind is None or entry.schedule is None:
         return None
     return type(entry.plugin), kind, entry.schedule.rate, entry.schedule.due_ns

@@ -15,7 +15,7 @@ from gazelle import formats
 from gazelle.array_types import Worlds
 from gazelle.closing import Closeable
 from gazelle.description import Model, Plugin, Pose, World
-from gazelle.engines import CarryingEngine, Engine, SystemEngine, make_engine
+from gazelle.engines import CarryingEngine, Engine, SystemEngine, TableEngine, make_engine
 from gazelle.errors import SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.sensors import View
@@ -71,6 +71,7 @@ class Simulation(Closeable):
         ports: Of the plugins of the world; those of models are on their ``Robot``.
         native: The engine, if it updates systems between its steps; else None.
         carrier: The engine, if it takes controllers of joints into its steps; else None.
+        tables: The engine, if it looks at many links and joints at once; else None.
         events: Tell who must follow what is spawned, deleted and reset.
         requests: What threads ask for; hold it with ``with`` to do several things at one moment.
         entities: Makes and ends models; for the thread that owns the state.
@@ -100,6 +101,7 @@ class Simulation(Closeable):
         self.engine_name = engine
         self.native = self._engine if isinstance(self._engine, SystemEngine) else None
         self.carrier = self._engine if isinstance(self._engine, CarryingEngine) else None
+        self.tables = self._engine if isinstance(self._engine, TableEngine) else None
         self.seed = seed_of(seed)
         self.clock = Clock(self._engine.time_step)
         self.paused = False

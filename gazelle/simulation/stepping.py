@@ -8,11 +8,10 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.engines import SystemEngine
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
-from gazelle.simulation.plugin_groups import PluginGroup, with_groups
+from gazelle.simulation.plugin_groups import with_groups
 from gazelle.simulation.publisher_groups import group_publishers
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.sensor_groups import PythonGroup, group_sensors
@@ -25,8 +24,9 @@ class StepPlan:
     Args:
         plugins: All, in the order they were loaded.
         sensors: All.
-        native: The engine, if it updates systems.
-        alone: Whether Python measures sensors all the same.
+        nworld: Number of worlds.
+        native: Whether the engine updates systems.
+        followed: Whether Python measures sensors all the same.
 
     Attributes:
         plugins: What is updated in turn, groups in the place of their first plugin; those that
@@ -42,23 +42,22 @@ class StepPlan:
         self,
         plugins: Iterable[ScheduledPlugin],
         sensors: Iterable[SensorUnit],
+        nworld: int,
         *,
-        native: SystemEngine | None,
-        alone: bool = False,
+        native: bool = False,
+        followed: bool = False,
     ) -> None:
         awake = [unit for unit in sensors if unit.awake]
         # Sensors first: asking for their kind may change the engine.
-        self.sensors, self.groups = group_sensors(awake, native=native is not None and not alone)
+        self.sensors, self.groups = group_sensors(awake, native=native and not followed)
         entries, self._publishers = group_publishers([each for each in plugins if not each.rests])
-        self.late = [entry for entry in entries if entry.may_be_carried]
-        self.early = [entry for entry in entries if not entry.may_be_carried]
-        self._plugin_groups: list[PluginGroup] = []
-        self.plugins: list[ScheduledPlugin | PluginGroup] = [*entries]
+        grouped, self._plugin_groups = with_groups(entries, nworld, native=native)
+        self.plugins = grouped
+        alone = [each for each in grouped if isinstance(each, ScheduledPlugin)]
+        self.late = [entry for entry in alone if entry.may_be_carried]
+        self.early = [entry for entry in alone if not entry.may_be_carried]
         self.settled: tuple[list[System], list[Schedule]] | None = None
-        if native is None:
-            return
-        self.plugins, self._plugin_groups = with_groups(entries, native)
-        if all(isinstance(each, PluginGroup) for each in self.plugins):
+        if native and not alone:
             self.settled = with_systems(self.plugins)[:2]
 
     def release(self) -> None:

@@ -64,7 +64,7 @@ class StepLoop:
         self._loads = loads
         self._entities = simulation.entities
         self._faults = faults
-        self._plan = StepPlan((), (), native=None)
+        self._plan = StepPlan((), (), 1)
         self._planned: tuple[int, bool, int, int] | None = None
         self._systems: list[System] = []
         self.carried = CarriedPlugins()
@@ -225,9 +225,10 @@ class StepLoop:
             self._plan = StepPlan(
                 entities.plugins,
                 entities.sensors,
-                native=native,
+                self._simulation.nworld,
+                native=native is not None,
                 # What follows moves before sensors measure, so that Python comes between.
-                alone=bool(self.followers),
+                followed=bool(self.followers),
             )
             self.carried.plan(self._plan.late)
             # Asking who can be grouped may change the engine.

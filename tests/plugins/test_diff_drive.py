@@ -5,6 +5,7 @@ import pytest
 import scenes
 
 from gazelle.errors import PluginWarning, SimulationError
+from gazelle.plugins.odometry import TrueOdometry
 from gazelle.simulation import Simulation
 
 
@@ -88,11 +89,11 @@ def test_a_command_that_is_not_finite_is_refused():
         robot.inputs["cmd_vel"].send(linear=np.nan)
 
 
-def test_the_topic_and_the_frame_are_one_computation_and_say_the_same():
+def test_the_topic_and_the_frame_are_one_computation_and_say_the_same(monkeypatch):
     _, robot = drive(updateRate=100)
     computed, heard, framed = [], [], []
-    true_placement = robot.placement
-    robot.placement = lambda *args: computed.append(1) or true_placement(*args)
+    compute = TrueOdometry.of
+    monkeypatch.setattr(TrueOdometry, "of", lambda *a: computed.append(1) or compute(*a))
     robot.outputs["odom"].subscribe(heard.append)
     end = robot.outputs["odom_tf"].subscribe(framed.append)
     robot.simulation.run(0.1)

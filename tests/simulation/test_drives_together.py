@@ -61,15 +61,26 @@ def robot(number, kind):
     )  # fmt: skip
 
 
-def yard(kind, *, native=True, **options):
-    """A running world of four robots and a wall; without ``native`` Python updates each by itself."""
+def yard(kind, *, native=True, together=True, **options):
+    """A running world of four robots and a wall; without ``native`` Python updates them.
+
+    Without ``together`` it updates each by itself.
+    """
     physics = "<physics name='p' type='ode'><max_step_size>.01</max_step_size></physics>"
     models = "".join(robot(number, kind) for number in range(4))
     text = f"<sdf version='1.7'><world name='w'>{physics}{POST}{models}</world></sdf>"
     sim = gazelle.Simulation(formats.load_string(text), "planar", **options)
     if not native:
         sim.native = None
+    if not together:
+        part(sim)
     return sim
+
+
+def part(sim):
+    """Let each plugin be updated by itself."""
+    for entry in sim.entities.plugins:
+        entry.plugin.kind = lambda: None
 
 
 def moving(sim):
@@ -129,13 +140,14 @@ def lived(sim):
 @pytest.mark.parametrize("nworld", [1, 3])
 @pytest.mark.parametrize("kind", KINDS)
 def test_many_do_together_what_each_does_alone(kind, nworld):
-    with yard(kind, native=False, nworld=nworld, threads=1) as sim:
+    with yard(kind, native=False, together=False, nworld=nworld, threads=1) as sim:
         sim.kind = kind
         wanted = lived(sim)
-    with yard(kind, nworld=nworld) as sim:
-        sim.kind = kind
-        got = lived(sim)
-    assert got == wanted
+    for native in (True, False):
+        with yard(kind, native=native, nworld=nworld) as sim:
+            sim.kind = kind
+            got = lived(sim)
+        assert got == wanted
     assert len(wanted[1]) > 15 or kind in ("built in", "both")
 
 

@@ -13,6 +13,8 @@ P3D = """<plugin name='p3d' filename='libgazebo_ros_p3d.so'><bodyName>{body}</bo
 <rpyOffset>0 0 .3</rpyOffset><frameName>{frame}</frameName></plugin>"""
 IMU = """<plugin name='imu' filename='libgazebo_ros_imu.so'><bodyName>{body}</bodyName><topicName>imu</topicName>
 <updateRate>{rate}</updateRate><gaussianNoise>{noise}</gaussianNoise><rpyOffset>0 0 .3</rpyOffset></plugin>"""
+JOINTS = """<plugin name='joints' filename='libgazebo_ros_joint_state_publisher.so'><jointName>neck{more}
+</jointName><updateRate>{rate}</updateRate></plugin>"""
 ROBOT = """<model name='r{0}'><pose>{0} 0 1 .1 0 {0}</pose><link name='base'><collision name='b'><geometry><box>
 <size>.3 .2 .1</size></box></geometry></collision></link><link name='head'><pose>0 0 .2 0 0 0</pose><collision
 name='h'><geometry><sphere><radius>.06</radius></sphere></geometry></collision></link><joint name='neck'
@@ -24,9 +26,9 @@ def yard(*, together=True, nworld=2, rate=20):
     robots = "".join(
         ROBOT.format(
             i,
-            (P3D + IMU).format(
+            (P3D + IMU + JOINTS).format(
                 body="head" if i % 2 else "base", rate=rate if i < 5 else 0,
-                noise=0.1 if i in (0, 1, 2) else 0.0, frame="base" if i == 3 else "world",
+                more=",r4::neck" if i == 4 else "", noise=0.1 if i in (0, 1, 2) else 0.0, frame="base" if i == 3 else "world",
             ),
         )
         for i in range(6)
@@ -44,6 +46,7 @@ def yard(*, together=True, nworld=2, rate=20):
 
 ARRAYS = {
     "true": ("position", "quaternion", "linear", "angular"),
+    "joint_states": ("position", "velocity"),
     "imu": ("orientation", "angular_velocity", "linear_acceleration"),
 }
 
@@ -119,6 +122,21 @@ def test_imus_of_all_feel_one_coming_step(monkeypatch):
         sim.run(1.0)
     assert looks == [2] * 20
     assert len(stamps) == 2 * 20
+
+
+def test_joints_of_all_are_looked_up_at_once(monkeypatch):
+    looks, heard = [], []
+    with yard() as sim:
+        for name in ("r0", "r2", "r4"):
+            sim.robots[name].outputs["joint_states"].subscribe(heard.append)
+        monkeypatch.setattr(MujocoEngine, "joint_position", None)
+        look = MujocoEngine.joint_positions
+        monkeypatch.setattr(
+            MujocoEngine, "joint_positions", lambda *a: looks.append(len(a[1])) or look(*a)
+        )
+        sim.run(1.0)
+    assert looks == [4] * 20
+    assert [each.names for each in heard[:3]] == [("neck",), ("neck",), ("neck", "neck")]
 
 
 def test_a_listener_that_fails_detaches_its_own_publisher_alone():

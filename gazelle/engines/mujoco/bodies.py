@@ -13,12 +13,12 @@ from gazelle.engines.motion import Placement
 from gazelle.engines.mujoco.access import rows_of, unit
 from gazelle.engines.mujoco.attachments import Attachment
 from gazelle.engines.mujoco.layout import LinkSlot, MujocoLayout
-from gazelle.engines.mujoco.many_links import ManyLinks
+from gazelle.engines.mujoco.many_models import ManyModels
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate
 
 
-class BodyAccess(ManyLinks):
+class BodyAccess(ManyModels):
     """The part of ``gazelle.engines.engine.Engine`` that handles single links."""
 
     @abstractmethod
