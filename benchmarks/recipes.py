@@ -16,8 +16,9 @@ from __future__ import annotations
 import argparse
 import sys
 import tempfile
-import time
 from pathlib import Path
+
+from _busy import StopWatch
 
 from gazelle.training import (
     VERIFIED,
@@ -47,10 +48,9 @@ def trained(task: str, out: Path, seed: int) -> Run:
         done = [int(path.name) for path in run.checkpoints()]
         if done and done[-1] >= run.config.recipe.steps and run.config.seed == seed:
             return run
-    before = time.process_time()
+    watch = StopWatch()
     result = train(task, out=out, seed=seed, progress=choose_progress(sys.stderr))
-    spent = time.process_time() - before
-    print(f"{task}, seed {seed}: {result.wall_seconds:.0f} s, of processors {spent:.0f} s")
+    print(f"{task}, seed {seed}: {watch.read()}", flush=True)
     return result.run
 
 

@@ -16,15 +16,17 @@ from gazelle.cli import showing
 if TYPE_CHECKING:
     from gazelle.training import Task, Verified
 
-_HEAD = ("TASK", "ALGO", "ENGINE", "PLANAR", "MUJOCO", "SECONDS")
+_HEAD = ("TASK", "ALGO", "ENGINE", "PLANAR", "MUJOCO", "CPU", "WALL")
 _LEGEND = """\
 PLANAR, MUJOCO: goals reached after 'gazelle train TASK', on starts and goals
-that were not trained on, by 'gazelle eval RUN --engine ENGINE'. SECONDS:
-processor time of the training, which is the most that it takes where nothing
-else runs. 'gazelle tasks TASK' tells commands and intervals, 'gazelle bench
+that were not trained on, by 'gazelle eval RUN --engine ENGINE'. CPU: processor
+time of the training [s], which is the most that it takes where nothing else
+runs. WALL: on a clock [s]; * beside other programs, - not measured. 'gazelle
+tasks TASK' tells commands, intervals and how busy it was, 'gazelle bench
 recipes' measures again. For gym.make a TASK of Gazelle's is gazelle/TASK-v0.
 """
 _EPISODES = 1000
+_QUIET = 0.1  # processors that others kept busy at most, for a wall time to be of a quiet machine
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -63,6 +65,7 @@ def _row(task: Task) -> tuple[str, ...]:
         _reached(found, "planar"),
         _reached(found, "mujoco"),
         "-" if found is None else f"{found.seconds:.0f}",
+        "-" if found is None else _wall(found),
     )
 
 
@@ -95,6 +98,10 @@ def _figures(found: Verified) -> list[tuple[str, str]]:
         rows.append(("", f"gazelle eval RUN --engine {engine} --episodes {_EPISODES}"))
     rows.append(("seeds", ", ".join(map(str, range(found.seeds)))))
     rows.append(("time", f"{found.seconds:.0f} s of one processor for each training"))
+    wall = found.wall
+    if wall is not None:
+        where = f"of {wall.processors} processors, others kept {wall.others:.1f} busy"
+        rows.append(("wall", f"{wall.seconds:.0f} s; {where}"))
     return rows
 
 
@@ -117,6 +124,13 @@ def _unlisted(id_: str) -> Task:
     from gazelle.training import Task
 
     return Task(id_, id_)
+
+
+def _wall(found: Verified) -> str:
+    """``59``, ``59*`` where other programs ran beside it, ``-`` where it was not measured."""
+    if found.wall is None:
+        return "-"
+    return f"{found.wall.seconds:.0f}{'*' if found.wall.others > _QUIET else ''}"
 
 
 def _reached(found: Verified | None, engine: str) -> str:

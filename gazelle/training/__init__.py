@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from gazelle.training.statistics import SuccessRate, wilson_interval
     from gazelle.training.study import Study, StudyResult, conduct
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
-    from gazelle.training.verified import UNVERIFIED, VERIFIED, Verified
+    from gazelle.training.verified import UNVERIFIED, VERIFIED, Verified, WallTime
 
 _EXTRA = ("stable_baselines3", "tensorboard", "threadpoolctl", "torch", "tqdm")
 
@@ -67,6 +67,7 @@ _HOMES = {
     "UNVERIFIED": "verified",
     "VERIFIED": "verified",
     "Verified": "verified",
+    "WallTime": "verified",
     "choose_progress": "progress",
     "conduct": "study",
     "evaluate": "evaluation",
@@ -108,6 +109,7 @@ __all__ = [
     "Task",
     "TrainResult",
     "Verified",
+    "WallTime",
     "choose_progress",
     "conduct",
     "evaluate",

@@ -2,17 +2,20 @@
 
 To keep away from what is near, a policy must tell 0.2 m from 0.3 m and need not tell 2.2 m from
 2.3 m; and an angle of pi is one of -pi. What an entry is shows in its bounds: one between -pi and
-pi is an angle, one that cannot be negative is a range, a distance or a count.
+pi is an angle, one that cannot be negative is a range, a distance or a count. Angles of joints have
+limits of their own, so those have to be named.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import gymnasium as gym
 import numpy as np
 
 from gazelle.array_types import Floats32, Indices
+from gazelle.errors import TaskError
 
 LEAST = 0.03
 """Share of an entry's upper bound below which its logarithm hardly changes."""
@@ -37,15 +40,31 @@ class Features:
     spans: Floats32
 
     @classmethod
-    def of(cls, space: gym.spaces.Box) -> Features:
-        """What the bounds of a space ask for."""
+    def of(
+        cls, space: gym.spaces.Box, *, by_bounds: bool = True, angles: Sequence[int] = ()
+    ) -> Features:
+        """What the bounds of a space ask for, and what is known of it.
+
+        Args:
+            space: Of the observations.
+            by_bounds: Whether bounds count.
+            angles: Entries that are angles anyway.
+
+        Raises:
+            TaskError: There is no such entry.
+        """
         low, high = space.low.reshape(-1), space.high.reshape(-1)
+        for entry in angles:
+            if not 0 <= entry < len(low):
+                hint = f"observations have entries 0 to {len(low) - 1}"
+                raise TaskError(f"there is no entry {entry} that could be an angle", hint=hint)
         pi = np.float32(np.pi)
         with np.errstate(invalid="ignore"):
-            angles = (np.abs(low + pi) < _ROUNDED) & (np.abs(high - pi) < _ROUNDED)
-        magnitudes = (low >= 0) & (high > low) & np.isfinite(high)
+            turning = (np.abs(low + pi) < _ROUNDED) & (np.abs(high - pi) < _ROUNDED) & by_bounds
+        turning[list(angles)] = True
+        magnitudes = (low >= 0) & (high > low) & np.isfinite(high) & by_bounds
         return cls(
-            np.flatnonzero(angles),
+            np.flatnonzero(turning),
             np.flatnonzero(magnitudes),
             high[magnitudes].astype(np.float32),
         )

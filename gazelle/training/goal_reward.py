@@ -7,6 +7,7 @@ goal than near it, and for driving on more than for arriving.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,6 +28,9 @@ class GoalReward:
     """Taken for a collision (``is_collision``)."""
     progress: float = 1.0
     """For each metre that the robot comes nearer to its goal (``distance`` [m])."""
+    waypoint: float = 0.0
+    """For each point on the way to the goal (``waypoints``, if the task tells how many were reached):
+    ``distance`` is to the next one."""
     other_end: float = 0.0
     """Taken where the task ends an episode otherwise, such as out of its work space."""
 
@@ -40,15 +44,18 @@ class GoalRewards:
 
     Attributes:
         distance: To the goal that is under way [m], NaN where not known yet, shape (N,).
+        waypoints: How many points on the way to it were reached, shape (N,).
     """
 
     def __init__(self, pay: GoalReward, copies: int) -> None:
         self._pay = pay
         self.distance: Floats = np.full(copies, np.nan)
+        self.waypoints: Floats = np.zeros(copies)
 
     def begin(self, info: dict[str, Any], where: Bools) -> None:
         """Take note of episodes that began in some copies, with their first info."""
         self.distance = np.where(where, _told(info, "distance"), self.distance)
+        self.waypoints[where] = 0.0
 
     def of_step(
         self,
@@ -78,10 +85,24 @@ class GoalRewards:
         pay = self._pay
         reward = pay.goal * success - pay.collision * collision + pay.progress * nearer
         reward -= pay.other_end * (terminated & (success == 0.0) & (collision == 0.0))
-        # After a goal another one is under way, whose distance the next step tells.
-        self.distance = np.where(success.astype(np.bool_), np.nan, now)
+        passed = np.zeros_like(success)
+        if "waypoints" in info:
+            passed = _merged(info, last, slots, "waypoints") - self.waypoints
+            self.waypoints += passed
+            reward += pay.waypoint * passed
+        # After a goal or a point another one is under way, whose distance the next step tells.
+        self.distance = np.where((success + passed) > 0.0, np.nan, now)
         result: Floats = np.where(valid, reward, 0.0)
         return result
+
+    def get_state(self) -> dict[str, Floats]:
+        """What a resumed training goes on with."""
+        return {"distance": self.distance, "waypoints": self.waypoints}
+
+    def set_state(self, state: Mapping[str, Any]) -> None:
+        """Continue from a state that `get_state` returned; earlier ones knew of no points."""
+        self.distance = np.array(state["distance"], dtype=np.float64)
+        self.waypoints = np.array(state.get("waypoints", self.waypoints), dtype=np.float64)
 
 
 def _merged(

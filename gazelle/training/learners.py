@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -82,6 +83,7 @@ def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     common = _common(recipe, env, seed)
     # SB3's own epsilon for PPO; the fused kernel is one call instead of many.
     common["policy_kwargs"]["optimizer_kwargs"] = {"eps": 1e-5, "fused": True}
+    common["policy_kwargs"]["log_std_init"] = math.log(settings.initial_std)
     learner = FastPPO(
         "MlpPolicy",
         env,
@@ -153,6 +155,8 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
         cut=recipe.cut_observations,
     )
     extractor: dict[str, Any] = {"scale": scale, "features": recipe.features}
+    if not sees:
+        extractor["angles"] = recipe.angles
     if recipe.goal_differences and not sees:
         extractor["goals"] = _goal_places(env)
     return {

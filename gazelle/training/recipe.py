@@ -46,6 +46,9 @@ class PPOSettings:
     """Weight of the value loss."""
     max_grad_norm: float = 0.5
     """Gradients longer than this are shortened to it."""
+    initial_std: float = 1.0
+    """Standard deviation of continuous actions at first, in their units: what is learnt of is soon lost
+    in the noise where it is many times what actions should be."""
     bfloat16: bool = False
     """Whether updates multiply in bfloat16 where the processor can, which is faster."""
 
@@ -133,6 +136,9 @@ class Recipe:
     """Whether observations are scaled before the first layer: by bounds that fit, else as observed."""
     features: bool = False
     """Whether the network is also given sines and cosines of angles and logarithms of ranges."""
+    angles: tuple[int, ...] = ()
+    """Which entries of observations are angles, beside those whose bounds are -pi and pi (`features`):
+    those of joints, whose limits are anywhere."""
     hindsight: float = 0.8
     """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
     by algorithms with a replay memory."""
@@ -212,8 +218,8 @@ def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     kind = _settings_of(values.get("algo", "ppo"))
     settings = kind(**_checked(kind, values.get("settings", {})))
     rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
-    if "net_arch" in rest:
-        rest["net_arch"] = tuple(rest["net_arch"])
+    for name in {"net_arch", "angles"} & set(rest):
+        rest[name] = tuple(rest[name])
     if rest.get("goal_reward") is not None:
         rest["goal_reward"] = GoalReward(**_checked(GoalReward, rest["goal_reward"]))
     return Recipe(**rest, settings=settings)

@@ -8,6 +8,8 @@ which fold exactly into the first layer of the numpy actor, and all of it is sav
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import gymnasium as gym
 import numpy as np
 import numpy.typing as npt
@@ -130,7 +132,8 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
     Args:
         observation_space: A Box.
         scale: By what; that of all networks of the learner. By default the bounds alone.
-        features: Whether sines, cosines and logarithms are added.
+        features: Whether sines, cosines and logarithms are added, as bounds ask for.
+        angles: Entries whose sines and cosines are added anyway.
         goals: Where what is reached and the goal stand, if by how much it is missed is added,
             scaled as the goal is.
     """
@@ -141,11 +144,14 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
         *,
         scale: ObservationScale | None = None,
         features: bool = False,
+        angles: Sequence[int] = (),
         goals: tuple[slice, slice] | None = None,
     ) -> None:
         scale = scale or ObservationScale(observation_space)
         size = int(np.prod(observation_space.shape))
-        self.features = Features.of(observation_space) if features else None
+        self.features = None
+        if features or angles:
+            self.features = Features.of(observation_space, by_bounds=features, angles=angles)
         added = 0 if self.features is None else self.features.count
         self.goals = goals
         if goals is not None:

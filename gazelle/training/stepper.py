@@ -199,7 +199,7 @@ class Stepper:
 
     def get_state(self) -> dict[str, Any]:
         """The stepper's own state (not the environment's)."""
-        state = {} if self._teacher is None else {"distance": self._teacher.distance}
+        state = {} if self._teacher is None else self._teacher.get_state()
         return {
             **state,
             "obs": self.obs,
@@ -221,7 +221,7 @@ class Stepper:
         self._goal_at = np.array(state["goal_at"], dtype=np.int64)
         self._there = np.array(state["there"], dtype=np.bool_)
         if self._teacher is not None:
-            self._teacher.distance = np.array(state["distance"], dtype=np.float64)
+            self._teacher.set_state(state)
 
     def _last(
         self, obs: Floats32, info: dict[str, Any], slots: npt.NDArray[np.intp]

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
-from gazelle.envs.options import TaskSettings
+from gazelle.envs.options import SPLITS
 from gazelle.envs.reacher.rules import IRB120, IRB140, IRB140_SPEED, UR5
-from gazelle.envs.reacher.task import ReachTask
+from gazelle.envs.reacher.task import ReachSettings, ReachTask
+from gazelle.errors import TaskError
 
 NAMES = ("ABBIRB120Reach", "ABBIRB140Reach", "ABBIRB140VelocityReach", "UR5Reach")
 # Denavit-Hartenberg figures of Universal Robots: d, a, alpha.
@@ -24,7 +25,7 @@ UR5_DH = [
 
 
 def begun(rules, nworld=1):
-    task = ReachTask(rules, nworld, TaskSettings())
+    task = ReachTask(rules, nworld, ReachSettings())
     task.seed(0)
     task.begin(np.arange(nworld))
     return task
@@ -157,3 +158,19 @@ def test_worlds_do_not_know_of_others_and_states_go_on():
         np.testing.assert_array_equal(many.step(row)[0], other.step(row)[0])
     for env in (many, one, other):
         env.close()
+
+
+def test_held_out_goals_are_other_places_of_the_same_box():
+    pools = [ReachTask(IRB140, 1, ReachSettings(goals=kind))._goals for kind in SPLITS]
+    np.testing.assert_array_equal(pools[0], pools[1])
+    assert not set(map(tuple, pools[0])) & set(map(tuple, pools[2]))
+    assert ((pools[2] >= IRB140.goal_low) & (pools[2] <= IRB140.goal_high)).all()
+    assert len(pools[2]) == pytest.approx(len(pools[0]), rel=0.1)
+
+
+def test_policies_are_evaluated_with_goals_that_they_were_not_trained_on():
+    env = gym.make("gazelle/UR5Reach-v0")
+    assert env.unwrapped.evaluation_options({}) == {"goals": "held-out"}
+    env.close()
+    with pytest.raises(TaskError, match="there is no kind of goals 'held'"):
+        gym.make("gazelle/UR5Reach-v0", goals="held")

@@ -12,10 +12,12 @@ from corridor import Corridor
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gazelle.errors import TaskError
 from gazelle.training.actor import load_actor
 from gazelle.training.export import export_actor
 from gazelle.training.features import Features
 from gazelle.training.learners import ALGORITHMS, build_learner
+from gazelle.training.overrides import with_values
 from gazelle.training.recipes import recipe_for
 from gazelle.training.scaling import ScaledObservations
 from gazelle.training.threads import limit_threads
@@ -88,3 +90,32 @@ def test_the_numpy_policy_and_its_file_do_what_torch_does(algo, tmp_path):
     again = load_actor(tmp_path / "policy.npz")
     assert again.inputs == 3
     np.testing.assert_array_equal(again.act(rows), actor.act(rows))
+
+
+def test_entries_are_angles_where_a_recipe_says_so():
+    """Whatever their bounds; without features they are all that is added."""
+    found = Features.of(SPACE, angles=(3, 6))
+    assert found.angles.tolist() == [1, 3, 6]
+    assert found.magnitudes.tolist() == [0, 2]
+    alone = Features.of(SPACE, by_bounds=False, angles=(3,))
+    assert (alone.angles.tolist(), alone.magnitudes.tolist()) == ([3], [])
+    rows = np.random.default_rng(1).uniform(-2.0, 2.0, (20, 7)).astype(np.float32)
+    added = ScaledObservations(SPACE, angles=(3,))(torch.as_tensor(rows)).numpy()[:, 7:]
+    expected = np.column_stack((np.sin(rows[:, 3]), np.cos(rows[:, 3])))
+    np.testing.assert_allclose(added, expected, atol=1e-6)
+
+
+def test_an_angle_that_is_not_observed_is_refused():
+    with pytest.raises(TaskError, match="there is no entry 7") as caught:
+        Features.of(SPACE, angles=(7,))
+    assert "entries 0 to 6" in str(caught.value)
+
+
+@pytest.mark.parametrize("std", [0.1, 2.0])
+def test_first_actions_scatter_as_the_recipe_says(std):
+    recipe = with_values(recipe_for("Corridor", "ppo"), {"initial_std": std, "angles": [1]})
+    learner = build_learner(recipe, VectorEnvAdapter(Ranges(4, continuous=True)), seed=0)
+    actor = export_actor(learner.policy)
+    assert actor.features.angles.tolist() == [1]
+    drawn = actor.sample(np.zeros((20_000, 1), np.float32), np.random.default_rng(0))
+    assert np.std(drawn) == pytest.approx(std, rel=0.02)

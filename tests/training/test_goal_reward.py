@@ -9,7 +9,7 @@ from corridor import MODES, Corridor
 
 import gazelle.envs  # noqa: F401  # registers tasks
 from gazelle.errors import TaskError
-from gazelle.training.goal_reward import GoalReward
+from gazelle.training.goal_reward import GoalReward, GoalRewards
 from gazelle.training.stepper import Stepper
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -152,3 +152,54 @@ def test_reports_keep_the_tasks_reward_and_learners_get_the_other():
 def test_a_task_that_tells_no_distance_is_one_clear_error():
     with pytest.raises(TaskError, match=r"goal_reward needs info\['distance'\]"):
         Stepper(Corridor(4), goal_reward=PAY).reset(seed=0)
+
+
+def test_points_on_the_way_are_paid_for_and_the_next_one_is_approached_from_there():
+    """Two copies: one passes a point, then its goal; the other only drives."""
+    teacher = GoalRewards(GoalReward(goal=7.0, progress=2.0, waypoint=3.0), 2)
+    none = np.zeros(2, bool)
+    teacher.begin(_way([4.0, 5.0], [0, 0]), ~none)
+    slots = np.zeros(0, np.intp)
+    taught = [
+        teacher.of_step(_way(distance, points, success), None, slots, none, ~none)
+        for distance, points, success in (
+            ([3.0, 4.5], [0, 0], none),
+            ([2.5, 4.0], [1, 0], none),  # the point is reached; the distance is still to it
+            ([9.0, 3.5], [1, 0], none),  # to the next one: nothing can be said of this step
+            ([8.0, 3.0], [1, 0], none),
+            ([7.5, 3.0], [2, 0], np.array([True, False])),
+        )
+    ]
+    np.testing.assert_allclose(taught, [[2, 1], [4, 1], [0, 1], [2, 1], [11, 0]])
+    resumed = GoalRewards(teacher._pay, 2)
+    resumed.set_state(teacher.get_state())
+    assert resumed.waypoints.tolist() == [2.0, 0.0]
+    teacher.begin(_way([6.0, 1.0], [0, 0]), np.array([True, False]))
+    assert teacher.waypoints.tolist() == [0.0, 0.0]
+    np.testing.assert_array_equal(teacher.distance, [6.0, 3.0])
+
+
+def _way(distance, points, success=(False, False)):
+    return {
+        "distance": np.array(distance),
+        "waypoints": np.array(points),
+        "is_success": np.array(success),
+        "is_collision": np.zeros(2, bool),
+    }
+
+
+def test_points_of_the_kobukis_way_are_told_and_paid_for():
+    """Put in front of a point of its way, and driven over it, it is paid for that once."""
+    env = gym.make_vec(
+        "gazelle/KobukiMaze-v0",
+        num_envs=2,
+        vectorization_mode="vector_entry_point",
+        engine="planar",
+    )
+    stepper = Stepper(env, goal_reward=GoalReward(collision=0.0, progress=0.0, waypoint=3.0))
+    stepper.reset(seed=0)
+    task = env.unwrapped.task
+    task.robot.set_pose(np.tile((-8.5, 0.9, 0.0), (2, 1)), yaw=np.full(2, -np.pi / 2.0))
+    taught = sum(stepper.step(np.array([[1.0, 0.0], [0.0, 0.0]])).taught for _ in range(6))
+    env.close()
+    np.testing.assert_array_equal(taught, [3.0, 0.0])

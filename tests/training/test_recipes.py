@@ -69,7 +69,8 @@ def test_the_fleets_recipe_learns_what_the_defaults_do_not(tmp_path):
     from gazelle.training import evaluate, train
 
     result = train("AGVFleet", steps=700_000, out=tmp_path)
-    found = evaluate(result.run.folder, episodes=144)
+    # Of few episodes those that end soon, by a collision, are too many.
+    found = evaluate(result.run.folder, episodes=720)
     assert found.success.interval[0] > 0.75
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import pytest
 
 from gazelle.cli.main import main
 from gazelle.training import (
     UNVERIFIED,
     VERIFIED,
+    WallTime,
     evaluate,
     find_task,
     list_tasks,
@@ -52,6 +55,23 @@ def test_one_task_is_told_with_its_command_and_intervals_in_80_columns(task, cap
         low, high = (f"{100.0 * end:.1f} %" for end in rate.interval)
         assert f"95 % interval {low} to {high}   ({rate.count} of {rate.total})" in out
         assert f"gazelle eval RUN --engine {engine} " in out
+
+
+def test_wall_times_say_whether_something_ran_beside_them(capsys, monkeypatch):
+    found = dataclasses.replace(
+        VERIFIED["KobukiMaze"], wall=WallTime(seconds=59.0, processors=2, others=1.4)
+    )
+    monkeypatch.setitem(VERIFIED, "KobukiMaze", found)
+    quiet = dataclasses.replace(found, wall=WallTime(seconds=31.0, processors=2, others=0.0))
+    monkeypatch.setitem(VERIFIED, "KobukiEmpty", quiet)
+    monkeypatch.setitem(VERIFIED, "Husarion", dataclasses.replace(found, wall=None))
+    assert main(["tasks"]) == 0
+    rows = {
+        line.split()[0]: line.split()[-1] for line in capsys.readouterr().out.splitlines() if line
+    }
+    assert (rows["KobukiMaze"], rows["KobukiEmpty"], rows["Husarion"]) == ("59*", "31", "-")
+    assert main(["tasks", "KobukiMaze"]) == 0
+    assert "59 s; of 2 processors, others kept 1.4 busy" in capsys.readouterr().out
 
 
 def test_a_task_that_no_figure_is_known_of_says_so(capsys):

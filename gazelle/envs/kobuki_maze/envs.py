@@ -59,7 +59,7 @@ class KobukiMazeEnv(SettingsEnv):
     ## Info
 
     ``is_success``, ``is_collision`` (in this step), ``collisions`` (steps with one, in this episode),
-    ``distance`` [m], ``goal`` and ``position`` (x, y) [m].
+    ``distance`` [m], ``goal`` and ``position`` (x, y) [m], ``waypoints`` (points of the way that were reached).
 
     ## Options
 

@@ -169,6 +169,7 @@ class KobukiTask(SimulationTask):
             "goal": self.memory["goal"][rows].copy(),
             "distance": distance,
             "collisions": self.memory["collisions"][rows].copy(),
+            "waypoints": self.memory["point"][rows].copy(),
         }
 
 

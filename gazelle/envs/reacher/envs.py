@@ -2,14 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
+from typing import Any, ClassVar
 
+from gazelle.envs.options import TaskSettings
 from gazelle.envs.reacher.rules import IRB120, IRB140, IRB140_SPEED, UR5
-from gazelle.envs.reacher.task import ReachTask
+from gazelle.envs.reacher.task import ReachSettings, ReachTask
 from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
 
 
-class UR5ReachEnv(SettingsEnv):
+def _held_out(trained: Mapping[str, Any]) -> dict[str, Any]:
+    """Policies are evaluated with goals that are new to them."""
+    del trained
+    return {"goals": "held-out"}
+
+
+class ReachEnv(SettingsEnv):
+    """An arm reaches for a place; the subclasses are tasks."""
+
+    settings_class: ClassVar[type[TaskSettings]] = ReachSettings
+    evaluation_options = staticmethod(_held_out)
+
+
+class ReachVectorEnv(SettingsVectorEnv):
+    """`ReachEnv` in many worlds at once."""
+
+    settings_class: ClassVar[type[TaskSettings]] = ReachSettings
+    evaluation_options = staticmethod(_held_out)
+
+
+class UR5ReachEnv(ReachEnv):
     """A UR5 turns its joints until its tool is at a place.
 
     The task ``UR5ReacherEnv-v0`` of frobs_rl's resources with its observation, actions, reward and ends, in simulated time.
@@ -56,7 +79,8 @@ class UR5ReachEnv(SettingsEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md); it needs an engine in space.
+    Those that every task takes (docs/gymnasium.md); it needs an engine in space. ``goals="held-out"`` draws goals from
+    other places, which evaluations do; ``"training"`` ones are the published ones.
 
     ## Versions
 
@@ -66,13 +90,13 @@ class UR5ReachEnv(SettingsEnv):
     task_class = partial(ReachTask, UR5)
 
 
-class UR5ReachVectorEnv(SettingsVectorEnv):
+class UR5ReachVectorEnv(ReachVectorEnv):
     """`UR5ReachEnv` in many worlds at once; that page is the data sheet."""
 
     task_class = partial(ReachTask, UR5)
 
 
-class ABBIRB120ReachEnv(SettingsEnv):
+class ABBIRB120ReachEnv(ReachEnv):
     """An ABB IRB 120 turns its joints until its tool is at a place.
 
     The task ``ABBIRB120ReacherEnv-v0`` of frobs_rl's resources. Id: ``gazelle/ABBIRB120Reach-v0``. As `UR5ReachEnv`
@@ -82,13 +106,13 @@ class ABBIRB120ReachEnv(SettingsEnv):
     task_class = partial(ReachTask, IRB120)
 
 
-class ABBIRB120ReachVectorEnv(SettingsVectorEnv):
+class ABBIRB120ReachVectorEnv(ReachVectorEnv):
     """`ABBIRB120ReachEnv` in many worlds at once; that page is the data sheet."""
 
     task_class = partial(ReachTask, IRB120)
 
 
-class ABBIRB140ReachEnv(SettingsEnv):
+class ABBIRB140ReachEnv(ReachEnv):
     """An ABB IRB 140 turns its joints until its tool is at a place.
 
     The task ``ABBIRB140ReacherPosEnv-v0`` of frobs_rl's resources. Id: ``gazelle/ABBIRB140Reach-v0``. As `UR5ReachEnv` but for
@@ -101,13 +125,13 @@ class ABBIRB140ReachEnv(SettingsEnv):
     task_class = partial(ReachTask, IRB140)
 
 
-class ABBIRB140ReachVectorEnv(SettingsVectorEnv):
+class ABBIRB140ReachVectorEnv(ReachVectorEnv):
     """`ABBIRB140ReachEnv` in many worlds at once; that page is the data sheet."""
 
     task_class = partial(ReachTask, IRB140)
 
 
-class ABBIRB140VelocityReachEnv(SettingsEnv):
+class ABBIRB140VelocityReachEnv(ReachEnv):
     """An ABB IRB 140 turns its joints at slow speeds and keeps its tool at a place.
 
     The task ``ABBIRB140VelReacherEnv-v0`` of frobs_rl's resources. Id: ``gazelle/ABBIRB140VelocityReach-v0``. As `UR5ReachEnv`
@@ -123,7 +147,7 @@ class ABBIRB140VelocityReachEnv(SettingsEnv):
     task_class = partial(ReachTask, IRB140_SPEED)
 
 
-class ABBIRB140VelocityReachVectorEnv(SettingsVectorEnv):
+class ABBIRB140VelocityReachVectorEnv(ReachVectorEnv):
     """`ABBIRB140VelocityReachEnv` in many worlds at once; that page is the data sheet."""
 
     task_class = partial(ReachTask, IRB140_SPEED)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import gymnasium as gym
 import numpy as np
@@ -12,7 +12,7 @@ from gazelle import assets, formats
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import Model, World
 from gazelle.envs.batched_task import Info
-from gazelle.envs.options import TaskSettings
+from gazelle.envs.options import SPLITS, TaskSettings, check_name
 from gazelle.envs.reacher.rules import ReachRules, ReachView
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome
 from gazelle.rotations import rotate
@@ -27,6 +27,22 @@ _SHORTEST = 1e-6  # [m]
 _GIVE = 0.05  # [rad]
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ReachSettings(TaskSettings):
+    """Options of the reaching tasks, checked.
+
+    Attributes:
+        goals: ``published`` and ``training`` goals are the same places, ``held-out`` ones others.
+    """
+
+    goals: str = "published"
+
+    def __post_init__(self) -> None:
+        # A zero-argument super() does not work in a dataclass with slots.
+        TaskSettings.__post_init__(self)
+        check_name("kind of goals", str(self.goals), SPLITS)
+
+
 class ReachTask(SimulationTask):
     """An arm reaches for a place, in ``nworld`` worlds; see `UR5ReachEnv`.
 
@@ -38,7 +54,7 @@ class ReachTask(SimulationTask):
 
     view = View(look_at((1.7, -1.5, 1.2), (0.2, 0.0, 0.5)), width=480, height=400, samples=1)
 
-    def __init__(self, rules: ReachRules, nworld: int, settings: TaskSettings) -> None:
+    def __init__(self, rules: ReachRules, nworld: int, settings: ReachSettings) -> None:
         self.rules = rules
         simulation, self.robot = _cell(rules, settings, nworld, settings.seed or 0)
         self._link, tool = self.robot.frame("tool0")
@@ -138,12 +154,12 @@ class ReachTask(SimulationTask):
         place: Floats = placement.position + rotate(placement.quaternion, offset)
         return place
 
-    def _reachable(self, settings: TaskSettings) -> Floats:
+    def _reachable(self, settings: ReachSettings) -> Floats:
         """Places that the tool has in postures drawn at random, within the goals' box, shape (n, 3)."""
         simulation, robot = _cell(self.rules, settings, _BATCH, 0)
         link, tool = robot.frame("tool0")
         joints = [robot.joints[name] for name in self._names]
-        stream = Stream(0, "reacher/goals", _BATCH)
+        stream = Stream(int(settings.goals == "held-out"), "reacher/goals", _BATCH)
         found, every = [], np.arange(_BATCH)
         with simulation:
             for _ in range(_TRIES):
