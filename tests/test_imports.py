@@ -195,8 +195,6 @@ def test_no_import_points_up():
 
 
 KNOWN_CIRCLES = (
-    {"gazelle.formats.sdf.model_frames", "gazelle.formats.sdf.merge"},
-    {"gazelle.formats.stage.body", "gazelle.formats.stage.reader"},
     {
         f"gazelle.simulation.{name}"
         for name in [
@@ -218,20 +216,6 @@ KNOWN_CIRCLES = (
             "simulation",
             "stepping",
             "walking",
-        ]
-    },
-    {
-        f"gazelle.simulation.stage.{name}"
-        for name in [
-            "actuators",
-            "bumpers",
-            "cameras",
-            "controllers",
-            "devices",
-            "finders",
-            "fleet",
-            "grippers",
-            "senses",
         ]
     },
 )

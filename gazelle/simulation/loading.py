@@ -38,13 +38,15 @@ _PLACES: dict[type[BasePlugin], str] = {
 def run_stage(simulation: Simulation) -> StageFleet | None:
     """Run the models of Stage files as Stage does; None if the engine moves them in another way."""
     from gazelle.engines.planar import PlanarEngine
+    from gazelle.simulation.stage.controllers import make_controllers
     from gazelle.simulation.stage.fleet import StageFleet
     from gazelle.simulation.stage.running import StageRunner
 
     engine = simulation.engine
     if not isinstance(engine, PlanarEngine):
         return None
-    fleet = StageFleet(engine, simulation.clock, simulation.requests, simulation.seed)
+    clock, requests, seed = simulation.clock, simulation.requests, simulation.seed
+    fleet = StageFleet(engine, clock, requests, seed, make_controllers)
     runner = StageRunner(fleet, simulation.loop, lambda: simulation.native is not None)
     simulation.plugins.append(make_scheduled(runner, "stage", ""))
     return fleet

@@ -12,7 +12,8 @@ from gazelle.formats.model_config import entry_file
 from gazelle.formats.reading import Miss, Reading
 from gazelle.formats.sdf import schema
 from gazelle.formats.sdf.actor import as_model
-from gazelle.formats.sdf.model_frames import ModelFrames, Version, draft_model, name_frames
+from gazelle.formats.sdf.model_drafts import draft_model
+from gazelle.formats.sdf.model_frames import ModelFrames, Version, name_frames
 from gazelle.formats.sdf.param_passing import TAG, with_params
 from gazelle.formats.sdf.pose import frame_of, read_pose
 from gazelle.formats.sdf.upgrade import upgraded

@@ -9,17 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from gazelle.description import Parameters
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.build import made, pose_element, with_attributes, with_child
 from gazelle.formats.sdf.frames import MODEL, WORLD
+from gazelle.formats.sdf.model_frames import Includer, ModelFrames, Version
 from gazelle.formats.sdf.pose import frame_of
-
-if TYPE_CHECKING:
-    from gazelle.formats.sdf.model_frames import Includer, ModelFrames, Version
 
 _OWN = {"allow_auto_disable", "enable_wind", "pose", "self_collide", "static"}
 _IN_WORLDS = {"frame", "include", "joint", "light", "model", "plugin"}

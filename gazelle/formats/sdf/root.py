@@ -12,7 +12,8 @@ from gazelle.formats.sdf.frames import WORLD, Scope
 from gazelle.formats.sdf.include import include_model, version_of
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.model import read_model
-from gazelle.formats.sdf.model_frames import Version, draft_model
+from gazelle.formats.sdf.model_drafts import draft_model
+from gazelle.formats.sdf.model_frames import Version
 from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.upgrade import upgraded
 from gazelle.formats.sdf.world import read_world

@@ -28,14 +28,13 @@ from gazelle.formats.sdf.leftover import Pattern, leftover
 from gazelle.formats.sdf.light import read_light
 from gazelle.formats.sdf.merge import with_merges
 from gazelle.formats.sdf.model import read_frame, read_model
+from gazelle.formats.sdf.model_drafts import draft_model, missing_names
 from gazelle.formats.sdf.model_frames import (
     ModelFrames,
     Version,
     add_model,
     draft_frame,
     draft_joint,
-    draft_model,
-    missing_names,
 )
 from gazelle.formats.sdf.own_joint import with_own_joints
 from gazelle.formats.sdf.physics import read_physics

@@ -3,28 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gazelle.description.stage import StageBitmap, StageBlock, StageSize
 from gazelle.description.stage_devices import StageGripper
-from gazelle.errors import FormatError, ResolveError
-from gazelle.formats.picture import read_picture
-from gazelle.formats.stage.entity import Entity, Property
+from gazelle.errors import ResolveError
+from gazelle.formats.stage.entity import Entity
 from gazelle.formats.stage.parser import find_beside, looked
 from gazelle.formats.stage.properties import Properties
 from gazelle.formats.stage.reader import Context
 
-WALL = 127
-"""Greatest value of a pixel's first channel that is a wall."""
 BOUNDARY = 0.01
 """Thickness of the walls of ``boundary`` [m]."""
 MAX_POINTS = 100_000
-MAX_EDGES = 4_000_000
-"""Edges between walls and free pixels of a bitmap; maps have far fewer, noise has more."""
 
 UNIT_BLOCK = StageBlock(((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)), (0.0, 1.0))
 """The body of a model that names none."""
@@ -39,40 +32,6 @@ class ModelBody:
     blocks: tuple[StageBlock, ...] = ()
     bitmap: StageBitmap | None = None
     is_plain: bool = False  # a box, as the file names no body
-
-
-@dataclass(slots=True)
-class BitmapCells:
-    """Cells of the bitmaps of one file, each read once."""
-
-    cells: dict[Path, NDArray[np.bool_]] = field(default_factory=dict)
-
-    def load(self, path: Path, given: Property) -> NDArray[np.bool_]:
-        """The walls of a picture, the row of least y first, cut to what is drawn.
-
-        Raises:
-            FormatError: It cannot be read, or nothing is drawn in it.
-        """
-        if path not in self.cells:
-            try:
-                dark = read_picture(path)[::-1, :, 0] <= WALL
-            except FormatError as error:
-                raise given.fail(f"'{path}': {error.message}") from error
-            rows, columns = np.flatnonzero(dark.any(axis=1)), np.flatnonzero(dark.any(axis=0))
-            if not len(rows):
-                raise given.fail(f"the picture '{path}' shows no walls: it has no dark pixel")
-            cells = np.ascontiguousarray(dark[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1])
-            if _edges(cells) > MAX_EDGES:
-                raise given.fail(f"the picture '{path}' has more than {MAX_EDGES} edges")
-            self.cells[path] = cells
-        return self.cells[path]
-
-
-def _edges(cells: NDArray[np.bool_]) -> int:
-    return sum(
-        int(np.count_nonzero(one != other))
-        for one, other in ((cells[1:], cells[:-1]), (cells[:, 1:], cells[:, :-1]))
-    )
 
 
 def read_body(given: Properties, size: StageSize, context: Context, *, solid: bool) -> ModelBody:

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+from gazelle.description.stage import StageModel
 from gazelle.formats.reading import Reading
+from gazelle.formats.stage.bitmaps import BitmapCells
+from gazelle.formats.stage.entity import Entity
 from gazelle.formats.stage.properties import Units
-
-if TYPE_CHECKING:
-    from gazelle.description.stage import StageModel
-    from gazelle.formats.stage.body import BitmapCells
-    from gazelle.formats.stage.entity import Entity
 
 
 @dataclass(slots=True)

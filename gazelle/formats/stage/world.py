@@ -8,7 +8,7 @@ from gazelle.description.source import Source
 from gazelle.description.stage import StageWindow, StageWorld
 from gazelle.errors import FormatError
 from gazelle.formats.reading import Reading
-from gazelle.formats.stage.body import BitmapCells
+from gazelle.formats.stage.bitmaps import BitmapCells
 from gazelle.formats.stage.devices import KINDS
 from gazelle.formats.stage.entity import Entity
 from gazelle.formats.stage.lexer import Script

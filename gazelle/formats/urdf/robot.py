@@ -25,13 +25,8 @@ from gazelle.formats.sdf.frames import MODEL, Scope
 from gazelle.formats.sdf.joint import read_joint_physics, read_joints
 from gazelle.formats.sdf.link import read_link
 from gazelle.formats.sdf.model import read_model
-from gazelle.formats.sdf.model_frames import (
-    ModelFrames,
-    add_model,
-    draft_model,
-    draft_part,
-    name_frames,
-)
+from gazelle.formats.sdf.model_drafts import draft_model
+from gazelle.formats.sdf.model_frames import ModelFrames, add_model, draft_part, name_frames
 from gazelle.formats.sdf.own import fixed_whole
 from gazelle.formats.sdf.plugin import read_plugin
 from gazelle.formats.sdf.pose import read_pose

@@ -3,9 +3,10 @@
 from gazelle.engines.planar.stage_layout import Ranger, StageRobot
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.cameras import CameraPictures, MountedCamera, cameras_of
-from gazelle.simulation.stage.controllers import FleetController, register_controller
+from gazelle.simulation.stage.controllers import register_controller
 from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.fleet import StageFleet
+from gazelle.simulation.stage.fleet_controller import FleetController
 from gazelle.simulation.stage.grippers import COMMANDS, Gripper, GripperState
 from gazelle.simulation.stage.simulation import StageSimulation
 

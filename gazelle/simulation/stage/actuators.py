@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar.stage_layout import Rider, StageRobot
 from gazelle.errors import SimulationError
-
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.fleet import StageFleet
+from gazelle.simulation.stage.stage_bodies import StageBodies
 
 
 class Actuator:
@@ -32,7 +30,7 @@ class Actuator:
         position: [m or rad], shape (nworld,); to be read.
     """
 
-    def __init__(self, simulation: StageFleet, robot: StageRobot, rider: Rider) -> None:
+    def __init__(self, simulation: StageBodies, robot: StageRobot, rider: Rider) -> None:
         self._simulation, self._robot, self._rider = simulation, robot, rider
         self._device = rider.device
         count = simulation.nworld
@@ -113,7 +111,7 @@ class Actuator:
         return {"position": self.position, "goal": self._goal, "towards": self._towards}
 
 
-def actuators_of(simulation: StageFleet) -> dict[int, list[Actuator]]:
+def actuators_of(simulation: StageBodies) -> dict[int, list[Actuator]]:
     """The actuators of each robot that has some, by its index."""
     return {
         robot.index: [Actuator(simulation, robot, rider) for rider in robot.riders]

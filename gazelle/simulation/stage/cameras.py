@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +16,7 @@ from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.rendering import PinholeLens, Renderer, plain_surroundings
 from gazelle.simulation.stage.scenery import SKY, scenery_of
-
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.senses import Senses
+from gazelle.simulation.stage.stage_bodies import StageBodies
 
 _PLACE = [c.X, c.Y, c.Z]
 
@@ -81,7 +78,7 @@ class Cameras:
         models: Of all moving bodies.
     """
 
-    def __init__(self, simulation: Senses, models: list[StageModel]) -> None:
+    def __init__(self, simulation: StageBodies, models: list[StageModel]) -> None:
         self._simulation = simulation
         self._scenery = scenery_of(simulation.still, models)
         self._renderer = Renderer(

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,11 +18,9 @@ from gazelle.engines.planar.wandering import Wandering
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.formats.stage.models import known_controllers
 from gazelle.native.system import System
+from gazelle.simulation.stage.fleet import StageFleet
+from gazelle.simulation.stage.fleet_controller import FleetController
 from gazelle.streams import Stream
-
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.fleet import StageFleet
-
 
 CRUISE = 0.4  # [m/s]
 CREEP = 0.05  # [m/s]
@@ -35,35 +33,10 @@ DEVIATION = 0.05  # of lasernoise [m]
 _SHARE = 64  # robots that are worth a thread
 
 
-class FleetController(Protocol):
-    """Drives robots, or changes what they see."""
-
-    def update(self) -> None:
-        """Act on the state between two steps: read scans, write commands."""
-
-    def systems(self) -> list[System] | None:
-        """What ``update`` does in native code, step by step; None if it does more."""
-        return None
-
-    def reset(self, worlds: Worlds | None = None) -> None:
-        """Start over in some worlds, all if None."""
-
-    def rebind(self) -> None:
-        """Other models came or went; the robots are the same."""
-
-    def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
-        return {}
-
-    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:  # noqa: ARG002  of others
-        """Put back what ``state`` gave."""
-        return
-
-
 Wanted = list[tuple[StageRobot, str]]
 """The robots whose ``ctrl`` names a controller, each with what comes after the name."""
 
-Maker = Callable[["StageFleet", Wanted], list[FleetController]]
+Maker = Callable[[StageFleet, Wanted], list[FleetController]]
 
 
 def register_controller(name: str, make: Maker) -> None:

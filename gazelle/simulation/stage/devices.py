@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,7 @@ from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.actuators import Actuator, actuators_of
 from gazelle.simulation.stage.grippers import Gripper, grippers_of
-
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.fleet import StageFleet
+from gazelle.simulation.stage.stage_bodies import StageBodies
 
 Device = TypeVar("Device", Actuator, Gripper)
 
@@ -31,7 +29,7 @@ class Devices:
         actuators: Likewise.
     """
 
-    def __init__(self, simulation: StageFleet) -> None:
+    def __init__(self, simulation: StageBodies) -> None:
         self.grippers = grippers_of(simulation)
         self.actuators = actuators_of(simulation)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -21,9 +21,7 @@ from gazelle.engines.planar import columns as c
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.outlines import Outlines, distances, joined, outlines_of
 from gazelle.simulation.stage.scenery import color_of
-
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.senses import Senses
+from gazelle.simulation.stage.stage_bodies import StageBodies
 
 Device = TypeVar("Device", StageFiducial, StageBlobfinder, StageBumper)
 
@@ -80,7 +78,7 @@ class Surroundings:
         simulation: Runs.
     """
 
-    def __init__(self, simulation: Senses) -> None:
+    def __init__(self, simulation: StageBodies) -> None:
         self._simulation = simulation
         self._moving = models_of(simulation)
         self._still = [placed for model in simulation.still for placed in model.walk()]
@@ -145,7 +143,7 @@ class Surroundings:
         return found[which]
 
 
-def models_of(simulation: Senses) -> list[StageModel]:
+def models_of(simulation: StageBodies) -> list[StageModel]:
     """The model of each body: robots, then things and what is placed, then what actuators move."""
     own = [next(robot.bodies)[1] for robot in simulation.robots]
     others = [StageModel("model", "")] * _strangers(simulation)
@@ -153,7 +151,7 @@ def models_of(simulation: Senses) -> list[StageModel]:
     return [*own, *simulation.things, *simulation.placed, *others, *riders]
 
 
-def _strangers(simulation: Senses) -> int:
+def _strangers(simulation: StageBodies) -> int:
     """How many bodies are of no Stage file."""
     riders = sum(len(robot.riders) for robot in simulation.robots)
     known = len(simulation.robots) + len(simulation.things) + len(simulation.placed) + riders

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -19,9 +19,9 @@ from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.requests import RequestQueue
-from gazelle.simulation.stage.controllers import FleetController, make_controllers
 from gazelle.simulation.stage.devices import Devices
 from gazelle.simulation.stage.drive_state import DriveState
+from gazelle.simulation.stage.fleet_controller import FleetController
 from gazelle.simulation.stage.rangers import Rangers
 from gazelle.simulation.stage.scans import StageRangeNoise
 from gazelle.simulation.stage.senses import Senses
@@ -38,6 +38,7 @@ class StageFleet(Senses):
         clock: Of the simulation.
         requests: Of the simulation.
         seed: The run's seed.
+        make_controllers: Makes those that the robots name, at the start and for other robots.
 
     Attributes:
         clock: Simulated time.
@@ -48,15 +49,20 @@ class StageFleet(Senses):
     """
 
     def __init__(
-        self, engine: PlanarEngine, clock: Clock, requests: RequestQueue, seed: int
+        self,
+        engine: PlanarEngine,
+        clock: Clock,
+        requests: RequestQueue,
+        seed: int,
+        make_controllers: Callable[[StageFleet], list[FleetController]],
     ) -> None:
         self.engine, self.clock, self.requests, self.seed = engine, clock, requests, seed
-        self.nworld = engine.nworld
+        self.nworld, self._make_controllers = engine.nworld, make_controllers
         self.controllers: list[FleetController] = []
         self._revision = -1
         self._bind()
         _warn_of_riders(self._robots)
-        self.controllers = make_controllers(self)
+        self.controllers = self._make_controllers(self)
 
     # -- what there is -----------------------------------------------------------------
 
@@ -75,7 +81,7 @@ class StageFleet(Senses):
                 for controller in self.controllers:
                     controller.rebind()
             else:
-                self.controllers = make_controllers(self)
+                self.controllers = self._make_controllers(self)
 
     def _bind(self) -> None:
         """Look at the models that the engine has now."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +20,7 @@ from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.bumpers import gaps_to
 from gazelle.simulation.stage.outlines import Outlines, outlines_of
-
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.fleet import StageFleet
+from gazelle.simulation.stage.stage_bodies import StageBodies
 
 Command = Literal["open", "close", "up", "down"]
 
@@ -67,7 +65,7 @@ class Gripper:
     """
 
     def __init__(
-        self, simulation: StageFleet, robot: StageRobot, model: StageModel, pose: StagePose
+        self, simulation: StageBodies, robot: StageRobot, model: StageModel, pose: StagePose
     ) -> None:
         self._simulation, self._robot, self._model, self._pose = simulation, robot, model, pose
         self._device = model.device_of(StageGripper) or StageGripper()
@@ -246,7 +244,7 @@ def _crosses(strip: Floats, there: Outlines, low: float, high: float) -> bool:
     return bool(np.count_nonzero(over & right) % 2)
 
 
-def grippers_of(simulation: StageFleet) -> dict[int, list[Gripper]]:
+def grippers_of(simulation: StageBodies) -> dict[int, list[Gripper]]:
     """The grippers of each robot that has some, by its index."""
     found: dict[int, list[Gripper]] = {}
     for robot in simulation.robots:

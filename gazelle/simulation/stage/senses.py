@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 
 import numpy as np
 
-from gazelle.array_types import Floats, Worlds
-from gazelle.description import StageModel, StageWorld
-from gazelle.engines.planar.fleet import Fleet
+from gazelle.array_types import Worlds
 from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.bumpers import find_bumps
@@ -25,58 +23,19 @@ from gazelle.simulation.stage.finders import (
     models_of,
 )
 from gazelle.simulation.stage.grippers import Gripper
+from gazelle.simulation.stage.stage_bodies import StageBodies
 
 
-class Senses(ABC):
+class Senses(StageBodies):
     """The devices on robots: what they see and feel, and what moves on them.
 
     Cameras, bumpers, fiducial and blob finders are made when they are used.
-
-    Attributes:
-        nworld: Copies.
     """
-
-    nworld: int
-
-    @property
-    @abstractmethod
-    def description(self) -> StageWorld:
-        """What the file says of the world."""
-
-    @property
-    @abstractmethod
-    def robots(self) -> tuple[StageRobot, ...]:
-        """In file order."""
-
-    @property
-    @abstractmethod
-    def things(self) -> tuple[StageModel, ...]:
-        """Models that grippers can take."""
-
-    @property
-    @abstractmethod
-    def placed(self) -> Sequence[StageModel]:
-        """Models that are moved only when told to."""
-
-    @property
-    @abstractmethod
-    def still(self) -> Sequence[StageModel]:
-        """Models that never move."""
-
-    @property
-    @abstractmethod
-    def fleet(self) -> Fleet:
-        """The bodies in the plane."""
 
     @property
     @abstractmethod
     def devices(self) -> Devices:
         """Grippers and actuators."""
-
-    @property
-    @abstractmethod
-    def poses(self) -> Floats:
-        """True x, y [m] and heading [rad], shape (nworld, nrobot, 3); to be read."""
 
     @abstractmethod
     def robot(self, name: str) -> StageRobot:

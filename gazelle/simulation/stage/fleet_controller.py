@@ -1,0 +1,36 @@
+"""What drives robots of Stage files from one step to the next."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Worlds
+from gazelle.native.system import System
+
+
+class FleetController(Protocol):
+    """Drives robots, or changes what they see."""
+
+    def update(self) -> None:
+        """Act on the state between two steps: read scans, write commands."""
+
+    def systems(self) -> list[System] | None:
+        """What ``update`` does in native code, step by step; None if it does more."""
+        return None
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """Start over in some worlds, all if None."""
+
+    def rebind(self) -> None:
+        """Other models came or went; the robots are the same."""
+
+    def state(self) -> dict[str, NDArray[np.generic]]:
+        """Everything that changes, for a snapshot."""
+        return {}
+
+    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:  # noqa: ARG002  of others
+        """Put back what ``state`` gave."""
+        return

@@ -1,0 +1,64 @@
+"""What devices on robots may know of the simulation that they are part of."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+
+from gazelle.array_types import Floats
+from gazelle.description import StageModel, StageWorld
+from gazelle.engines.planar import PlanarEngine
+from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.stage_layout import StageRobot
+
+
+class StageBodies(ABC):
+    """All robots and things of Stage files, and where they are.
+
+    Attributes:
+        engine: Moves them.
+        nworld: Copies of the world.
+    """
+
+    engine: PlanarEngine
+    nworld: int
+
+    @property
+    @abstractmethod
+    def description(self) -> StageWorld:
+        """What the file says of the world."""
+
+    @property
+    @abstractmethod
+    def robots(self) -> tuple[StageRobot, ...]:
+        """In file order."""
+
+    @property
+    @abstractmethod
+    def things(self) -> tuple[StageModel, ...]:
+        """Models that grippers can take."""
+
+    @property
+    @abstractmethod
+    def placed(self) -> Sequence[StageModel]:
+        """Models that are moved only when told to."""
+
+    @property
+    @abstractmethod
+    def still(self) -> Sequence[StageModel]:
+        """Models that never move."""
+
+    @property
+    @abstractmethod
+    def fleet(self) -> Fleet:
+        """The bodies in the plane."""
+
+    @property
+    @abstractmethod
+    def poses(self) -> Floats:
+        """True x, y [m] and heading [rad], shape (nworld, nrobot, 3); to be read."""
+
+    @property
+    @abstractmethod
+    def time_step(self) -> float:
+        """Of a step [s]: the world's ``interval_sim``."""
