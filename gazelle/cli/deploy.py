@@ -27,7 +27,7 @@ from gazelle.argument_types import positive_float
 from gazelle.cli.parsing import Parser
 
 if TYPE_CHECKING:
-    from gazelle.training.deploy import GoalOutcome, GoalPlace, Policy, SafetyLimits
+    from gazelle.training.deploy import GoalPlace, GoalResult, Policy, SafetyLimits
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -136,7 +136,7 @@ def _limits(args: argparse.Namespace, policy: Policy) -> SafetyLimits:
     )
 
 
-def _report(outcomes: list[GoalOutcome], overruled: int, asked: int) -> int:
+def _report(outcomes: list[GoalResult], overruled: int, asked: int) -> int:
     """Say what became of the goals; returns the exit code."""
     for each in outcomes:
         sys.stdout.write(

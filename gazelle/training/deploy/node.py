@@ -6,7 +6,7 @@ import contextlib
 import logging
 import math
 import threading
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -59,6 +59,7 @@ class DeployNode(Closeable):
         turned: How far the lidar is turned to the left on the robot [rad].
         time_limit: For each goal [s]; None for that of the contract.
         log: File for the log of interventions.
+        on_end: Told what became of a goal, by the thread that drives; it may give the next one.
 
     Raises:
         GuardLostError: The guard did not start.
@@ -74,10 +75,12 @@ class DeployNode(Closeable):
         turned: float = 0.0,
         time_limit: float | None = None,
         log: Path | None = None,
+        on_end: Callable[[GoalResult], None] | None = None,
     ) -> None:
         self.node = node
         self.pilot = Pilot(policy, limits, turned=turned, time_limit=time_limit)
         self.interventions = InterventionLog(log)
+        self._on_end = on_end
         self._lock = threading.RLock()
         self._news = threading.Event()
         self._over = threading.Event()
@@ -232,6 +235,8 @@ class DeployNode(Closeable):
         )
         self._results.publish(floats_message(["score", "max_q"], [self._score, self._best]))
         self._best = self._score = 0.0
+        if self._on_end is not None:
+            self._on_end(ended)
 
     def _tell_status(self, tick: Tick) -> None:
         if not self.pilot.armed:
