@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import hashlib
+import multiprocessing
 import os
 import re
+import shutil
+import subprocess
+import sys
 import sysconfig
 from pathlib import Path
 
@@ -46,6 +51,13 @@ BUILDS = {
     ],
 }
 VISUAL_STUDIO = {"baseline": ["/O2", "/fp:precise"], "avx2": ["/O2", "/fp:precise", "/arch:AVX2"]}
+
+
+def processors() -> int:
+    """How many of them may be used."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def builds() -> list[str]:
@@ -91,6 +103,8 @@ def _translated(kind: str, checks: dict[str, bool]) -> list[Extension]:
         compiler_directives=DIRECTIVES | checks,
         shared_utility_qualified_name=SHARED,
         quiet=True,
+        # Other ways to start processes would import what runs this, which may have no guard.
+        nthreads=processors() if multiprocessing.get_start_method() == "fork" else 0,
     )
 
 
@@ -126,7 +140,7 @@ class BuildModules(build_ext):
     def initialize_options(self) -> None:
         """Use all processors."""
         super().initialize_options()
-        self.parallel = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else True
+        self.parallel = processors()
 
     def build_extensions(self) -> None:
         """Choose the compiler and its flags for each build."""
@@ -136,8 +150,10 @@ class BuildModules(build_ext):
                 "or use a wheel that is built: pip install gazelle"
             )
         unix = self.compiler.compiler_type != "msvc"
+        self._compiler, self._command, self._version = self.compiler.compiler_type, [], ""
         if unix:
             self._choose_compiler()
+        self.force = True  # what is up to date is known by its ingredients, not by its age
         every, folder = self.extensions, self.build_temp
         for build in dict.fromkeys(each.extra_compile_args[0] for each in every):
             chosen = [each for each in every if each.extra_compile_args[0] == build]
@@ -147,6 +163,35 @@ class BuildModules(build_ext):
             self.extensions, self.build_temp = chosen, str(Path(folder, build))
             super().build_extensions()
         self.extensions, self.build_temp = every, folder
+
+    def build_extension(self, ext: Extension) -> None:
+        """Compile a module, or copy what the same text, compiler and flags have made before.
+
+        Installations are built in folders that are thrown away, and wheels in another that does not
+        tell which compiler has filled it: each would compile everything again, or nothing at all.
+        """
+        wanted = Path(self.get_ext_fullpath(ext.name))
+        kept = Path("build", "compiled", self._compiler, self.get_ext_filename(ext.name))
+        ingredients, now = kept.with_name(f"{kept.name}.sha256"), self._ingredients(ext)
+        wanted.parent.mkdir(parents=True, exist_ok=True)
+        if kept.exists() and ingredients.exists() and ingredients.read_text() == now:
+            shutil.copyfile(kept, wanted)
+            return
+        super().build_extension(ext)
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        ingredients.unlink(missing_ok=True)  # should this end half-way
+        shutil.copyfile(wanted, kept)
+        ingredients.write_text(now)
+
+    def _ingredients(self, ext: Extension) -> str:
+        """A digest of everything that decides what is compiled."""
+        words = [self._version, sys.version, ext.name, *ext.extra_compile_args]
+        words += [*ext.extra_link_args, *self._command]
+        digest = hashlib.sha256("\0".join(words).encode())
+        headers = [path for folder in ext.include_dirs for path in Path(folder).glob("*.h")]
+        for path in [*map(Path, ext.sources), *sorted(headers)]:
+            digest.update(path.read_bytes())
+        return digest.hexdigest()
 
     def _choose_compiler(self) -> None:
         found = compilers.system_compiler()
@@ -162,6 +207,10 @@ class BuildModules(build_ext):
         self.compiler.set_executables(
             compiler_so=[*command, "-fPIC", "-fwrapv"], linker_so=[*command, *ending]
         )
+        self._compiler = f"zig-{compilers.zig_target()}" if zig else "system"
+        self._command = [*command, *ending]
+        shown = subprocess.run([*command, "--version"], check=True, capture_output=True, text=True)
+        self._version = shown.stdout
 
     def copy_extensions_to_source(self) -> None:
         """Put them beside their sources, for an editable installation."""
