@@ -370,8 +370,11 @@ def test_no_node_is_left_however_the_command_ends(workspace, script, tmp_path, m
     with subprocess.Popen(
         [sys.executable, "-m", "gazelle.cli.main", "launch", str(file)],
         env=os.environ | {"ROS_MASTER_URI": master.uri},
-        stdout=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        text=True,
     ) as process:
+        # Only then has the watchdog been told of it.
+        assert any(line.startswith("process[n-1]: started") for line in process.stdout)
         until(lambda: (tmp_path / "pid").exists() and (tmp_path / "pid").read_text())
         process.send_signal(number)
         process.wait(60)
