@@ -16,18 +16,14 @@ import sys
 from pathlib import Path
 
 from gazelle.cli import showing
+from gazelle.errors import TaskError
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("run", metavar="RUN", type=Path, help="folder of a run")
-    parser.add_argument(
-        "--format",
-        metavar="NAME",
-        choices=("onnx", "numpy"),
-        default="onnx",
-        help="onnx (default) or numpy",
-    )
+    parser.add_argument("--format", metavar="NAME", default="onnx", help="onnx (default) or numpy")
+    parser.set_defaults(parser=parser)
     parser.add_argument(
         "--best", action="store_true", help="the best policy of the run, not the newest"
     )
@@ -38,8 +34,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
-    from gazelle.training import export_policy
+    from gazelle.training.policy_files import check_format, export_policy
 
+    try:
+        check_format(args.format)
+    except TaskError as error:
+        args.parser.error(f"{error.message}: {error.hint}")
     files = export_policy(args.run, args.format, args.out, best=args.best)
     sys.stdout.write(
         f"policy:   {files.policy}\n"

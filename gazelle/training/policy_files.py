@@ -15,6 +15,9 @@ from gazelle.training.runs import Run
 
 FORMATS = {"onnx": ".onnx", "numpy": ".npz"}
 """The formats by name, with the ends of their files' names."""
+_GONE = {
+    "torchscript": "PyTorch has deprecated TorchScript; onnx runs in C++ and Python with ONNX Runtime"
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,9 +55,7 @@ def export_policy(
         FormatError: The run is damaged or has no policy yet.
         MissingExtraError: The package ``onnx`` is not installed.
     """
-    if format not in FORMATS:
-        hint = did_you_mean(format, FORMATS)
-        raise TaskError(f"there is no format '{format}' for policies", hint=hint)
+    check_format(format)
     found = Run.open(Path(run))
     actor = load_actor(found.policy_file(best=best))
     contract = run_contract(found)
@@ -73,6 +74,17 @@ def export_policy(
         hint = "give another file with --out"
         raise TaskError(f"cannot write the policy: {error}", hint=hint) from error
     return PolicyFiles(policy, beside)
+
+
+def check_format(name: str) -> None:
+    """Refuse a format that there is not.
+
+    Raises:
+        TaskError: There is none of this name.
+    """
+    if name not in FORMATS:
+        hint = _GONE.get(name) or did_you_mean(name, FORMATS)
+        raise TaskError(f"there is no format '{name}' for policies", hint=hint)
 
 
 def load_policy(source: str | Path) -> tuple[Path, PolicyContract]:

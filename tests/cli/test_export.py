@@ -36,7 +36,13 @@ def test_by_default_files_are_in_the_run(cli, run):
 def test_an_unknown_format_is_a_wrong_command_line(cli, run):
     code, _, err = cli("export", run, "--format", "h5")
     assert code == 2
-    assert "h5" in err
+    assert "there is no format 'h5' for policies: there are: numpy, onnx" in err
+
+
+def test_torchscript_is_refused_with_what_takes_its_place(cli, run):
+    code, _, err = cli("export", run, "--format", "torchscript")
+    assert code == 2
+    assert "PyTorch has deprecated TorchScript; onnx runs in" in " ".join(err.split())
 
 
 def test_nothing_to_export_is_one_line(cli, tmp_path):
