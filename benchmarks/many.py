@@ -17,10 +17,12 @@ from typing import Any
 
 import gazelle
 from gazelle import formats
+from gazelle.simulation import TwistInput
 
 ROBOTS = 100
 WINDOWS = 5
 BATCH = 256
+FEW = 10
 STEP = 0.005
 ROBOT = """<model name='r{0}'><pose>{1} {2} .1 0 0 {0}</pose><link name='base'><inertial><mass>2</mass>
 <inertia><ixx>.02</ixx><iyy>.03</iyy><izz>.04</izz><ixy>0</ixy><ixz>0</ixz><iyz>0</iyz></inertia></inertial>
@@ -58,6 +60,24 @@ TAGS = "".join(
 )
 DIFF = """<plugin name='p' filename='libgazebo_ros_diff_drive.so'><leftJoint>left_front_joint</leftJoint>
 <rightJoint>right_front_joint</rightJoint><updateRate>50</updateRate></plugin>"""
+ENCODERS = DIFF.replace("<updateRate>", "<odometrySource>encoder</odometrySource><updateRate>")
+PATIENT = (
+    "<plugin name='p' filename='libgazebo_ros_planar_move.so'><cmdTimeout>1</cmdTimeout></plugin>"
+)
+TRICYCLE = """<plugin name='p' filename='libgazebo_ros_tricycle_drive.so'><updateRate>50</updateRate>
+<encoderWheelLeftJoint>left_front_joint</encoderWheelLeftJoint><steeringJoint>left_rear_joint</steeringJoint>
+<encoderWheelRightJoint>right_front_joint</encoderWheelRightJoint>
+<actuatedWheelJoint>right_rear_joint</actuatedWheelJoint></plugin>"""
+KOBUKI = """<plugin name='p' filename='libgazebo_ros_kobuki.so'><imu_name>imu</imu_name>
+<left_wheel_joint_name>left_front_joint</left_wheel_joint_name><wheel_separation>.24</wheel_separation>
+<right_wheel_joint_name>right_front_joint</right_wheel_joint_name><wheel_diameter>.1</wheel_diameter>
+<torque>5</torque><velocity_command_timeout>1</velocity_command_timeout><bumper_name>bumper</bumper_name>
+<cliff_sensor_left_name>cliff</cliff_sensor_left_name><cliff_sensor_center_name>cliff</cliff_sensor_center_name>
+<cliff_sensor_right_name>cliff</cliff_sensor_right_name>
+<cliff_detection_threshold>.2</cliff_detection_threshold></plugin>"""
+KOBUKI_SENSORS = """<sensor name='imu' type='imu'/><sensor name='bumper' type='contact'><contact><collision>b</collision>
+</contact></sensor><sensor name='cliff' type='ray'><ray><scan><horizontal><samples>1</samples></horizontal>
+</scan><range><min>.01</min><max>1</max></range></ray></sensor>"""
 SKID = f"""<plugin name='p' filename='libgazebo_ros_skid_steer_drive.so'>{TAGS}<updateRate>50</updateRate>
 </plugin>"""
 
@@ -72,7 +92,9 @@ class Case:
         plugin: In the robot.
         wheels: How many wheels it has, with motors.
         air: Whether robots hang in the air; all with wheels do.
+        asleep: Whether only the plugin asks its sensors.
         heard: Whether somebody listens.
+        most: Robots at most: each alone makes the coming step of all for its IMU.
         nworld: Worlds of one such robot each; 0: many robots in one world.
     """
 
@@ -81,7 +103,9 @@ class Case:
     plugin: str = ""
     wheels: int = 0
     air: bool = False
+    asleep: bool = False
     heard: bool = True
+    most: int = 1_000_000
     nworld: int = 0
 
 
@@ -93,7 +117,21 @@ CASES = (
     Case("diff drive, odometry heard", plugin=DIFF, wheels=2),
     Case("skid steer, 50 Hz", plugin=SKID, wheels=4, heard=False),
     Case("skid steer, odometry heard", plugin=SKID, wheels=4),
+    Case("encoders, 50 Hz", plugin=ENCODERS, wheels=2, heard=False),
+    Case("encoders, odometry heard", plugin=ENCODERS, wheels=2),
+    Case("tricycle, 50 Hz", plugin=TRICYCLE, wheels=4, heard=False),
+    Case("tricycle, odometry heard", plugin=TRICYCLE, wheels=4),
     Case("planar move, every step", plugin=SLIDE, heard=False, air=True),
+    Case("planar move, cmdTimeout", plugin=PATIENT, heard=False, air=True),
+    Case(
+        f"{FEW} Kobukis, every step",
+        KOBUKI_SENSORS,
+        KOBUKI,
+        wheels=2,
+        heard=False,
+        asleep=True,
+        most=FEW,
+    ),
     Case(f"{BATCH} worlds, one diff drive", plugin=DIFF, wheels=2, nworld=BATCH),
 )
 
@@ -101,6 +139,7 @@ CASES = (
 def main() -> None:
     """Print the figures."""
     parser = argparse.ArgumentParser(prog="gazelle bench many", description=__doc__)
+    parser.add_argument("--only", default="", help="only cases whose names have this")
     parser.add_argument("--robots", type=int, default=ROBOTS, help="how many (default 100)")
     args = parser.parse_args()
     print(
@@ -108,8 +147,8 @@ def main() -> None:
         f"second in turns, step {STEP * 1e3:g} ms: ms of processor time"
     )
     print(f"{'one on each robot':<28}{'alone':>10}{'together':>10}{'times':>8}")
-    for case in CASES:
-        count = 1 if case.nworld else args.robots
+    for case in (each for each in CASES if args.only in each.name):
+        count = 1 if case.nworld else min(args.robots, case.most)
         sims = [running(count, case, how) for how in ("alone", "together", "bare")]
         alone, together, bare = least(sims)
         alone, together = alone - bare, together - bare
@@ -135,7 +174,8 @@ def running(count: int, case: Case, how: str) -> gazelle.Simulation:
             changed: Any = unit
             if how == "alone":
                 changed.kind = lambda: None
-            unit.latest()
+            if not case.asleep:
+                unit.latest()
         for output in robot.outputs.values() if case.heard else ():
             output.subscribe(lambda _: None)
         set_off(robot, case)
@@ -152,9 +192,12 @@ def running(count: int, case: Case, how: str) -> gazelle.Simulation:
 def set_off(robot: gazelle.Robot, case: Case) -> None:
     """Let them move, whether a drive is told or the motors are."""
     for port in robot.inputs.values():
-        port.send(0.3)
+        if isinstance(port, TwistInput):
+            port.send(0.3)
     for wheel in CORNERS[: case.wheels]:
-        robot.joints[f"{wheel}_joint"].drive(4.0)
+        joint = robot.joints[f"{wheel}_joint"]
+        if joint.has_motor:
+            joint.drive(4.0)
 
 
 def world(count: int, case: Case, *, bare: bool) -> str:
@@ -163,7 +206,7 @@ def world(count: int, case: Case, *, bare: bool) -> str:
     wheels = "".join(
         WHEEL.format(name, 0.12 if "left" in name else -0.12) for name in CORNERS[: case.wheels]
     )
-    sensor = "" if bare else case.sensor
+    sensor = "" if bare and not case.wheels else case.sensor
     plugin = "" if bare and not case.wheels else case.plugin
     robots = "".join(
         ROBOT.format(i, i % 10, i // 10, sensor, wheels + plugin) for i in range(count)

@@ -65,6 +65,11 @@ class TableEngine(Protocol):
             EngineError: One of them has no motor.
         """
 
+    def place_joints(
+        self, joints: tuple[str, ...], position: Floats, velocity: Floats, chosen: Bools
+    ) -> None:
+        """Put joints with one axis somewhere; see ``CarryingEngine.place_joints``."""
+
     def parameter(self, kind: str, name: str) -> Floats:
         """A physical parameter, shape (nworld, width)."""
 

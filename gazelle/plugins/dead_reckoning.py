@@ -1,91 +1,251 @@
-"""Where two wheels have rolled to: odometry from encoders."""
+"""Where two wheels have rolled to: odometry from encoders, of one robot or of many at once."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.plugins.odometry import OdometrySource
 from gazelle.rotations import from_yaw
-from gazelle.simulation import Odometry
+from gazelle.simulation import JointArray, JointHandle, Odometry
+from gazelle.simulation.clock import NANOSECONDS, Clock
 from gazelle.simulation.values import NO_VARIANCE, SixNumbers
+
+
+@dataclass(frozen=True, slots=True)
+class ReckoningTables:
+    """What some pairs of wheels rolled to, in all worlds; used in place.
+
+    Attributes:
+        pose: x, y [m] and heading [rad], shape (nworld, n, 3).
+        twist: Forward velocity [m/s] and turning rate [rad/s], shape (nworld, n, 2).
+        angles: Of the left and the right wheel when last looked at [rad], likewise.
+        last_ns: When that was [ns], shape (n,).
+    """
+
+    pose: Floats
+    twist: Floats
+    angles: Floats
+    last_ns: NDArray[np.int64]
+
+    @classmethod
+    def empty(cls, nworld: int, count: int) -> ReckoningTables:
+        """Tables of ``count`` pairs, all zero."""
+        twist, angles = np.zeros((2, nworld, count, 2))
+        return cls(np.zeros((nworld, count, 3)), twist, angles, np.zeros(count, np.int64))
+
+    def column(self, part: int) -> ReckoningTables:
+        """The same memory, of one pair."""
+        own = slice(part, part + 1)
+        return ReckoningTables(
+            self.pose[:, own], self.twist[:, own], self.angles[:, own], self.last_ns[own]
+        )
+
+    def take_over(self, other: ReckoningTables) -> None:
+        """Copy what others of the same size have."""
+        self.pose[:], self.twist[:] = other.pose, other.twist
+        self.angles[:], self.last_ns[:] = other.angles, other.last_ns
+
+    def interval(self, now_ns: int) -> Floats:
+        """Time since wheels were looked at [s], shape (n,)."""
+        return np.asarray((now_ns - self.last_ns) / NANOSECONDS)
+
+    def advance(
+        self,
+        angles: Floats,
+        now_ns: int,
+        separation: Floats,
+        radius: Floats,
+        rates: Floats | None = None,
+    ) -> None:
+        """Go on to other wheel angles, with the heading at the middle of the interval.
+
+        Args:
+            angles: Now [rad], shape (nworld, n, 2).
+            now_ns: Simulated time [ns]; pairs for which none has passed stay.
+            separation: Between the wheels of each pair [m], shape (n,).
+            radius: Of the wheels of each pair [m], likewise.
+            rates: Turning rates by another instrument [rad/s], shape (nworld, n); by the wheels if
+                None.
+        """
+        interval = self.interval(now_ns)
+        rolled = radius[:, None] * (angles - self.angles)
+        self.angles[:], self.last_ns[:] = angles, now_ns
+        some: slice | NDArray[np.intp] = slice(None)
+        if not (interval > 0.0).all():
+            some = np.flatnonzero(interval > 0.0)
+            interval, rolled = interval[some], rolled[:, some]
+        left, right = rolled[..., 0], rolled[..., 1]
+        along = (left + right) / 2.0
+        turned = (right - left) / separation[some] if rates is None else rates[:, some] * interval
+        middle = self.pose[:, some, 2] + turned / 2.0
+        self.pose[:, some, 0] += along * np.cos(middle)
+        self.pose[:, some, 1] += along * np.sin(middle)
+        self.pose[:, some, 2] += turned
+        self.twist[:, some, 0], self.twist[:, some, 1] = along / interval, turned / interval
 
 
 class DeadReckoning:
     """Adds up what a left and a right wheel roll, in every world.
 
     Args:
+        clock: Tells how long that took.
         separation: Between the wheels [m].
-        angles: Of both wheels now [rad], shape (nworld, 2).
         radius: Of the wheels [m].
+        wheels: The left and the right.
 
     Attributes:
-        pose: x, y [m] and heading [rad], shape (nworld, 3).
-        twist: Forward velocity [m/s] and turning rate [rad/s], shape (nworld, 2).
+        clock: That.
+        tables: Of one pair; a column of a group's.
     """
 
-    def __init__(self, separation: float, radius: float, angles: Floats) -> None:
-        self._separation, self._radius = separation, radius
-        self._angles = angles
-        self.pose: Floats = np.zeros((len(angles), 3))
-        self.twist: Floats = np.zeros((len(angles), 2))
+    def __init__(
+        self, clock: Clock, separation: float, radius: float, wheels: Sequence[JointHandle]
+    ) -> None:
+        self.clock, self.wheels = clock, tuple(wheels)
+        self.separation, self.radius = separation, radius
+        angles = self._angles()
+        self.tables = ReckoningTables.empty(len(angles), 1)
+        self.tables.angles[:, 0] = angles
+        self.restart()
+        self._own: ReckoningGroup | None = None
 
-    def advance(self, angles: Floats, interval: float, turned: Floats | None = None) -> None:
-        """Go on to other wheel angles, with the heading at the middle of the interval.
+    def join(self, tables: ReckoningTables) -> None:
+        """Keep all that in other tables of one pair from now on."""
+        tables.take_over(self.tables)
+        self.tables = tables
+        self._own = None
+
+    def advance(self, rates: Floats | None = None) -> None:
+        """Go on to now; see ``ReckoningTables.advance``.
 
         Args:
-            angles: Now [rad], shape (nworld, 2).
-            interval: Since the last time [s].
-            turned: Change of heading by another instrument [rad], shape (nworld,); by the
-                wheels if None.
+            rates: Turning rates by another instrument [rad/s], shape (nworld,).
         """
-        left, right = (self._radius * (angles - self._angles)).T
-        self._angles = angles
-        if interval <= 0.0:
-            return
-        along = (left + right) / 2.0
-        if turned is None:
-            turned = (right - left) / self._separation
-        middle = self.pose[:, 2] + turned / 2.0
-        self.pose[:, 0] += along * np.cos(middle)
-        self.pose[:, 1] += along * np.sin(middle)
-        self.pose[:, 2] += turned
-        self.twist = np.stack((along, turned), axis=1) / interval
+        if self._own is None:
+            self._own = ReckoningGroup([self])
+        self._own.advance(None if rates is None else rates[:, None])
 
-    def odometry(
-        self, stamp: int, frame: str, child_frame: str, variance: SixNumbers = NO_VARIANCE
-    ) -> Odometry:
-        """The pose and velocity, by name; ``variance`` is of the pose."""
-        zero = np.zeros(len(self.pose))
-        speed, turning = self.twist.T
-        return Odometry(
-            stamp,
-            frame,
-            child_frame,
-            np.stack((self.pose[:, 0], self.pose[:, 1], zero), axis=1),
-            from_yaw(self.pose[:, 2]),
-            np.stack((speed, zero, zero), axis=1),
-            np.stack((zero, zero, turning), axis=1),
-            variance,
-        )
+    def restart(self) -> None:
+        """Let the next interval begin now."""
+        self.tables.last_ns[:] = self.clock.now_ns
 
-    def reset(self, worlds: Worlds | None, angles: Floats) -> None:
-        """Back to the origin, with the wheels as they are now, shape (nworld, 2)."""
+    def reset(self, worlds: Worlds | None) -> None:
+        """Back to the origin, with the wheels as they are now."""
         rows = slice(None) if worlds is None else worlds
-        self.pose[rows], self.twist[rows] = 0.0, 0.0
-        self._angles[rows] = angles[rows]
+        tables = self.tables
+        tables.pose[rows], tables.twist[rows] = 0.0, 0.0
+        tables.angles[rows, 0] = self._angles()[rows]
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes."""
+        """Everything that changes but the time."""
+        tables = self.tables
         return {
-            "pose": self.pose.copy(),
-            "twist": self.twist.copy(),
-            "angles": self._angles.copy(),
+            "pose": tables.pose[:, 0].copy(),
+            "twist": tables.twist[:, 0].copy(),
+            "angles": tables.angles[:, 0].copy(),
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self.pose[:], self.twist[:] = state["pose"], state["twist"]
-        self._angles[:] = state["angles"]
+        tables = self.tables
+        tables.pose[:, 0], tables.twist[:, 0] = state["pose"], state["twist"]
+        tables.angles[:, 0] = state["angles"]
+
+    @property
+    def last_ns(self) -> int:
+        """When it was advanced last [ns]."""
+        return int(self.tables.last_ns[0])
+
+    @last_ns.setter
+    def last_ns(self, value: int) -> None:
+        self.tables.last_ns[:] = value
+
+    def _angles(self) -> Floats:
+        return np.concatenate([wheel.positions()[:, :1] for wheel in self.wheels], axis=1)
+
+
+class ReckoningGroup:
+    """Adds up what the wheels of some robots of one simulation roll, whose tables they join.
+
+    Args:
+        reckonings: Of each robot.
+
+    Attributes:
+        tables: Of all.
+    """
+
+    def __init__(self, reckonings: Sequence[DeadReckoning]) -> None:
+        self._clock, nworld = reckonings[0].clock, len(reckonings[0].tables.pose)
+        self.tables = ReckoningTables.empty(nworld, len(reckonings))
+        for part, each in enumerate(reckonings):
+            each.join(self.tables.column(part))
+        self._separation = np.array([each.separation for each in reckonings])
+        self._radius = np.array([each.radius for each in reckonings])
+        self._joints = JointArray([wheel for each in reckonings for wheel in each.wheels])
+
+    def interval(self) -> Floats:
+        """Time since they were advanced or began anew [s], shape (n,)."""
+        return self.tables.interval(self._clock.now_ns)
+
+    def restart(self) -> None:
+        """Let the next interval begin now."""
+        self.tables.last_ns[:] = self._clock.now_ns
+
+    def advance(self, rates: Floats | None = None) -> None:
+        """Go on to now; see ``ReckoningTables.advance``."""
+        angles = self._joints.positions().reshape(self.tables.angles.shape)
+        self.tables.advance(angles, self._clock.now_ns, self._separation, self._radius, rates)
+
+
+@dataclass(frozen=True, slots=True)
+class RolledOdometry(OdometrySource):
+    """Where wheels have rolled to, by name.
+
+    Args:
+        reckoning: Of the wheels.
+        frame: Of the pose.
+        child_frame: Of the velocity.
+        pose_variance: Of the six directions.
+        signed: Whether going back is a negative velocity.
+    """
+
+    reckoning: DeadReckoning
+    frame: str
+    child_frame: str
+    pose_variance: SixNumbers = NO_VARIANCE
+    signed: bool = True
+
+    def __call__(self) -> Odometry:
+        """The odometry now."""
+        return _measured([self])[0]
+
+    @classmethod
+    def measure_all(cls, sources: Sequence[RolledOdometry]) -> list[Odometry]:
+        """The odometry of many robots."""
+        return _measured(sources)
+
+
+def _measured(sources: Sequence[RolledOdometry]) -> list[Odometry]:
+    pose = np.concatenate([each.reckoning.tables.pose for each in sources], axis=1)
+    twist = np.concatenate([each.reckoning.tables.twist for each in sources], axis=1)
+    position, linear, angular = np.zeros((3, *pose.shape))
+    position[..., :2], quaternion = pose[..., :2], from_yaw(pose[..., 2])
+    linear[..., 0], angular[..., 2] = twist[..., 0], twist[..., 1]
+    return [
+        Odometry(
+            each.reckoning.clock.now_ns,
+            each.frame,
+            each.child_frame,
+            position[:, i],
+            quaternion[:, i],
+            linear[:, i] if each.signed else np.abs(linear[:, i]),
+            angular[:, i],
+            each.pose_variance,
+        )
+        for i, each in enumerate(sources)
+    ]

@@ -6,7 +6,6 @@ Tags, defaults and rules are those of gazebo_ros_pkgs 2.9 (Noetic).
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,16 +14,17 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
-from gazelle.plugins.dead_reckoning import DeadReckoning
+from gazelle.plugins.dead_reckoning import DeadReckoning, ReckoningGroup, RolledOdometry
 from gazelle.plugins.frames import frames_output, joint_transforms
 from gazelle.plugins.odometry import (
     POSE_VARIANCE,
     OdometryOutputs,
+    OdometrySource,
     TrueOdometry,
     measure_wanted,
 )
 from gazelle.plugins.publishing import Published
-from gazelle.plugins.wheel_motors import WheelMotors, wheels_together
+from gazelle.plugins.wheel_motors import WheelGroup, WheelMotors, wheels_together
 from gazelle.simulation import (
     BasePlugin,
     JointStates,
@@ -37,7 +37,6 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
-from gazelle.simulation.clock import NANOSECONDS
 
 
 class DiffDrive(ModelPlugin):
@@ -52,6 +51,8 @@ class DiffDrive(ModelPlugin):
         acceleration: Most change of a wheel's speed on the ground [m/s²]; 0 for no limit.
         wheel_joints: Names of the left and the right joint, as the file has them.
         motors: Of the wheels.
+        reckoning: Of how far the wheels have rolled.
+        from_encoders: Whether the odometry is that.
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
@@ -60,9 +61,7 @@ class DiffDrive(ModelPlugin):
         self.separation = parameters.get("wheelSeparation", 0.34)
         self.radius = parameters.get("wheelDiameter", 0.15) / 2.0
         self.acceleration = parameters.get("wheelAcceleration", 0.0)
-        self._frame = parameters.get("odometryFrame", "odom")
-        self._base = parameters.get("robotBaseFrame", "base_footprint")
-        self._from_encoders = _source(parameters) == "encoder"
+        self.from_encoders = _source(parameters) == "encoder"
         if self.separation <= 0.0 or self.radius <= 0.0:
             raise SimulationError(
                 "wheelSeparation and wheelDiameter must be positive", source=parameters.source
@@ -81,8 +80,9 @@ class DiffDrive(ModelPlugin):
         self._wheels = tuple(robot.joints[name] for name in names)
         for wheel in self._wheels:
             wheel.add_motor(torque)
-        self._reckoning = DeadReckoning(self.separation, self.radius, self._angles())
-        self._reckoned_ns = robot.simulation.clock.now_ns
+        self.reckoning = DeadReckoning(
+            robot.simulation.clock, self.separation, self.radius, self._wheels
+        )
         self._open_ports(robot, parameters, robot.simulation.nworld)
         self.motors = WheelMotors(
             robot,
@@ -102,7 +102,7 @@ class DiffDrive(ModelPlugin):
         published: list[Published] = []
         sent = parameters.get("publishTf", True)
         framed = sent and parameters.get("publishOdomTF", True)
-        measure = self._from_wheels if self._from_encoders else self._true_odometry()
+        measure = self._odometry_source(parameters)
         self.odometry = OdometryOutputs(robot, topic, measure, namespace, framed=framed)
         if sent:
             published.append(self.odometry)
@@ -118,12 +118,14 @@ class DiffDrive(ModelPlugin):
         self._published = tuple(published)
 
     def kind(self) -> Hashable | None:
-        """All drives that do not count the turns of their wheels."""
-        return None if self._from_encoders else "DiffDrive"
+        """All drives that count the turns of their wheels, and all that do not."""
+        return "DiffDrive", self.from_encoders
 
     @classmethod
     def together(cls, plugins: Sequence[DiffDrive]) -> System | BasePlugin:
         """The wheels of many robots; what they are told and remember is in tables of all then."""
+        if plugins[0].from_encoders:
+            return EncoderDrives(plugins)
         eager = bool(plugins[0].update_rate)
         return wheels_together([each.motors for each in plugins], eager=eager)
 
@@ -150,28 +152,25 @@ class DiffDrive(ModelPlugin):
 
     def system(self) -> System | None:
         """The law alone, while nobody listens and nothing else is to be done."""
-        return None if self._from_encoders or self.is_heard else self.motors.system()
+        return None if self.from_encoders or self.is_heard else self.motors.system()
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Drive the wheels and publish the odometry."""
-        now_ns = self._robot.simulation.clock.now_ns
-        if self._from_encoders:
-            self._reckoning.advance(self._angles(), (now_ns - self._reckoned_ns) / NANOSECONDS)
-            self._reckoned_ns = now_ns
+        if self.from_encoders:
+            self.reckoning.advance()
         self.motors.drive()
         self.publish_measured()
 
     def _angles(self) -> Floats:
         return np.concatenate([wheel.positions() for wheel in self._wheels], axis=1)
 
-    def _true_odometry(self) -> TrueOdometry:
-        return TrueOdometry(self._robot, self._frame, self._base)
-
-    def _from_wheels(self) -> Odometry:
-        now = self._robot.simulation.clock.now_ns
-        found = self._reckoning.odometry(now, self._frame, self._base, POSE_VARIANCE)
+    def _odometry_source(self, parameters: Parameters) -> OdometrySource:
+        frame = parameters.get("odometryFrame", "odom")
+        base = parameters.get("robotBaseFrame", "base_footprint")
+        if not self.from_encoders:
+            return TrueOdometry(self._robot, frame, base)
         # The original reports the length of the velocity, so it is never negative.
-        return replace(found, linear=np.abs(found.linear))
+        return RolledOdometry(self.reckoning, frame, base, POSE_VARIANCE, signed=False)
 
     def _wheel_frames(self) -> Transforms:
         return joint_transforms(self._robot, self._wheel_joints)
@@ -188,18 +187,19 @@ class DiffDrive(ModelPlugin):
         tables = self.motors.tables
         tables.speeds[:, 0][rows] = 0.0
         self.motors.forget(worlds)
-        if self._from_encoders:
-            self._reckoning.reset(worlds, self._angles())
+        if self.from_encoders:
+            self.reckoning.reset(worlds)
         if worlds is None:
-            tables.last_ns[:, 0][:] = self._reckoned_ns = self._robot.simulation.clock.now_ns
+            self.reckoning.restart()
+            tables.last_ns[:, 0][:] = self.reckoning.last_ns
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Wheel speeds, odometry and times of the last update."""
-        rolled = {f"encoder_{name}": value for name, value in self._reckoning.state().items()}
+        rolled = {f"encoder_{name}": value for name, value in self.reckoning.state().items()}
         tables = self.motors.tables
         times = {
             "last_ns": tables.last_ns[:, 0].copy(),
-            "reckoned_ns": np.array(self._reckoned_ns),
+            "reckoned_ns": np.array(self.reckoning.last_ns),
         }
         return {"speeds": tables.speeds[:, 0].copy(), **rolled, **times}
 
@@ -208,8 +208,25 @@ class DiffDrive(ModelPlugin):
         tables = self.motors.tables
         tables.speeds[:, 0][:], tables.last_ns[:, 0][:] = state["speeds"], state["last_ns"]
         self.motors.forget(None)  # the motors are given their speeds anew
-        self._reckoning.restore({n: state[f"encoder_{n}"] for n in ("pose", "twist", "angles")})
-        self._reckoned_ns = int(state["reckoned_ns"])
+        self.reckoning.restore({n: state[f"encoder_{n}"] for n in ("pose", "twist", "angles")})
+        self.reckoning.last_ns = int(state["reckoned_ns"])
+
+
+class EncoderDrives(BasePlugin):
+    """Some drives that count the turns of their wheels.
+
+    Args:
+        drives: At least one.
+    """
+
+    def __init__(self, drives: Sequence[DiffDrive]) -> None:
+        self._rolled = ReckoningGroup([each.reckoning for each in drives])
+        self._wheels = WheelGroup([each.motors for each in drives])
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
+        """Count and drive."""
+        self._rolled.advance()
+        self._wheels.tell()
 
 
 def _source(parameters: Parameters) -> str:

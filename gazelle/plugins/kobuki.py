@@ -2,29 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Hashable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Bools, Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.plugins.dead_reckoning import DeadReckoning
-from gazelle.plugins.kobuki_sensors import Bumpers, Cliffs
-from gazelle.plugins.odometry import OdometryOutputs
-from gazelle.plugins.publishing import Published
-from gazelle.sensors import ImuReading
+from gazelle.plugins.command_timeout import CommandGroup, CommandTimeout
+from gazelle.plugins.dead_reckoning import DeadReckoning, ReckoningGroup, RolledOdometry
+from gazelle.plugins.gyros import Gyros
+from gazelle.plugins.kobuki_sensors import Bumpers, Cliffs, sensor_of
+from gazelle.plugins.odometry import OdometryOutputs, measure_wanted
+from gazelle.sensors import ImuModel, ImuReading
 from gazelle.simulation import (
+    BasePlugin,
     Input,
+    JointArray,
     JointStates,
     ModelPlugin,
     Odometry,
     Output,
     Robot,
     Setting,
-    Stopwatch,
     TwistInput,
     absolute,
     namespace_of,
@@ -40,6 +41,17 @@ class Kobuki(ModelPlugin):
     """Drives two wheels until the last command is too old; tells of cliffs, bumps and the gyro.
 
     The odometry takes distances from the wheels and the heading from the gyro.
+
+    Attributes:
+        command: What it is told, and how long that holds.
+        half: Half the distance between the wheels [m].
+        radius: Of the wheels [m].
+        wheels: Left and right.
+        imu: Its gyro.
+        power: In which worlds its motors turn, shape (nworld,).
+        felt: What the gyro measured at the last update, shape (nworld, 10).
+        reckoning: Of how far the wheels have rolled.
+        odometry: What is published of that.
     """
 
     update_rate = 0.0
@@ -53,44 +65,38 @@ class Kobuki(ModelPlugin):
             raise SimulationError(
                 "wheel_separation and wheel_diameter must be positive", source=parameters.source
             )
-        self._half, self._radius = separation / 2.0, radius
+        self.half, self.radius = separation / 2.0, radius
         self._names = tuple(
             parameters.require(f"{side}_wheel_joint_name", str) for side in ("left", "right")
         )
-        self._wheels = [robot.joints[name] for name in self._names]
-        for wheel in self._wheels:
+        self.wheels = [robot.joints[name] for name in self._names]
+        for wheel in self.wheels:
             wheel.add_motor(parameters.require("torque", float))
-        self._timeout = parameters.require("velocity_command_timeout", float)
-        self._imu = robot.sensors[parameters.require("imu_name", str)]
+        self.imu = sensor_of(robot, parameters, "imu_name", ImuModel)
         self._cliffs, self._bumpers = Cliffs(robot, parameters), Bumpers(robot, parameters)
-        self._power = np.ones(robot.simulation.nworld, np.bool_)
-        self._reckoning = DeadReckoning(separation, radius, self._angles())
-        self._watch, self._silence = Stopwatch(self._clock), Stopwatch(self._clock)
+        nworld = robot.simulation.nworld
+        self.power, self.felt = np.ones(nworld, np.bool_), np.zeros((nworld, 10))
+        self.reckoning = DeadReckoning(self._clock, separation, radius, self.wheels)
+        command = robot.inputs["cmd_vel"] = TwistInput(nworld, "")
+        longest = parameters.require("velocity_command_timeout", float)
+        self.command = CommandTimeout(self._clock, command, longest)
+        self._own: KobukiGroup | None = None
         self._open_ports(robot, parameters)
-        self._heard = self._command.revision
 
     def _open_ports(self, robot: Robot, parameters: Parameters) -> None:
         namespace = namespace_of(robot, parameters)
-        nworld = robot.simulation.nworld
-        self._command = robot.inputs["cmd_vel"] = TwistInput(nworld, "")
         robot.inputs["motor_power"] = Input("", MotorPower, self._switch)
         robot.inputs["reset_odometry"] = Input(
-            "", Trigger, lambda _, worlds: self._reckoning.reset(worlds, self._angles())
+            "", Trigger, lambda _, worlds: self.reckoning.reset(worlds)
         )
-        opened: dict[str, Output[Any]] = {
-            "joint_states": Output(
-                absolute(namespace, "joint_states"),
-                JointStates,
-                self._read_wheels,
-                frame="base_link",
-            ),
-            "imu_data": Output("", ImuReading, self._feel, frame="gyro_link"),
-        }
-        robot.outputs.update(opened)
+        states = absolute(namespace, "joint_states")
+        self._states = Output(states, JointStates, self._read_wheels, frame="base_link")
+        self._imu_data = Output("", ImuReading, self._feel, frame="gyro_link")
+        robot.outputs.update(joint_states=self._states, imu_data=self._imu_data)
         framed = parameters.get("publish_tf", False)
         topic = absolute(namespace, "odom")
-        odometry = OdometryOutputs(robot, topic, self._measure, namespace, framed=framed)
-        self._published: tuple[Published, ...] = (*opened.values(), odometry)
+        measure = RolledOdometry(self.reckoning, "odom", "base_footprint", _VARIANCE)
+        self.odometry = OdometryOutputs(robot, topic, measure, namespace, framed=framed)
         self._cliffs.open(robot)
         self._bumpers.open(robot)
         self._namespace = namespace
@@ -113,78 +119,123 @@ class Kobuki(ModelPlugin):
                 output.topic = f"{base}/events/{kind}"
 
     def _switch(self, power: MotorPower, worlds: Worlds | None) -> None:
-        self._power[slice(None) if worlds is None else worlds] = power.on
+        self.power[slice(None) if worlds is None else worlds] = power.on
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
-        """Drive, count and tell."""
-        interval = self._watch.lap()
-        turning = self._feel().angular_velocity[:, 2]
-        self._reckoning.advance(self._angles(), interval, turning * interval)
-        self._drive()
-        for output in self._published:
-            output.publish()
+    def join(self, power: Bools, felt: Floats) -> None:
+        """Keep in which worlds motors turn, and what the gyro measured, in other arrays."""
+        power[:], felt[:] = self.power, self.felt
+        self.power, self.felt = power, felt
+        self._own = None
+
+    def kind(self) -> Hashable | None:
+        """All of them."""
+        return "Kobuki"
+
+    @classmethod
+    def together(cls, plugins: Sequence[Kobuki]) -> BasePlugin:
+        """The wheels of many; all that changes is kept in tables of all from then on."""
+        return KobukiGroup(plugins)
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether anybody listens to what it publishes."""
+        return (
+            self.odometry.wanted
+            or self._states.wanted
+            or self._imu_data.wanted
+            or self._cliffs.wanted
+            or self._bumpers.wanted
+        )
+
+    @classmethod
+    def measure_together(cls, plugins: Sequence[Kobuki]) -> list[Odometry | None]:
+        """The odometry of all robots that somebody listens to."""
+        return measure_wanted([each.odometry for each in plugins])
+
+    def publish_measured(self, measured: Odometry | None = None) -> None:
+        """Publish, an odometry that was measured already."""
+        self._states.publish()
+        if self._imu_data.wanted:
+            self._imu_data.hand(self._reading(self.felt.copy()))
+        self.odometry.publish(measured)
         self._cliffs.tell()
         self._bumpers.tell()
 
-    def _drive(self) -> None:
-        if self._command.revision != self._heard:
-            self._heard = self._command.revision
-            self._silence.restart()
-        elif self._silence.elapsed > self._timeout:
-            self._command.clear()
-            self._heard = self._command.revision
-            self._silence.restart()
-        forward = self._command.linear[:, 0] * self._power
-        across = self._command.angular[:, 2] * self._half * self._power
-        for wheel, sign in zip(self._wheels, (-1.0, 1.0), strict=True):
-            wheel.drive((forward + sign * across) / self._radius)
-
-    def _angles(self) -> Floats:
-        return np.concatenate([wheel.positions()[:, :1] for wheel in self._wheels], axis=1)
+    def on_update(self, time: float) -> None:
+        """Drive, count and tell."""
+        if self._own is None:
+            self._own = KobukiGroup([self])
+        self._own.on_update(time)
+        self.publish_measured()
 
     def _feel(self) -> ImuReading:
-        reading: ImuReading = self._imu.model.reading(self._imu.current(), self._clock.now_ns)
+        return self._reading(self.imu.current())
+
+    def _reading(self, values: Floats) -> ImuReading:
+        reading: ImuReading = self.imu.model.reading(values, self._clock.now_ns)
         return reading
 
-    def _measure(self) -> Odometry:
-        return self._reckoning.odometry(self._clock.now_ns, "odom", "base_footprint", _VARIANCE)
-
     def _read_wheels(self) -> JointStates:
-        speeds = [wheel.velocities()[:, :1] for wheel in self._wheels]
-        angles = self._angles()
-        return JointStates(
-            self._clock.now_ns,
-            self._names,
-            angles,
-            np.concatenate(speeds, axis=1),
-            np.zeros_like(angles),
-        )
+        angles = np.concatenate([wheel.positions()[:, :1] for wheel in self.wheels], axis=1)
+        speeds = np.concatenate([wheel.velocities()[:, :1] for wheel in self.wheels], axis=1)
+        return JointStates(self._clock.now_ns, self._names, angles, speeds, np.zeros_like(angles))
 
     def reset(self, worlds: Worlds | None) -> None:
         """Power on, odometry at its origin, nothing touched."""
-        self._power[slice(None) if worlds is None else worlds] = True
-        self._reckoning.reset(worlds, self._angles())
+        self.power[slice(None) if worlds is None else worlds] = True
+        self.reckoning.reset(worlds)
         self._cliffs.reset(worlds)
         self._bumpers.reset(worlds)
-        self._heard = self._command.revision
-        self._silence.restart()
+        self.command.restart()
         if worlds is None:
-            self._watch.restart()
+            self.reckoning.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Odometry, power, what is touched, and the times."""
         return {
-            **self._reckoning.state(),
-            "power": self._power.copy(),
+            **self.reckoning.state(),
+            "power": self.power.copy(),
             "deep": self._cliffs.deep.copy(),
             "pressed": self._bumpers.pressed.copy(),
-            "times": np.array([self._watch.start_ns, self._silence.start_ns]),
+            "times": np.array([self.reckoning.last_ns, self.command.since_ns]),
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._reckoning.restore(state)
-        self._power[:] = state["power"]
+        self.reckoning.restore(state)
+        self.power[:] = state["power"]
         self._cliffs.deep[:], self._bumpers.pressed[:] = state["deep"], state["pressed"]
-        self._watch.start_ns, self._silence.start_ns = (int(x) for x in state["times"])
-        self._heard = self._command.revision
+        self.reckoning.last_ns = int(state["times"][0])
+        self.command.restart(int(state["times"][1]))
+
+
+class KobukiGroup(BasePlugin):
+    """Drives some bases, and counts how far they roll.
+
+    Args:
+        bases: At least one.
+    """
+
+    def __init__(self, bases: Sequence[Kobuki]) -> None:
+        clock, nworld = bases[0].reckoning.clock, len(bases[0].power)
+        self._commands = CommandGroup(clock, [each.command for each in bases], nworld)
+        self._rolled = ReckoningGroup([each.reckoning for each in bases])
+        self._gyros = Gyros([each.imu for each in bases], nworld)
+        self._power = np.zeros((nworld, len(bases)), np.bool_)
+        for part, each in enumerate(bases):
+            each.join(self._power[:, part], self._gyros.values[:, part])
+        self._half = np.array([each.half for each in bases])
+        self._radius = np.array([each.radius for each in bases])
+        self._wheels = JointArray([wheel for each in bases for wheel in each.wheels])
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
+        """Feel, count and drive."""
+        self._gyros.measure()
+        self._rolled.advance(self._gyros.values[..., 6])
+        self._commands.clear_old()
+        forward = self._commands.linear[..., 0] * self._power
+        across = self._commands.angular[..., 2] * self._half * self._power
+        wanted = np.empty((*forward.shape, 2))
+        wanted[..., 0] = (forward - across) / self._radius
+        wanted[..., 1] = (forward + across) / self._radius
+        self._wheels.drive(wanted.reshape(len(wanted), -1))

@@ -37,7 +37,8 @@ class Cliffs:
     def __init__(self, robot: Robot, parameters: Parameters) -> None:
         self._threshold = parameters.require("cliff_detection_threshold", float)
         self._sensors = [
-            _with(robot, parameters, f"cliff_sensor_{place}_name", LidarModel) for place in _PLACES
+            sensor_of(robot, parameters, f"cliff_sensor_{place}_name", LidarModel)
+            for place in _PLACES
         ]
         self.deep = np.zeros((robot.simulation.nworld, 3), np.bool_)
         self._engine = robot.simulation.engine
@@ -58,9 +59,14 @@ class Cliffs:
 
         return read
 
+    @property
+    def wanted(self) -> bool:
+        """Whether anybody listens."""
+        return any(output.wanted for output in self._outputs)
+
     def tell(self) -> None:
         """Look, and publish where something changed."""
-        if not any(output.wanted for output in self._outputs):
+        if not self.wanted:
             return
         for place, sensor in enumerate(self._sensors):
             nearest = self._distances[:, place] = self._look(sensor)
@@ -72,7 +78,7 @@ class Cliffs:
 
     def _look(self, sensor: SensorUnit) -> Floats:
         """Distance to the floor [m]; the base's own hull, which the sensors are in, is no floor."""
-        model: LidarModel = sensor.model  # type: ignore[assignment]  # seen to in _with
+        model: LidarModel = sensor.model  # type: ignore[assignment]  # seen to in sensor_of
         pose, least = sensor.description.pose, model.lidar.range_min
         rays = directions_of(model.angles, model.vertical_angles) @ pose.matrix()[:3, :3].T
         origins = np.asarray(pose.position) + least * rays
@@ -94,7 +100,7 @@ class Bumpers:
 
     def __init__(self, robot: Robot, parameters: Parameters) -> None:
         self._robot = robot
-        self._sensor = _with(robot, parameters, "bumper_name", ContactModel)
+        self._sensor = sensor_of(robot, parameters, "bumper_name", ContactModel)
         self.pressed = np.zeros((robot.simulation.nworld, 3), np.bool_)
         self._outputs: list[Output[BumperValue]] = []
 
@@ -108,9 +114,14 @@ class Bumpers:
     def _value_of(self, place: int) -> Callable[[], BumperValue]:
         return lambda: BumperValue(place, self.pressed[:, place].copy())
 
+    @property
+    def wanted(self) -> bool:
+        """Whether anybody listens."""
+        return any(output.wanted for output in self._outputs)
+
     def tell(self) -> None:
         """Feel, and publish what changed."""
-        if not any(output.wanted for output in self._outputs):
+        if not self.wanted:
             return
         touched = self._touched()
         changed = (touched != self.pressed).any(axis=0)
@@ -138,7 +149,7 @@ class Bumpers:
         self.pressed[slice(None) if worlds is None else worlds] = False
 
 
-def _with(robot: Robot, parameters: Parameters, tag: str, model: type[object]) -> SensorUnit:
+def sensor_of(robot: Robot, parameters: Parameters, tag: str, model: type[object]) -> SensorUnit:
     """The sensor that a tag names, of the kind that it must be."""
     sensor = robot.sensors[parameters.require(tag, str)]
     if not isinstance(sensor.model, model):

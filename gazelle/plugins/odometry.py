@@ -1,9 +1,11 @@
-"""Odometry from a model's true motion, as most of Gazebo's drives publish it."""
+"""Odometry as drives publish it, and from a model's true motion, as most of Gazebo's do."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -20,8 +22,27 @@ POSE_VARIANCE: SixNumbers = (1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3)
 _ABOUT_Z = np.array([0.0, 0.0, 1.0])
 
 
+class OdometrySource(ABC):
+    """What measures a robot's odometry, or that of many at once."""
+
+    __slots__ = ()
+
+    @abstractmethod
+    def __call__(self) -> Odometry:
+        """The odometry now."""
+
+    @classmethod
+    @abstractmethod
+    def measure_all(cls, sources: Sequence[Any]) -> Sequence[Odometry]:
+        """The odometry of many robots of one simulation.
+
+        Args:
+            sources: Of this class, at least one.
+        """
+
+
 @dataclass(frozen=True, slots=True)
-class TrueOdometry:
+class TrueOdometry(OdometrySource):
     """A model's pose in the world, and its velocity on the ground as seen from its heading.
 
     Args:
@@ -43,6 +64,11 @@ class TrueOdometry:
         place, motion = self.robot.placement(), self.robot.motion()
         linear = seen_on_ground(place.quaternion, motion.linear)
         return self.of(place.position, place.quaternion, linear, motion.angular * _ABOUT_Z)
+
+    @classmethod
+    def measure_all(cls, sources: Sequence[TrueOdometry]) -> list[Odometry]:
+        """The odometry of many robots of one simulation; at once where its engine can."""
+        return _measured_together(sources)
 
     def of(self, position: Floats, quaternion: Floats, linear: Floats, angular: Floats) -> Odometry:
         """The odometry of what was measured."""
@@ -71,7 +97,7 @@ class OdometryOutputs:
         framed: Whether there is ``odom_tf``.
 
     Attributes:
-        source: What measures it, if that is the model's true motion.
+        source: What measures it, if many of that may be measured at once.
     """
 
     def __init__(
@@ -85,7 +111,7 @@ class OdometryOutputs:
         framed: bool = True,
     ) -> None:
         self._measure = measure
-        self.source = measure if isinstance(measure, TrueOdometry) else None
+        self.source = measure if isinstance(measure, OdometrySource) else None
         self._odom: Output[Odometry] | None = None
         self._frame: Output[Transforms] | None = None
         if told:
@@ -116,11 +142,17 @@ class OdometryOutputs:
             self._frame.hand(as_transforms(odometry))
 
 
-def measure_wanted(outputs: Sequence[OdometryOutputs]) -> list[Odometry | None]:
-    """What somebody listens to, measured at once as far as it is true motion; else None."""
-    true = {i: each.source for i, each in enumerate(outputs) if each.source and each.wanted}
-    measured = dict(zip(true, _measured_together(list(true.values())), strict=True))
-    return [measured.get(i) for i in range(len(outputs))]
+def measure_wanted(outputs: Sequence[OdometryOutputs | None]) -> list[Odometry | None]:
+    """What somebody listens to, measured at once where that can be; else None."""
+    found: list[Odometry | None] = [None] * len(outputs)
+    wanted: dict[type[OdometrySource], dict[int, OdometrySource]] = {}
+    for i, each in enumerate(outputs):
+        if each is not None and each.source is not None and each.wanted:
+            wanted.setdefault(type(each.source), {})[i] = each.source
+    for kind, sources in wanted.items():
+        for i, odometry in zip(sources, kind.measure_all(list(sources.values())), strict=True):
+            found[i] = odometry
+    return found
 
 
 def _measured_together(sources: Sequence[TrueOdometry]) -> list[Odometry]:

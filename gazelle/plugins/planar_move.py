@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.engines.planar.twist_commands import TwistCommands
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
+from gazelle.plugins.command_timeout import CommandGroup, CommandTimeout
 from gazelle.plugins.odometry import OdometryOutputs, TrueOdometry, measure_wanted
 from gazelle.simulation import (
     BasePlugin,
@@ -19,7 +21,6 @@ from gazelle.simulation import (
     Odometry,
     Robot,
     Simulation,
-    Stopwatch,
     TwistInput,
     absolute,
     namespace_of,
@@ -31,6 +32,10 @@ class PlanarMove(ModelPlugin):
     """Sets the model's velocity at every step: forward, sideways and turning.
 
     Its weight has no effect: the velocity upwards is held at zero, as in the original.
+
+    Attributes:
+        command: What it is told, and how long that holds.
+        odometry: What is published.
     """
 
     update_rate = 0.0
@@ -42,8 +47,9 @@ class PlanarMove(ModelPlugin):
         namespace = namespace_of(robot, parameters)
         topic = absolute(namespace, parameters.get("commandTopic", "cmd_vel"))
         self._command = robot.inputs["cmd_vel"] = TwistInput(robot.simulation.nworld, topic)
-        self._timeout = parameters.get("cmdTimeout", -1.0)
-        self._heard, self._silence = self._command.revision, Stopwatch(self._clock)
+        timeout = parameters.get("cmdTimeout", -1.0)
+        longest = timeout if timeout >= 0.0 else math.inf
+        self.command = CommandTimeout(self._clock, self._command, longest)
         frame = parameters.get("odometryFrame", "odom")
         base = parameters.get("robotBaseFrame", "base_footprint")
         rate = parameters.get("odometryRate", 20.0)
@@ -53,23 +59,22 @@ class PlanarMove(ModelPlugin):
         self.odometry = OdometryOutputs(robot, odometry, measure, namespace)
 
     def kind(self) -> Hashable | None:
-        """All that never give up an old command, where the engine moves many at once."""
+        """All, where the engine moves many at once; in native code those that go on for ever."""
         simulation = self._robot.simulation
-        if self._timeout >= 0.0 or (simulation.native is None and simulation.tables is None):
-            return None
-        return "PlanarMove"
+        for_ever = math.isinf(self.command.longest)
+        together = simulation.tables is not None or (simulation.native is not None and for_ever)
+        return ("PlanarMove", for_ever) if together else None
 
     @classmethod
     def together(cls, plugins: Sequence[PlanarMove]) -> System | BasePlugin:
         """The commands of many bases; they are kept in arrays of all from then on."""
         simulation = plugins[0].robot.simulation
-        linear, angular = np.zeros((2, simulation.nworld, len(plugins), 3))
-        for part, each in enumerate(plugins):
-            each.keep_in(linear[:, part], angular[:, part])
+        told = [each.command for each in plugins]
+        commands = CommandGroup(simulation.clock, told, simulation.nworld)
         names = [each.robot.name for each in plugins]
         if simulation.native is None:
-            return SlidingGroup(simulation, names, linear, angular)
-        law = TwistCommands(linear, angular)
+            return SlidingGroup(simulation, names, commands)
+        law = TwistCommands(commands.linear, commands.angular)
         simulation.native.model_table(names).command(law)
         return law
 
@@ -77,10 +82,6 @@ class PlanarMove(ModelPlugin):
     def robot(self) -> Robot:
         """What moves."""
         return self._robot
-
-    def keep_in(self, linear: Floats, angular: Floats) -> None:
-        """Keep commands in other arrays, shape (nworld, 3) each."""
-        self._command.keep_in(linear, angular)
 
     @property
     def is_heard(self) -> bool:
@@ -113,7 +114,7 @@ class PlanarMove(ModelPlugin):
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
         """Move, and publish when it is time to."""
-        self._give_up_old()
+        self.command.clear_old()
         twist = self._command.linear.copy()
         twist[:, 2] = self._command.angular[:, 2]
         self._robot.simulation.engine.set_ground_motion(self._robot.name, twist)
@@ -121,33 +122,19 @@ class PlanarMove(ModelPlugin):
 
     def reset(self, worlds: Worlds | None) -> None:
         """Begin anew."""
-        self._heard = self._command.revision
-        self._silence.restart()
+        self.command.restart()
         if worlds is None and self._schedule is not None:
             self._schedule.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """The time of the last command."""
-        return {"heard_at": np.array(self._silence.start_ns)}
+        return {"heard_at": np.array(self.command.since_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._silence.start_ns = int(state["heard_at"])
-        self._heard = self._command.revision
+        self.command.restart(int(state["heard_at"]))
         if self._schedule is not None:
             self._schedule.done(self._clock.now_ns)
-
-    def _give_up_old(self) -> None:
-        """Stand still when no command came for too long."""
-        if self._timeout < 0.0:
-            return
-        if self._command.revision != self._heard:
-            self._heard = self._command.revision
-            self._silence.restart()
-        elif self._silence.elapsed > self._timeout:
-            self._command.clear()
-            self._heard = self._command.revision
-            self._silence.restart()
 
 
 class SlidingGroup(BasePlugin):
@@ -156,21 +143,23 @@ class SlidingGroup(BasePlugin):
     Args:
         simulation: Has them.
         models: Their names.
-        linear: What they are told [m/s], shape (nworld, n, 3).
-        angular: Likewise [rad/s].
+        commands: What they are told.
     """
 
     def __init__(
-        self, simulation: Simulation, models: Sequence[str], linear: Floats, angular: Floats
+        self, simulation: Simulation, models: Sequence[str], commands: CommandGroup
     ) -> None:
-        self._simulation, self._models = simulation, tuple(models)
-        self._linear, self._angular = linear, angular
+        self._simulation, self._models, self._commands = simulation, tuple(models), commands
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the last command holds
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Move."""
         engine = self._simulation.tables
         if engine is None:
             raise SimulationError("the engine moves one model at a time")
-        twist = self._linear.copy()
-        twist[:, :, 2] = self._angular[:, :, 2]
-        engine.set_ground_motions(self._models, twist)
+        self._commands.clear_old()
+        twist = self._commands.linear.copy()
+        twist[:, :, 2] = self._commands.angular[:, :, 2]
+        if len(self._models) == 1:  # a single one is moved faster by itself
+            self._simulation.engine.set_ground_motion(self._models[0], twist[:, 0])
+        else:
+            engine.set_ground_motions(self._models, twist)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,17 +12,24 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.plugins.dead_reckoning import DeadReckoning
+from gazelle.plugins.dead_reckoning import DeadReckoning, ReckoningGroup, RolledOdometry
 from gazelle.plugins.frames import frames_output, joint_transforms
-from gazelle.plugins.odometry import POSE_VARIANCE, OdometryOutputs, TrueOdometry
+from gazelle.plugins.odometry import (
+    POSE_VARIANCE,
+    OdometryOutputs,
+    OdometrySource,
+    TrueOdometry,
+    measure_wanted,
+)
 from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
+    BasePlugin,
+    JointArray,
     JointStates,
     ModelPlugin,
     Odometry,
     Output,
     Robot,
-    Stopwatch,
     Transforms,
     TwistInput,
     absolute,
@@ -37,59 +45,97 @@ _JOINTS = (
 _MOST_ANGLE = math.pi / 2.0
 
 
+@dataclass(frozen=True, slots=True)
+class TricycleLimits:
+    """How a tricycle drives and steers.
+
+    Attributes:
+        radius: Of the driven wheel [m].
+        acceleration: Of the wheel [rad/s²]; 0 for no limit.
+        deceleration: Likewise.
+        speed_tolerance: Less lack of speed than this is none [rad/s].
+        steering_speed: [rad/s]; 0 to be there at once.
+        angle_tolerance: Less lack of angle than this is none [rad].
+    """
+
+    radius: float
+    acceleration: float
+    deceleration: float
+    speed_tolerance: float
+    steering_speed: float
+    angle_tolerance: float
+
+    @classmethod
+    def read(cls, parameters: Parameters) -> TricycleLimits:
+        """Read the tags.
+
+        Raises:
+            SimulationError: The wheel has no size.
+        """
+        radius = parameters.get("actuatedWheelDiameter", 0.15) / 2.0
+        if radius <= 0.0:
+            raise SimulationError(
+                "actuatedWheelDiameter must be positive", source=parameters.source
+            )
+        acceleration = parameters.get("wheelAcceleration", 0.0)
+        return cls(
+            radius,
+            acceleration,
+            parameters.get("wheelDeceleration", acceleration),
+            parameters.get("wheelSpeedTolerance", 0.01),
+            parameters.get("steeringSpeed", 0.0),
+            parameters.get("steeringAngleTolerance", 0.01),
+        )
+
+
 class TricycleDrive(ModelPlugin):
     """Takes ``linear.x`` as the speed of the driven wheel and ``angular.z`` as its angle.
 
     The last command holds for ever.
+
+    Attributes:
+        limits: Of its speeds and angles.
+        odometry: What is published of where it is.
+        reckoning: Of how far the wheels that count have rolled.
+        joints: Those that steer, drive, and count.
+        from_encoders: Whether the odometry is what wheels have rolled.
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, put motors on the wheel, open ``cmd_vel`` and ``odom``."""
         self._robot, self._clock = robot, robot.simulation.clock
-        self._read_limits(parameters)
+        self.limits = TricycleLimits.read(parameters)
         torque = parameters.get("wheelTorque", 5.0)
         self._names = tuple(parameters.get(tag, name) for tag, name in _JOINTS)
-        self._joints = [robot.joints[name] for name in self._names]
-        self._steering, self._wheel = self._joints[0], self._joints[1]
-        self._wheel.add_motor(torque)
-        if self._steering_speed > 0.0:
-            self._steering.add_motor(torque)
+        self.joints = [robot.joints[name] for name in self._names]
+        self.joints[1].add_motor(torque)
+        if self.limits.steering_speed > 0.0:
+            self.joints[0].add_motor(torque)
         source = parameters.get("odometrySource", "world")
         if source not in ("world", "encoder", "0", "1"):
             raise SimulationError(
                 f"odometrySource must be world or encoder, not '{source}'",
                 source=parameters.source,
             )
-        self._from_encoders = source in ("encoder", "0")
-        self._reckoning = DeadReckoning(
+        self.from_encoders = source in ("encoder", "0")
+        self.reckoning = DeadReckoning(
+            self._clock,
             parameters.get("encoderWheelSeparation", 0.5),
             parameters.get("encoderWheelDiameter", 0.15) / 2.0,
-            self._angles(),
+            self.joints[2:],
         )
         self.update_rate = parameters.get("updateRate", 100.0)
-        self._watch = Stopwatch(robot.simulation.clock)
+        self._own: TricycleGroup | None = None
         self._open_ports(robot, parameters)
-
-    def _read_limits(self, parameters: Parameters) -> None:
-        self._radius = parameters.get("actuatedWheelDiameter", 0.15) / 2.0
-        if self._radius <= 0.0:
-            raise SimulationError(
-                "actuatedWheelDiameter must be positive", source=parameters.source
-            )
-        self._acceleration = parameters.get("wheelAcceleration", 0.0)
-        self._deceleration = parameters.get("wheelDeceleration", self._acceleration)
-        self._speed_tolerance = parameters.get("wheelSpeedTolerance", 0.01)
-        self._steering_speed = parameters.get("steeringSpeed", 0.0)
-        self._angle_tolerance = parameters.get("steeringAngleTolerance", 0.01)
 
     def _open_ports(self, robot: Robot, parameters: Parameters) -> None:
         namespace = namespace_of(robot, parameters, robot.name)
         command = absolute(namespace, parameters.get("commandTopic", "cmd_vel"))
         self._command = robot.inputs["cmd_vel"] = TwistInput(robot.simulation.nworld, command)
-        self._frame = parameters.get("odometryFrame", "odom")
-        self._base = parameters.get("robotBaseFrame", "base_link")
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        published: list[Published] = [OdometryOutputs(robot, topic, self._measure, namespace)]
+        measure = self._odometry_source(parameters)
+        self.odometry = OdometryOutputs(robot, topic, measure, namespace)
+        published: list[Published] = [self.odometry]
         if parameters.get("publishWheelTF", False):
             robot.outputs["wheel_tf"] = frames_output(self._wheel_frames, namespace)
             published.append(robot.outputs["wheel_tf"])
@@ -101,44 +147,49 @@ class TricycleDrive(ModelPlugin):
             published.append(robot.outputs["joint_states"])
         self._published = tuple(published)
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
-        """Drive, steer and publish."""
-        interval = self._watch.lap()
-        if self._from_encoders:
-            self._reckoning.advance(self._angles(), interval)
-        self._drive(interval)
-        self._steer()
-        for output in self._published:
+    def _odometry_source(self, parameters: Parameters) -> OdometrySource:
+        frame = parameters.get("odometryFrame", "odom")
+        base = parameters.get("robotBaseFrame", "base_link")
+        if not self.from_encoders:
+            return TrueOdometry(self._robot, frame, base)
+        return RolledOdometry(self.reckoning, frame, base, POSE_VARIANCE)
+
+    def keep_in(self, linear: Floats, angular: Floats) -> None:
+        """Keep commands in other arrays, shape (nworld, 3) each."""
+        self._command.keep_in(linear, angular)
+        self._own = None
+
+    def kind(self) -> Hashable | None:
+        """All that count the turns of their wheels, and all that do not."""
+        return "TricycleDrive", self.from_encoders
+
+    @classmethod
+    def together(cls, plugins: Sequence[TricycleDrive]) -> BasePlugin:
+        """The wheels of many robots; commands and odometry are kept in tables of all from then on."""
+        return TricycleGroup(plugins)
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether anybody listens to what is published."""
+        return any(output.wanted for output in self._published)
+
+    @classmethod
+    def measure_together(cls, plugins: Sequence[TricycleDrive]) -> list[Odometry | None]:
+        """The odometry of all robots that somebody listens to."""
+        return measure_wanted([each.odometry for each in plugins])
+
+    def publish_measured(self, measured: Odometry | None = None) -> None:
+        """Publish, an odometry that was measured already."""
+        self.odometry.publish(measured)
+        for output in self._published[1:]:
             output.publish()
 
-    def _drive(self, interval: float) -> None:
-        target = self._command.linear[:, 0] / self._radius
-        if self._acceleration > 0.0:
-            current = self._wheel.velocities()[:, 0]
-            lack = target - current
-            most = np.where(lack > 0.0, self._acceleration, self._deceleration) * interval
-            ramped = current + np.clip(lack, -most, most)
-            target = np.where(np.abs(lack) < self._speed_tolerance, current, ramped)
-        self._wheel.drive(target)
-
-    def _steer(self) -> None:
-        target = np.clip(self._command.angular[:, 2], -_MOST_ANGLE, _MOST_ANGLE)
-        if self._steering_speed <= 0.0:
-            self._steering.position = target
-            self._steering.velocity = np.zeros_like(target)
-            return
-        lack = target - self._steering.positions()[:, 0]
-        pace = np.where(np.abs(lack) < self._angle_tolerance, 0.0, np.sign(lack))
-        self._steering.drive(pace * self._steering_speed)
-
-    def _angles(self) -> Floats:
-        return np.concatenate([joint.positions()[:, :1] for joint in self._joints[2:]], axis=1)
-
-    def _measure(self) -> Odometry:
-        if not self._from_encoders:
-            return TrueOdometry(self._robot, self._frame, self._base)()
-        now = self._clock.now_ns
-        return self._reckoning.odometry(now, self._frame, self._base, POSE_VARIANCE)
+    def on_update(self, time: float) -> None:
+        """Drive, steer and publish."""
+        if self._own is None:
+            self._own = TricycleGroup([self])
+        self._own.on_update(time)
+        self.publish_measured()
 
     def _wheel_frames(self) -> Transforms:
         return joint_transforms(self._robot, map(self._robot.joint_description, self._names))
@@ -148,22 +199,78 @@ class TricycleDrive(ModelPlugin):
         return JointStates(
             self._clock.now_ns,
             self._names,
-            np.concatenate([joint.positions()[:, :1] for joint in self._joints], axis=1),
-            np.concatenate([joint.velocities()[:, :1] for joint in self._joints], axis=1),
-            np.concatenate([engine.joint_effort(joint.name)[:, :1] for joint in self._joints], 1),
+            np.concatenate([joint.positions()[:, :1] for joint in self.joints], axis=1),
+            np.concatenate([joint.velocities()[:, :1] for joint in self.joints], axis=1),
+            np.concatenate([engine.joint_effort(joint.name)[:, :1] for joint in self.joints], 1),
         )
 
     def reset(self, worlds: Worlds | None) -> None:
         """The odometry starts at its origin."""
-        self._reckoning.reset(worlds, self._angles())
+        self.reckoning.reset(worlds)
         if worlds is None:
-            self._watch.restart()
+            self.reckoning.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Odometry and time of the last update."""
-        return {**self._reckoning.state(), "last_time": np.array(self._watch.start_ns)}
+        return {**self.reckoning.state(), "last_time": np.array(self.reckoning.last_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
-        self._reckoning.restore(state)
-        self._watch.start_ns = int(state["last_time"])
+        self.reckoning.restore(state)
+        self.reckoning.last_ns = int(state["last_time"])
+
+
+class TricycleGroup(BasePlugin):
+    """Drives and steers some tricycles, and counts how far their wheels roll.
+
+    Args:
+        drives: At least one.
+    """
+
+    def __init__(self, drives: Sequence[TricycleDrive]) -> None:
+        self._rolled = ReckoningGroup([each.reckoning for each in drives])
+        self._from_encoders = drives[0].from_encoders
+        limits = [each.limits for each in drives]
+        self._radius = np.array([each.radius for each in limits])
+        self._acceleration = np.array([each.acceleration for each in limits])
+        self._deceleration = np.array([each.deceleration for each in limits])
+        self._speed_tolerance = np.array([each.speed_tolerance for each in limits])
+        self._steering_speed = np.array([each.steering_speed for each in limits])
+        self._angle_tolerance = np.array([each.angle_tolerance for each in limits])
+        self._steering = JointArray([each.joints[0] for each in drives])
+        self._wheels = JointArray([each.joints[1] for each in drives])
+        self._linear, self._angular = np.zeros((2, *self._rolled.tables.pose.shape))
+        for part, each in enumerate(drives):
+            each.keep_in(self._linear[:, part], self._angular[:, part])
+
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
+        """Count, drive and steer."""
+        interval = self._rolled.interval()
+        if self._from_encoders:
+            self._rolled.advance()
+        else:
+            self._rolled.restart()
+        self._drive(interval)
+        self._steer()
+
+    def _drive(self, interval: Floats) -> None:
+        target = self._linear[..., 0] / self._radius
+        ramped = self._acceleration > 0.0
+        if ramped.any():
+            current = self._wheels.velocities()
+            lack = target - current
+            most = np.where(lack > 0.0, self._acceleration, self._deceleration) * interval
+            near = np.abs(lack) < self._speed_tolerance
+            slow = np.where(near, current, current + np.clip(lack, -most, most))
+            target = np.where(ramped, slow, target)
+        self._wheels.drive(target)
+
+    def _steer(self) -> None:
+        target = np.clip(self._angular[..., 2], -_MOST_ANGLE, _MOST_ANGLE)
+        placed = self._steering_speed <= 0.0
+        if placed.any():
+            self._steering.place(target, 0.0, placed)
+        if not placed.all():
+            lack = target - self._steering.positions()
+            pace = np.where(np.abs(lack) < self._angle_tolerance, 0.0, np.sign(lack))
+            self._steering.drive(pace * self._steering_speed, ~placed)

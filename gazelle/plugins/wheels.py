@@ -110,7 +110,7 @@ class WheeledDrive(ModelPlugin):
     @classmethod
     def measure_together(cls, plugins: Sequence[WheeledDrive]) -> list[Odometry | None]:
         """The odometry of all robots that somebody listens to."""
-        return measure_wanted([each.odometry for each in plugins if each.odometry is not None])
+        return measure_wanted([each.odometry for each in plugins])
 
     def publish_measured(self, measured: Odometry | None = None) -> None:
         """Publish the odometry, which may have been measured already."""

@@ -50,6 +50,25 @@ class JointArray:
         return np.concatenate([joint.velocities()[:, :1] for joint in self._joints], axis=1)
 
     @between_steps
+    def place(self, position: ArrayLike, velocity: ArrayLike, chosen: Bools) -> None:
+        """Put joints somewhere, to their limits at most, and give them velocities.
+
+        Args:
+            position: [m or rad], shape (nworld, joints) or one that broadcasts to it.
+            velocity: [m/s or rad/s], likewise.
+            chosen: Which joints, shape (joints,).
+        """
+        shape = (self._simulation.nworld, len(self._joints))
+        where, speed = np.broadcast_to(position, shape), np.broadcast_to(velocity, shape)
+        engine = self._simulation.tables
+        if engine is not None:
+            engine.place_joints(self._names, where, speed, np.broadcast_to(chosen, shape))
+            return
+        for column in np.flatnonzero(chosen):
+            joint = self._joints[column]
+            joint.position, joint.velocity = where[:, column], speed[:, column]
+
+    @between_steps
     def drive(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
         """Set what the joints' motors hold; ``JointHandle.add_motor`` gave them one.
 
@@ -62,7 +81,9 @@ class JointArray:
         """
         shape = (self._simulation.nworld, len(self._joints))
         try:
-            wanted = np.broadcast_to(np.asarray(velocity, np.float64), shape)
+            wanted = np.asarray(velocity, np.float64)
+            if wanted.shape != shape:
+                wanted = np.broadcast_to(wanted, shape)
         except (TypeError, ValueError) as error:
             raise SimulationError(
                 f"the velocities of {shape[1]} motors cannot be {velocity!r}: {error}",

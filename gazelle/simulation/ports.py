@@ -13,7 +13,7 @@ from enum import Enum
 from typing import Any, Generic, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
@@ -36,7 +36,6 @@ class TwistInput(StatePart):
         topic: Topic name that the file asks for.
 
     Attributes:
-        revision: Counts commands, so that a drive sees that there is a new one.
         steers: Whether it takes turning for the angle of steered wheels [rad], not for a rate.
     """
 
@@ -44,19 +43,30 @@ class TwistInput(StatePart):
 
     def __init__(self, nworld: int, topic: str) -> None:
         self.topic = topic
-        self.revision = 0
+        self._revision = np.zeros(1, np.int64)
         self.linear: Floats = np.zeros((nworld, 3))
         self.angular: Floats = np.zeros((nworld, 3))
 
-    def keep_in(self, linear: Floats, angular: Floats) -> None:
+    @property
+    def revision(self) -> int:
+        """Counts commands, so that a drive sees that there is a new one."""
+        return int(self._revision[0])
+
+    def keep_in(
+        self, linear: Floats, angular: Floats, revision: NDArray[np.int64] | None = None
+    ) -> None:
         """Keep commands in other arrays from now on, such as columns of those of a system.
 
         Args:
             linear: Shape (nworld, 3).
             angular: Likewise.
+            revision: For the count of commands, shape (1,).
         """
         linear[:], angular[:] = self.linear, self.angular
         self.linear, self.angular = linear, angular
+        if revision is not None:
+            revision[:] = self._revision
+            self._revision = revision
 
     @between_steps
     def send(
@@ -82,7 +92,7 @@ class TwistInput(StatePart):
         forward = self._vectors(linear, 0, count)
         self.angular[rows] = self._vectors(angular, 2, count)
         self.linear[rows] = forward
-        self.revision += 1
+        self._revision += 1
 
     def _vectors(self, given: ArrayLike, axis: int, count: int) -> Floats:
         """Vectors of so many worlds, shape (count, 3) or (1, 3)."""
@@ -115,7 +125,7 @@ class TwistInput(StatePart):
         rows: slice | Worlds = slice(None) if worlds is None else worlds
         self.linear[rows] = 0.0
         self.angular[rows] = 0.0
-        self.revision += 1
+        self._revision += 1
 
 
 class Input(StatePart, Generic[T]):

@@ -18,15 +18,43 @@ SOLID = """<inertial><mass>{0}</mass><inertia><ixx>{1}</ixx><iyy>{1}</iyy><izz>{
 <iyz>0</iyz></inertia></inertial>"""
 WHEEL = """<link name='{0}'><pose>{1} {2} .05 -1.5708 0 0</pose>{3}<collision name='c'><geometry><sphere>
 <radius>.05</radius></sphere></geometry></collision></link><joint name='{0}_joint' type='continuous'>
-<parent>base</parent><child>{0}</child><axis><xyz>0 0 1</xyz></axis></joint>"""
+<parent>{4}</parent><child>{0}</child><axis><xyz>0 0 1</xyz></axis></joint>"""
+FORK = """<link name='{0}'><pose>{1} {2} .05 0 0 0</pose>{3}</link><joint name='{0}_joint' type='continuous'>
+<parent>{4}</parent><child>{0}</child><axis><xyz>0 0 1</xyz></axis></joint>"""
 ROBOT = """<model name='{0}'><pose>{1} {2} 0 0 0 {1}</pose><link name='base'><pose>.03 0 .1 0 0 {3}</pose>{4}
-<collision name='b'><geometry><box><size>.3 .2 .05</size></box></geometry></collision></link>{5}</model>"""
+<collision name='b'><geometry><box><size>.3 .2 .05</size></box></geometry></collision>{6}</link>{5}</model>"""
 GROUND = """<model name='ground'><static>1</static><link name='l'><collision name='c'><geometry><plane>
 <normal>0 0 1</normal></plane></geometry></collision></link></model>"""
 PLACES = {"left": (0.0, 0.12), "right": (0.0, -0.12), "left_front": (0.1, 0.12),
-          "right_front": (0.1, -0.12), "left_rear": (-0.1, 0.12), "right_rear": (-0.1, -0.12)}  # fmt: skip
+          "right_front": (0.1, -0.12), "left_rear": (-0.1, 0.12), "right_rear": (-0.1, -0.12),
+          "fork": (0.1, 0.0), "front": (0.1, 0.0)}  # fmt: skip
+CORNERS = tuple(PLACES)[2:6]
 SIZES = "<wheelSeparation>.24</wheelSeparation><wheelDiameter>.1</wheelDiameter><updateRate>20</updateRate>"
 DIFF = "<leftJoint>left_joint</leftJoint><rightJoint>right_joint</rightJoint>" + SIZES
+TRICYCLE = (
+    "<steeringJoint>fork_joint</steeringJoint><actuatedWheelJoint>front_joint</actuatedWheelJoint>"
+    "<actuatedWheelDiameter>.1</actuatedWheelDiameter><encoderWheelDiameter>.1</encoderWheelDiameter>"
+    "<encoderWheelLeftJoint>left_joint</encoderWheelLeftJoint><updateRate>20</updateRate>"
+    "<encoderWheelRightJoint>right_joint</encoderWheelRightJoint>"
+)
+ENCODERS = "<odometrySource>encoder</odometrySource>"
+KOBUKI = """<left_wheel_joint_name>left_joint</left_wheel_joint_name><wheel_diameter>.1</wheel_diameter>
+<right_wheel_joint_name>right_joint</right_wheel_joint_name><wheel_separation>.24</wheel_separation>
+<torque>5</torque><velocity_command_timeout>.2</velocity_command_timeout><imu_name>imu</imu_name>
+<cliff_detection_threshold>.2</cliff_detection_threshold><bumper_name>bumper</bumper_name>""" + "".join(
+    f"<cliff_sensor_{side}_name>{side}</cliff_sensor_{side}_name>"
+    for side in ("left", "center", "right")
+)
+SPREAD = (
+    "<noise type='gaussian'><mean>0</mean><stddev>.01</stddev><bias_mean>.02</bias_mean></noise>"
+)
+SENSORS = f"""<sensor name='imu' type='imu'><update_rate>30</update_rate><imu><angular_velocity><z>{SPREAD}</z>
+</angular_velocity></imu></sensor><sensor name='bumper' type='contact'><contact><collision>b</collision></contact>
+</sensor>""" + "".join(
+    f"<sensor name='{side}' type='ray'><pose>.1 {y} 0 0 1.5708 0</pose><ray><scan><horizontal><samples>1</samples>"
+    "</horizontal></scan><range><min>.01</min><max>1</max></range></ray></sensor>"
+    for side, y in (("left", 0.05), ("center", 0.0), ("right", -0.05))
+)  # fmt: skip
 KINDS = {
     "diff": (
         "libgazebo_ros_diff_drive.so",
@@ -39,23 +67,47 @@ KINDS = {
         ("left", "right"),
         DIFF.replace(">20<", ">0<"),
     ),
-    "skid": ("libgazebo_ros_skid_steer_drive.so", tuple(PLACES)[2:], SIZES),
+    "skid": ("libgazebo_ros_skid_steer_drive.so", CORNERS, SIZES),
     "built in": (
         "libDiffDrivePlugin.so",
         ("left", "right"),
         "<left_joint>left_joint</left_joint><right_joint>right_joint</right_joint>",
     ),
+    "encoders": (
+        "libgazebo_ros_diff_drive.so",
+        ("left", "right"),
+        DIFF + ENCODERS + "<publishWheelTF>1</publishWheelTF>",
+    ),
+    "tricycle": (
+        "libgazebo_ros_tricycle_drive.so",
+        ("fork", "front", "left", "right"),
+        TRICYCLE + "<publishWheelJointState>1</publishWheelJointState>",
+    ),
+    "slow tricycle": (
+        "libgazebo_ros_tricycle_drive.so",
+        ("fork", "front", "left", "right"),
+        TRICYCLE + ENCODERS + "<steeringSpeed>.8</steeringSpeed>"
+        "<wheelAcceleration>9</wheelAcceleration>",
+    ),
     "slide": ("libgazebo_ros_planar_move.so", ("left",), "<odometryRate>30</odometryRate>"),
+    "patient": ("libgazebo_ros_planar_move.so", ("left",), "<cmdTimeout>.1</cmdTimeout>"),
+    "kobuki": ("libgazebo_ros_kobuki.so", ("left", "right"), KOBUKI),
 }
+
+
+def part_of_drive(name):
+    parent = "fork" if name == "front" else "base"
+    form = FORK if name == "fork" else WHEEL
+    return form.format(name, *PLACES[name], SOLID.format(0.3, 4e-4), parent)
 
 
 def robot(number, plugin):
     file, wheels, tags = plugin
-    made = "".join(WHEEL.format(name, *PLACES[name], SOLID.format(0.3, 4e-4)) for name in wheels)
+    made = "".join(part_of_drive(name) for name in wheels)
     drive = f"<plugin name='drive' filename='{file}'>{tags}</plugin>"
-    return ROBOT.format(
-        f"r{number}", 0.6 * number, 0.3 * number, 0.2 * (number % 2), SOLID.format(3, 0.03), made + drive
-    )  # fmt: skip
+    place, solid = (0.6 * number, 0.3 * number, 0.2 * (number % 2)), SOLID.format(3, 0.03)
+    sensors = SENSORS if file == KINDS["kobuki"][0] else ""
+    return ROBOT.format(f"r{number}", *place, solid, made + drive, sensors)
 
 
 def yard(plugin, *, together=True, nworld=1):
@@ -106,11 +158,12 @@ ACTS = st.one_of(
     st.tuples(st.just("spawn"), WHICH),
     st.tuples(st.just("delete"), WHICH),
     st.tuples(st.just("push"), WHICH, SPEED),
+    st.tuples(st.just("awake"), WHICH),
 )
 
 
 def do_to_one(sim, act, number, *values):
-    """Command a robot, turn a wheel of it by hand, or take it out."""
+    """Command a robot, turn a wheel of it by hand, read its IMU, or take it out."""
     robots = moving(sim)
     each = robots[number % len(robots)]
     if act == "send":
@@ -118,6 +171,8 @@ def do_to_one(sim, act, number, *values):
         next(iter(each.inputs.values())).send(forward, values[1])
     elif act == "delete" and len(robots) > 1:
         sim.delete(each.name)
+    elif act == "awake" and "imu" in each.sensors:
+        each.sensors["imu"].latest()
     elif act == "push":
         joint = next(iter(each.joints.values()))
         if joint.has_motor:
@@ -150,16 +205,29 @@ def lived(sim, acts):
     return [*found, sim.state_hash()], heard
 
 
+def same_together_and_alone(plugin, acts):
+    results = []
+    for together in (False, True):
+        with yard(plugin, together=together, nworld=2) as sim:
+            results.append(lived(sim, [("send", 0, 0.5, 0.3), ("listen", 1), ("run", 0.07), *acts]))
+    assert results[1] == results[0]
+
+
+BUSY = [("awake", 1), ("run", 0.07), ("reset", (1,)), ("send", 1, -0.2, 0.6), ("again", 0.05),
+        ("spawn", 3), ("listen", 3), ("run", 0.15), ("delete", 0), ("push", 0, 0.4), ("run", 0.07)]  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_busy_run_is_the_same_together_and_alone(kind):
+    same_together_and_alone(KINDS[kind], BUSY)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 @settings(max_examples=12, deadline=None)
 @given(acts=st.lists(ACTS, min_size=4, max_size=14))
 def test_many_do_together_what_each_does_alone(kind, acts):
-    begun = [("send", 0, 0.5, 0.3), ("listen", 1), ("run", 0.07), *acts]
-    results = []
-    for together in (False, True):
-        with yard(KINDS[kind], together=together, nworld=2) as sim:
-            results.append(lived(sim, begun))
-    assert results[1] == results[0]
+    same_together_and_alone(KINDS[kind], acts)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -167,9 +235,10 @@ def test_no_plugin_is_updated_alone(kind, monkeypatch):
     with yard(KINDS[kind]) as sim:
         for each in sim.entities.plugins:
             monkeypatch.setattr(each.plugin, "on_update", None)
-        for each in moving(sim):
-            next(iter(each.inputs.values())).send(0.4)
-        sim.run(1.0)
+        for _ in range(10):  # some stand when they were told nothing for a while
+            for each in moving(sim):
+                next(iter(each.inputs.values())).send(0.4)
+            sim.run(0.1)
         assert moving(sim)[0].position[0, 0] > 0.1
         assert not any(entry.detached for entry in sim.entities.plugins)
 
@@ -259,11 +328,7 @@ def scooter():
 @given(acts=st.lists(ACTS, min_size=4, max_size=10))
 def test_a_drive_of_a_user_takes_part(acts):
     acts = [each for each in acts if each[0] != "push"]  # this one tells motors at every update
-    results = []
-    for together in (False, True):
-        with yard(SCOOTER, together=together, nworld=2) as sim:
-            results.append(lived(sim, [("send", 0, 0.5, 0.3), ("run", 0.07), *acts]))
-    assert results[1] == results[0]
+    same_together_and_alone(SCOOTER, acts)
 
 
 def test_what_fails_together_goes_on_alone_with_one_warning():
@@ -292,3 +357,15 @@ def test_joints_of_many_robots_are_read_and_driven_at_once():
         sim.run(0.1)
         np.testing.assert_allclose(group.velocities()[0], [1.0, 0.0, 3.0], atol=0.05)
         assert np.array_equal(group.positions(), np.hstack([each.positions() for each in joints]))
+
+
+@pytest.mark.parametrize("at_once", [True, False])
+def test_joints_of_many_robots_are_placed_between_their_limits(at_once):
+    with yard(KINDS["built in"], nworld=2) as sim:
+        for each in moving(sim):
+            each.joints["left_joint"].set_properties(lower=-1.0, upper=1.0)
+        group = JointArray([each.joints["left_joint"] for each in moving(sim)])
+        sim.tables = sim.tables if at_once else None
+        group.place([[0.5, 2.0, 3.0], [-0.5, -2.0, 4.0]], 0.25, np.array([True, True, False]))
+        assert group.positions().tolist() == [[0.5, 1.0, 0.0], [-0.5, -1.0, 0.0]]
+        assert group.velocities().tolist() == [[0.25, 0.25, 0.0]] * 2

@@ -27,6 +27,12 @@ KINDS = {
         DIFF.format("leftJoint", "rightJoint") + SIZES + "<wheelAcceleration>.6</wheelAcceleration>"
         "<publishWheelJointState>1</publishWheelJointState><updateRate>20</updateRate>",
     ),
+    "encoders": (
+        "libgazebo_ros_diff_drive.so",
+        ("left", "right"),
+        DIFF.format("leftJoint", "rightJoint") + SIZES + "<odometrySource>encoder</odometrySource>"
+        "<updateRate>20</updateRate>",
+    ),
     "skid": (
         "libgazebo_ros_skid_steer_drive.so",
         CORNERS,
@@ -44,7 +50,7 @@ KINDS = {
     "built in": ("libDiffDrivePlugin.so", ("left", "right"), DIFF.format("left_joint", "right_joint")),
     "both": ("libSkidSteerDrivePlugin.so", CORNERS, "".join(f"<{c}>{c}_joint</{c}>" for c in CORNERS)),
 }  # fmt: skip
-TOGETHER = [kind for kind in KINDS if kind != "patient"]
+TOGETHER = [kind for kind in KINDS if kind not in ("patient", "encoders")]
 
 
 def robot(number, kind):

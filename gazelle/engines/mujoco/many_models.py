@@ -92,7 +92,7 @@ class ModelRoots:
 class ManyModels(ManyJoints):
     """The part of ``gazelle.engines.table_engine.TableEngine`` for models."""
 
-    own_changes = (*ManyJoints.own_changes, "set_ground_motions")
+    own_changes = (*ManyJoints.own_changes, "place_joints", "set_ground_motions")
 
     def model_placements(self, models: Sequence[str]) -> Placement:
         """Where models' frames are: shapes (nworld, models, 3) and (nworld, models, 4)."""

@@ -1,0 +1,137 @@
+"""Bases that stand when they were told nothing for too long: one, or many at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats
+from gazelle.simulation import TwistInput
+from gazelle.simulation.clock import NANOSECONDS, Clock
+
+
+@dataclass(frozen=True, slots=True)
+class CommandTables:
+    """What some bases are told, and since when; used in place.
+
+    Attributes:
+        linear: Commanded velocities [m/s], shape (nworld, n, 3).
+        angular: Commanded turning rates [rad/s], likewise.
+        revision: Counts commands, shape (n,).
+        seen: The last of them that was seen, likewise.
+        since_ns: When that was [ns], likewise.
+    """
+
+    linear: Floats
+    angular: Floats
+    revision: NDArray[np.int64]
+    seen: NDArray[np.int64]
+    since_ns: NDArray[np.int64]
+
+    @classmethod
+    def empty(cls, nworld: int, count: int) -> CommandTables:
+        """Tables of ``count`` bases, all zero."""
+        linear, angular = np.zeros((2, nworld, count, 3))
+        return cls(linear, angular, *np.zeros((3, count), np.int64))
+
+    def clear_old(self, now_ns: int, longest: Floats) -> None:
+        """Let those stand that were told nothing for too long.
+
+        Args:
+            now_ns: Simulated time [ns].
+            longest: How long a command holds [s], shape (n,).
+        """
+        new = self.revision != self.seen
+        long = (now_ns - self.since_ns) / NANOSECONDS > longest
+        if not (new.any() or long.any()):
+            return
+        old = long & ~new
+        self.linear[:, old] = self.angular[:, old] = 0.0
+        self.revision[old] += 1
+        changed = new | old
+        self.seen[changed], self.since_ns[changed] = self.revision[changed], now_ns
+
+
+class CommandTimeout:
+    """What one base is told, and how long that holds.
+
+    Args:
+        clock: Tells how long ago it was told.
+        command: What it is told.
+        longest: How long a command holds [s]; may be infinite.
+    """
+
+    def __init__(self, clock: Clock, command: TwistInput, longest: float) -> None:
+        self._clock, self._command, self._longest = clock, command, np.array([longest])
+        self._ends = math.isfinite(longest)
+        self._tables = CommandTables.empty(len(command.linear), 1)
+        self._keep()
+        self.restart()
+
+    @property
+    def longest(self) -> float:
+        """How long a command holds [s]."""
+        return float(self._longest[0])
+
+    @property
+    def since_ns(self) -> int:
+        """When the last command was seen [ns]."""
+        return int(self._tables.since_ns[0])
+
+    def restart(self, since_ns: int | None = None) -> None:
+        """See the command as it is, as one of a time [ns]; of now if None."""
+        self._tables.seen[:] = self._tables.revision
+        self._tables.since_ns[:] = self._clock.now_ns if since_ns is None else since_ns
+
+    def clear_old(self) -> None:
+        """Stand if nothing was told for too long."""
+        if self._ends:
+            self._tables.clear_old(self._clock.now_ns, self._longest)
+
+    def join(self, tables: CommandTables, part: int) -> None:
+        """Keep all that in a column of other tables from now on."""
+        own, old = slice(part, part + 1), self._tables
+        self._tables = CommandTables(
+            tables.linear[:, own],
+            tables.angular[:, own],
+            tables.revision[own],
+            tables.seen[own],
+            tables.since_ns[own],
+        )
+        self._tables.seen[:], self._tables.since_ns[:] = old.seen, old.since_ns
+        self._keep()
+
+    def _keep(self) -> None:
+        tables = self._tables
+        self._command.keep_in(tables.linear[:, 0], tables.angular[:, 0], tables.revision)
+
+
+class CommandGroup:
+    """What some bases of one simulation are told; their commands are in tables of all from then on.
+
+    Args:
+        clock: Of the simulation.
+        commands: Of each base.
+        nworld: Number of worlds.
+
+    Attributes:
+        linear: What they are told [m/s], shape (nworld, n, 3).
+        angular: Likewise [rad/s].
+    """
+
+    def __init__(self, clock: Clock, commands: Sequence[CommandTimeout], nworld: int) -> None:
+        self._clock, self._tables = clock, CommandTables.empty(nworld, len(commands))
+        for part, each in enumerate(commands):
+            each.join(self._tables, part)
+        self.linear, self.angular = self._tables.linear, self._tables.angular
+        self._longest = np.array([each.longest for each in commands])
+        self._ends = bool(np.isfinite(self._longest).any())
+
+    def clear_old(self) -> None:
+        """Let those stand that were told nothing for too long."""
+        if self._ends:
+            self._tables.clear_old(self._clock.now_ns, self._longest)
