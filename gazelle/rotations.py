@@ -126,6 +126,22 @@ def yaw_of(q: Floats) -> Floats:
     return np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
+def roll_pitch_yaw(q: Floats) -> Floats:
+    """Angles about fixed x, y and z, one after the other, as ROS' tf counts them.
+
+    Args:
+        q: Unit quaternions (x, y, z, w), shape (..., 4).
+
+    Returns:
+        Roll and yaw in [-pi, pi], pitch in [-pi/2, pi/2] [rad], shape (..., 3).
+    """
+    x, y, z, w = (q[..., axis] for axis in range(4))
+    roll = np.arctan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y))
+    pitch = np.arcsin(np.clip(2.0 * (w * y - z * x), -1.0, 1.0))
+    yaw = np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+    return np.stack((roll, pitch, yaw), axis=-1)
+
+
 def seen_on_ground(q: Floats, v: Floats) -> Floats:
     """The horizontal parts of vectors v, shape (n, 3), along and across the headings of q.
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from gazelle.bridges import message_kinds
 from gazelle.control.measurements import JointStates, Odometry, Transforms, TruePose, WrenchValue
+from gazelle.engines import Motion, Placement
 from gazelle.errors import RosError
 from gazelle.ros.messages import load_message
 from gazelle.ros.tf.naming import resolve_frame
@@ -158,6 +159,14 @@ def _wrench(message: Any, value: WrenchValue, view: ConversionContext) -> None:
     set_point(message.wrench.torque, value.torque[view.world])
 
 
+def _placement(message: Any, value: Placement, view: ConversionContext) -> None:
+    set_pose(message, value.position[view.world], value.quaternion[view.world])
+
+
+def _motion(message: Any, value: Motion, view: ConversionContext) -> None:
+    set_twist(message, value.linear[view.world], value.angular[view.world])
+
+
 def _data(message: Any, value: Any, _view: ConversionContext) -> None:
     message.data = value
 
@@ -172,6 +181,8 @@ _ENCODERS: dict[type[Any], Encoder] = {
     JointStates: Encoder("sensor_msgs/JointState", _joint_states),
     Transforms: Encoder("tf2_msgs/TFMessage", _transforms),
     WrenchValue: Encoder("geometry_msgs/WrenchStamped", _wrench),
+    Placement: Encoder("geometry_msgs/Pose", _placement),
+    Motion: Encoder("geometry_msgs/Twist", _motion),
     bool: Encoder("std_msgs/Bool", _data),
     int: Encoder("std_msgs/Int32", _data),
     float: Encoder("std_msgs/Float64", _data),

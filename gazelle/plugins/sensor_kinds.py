@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.sensors import CameraModel, ContactModel, ImuModel, LidarModel
+from gazelle.sensors import CameraModel, ContactModel, ImuModel, LidarModel, SonarModel
 from gazelle.simulation import SensorUnit
 
 M = TypeVar("M")
@@ -16,6 +16,7 @@ _WORDS: dict[type[Any], str] = {
     LidarModel: "ray or gpu_ray",
     ImuModel: "imu",
     ContactModel: "contact",
+    SonarModel: "sonar",
 }
 
 

@@ -37,6 +37,7 @@ _DRIVES = (
     _simulated("gazebo_ros_kobuki", "the Kobuki base", "kobuki:Kobuki"),
     _simulated("DiffDrivePlugin", "Gazebo's own two wheels; sizes of the model", "builtin_drives:BuiltinDiffDrive"),
     _simulated("SkidSteerDrivePlugin", "Gazebo's own four wheels; sizes of the model", "builtin_drives:BuiltinSkidSteer"),
+    _simulated("plugin_drone", "SJTU's quadrotor: takes off, flies as it is told, lands", "drone:Drone"),
     _simulated("gazelle_go_to_goal", "drives a model with a drive and a laser to goals", "gazelle.navigation.plugin:GoToGoal"),
     _simulated("gazelle_navigation", "takes a model with a drive and a laser to goals as move_base does", "gazelle.navigation.robot_navigation:RobotNavigation"),
 )
@@ -58,7 +59,7 @@ _SENSORS = (
     _simulated("hector_gazebo_ros_gps", "Hector's GPS", "hector_position:HectorGps"),
     _simulated("hector_gazebo_ros_magnetic", "Hector's magnetometer", "hector_position:HectorMagnetic"),
     _simulated("hector_gazebo_ros_baro", "Hector's barometer: height, altitude and pressure", "hector_barometer:HectorBarometer"),
-    _simulated("gazebo_ros_camera gazebo_ros_prosilica", "pictures, JPEG too, and what the lens is", "camera:CameraPlugin"),
+    _simulated("gazebo_ros_camera gazebo_ros_prosilica plugin_ros_cam", "pictures, JPEG too, and what the lens is", "camera:CameraPlugin"),
     _simulated("gazebo_ros_triggered_camera", "a picture for each message on `image_trigger`", "camera:TriggeredCameraPlugin"),
     _simulated("gazebo_ros_multicamera", "cameras that see at once", "camera:MultiCameraPlugin"),
     _simulated("gazebo_ros_triggered_multicamera", "the same, each for a message on its `image_trigger`", "camera:TriggeredMultiCameraPlugin"),
@@ -67,6 +68,8 @@ _SENSORS = (
     _simulated("gazebo_ros_depth_camera", "pictures, depths and points", "depth_camera:DepthCameraPlugin"),
     _simulated("gazebo_ros_openni_kinect", "the same of a Kinect", "depth_camera:KinectPlugin"),
     _simulated("hector_gazebo_ros_sonar", "Hector's sonar", "hector_sonar:HectorSonar"),
+    _simulated("plugin_ros_imu plugin_ros_imu_native", "the IMU of SJTU's quadrotor", "drone_sensors:DroneImu"),
+    _simulated("plugin_ros_sonar", "the sonar of SJTU's quadrotor", "drone_sensors:DroneSonar"),
 )
 
 _JOINTS = (

@@ -110,6 +110,20 @@ _REACH = Recipe(
     settings=_REACH_SETTINGS,
 )
 
+# A step of a second is 100 coarse ones of physics; the drone holds its velocity with those, too.
+_FLIGHT = Recipe(
+    steps=100_000,
+    num_envs=256,
+    activation="relu",
+    learning_rate=2e-3,
+    gamma=0.97,
+    goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3, other_end=2.0),
+    features=True,
+    training_options={"engine": "mujoco", "time_step": 0.01, "starts": "training"},
+    evaluation_options={"time_step": 0.004},
+    settings=PPOSettings(n_steps=16, batch_size=1024, n_epochs=6),
+)
+
 # Small networks, a step size that stays, a target that follows soon: goals are few steps away.
 _FETCH_REACH = Recipe(
     algo="ddpg",
@@ -237,6 +251,7 @@ RECIPES: dict[str, Recipe] = {
     "SummitXLRoom": dataclasses.replace(
         _TO_PLACE, goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3, other_end=2.0)
     ),
+    "ParrotDroneGoto": _FLIGHT,
     "TurtleBot2Maze": _DRIVING,
     "TurtleBot2Wall": _TO_PLACE,
     "TurtleBot3World": _DRIVING,

@@ -10,10 +10,10 @@ import gazelle
 from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import Pose
-from gazelle.envs.attitude import roll_pitch_yaw
 from gazelle.envs.decimals import rounded
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
 

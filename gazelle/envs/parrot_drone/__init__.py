@@ -1,0 +1,1 @@
+"""The quadrotor of openai_ros that flies to a place."""
