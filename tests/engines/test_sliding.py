@@ -83,6 +83,38 @@ def test_a_box_slides_down_a_slope_as_fast_as_it_should(model, step, mu, steepne
     assert way[0, 0] == pytest.approx(far * (1.0 + step / seconds), rel=0.01)
 
 
+def slope_of(kind, across, pitch):
+    """Tilted ground, and a place on its surface: no corner of a box there is a round number."""
+    pose = Pose(x=3.7, z=1.1, yaw=across) * Pose(pitch=pitch)
+    if kind == "plane":
+        return replace(scenes.ground(), pose=pose), pose
+    block = scenes.box("slope", (20.0, 20.0, 1.0), mu=100.0, pose=pose * Pose(z=-0.5), static=True)
+    return block, pose
+
+
+@pytest.mark.parametrize(("mu", "steepness"), [(0.1, 1.1), (0.6, 1.1), (1.5, 1.1), (1.5, 1.5)])
+@pytest.mark.parametrize("step", [0.0005, 0.002, 0.005])
+@pytest.mark.parametrize("model", MODELS)
+def test_a_box_put_on_tilted_ground_slides_from_its_first_step_on(model, step, mu, steepness):
+    angle, seconds = steepness * math.atan(mu), 1.5
+    for kind, across, turned in (("plane", 0.0, 0.4), ("plane", 0.7, 1.1), ("block", 0.7, 0.4)):
+        ground, place = slope_of(kind, across, angle)
+        box = scenes.box("box", SIZE, mu=mu, pose=place * Pose(z=0.05, yaw=turned))
+        world = scenes.world(ground, box, step=step)
+        ode = replace(world.profile.ode, friction_model=model)
+        engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)), 1)
+        start, rise = engine.model_placement("box").position[0].copy(), 0.0
+        for _ in range(round(seconds / step / 5)):
+            engine.step(5)
+            way = place.matrix()[:3, :3].T @ (engine.model_placement("box").position[0] - start)
+            rise = max(rise, way[2])
+        pull = G * (math.sin(angle) - mu * math.cos(angle))
+        far = pull * seconds**2 / 2.0 * (1.0 + step / seconds)
+        assert rise < 1e-4
+        assert way[0] == pytest.approx(far, rel=0.01)
+        assert abs(way[1]) < 2e-4 * (1.0 + far)
+
+
 @pytest.mark.parametrize("mu", [0.1, 0.6, 1.5])
 @pytest.mark.parametrize(("model", "step"), [(m, h) for m in MODELS for h in (0.001, 0.005)])
 def test_a_spinning_disc_stays_down_and_stops_where_it_should(model, step, mu):

@@ -25,6 +25,7 @@ from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Pose, Sp
 from gazelle.engines.mujoco.directions import friction_between, is_directional, rub_of
 from gazelle.engines.mujoco.laws.extras import Rub
 from gazelle.engines.mujoco.surfaces import (
+    TOUCHING,
     condim_of,
     friction_of,
     needs_cone,
@@ -148,7 +149,11 @@ def add_pairs(
         along, across = friction_between(first.collision, second.collision)
         directional |= along != across
         spec.add_pair(
-            geomname1=first.geom, geomname2=second.geom, **_friction_terms(first, second), **terms
+            geomname1=first.geom,
+            geomname2=second.geom,
+            margin=2.0 * TOUCHING,
+            **_friction_terms(first, second),
+            **terms,
         )
     return Pairs(springs, bounces, _rubs_of(everything) if directional else {})
 

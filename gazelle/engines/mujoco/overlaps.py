@@ -22,6 +22,7 @@ from gazelle.description import Contact, World
 from gazelle.engines.mujoco.calming import Calming
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.options import DEEPEST, SENSORS_OFF
+from gazelle.engines.mujoco.surfaces import TOUCHING
 from gazelle.engines.mujoco.views import StateViews
 
 # Physics steps between two rises of a surface, counted by the time of each world, so that
@@ -212,9 +213,10 @@ class Overlaps:
         was, self.any = self.any, bool(self._margins.any())
         if was or self.any:
             ngeom = self._model.ngeom
-            batch.expand("geom_margin")[:] = self._margins[:, :ngeom]
+            batch.expand("geom_margin")[:] = _shown(self._margins[:, :ngeom], TOUCHING, TOUCHING)
             if self._pairs:
-                batch.expand("pair_margin")[:] = self._margins[:, ngeom:]
+                pairs = _shown(self._margins[:, ngeom:], 2.0 * TOUCHING, 0.0)
+                batch.expand("pair_margin")[:] = pairs
 
     def _depths(self, state: Floats, placed: AbstractSet[int] | None = None) -> Floats:
         """Margins at which nothing of a state is too deep, shape (geoms + pairs,).
@@ -251,6 +253,11 @@ class Overlaps:
         if pair is not None:
             return int(self._model.ngeom) + pair
         return two if self._moves[two] else one
+
+
+def _shown(margins: Floats, usual: float, other: float) -> Floats:
+    """What MuJoCo is told, which adds the margin of the ``other`` geom; ``usual`` of the rest."""
+    return np.where(margins < 0.0, margins - other, usual)
 
 
 def _contacts_of(compiled: Compiled) -> Iterator[tuple[int, Contact]]:

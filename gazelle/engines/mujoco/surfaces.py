@@ -37,6 +37,13 @@ _IMPEDANCE = (0.9, 0.9999, 0.001, 0.5, 2.0)
 _RATIO_IN_A_PYRAMID, _RATIO_IN_A_CONE = 100.0, 10_000.0
 _SHARE_IN_A_CONE = 0.99
 
+TOUCHING = 5e-7
+"""How far around a geom contacts begin [m]; those of two geoms add up.
+
+What a file puts exactly on a surface touches with all its corners then, wherever their places are
+rounded to, and rests a thousandth of a millimetre higher.
+"""
+
 # A little more than critical. Less would bounce; twice as much rocks cylinders up.
 _DAMPING_RATIO = 1.25
 
@@ -129,6 +136,7 @@ def surface_options(
     return {
         "friction": [mu, spin, 0.0],
         "condim": condim_of(mu, spin),
+        "margin": TOUCHING,
         "priority": ranks[mu],
         "contype": mask,
         "conaffinity": mask,

@@ -10,6 +10,7 @@ import cython
 from cython.cimports.gazelle.engines.mujoco.laws.bias import MOST_A_STEP, take_bias_midway
 from cython.cimports.gazelle.engines.mujoco.laws.commands import take_commands
 from cython.cimports.gazelle.engines.mujoco.laws.exits import leave_slowly
+from cython.cimports.gazelle.engines.mujoco.laws.falling import fall
 from cython.cimports.gazelle.engines.mujoco.laws.lookup import begin_contact, begin_step
 from cython.cimports.gazelle.engines.mujoco.laws.motors import drive_motors
 from cython.cimports.gazelle.engines.mujoco.laws.numbers import (
@@ -43,8 +44,6 @@ _NOT_YET = cython.declare(cython.double, -1e9)
 
 # Larger than any friction.
 _FAR_MORE = cython.declare(cython.double, 1e300)
-
-_FREE = cython.declare(cython.int, 0)  # mjJNT_FREE
 
 # What turns so slowly gains no energy that could be seen: h w² [rad²/s].
 _AT_REST = cython.declare(cython.double, 1e-8)
@@ -117,7 +116,7 @@ def _correct(touch: cython.pointer[Touch], head: cython.p_double) -> cython.void
 def _bounce(touch: cython.pointer[Touch]) -> cython.void:
     """Let two bodies part so that e² of the height is reached, in the step of the impact."""
     step, reference, contact = touch.step, touch.reference, touch.contact
-    pull = _pull(touch)
+    pull = -fall(touch, 0)
     speed, late = -touch.velocity[0], 0.5 * pull * step
     if speed <= _STEPS_TO_REST * abs(pull) * step or speed <= 0.0:
         return
@@ -132,29 +131,6 @@ def _bounce(touch: cython.pointer[Touch]) -> cython.void:
         reference[0] = (sqrt(parting) - late + speed) / step
     elif height > 0.0:
         reference[0] = _NOT_YET
-
-
-@cython.cfunc
-@cython.nogil
-@cython.exceptval(check=False)
-def _pull(touch: cython.pointer[Touch]) -> cython.double:
-    """How much faster two bodies approach a second later if nothing holds them."""
-    model = touch.model
-    gravity = floats(model + AT.model_gravity)
-    along = 0.0
-    for side in range(2):
-        body = integers(word(model + AT.model_bodyid))[touch.geoms[side]]
-        root = integers(word(model + AT.model_rootid))[body]
-        if integers(word(model + AT.model_jntnum))[root] == 0:
-            continue
-        joint = integers(word(model + AT.model_jntadr))[root]
-        if integers(word(model + AT.model_jnt_type))[joint] != _FREE:
-            continue
-        borne = floats(word(model + AT.model_gravcomp))[body]
-        sign = 1.0 if side == 0 else -1.0
-        for axis in range(3):
-            along += sign * (1.0 - borne) * gravity[axis] * touch.frame[axis]
-    return along
 
 
 @cython.cfunc

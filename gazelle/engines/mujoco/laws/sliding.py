@@ -19,7 +19,10 @@ in an impact all of it, with k = 1.
 # mypy: disallow-untyped-decorators=False
 
 import cython
+from cython.cimports.gazelle.engines.mujoco.laws.falling import fall, never_moved
+from cython.cimports.gazelle.engines.mujoco.laws.places import AT
 from cython.cimports.gazelle.engines.mujoco.laws.touch import Touch
+from cython.cimports.gazelle.native.memory import floats
 from cython.cimports.libc.math import sqrt
 
 # Slower slip parts the surfaces by some nanometres a step [m/s].
@@ -27,6 +30,9 @@ _LEAST_SLIP = cython.declare(cython.double, 1e-4)
 
 # Slower creep has no direction [m/s].
 _LEAST_CREEP = cython.declare(cython.double, 1e-6)
+
+# Square of the sine of a slope below which there is none.
+_LEVEL = cython.declare(cython.double, 1e-12)
 
 # What holds creeps, at less than this share of what friction takes off a slip in a step when
 # only the weight presses.
@@ -67,6 +73,8 @@ def _on_a_cone(touch: cython.pointer[Touch]) -> cython.void:
         return
     share = _share(touch, size / most, most)
     if share == 0.0:
+        if size < _LEAST_CREEP and friction[0] == friction[1]:
+            reference[0] -= _first_parting(touch, friction[0])
         return
     along, across = friction[0] * along / size, friction[1] * across / size
     one = _last(touch, 1) - reference[1]
@@ -89,6 +97,7 @@ def _on_a_pyramid(touch: cython.pointer[Touch]) -> cython.void:
     one, two = 0.5 * (velocity[0] - velocity[1]) / mu, 0.5 * (velocity[2] - velocity[3]) / mu
     slip = sqrt(one * one + two * two)
     if slip < _LEAST_CREEP:
+        _begin_on_a_pyramid(touch, mu)
         return
     _turn_pyramid(touch, one / slip, two / slip)
     share = _share(touch, slip, mu)
@@ -106,6 +115,53 @@ def _on_a_pyramid(touch: cython.pointer[Touch]) -> cython.void:
     parting = share * _parting(touch, left, lacking, mu)
     for edge in range(2 * (touch.dim - 1)):
         reference[edge] -= parting
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _begin_on_a_pyramid(touch: cython.pointer[Touch], mu: cython.double) -> cython.void:
+    """Turn a pyramid without slip to where gravity pulls: that is how it will slide."""
+    if _is_level(touch):
+        return
+    one, two = fall(touch, 1), fall(touch, 2)
+    pull = sqrt(one * one + two * two)
+    if pull == 0.0:
+        return
+    parting = _first_parting(touch, mu)
+    _turn_pyramid(touch, one / pull, two / pull)
+    for edge in range(2 * (touch.dim - 1)):
+        touch.reference[edge] -= parting
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _is_level(touch: cython.pointer[Touch]) -> cython.bint:
+    """Whether gravity acts along the normal of a contact alone."""
+    gravity = floats(touch.model + AT.model_gravity)
+    along, square = 0.0, 0.0
+    for axis in range(3):
+        along += gravity[axis] * touch.frame[axis]
+        square += gravity[axis] * gravity[axis]
+    return square - along * along <= _LEVEL * square
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _first_parting(touch: cython.pointer[Touch], mu: cython.double) -> cython.double:
+    """The normal acceleration that MuJoCo would add in the first step of what will slide.
+
+    Nothing is known of a last step. Gravity alone pulls, though: what that exceeds friction by
+    is how much faster the slip will get.
+    """
+    if mu > _MOST_FRICTION or _is_level(touch) or not never_moved(touch):
+        return 0.0
+    one, two, press = fall(touch, 1), fall(touch, 2), -fall(touch, 0)
+    if press <= 0.0:
+        return 0.0  # what holds it is not its weight
+    return max(mu * (sqrt(one * one + two * two) - mu * press), 0.0)
 
 
 @cython.cfunc
