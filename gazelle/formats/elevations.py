@@ -17,6 +17,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError
+from gazelle.formats.lfs import refuse_pointer
 from gazelle.formats.picture import MAX_PIXELS, read_elevations
 from gazelle.formats.usgs_dem import read_usgs_dem
 
@@ -88,9 +89,11 @@ READERS: Final[dict[str, Callable[[Path], Floats]]] = {
 
 def _bytes_of(path: Path) -> bytes:
     try:
-        return path.read_bytes()
+        data = path.read_bytes()
     except OSError as error:
         raise FormatError(f"cannot read: {error.strerror}", file=str(path)) from error
+    refuse_pointer(data, path)
+    return data
 
 
 def _head_of(words: list[str]) -> tuple[dict[str, str], int]:

@@ -19,12 +19,11 @@ from numpy.typing import NDArray
 from gazelle.description import Mesh, Source, Vector3
 from gazelle.errors import FormatError
 from gazelle.formats import collada, stl, wavefront, wavefront_looks
+from gazelle.formats.lfs import refuse_pointer
 from gazelle.formats.mesh_looks import PLAIN, MeshLook, look_of_trimesh
 
 MAX_BYTES = 512 * 2**20
 CACHED = 256
-
-_LFS_POINTER = b"version https://git-lfs"
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,12 +163,7 @@ def _parse_cached(_: str, content: _Content) -> tuple[MeshPart, ...]:
         raise FormatError(
             "the file is empty", file=str(path), hint="export or download the file again"
         )
-    if data.startswith(_LFS_POINTER):
-        raise FormatError(
-            "the file is a pointer of Git LFS, not the mesh",
-            file=str(path),
-            hint="run 'git lfs pull' in its repository",
-        )
+    refuse_pointer(data, path)
     try:
         parts = [part for part in _parse(data, path) if len(part.faces)]
     except FormatError:

@@ -92,7 +92,8 @@ def load_map(path: PathLike, *, paths: Sequence[PathLike] = ()) -> OccupancyMap:
     try:
         pixels = read_picture(picture)
     except FormatError as error:
-        raise nodes["image"].fail(f"'{settings.image}': {error.message}") from error
+        text = f"'{settings.image}': {error.message}"
+        raise nodes["image"].fail(text, hint=error.hint) from error
     reading.report(strict=False)
     x, y, yaw = settings.origin
     return OccupancyMap(

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Bytes, Floats
 from gazelle.errors import FormatError
+from gazelle.formats.lfs import refuse_pointer_file
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -58,6 +59,7 @@ def _read(path: Path, values_of: Callable[[Image], T]) -> T:
     except FormatError:
         raise
     except PIL.UnidentifiedImageError:
+        refuse_pointer_file(path)
         raise FormatError("this is no picture that can be read", file=str(path)) from None
     except Exception as error:  # decoders raise anything on a broken file
         text = " ".join(str(error).split()) or type(error).__name__

@@ -15,6 +15,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError
+from gazelle.formats.lfs import refuse_pointer
 
 _RECORD: Final = 1024
 _SPACING: Final = slice(816, 852)
@@ -45,7 +46,9 @@ def read_usgs_dem(path: Path) -> Floats:
         FormatError: It cannot be read, or is no such file.
     """
     try:
-        records = _records(path.read_bytes())
+        data = path.read_bytes()
+        refuse_pointer(data, path)
+        records = _records(data)
         dx, dy, unit = _resolution(records[0][_SPACING])
         profiles = _profiles(records, int(records[0][_PROFILES]), unit)
         return _grid(profiles, dx, dy)

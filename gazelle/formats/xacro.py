@@ -9,6 +9,7 @@ from __future__ import annotations
 import builtins
 import contextlib
 import io
+import os
 import threading
 import xml.dom.minidom as dom
 from collections.abc import Iterator
@@ -25,6 +26,7 @@ from xacro import substitution_args
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import expressions, xml
+from gazelle.formats.lfs import refuse_pointer_file
 from gazelle.formats.reading import Reading
 from gazelle.formats.xacro_hints import hint_of
 
@@ -33,6 +35,8 @@ _PREFIX = "xacro:"
 
 
 MAX_MADE = 60_000
+MAX_INCLUDED = 20
+"""How often a file may be included by what it includes."""
 
 _BUNDLED_HINT = (
     "this package is the one that comes with Gazelle, which holds less than its namesake: "
@@ -128,8 +132,10 @@ def _run(name: str, data: bytes, reading: Reading) -> Parameters:
         try:
             document = _parse(data, name, reading)
             engine.process_doc(document, mappings=dict(reading.xacro_args))
-        except RecursionError:
-            raise FormatError("the macros call each other without end", file=name) from None
+        except RecursionError as error:
+            file, line, element = _place(error.__traceback__) or (name, None, None)
+            text = "the macros call each other without end"
+            raise FormatError(text, file=file, line=line, element=element) from None
         except Exception as error:  # expressions in a file may raise anything
             raise _explain(error, name) from error
     root: Any = document.documentElement
@@ -177,7 +183,9 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
     def parse(given: Any, filename: str | None = None) -> Any:
         if given is not None or filename is None:
             return given
-        return _parse(xml.read_bytes(_checked(filename)), filename, reading)
+        _refuse_ring(engine.filestack)
+        path = _checked(filename)
+        return _parse(xml.read_bytes(path), _plain(path), reading)
 
     def _checked(filename: str) -> Path:
         path = Path(filename)
@@ -192,7 +200,8 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
         return path
 
     def guarded_open(filename: str) -> Any:
-        return builtins.open(_checked(filename), encoding="utf-8")  # noqa: PTH123
+        refuse_pointer_file(_checked(filename))
+        return builtins.open(filename, encoding="utf-8")  # noqa: PTH123
 
     said = io.StringIO()
     symbols = engine._global_symbols  # noqa: SLF001  # the package has no other way
@@ -209,6 +218,25 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
             stack.enter_context(_replaced(names, values))
         stack.enter_context(contextlib.redirect_stderr(said))
         yield said
+
+
+def _refuse_ring(files: list[Any]) -> None:
+    """Say so if the last of files, each of which includes the next, includes itself time and again.
+
+    Raises:
+        FormatError: It does.
+    """
+    names = [_plain(Path(file)) for file in files if file]
+    turns = [place for place, name in enumerate(names) if name == names[-1]]
+    if len(turns) > MAX_INCLUDED:
+        ring = " -> ".join(names[turns[0] : turns[1] + 1])
+        raise FormatError(f"the files include each other without end: {ring}")
+
+
+def _plain(path: Path) -> str:
+    """A path without steps up, where that is the same file."""
+    plain = os.path.normpath(path)
+    return plain if os.path.realpath(plain) == os.path.realpath(path) else str(path)
 
 
 _evaluate_text = engine.eval_text

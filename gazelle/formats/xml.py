@@ -19,6 +19,7 @@ from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import blanks
 from gazelle.formats.blanks import Report
+from gazelle.formats.lfs import refuse_pointer
 from gazelle.formats.wellformed import well_formed
 from gazelle.formats.xml_faults import Opened, explained
 
@@ -37,16 +38,19 @@ def read_bytes(path: Path) -> bytes:
     """The content of a description file.
 
     Raises:
-        FormatError: The file is missing, unreadable or larger than ``MAX_BYTES``.
+        FormatError: The file is missing, unreadable, a pointer of Git LFS, or larger than
+            ``MAX_BYTES``.
     """
     try:
         if path.stat().st_size > MAX_BYTES:
             raise FormatError(f"the file is larger than {MAX_BYTES} bytes", file=str(path))
-        return path.read_bytes()
+        data = path.read_bytes()
     except FileNotFoundError:
         raise FormatError("there is no such file", file=str(path)) from None
     except (OSError, ValueError) as error:
         raise FormatError(f"the file cannot be read: {error}", file=str(path)) from error
+    refuse_pointer(data, path)
+    return data
 
 
 def read_file(path: Path, report: Report | None = None) -> Parameters:

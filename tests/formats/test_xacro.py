@@ -125,3 +125,35 @@ def test_loads_do_not_disturb_each_other(robot):
     first = formats.load_model(robot, xacro_args={"r": "0.7"})
     assert formats.load_model(robot).links[0].collisions[0].geometry.radius == 0.2
     assert first.links[0].collisions[0].geometry.radius == 0.7
+
+
+@pytest.mark.parametrize("files", [1, 2, 5])
+def test_files_that_include_each_other_are_one_error_with_the_ring(tmp_path, files):
+    folder = tmp_path / "inner"
+    folder.mkdir()
+    for number in range(files):
+        after = (number + 1) % files
+        (folder / f"{number}.xacro").write_text(
+            f"<robot {NAMESPACE}>\n\n<xacro:include filename='../inner/{after}.xacro'/></robot>"
+        )
+    main = tmp_path / "main.xacro"
+    main.write_text(
+        f"<robot name='r' {NAMESPACE}>\n<xacro:include filename='inner/0.xacro'/></robot>"
+    )
+    with pytest.raises(FormatError, match="include each other without end") as caught:
+        formats.load_model(main)
+    ring = [folder / f"{number}.xacro" for number in (*range(files), 0)]
+    assert caught.value.message.endswith(": " + " -> ".join(map(str, ring)))
+    assert (caught.value.file, caught.value.line) == (str(ring[-2]), 3)
+
+
+def test_macros_that_call_each_other_are_an_error_with_a_line(tmp_path):
+    main = tmp_path / "main.xacro"
+    main.write_text(
+        f"<robot name='r' {NAMESPACE}>\n<xacro:macro name='a'><xacro:b/></xacro:macro>\n"
+        "<xacro:macro name='b'><xacro:a/></xacro:macro>\n<xacro:a/></robot>"
+    )
+    with pytest.raises(FormatError, match="call each other without end") as caught:
+        formats.load_model(main)
+    assert caught.value.file == str(main)
+    assert caught.value.line in {2, 3}

@@ -34,7 +34,7 @@ class BitmapCells:
             try:
                 dark = read_picture(path)[::-1, :, 0] <= WALL
             except FormatError as error:
-                raise given.fail(f"'{path}': {error.message}") from error
+                raise given.fail(f"'{path}': {error.message}", error.hint) from error
             rows, columns = np.flatnonzero(dark.any(axis=1)), np.flatnonzero(dark.any(axis=0))
             if not len(rows):
                 raise given.fail(f"the picture '{path}' shows no walls: it has no dark pixel")

@@ -1,0 +1,34 @@
+"""Pointers of Git LFS: a few lines of text that stand for a file which was not fetched."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.errors import FormatError
+
+_BEGINS = b"version https://git-lfs"
+
+
+def refuse_pointer(data: bytes, path: Path) -> None:
+    """Say so if what a file holds is no more than a pointer to its content.
+
+    Raises:
+        FormatError: It is.
+    """
+    if data.startswith(_BEGINS):
+        raise FormatError(
+            "the file is a pointer of Git LFS, not its content",
+            file=str(path),
+            line=1,
+            hint="run 'git lfs pull' in its repository",
+        )
+
+
+def refuse_pointer_file(path: Path) -> None:
+    """As ``refuse_pointer`` of a file that may be large, if there is one."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(len(_BEGINS))
+    except OSError:
+        return
+    refuse_pointer(head, path)
