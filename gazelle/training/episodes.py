@@ -15,14 +15,21 @@ OUTCOMES = ("is_success", "is_collision", "is_timeout")
 """The outcome of an episode, as boolean arrays in ``info["final_info"]``."""
 
 
+def begins_early(steps: Ints64, limit: int) -> Bools:
+    """Whether attempts that begin after so many control steps of their episodes count."""
+    early: Bools = 2 * steps < limit
+    return early
+
+
 @dataclass(frozen=True, kw_only=True)
 class Episodes:
     """Episodes that ended in one step, in the order of their slots. Arrays have shape (k,).
 
     An episode is a row of attempts at goals, one after the other. Each ends in one of four
     ways: the goal is reached, there is a collision, time runs out, or the episode ends
-    otherwise. Where time runs out on the way from one goal to the next, the attempt is left
-    out, unless it took over half of the episode: then the robot was not on its way any more.
+    otherwise. Those that begin in the first half of the time limit count, as each of them has the other half
+    to come to its end. Of later ones most of what ends soon would be seen, collisions above all,
+    and little of what takes its time, so none of them counts.
     """
 
     slots: npt.NDArray[np.intp]
@@ -40,6 +47,11 @@ class Episodes:
     """Control steps since the last goal on the way was reached, or since the start."""
     truncated: Bools
     """Whether the episode was cut off."""
+    limit: int | None = None
+    """Control steps after which an episode is cut off; None where that is not known. Then an attempt
+    is left out where time runs out after less than half of the episode."""
+    late_goals: Ints64 | None = None
+    """How many of the goals are of attempts that began too late to count; None for none."""
     scenarios: Floats | None = None
     """What the environment says of how they began, shape (k, size)."""
     info: dict[str, Floats] = field(default_factory=dict)
@@ -63,6 +75,20 @@ class Episodes:
         return late & ~self.collisions & ~self.succeeded & ~on_the_way
 
     @functools.cached_property
+    def counted(self) -> Bools:
+        """Whether the last attempt began early enough to count."""
+        if self.limit is None:
+            return np.ones(len(self.slots), np.bool_)
+        early = begins_early(self.lengths - self.since_goal, self.limit)
+        counted: Bools = (self.goals == 0) | early
+        return counted
+
+    @functools.cached_property
+    def counted_goals(self) -> Ints64:
+        """Goals reached in attempts that count."""
+        return self.goals if self.late_goals is None else self.goals - self.late_goals
+
+    @functools.cached_property
     def others(self) -> Bools:
         """Whether the last attempt ended in no way that the environment has a name for."""
         late = self.outcomes.get("is_timeout", self.truncated)
@@ -71,8 +97,8 @@ class Episodes:
     @functools.cached_property
     def attempts(self) -> Ints64:
         """Goals that were tried, but for those that were left out."""
-        failed = self.collisions | self.timeouts | self.others
-        return self.goals + failed.astype(np.int64)
+        failed = (self.collisions | self.timeouts | self.others) & self.counted
+        return self.counted_goals + failed.astype(np.int64)
 
     def moved(self, shift: int) -> Episodes:
         """The same in copies so many further on."""

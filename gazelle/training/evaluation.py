@@ -112,15 +112,17 @@ def evaluate(
 
     Every copy of the environment runs a number of episodes that is fixed in
     advance. (Taking the first episodes that end, from any copy, would favour
-    the short ones.) Same policy, seed and number of copies: same result.
+    the short ones.) Copies that share a world run one episode each, from a common start; for more
+    of them all begin anew. Same policy, seed and number of copies: same result.
 
     A task says with which options it is evaluated, see `evaluation_options`; the bundled
     navigation tasks ask for starts and goals that no policy was trained on. Episodes that
-    repeat others widen the intervals, see `clustered_rate`.
+    repeat others widen the intervals, see `clustered_rate`, and so do those in one world.
 
     Args:
         run_or_policy: Folder of a run, a ``policy.npz``, or an actor.
-        episodes: How many episodes to count.
+        episodes: How many episodes to count; where copies share a world, as many more as fill the
+            last world, so that each of them counts as often as the others.
         seed: Seed of the environment.
         task: The task; needed unless a run tells it.
         num_envs: Copies that run at once; by default one an episode, at most 128.
@@ -142,12 +144,13 @@ def evaluate(
         raise TaskError("an evaluation needs at least 1 episode and 1 environment")
     modules = load_all(imports)
     actor, task, options = resolve_policy(run_or_policy, task, modules, options, best=best)
+    unit = fitting_copies(task, 1, options)
+    episodes = -(-episodes // unit) * unit
     copies = fitting_copies(task, min(episodes, num_envs or _MOST_COPIES), options)
     homes = modules or _homes(run_or_policy)
-    setup = EvaluationSetup(actor=actor, task=task, options=options, imports=homes)
+    setup = EvaluationSetup(actor=actor, task=task, options=options, imports=homes, together=unit)
     if workers is None and ray is None:
         return _summed_up([play_episodes(setup, copies, episodes, seed)], task=task, seed=seed)
-    unit = fitting_copies(task, 1, options)
     start = time.perf_counter()
     parts = play_with_workers(setup, divided(copies, unit), episodes, seed, workers, ray)
     wall = time.perf_counter() - start

@@ -1,4 +1,11 @@
-"""The episodes of an evaluation, here or by workers."""
+"""The episodes of an evaluation, here or by workers.
+
+How many episodes a copy runs is fixed in advance: of those that end first, the short ones would be too
+many. Copies that share a world, such as the robots of one hall, run one each and begin it together; for
+more episodes all of them begin anew. A world that simply went on would be another one in its second hour: what
+happens in it then, such as a jam that dissolves when the first episodes are cut off, would
+count the more, the more episodes are asked for.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +15,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
@@ -31,6 +39,8 @@ class EvaluationSetup:
     """Of the environment."""
     imports: tuple[TaskModule, ...] = ()
     """Modules that register the task."""
+    together: int = 1
+    """Copies that share a world."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,13 +77,34 @@ def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int)
     try:
         period = control_period(env)
         plan = told_by(env, "floor_plan")
-        ledger = Ledger(episodes, copies, tuple(told_by(env, "scenario_names") or ()))
+        ledger = Ledger(setup.together, tuple(told_by(env, "scenario_names") or ()))
+        stepper = Stepper(env, keep_info=True)
         start = time.perf_counter()
-        steps = _play(setup.actor, Stepper(env, keep_info=True), ledger, seed)
+        steps = 0
+        for number, each in enumerate(_rounds(copies, episodes, setup.together)):
+            ledger.expect(each)
+            steps += _play(setup.actor, stepper, ledger, _round_seed(seed, number))
         wall = time.perf_counter() - start
     finally:
         env.close()
     return EpisodesPlayed(ledger, wall, None if period is None else steps * copies * period, plan)
+
+
+def _rounds(copies: int, episodes: int, together: int) -> Iterator[npt.NDArray[np.int64]]:
+    """How many episodes each copy runs from one reset to the next, shapes (copies,)."""
+    if together == 1:
+        share, rest = divmod(episodes, copies)
+        yield share + (np.arange(copies) < rest).astype(np.int64)
+        return
+    for done in range(0, episodes, copies):
+        yield (np.arange(copies) < episodes - done).astype(np.int64)
+
+
+def _round_seed(seed: int, number: int) -> int:
+    """The first round has the seed itself, which is all that most evaluations need."""
+    if number == 0:
+        return seed
+    return int(np.random.SeedSequence([seed, number]).generate_state(1)[0])
 
 
 def play_with_workers(

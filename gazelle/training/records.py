@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from gazelle.array_types import UInts64
 from gazelle.training.episodes import Episodes
-from gazelle.training.statistics import SuccessRate, clustered_rate
+from gazelle.training.statistics import SuccessRate, clustered_rate, rate_between_worlds
 
 _ENDS = ("collisions", "timeouts", "others")
 _NAMES = {"collisions": "collision", "timeouts": "time-out", "others": "other"}
@@ -37,6 +37,10 @@ class EpisodeRecord:
     """The numbers of its last info, such as ``goal`` and ``position`` (x, y) [m]."""
     ends: tuple[int, int, int]
     """1 for a collision, a time-out or another end of the last attempt, else 0."""
+    counted_goals: int
+    """Goals of attempts that count, see `Episodes`."""
+    counted: bool
+    """Whether the last attempt counts."""
 
     @property
     def failed(self) -> bool:
@@ -61,11 +65,10 @@ class EpisodeRecord:
 
 
 class Ledger:
-    """Keeps the first so many episodes of each copy, and no others.
+    """Keeps a number of episodes of each copy that is fixed in advance, and no others.
 
     Args:
-        episodes: How many in all.
-        copies: Of the environment.
+        together: Copies that share a world, side by side: how their episodes end hangs together.
         names: Of the numbers of a scenario, as far as the environment gives them names.
 
     Attributes:
@@ -73,13 +76,20 @@ class Ledger:
         records: Those that ended.
     """
 
-    def __init__(self, episodes: int, copies: int, names: tuple[str, ...] = ()) -> None:
-        share, rest = divmod(episodes, copies)
-        self.left = np.full(copies, share) + (np.arange(copies) < rest)
+    def __init__(self, together: int = 1, names: tuple[str, ...] = ()) -> None:
+        self.left: npt.NDArray[np.int64] = np.zeros(0, np.int64)
         self.records: list[EpisodeRecord] = []
+        self._together = together
         self._names = names
         self._keys: list[bytes] = []
+        self._worlds: list[int] = []
+        self._first_world = 0
         self._told: set[str] = set()
+
+    def expect(self, episodes: npt.NDArray[np.int64]) -> None:
+        """Keep so many more of each copy, shape (copies,), in worlds that begin anew."""
+        self._first_world += -(-len(self.left) // self._together)
+        self.left = episodes.copy()
 
     @property
     def distinct(self) -> int:
@@ -101,23 +111,38 @@ class Ledger:
             # Without a word on how it began, an episode is known by all that was seen in it.
             told = ended.scenarios
             self._keys.append(trails[row].tobytes() if told is None else told[row].tobytes())
+            self._worlds.append(self._first_world + int(slot) // self._together)
 
     def take_in(self, other: Ledger) -> None:
         """Add the episodes of another one."""
         self.records += other.records
         self._keys += other._keys
+        first = max(self._worlds, default=-1) + 1
+        self._worlds += [first + world for world in other._worlds]
         self._told |= other._told
 
     def rate(self, what: str) -> SuccessRate:
         """How many of all attempts were ``goals``, or ended as `EpisodeRecord.ends` names."""
         ends = np.array([record.ends for record in self.records], dtype=np.int64)
-        goals = np.array([record.goals for record in self.records], dtype=np.int64)
+        ends *= np.array([[record.counted] for record in self.records])
+        goals = np.array([record.counted_goals for record in self.records], dtype=np.int64)
         if not self.tells("is_success"):
             goals = np.zeros_like(goals)
         counts = goals if what == "goals" else ends[:, _ENDS.index(what)]
-        numbers = {key: number for number, key in enumerate(dict.fromkeys(self._keys))}
-        clusters = np.array([numbers[key] for key in self._keys], dtype=np.int64)
-        return clustered_rate(counts, goals + ends.sum(axis=1), clusters)
+        rate = clustered_rate if self._together == 1 else rate_between_worlds
+        return rate(counts, goals + ends.sum(axis=1), self._clusters())
+
+    def _clusters(self) -> npt.NDArray[np.int64]:
+        """Equal numbers for episodes that are the same, or were in the same world or one like it."""
+        keys: list[bytes] = self._keys
+        if self._together > 1:
+            inside: dict[int, list[bytes]] = {}
+            for world, key in zip(self._worlds, self._keys, strict=True):
+                inside.setdefault(world, []).append(key)
+            joined = {world: b"".join(sorted(keys)) for world, keys in inside.items()}
+            keys = [joined[world] for world in self._worlds]
+        numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
+        return np.array([numbers[key] for key in keys], dtype=np.int64)
 
     def _record(self, ended: Episodes, row: int) -> EpisodeRecord:
         ends = tuple(int(getattr(ended, name)[row]) for name in _ENDS)
@@ -132,6 +157,8 @@ class Ledger:
             scenario={self._name_of(i): value for i, value in enumerate(scenario)},
             info={name: tuple(np.atleast_1d(v[row]).tolist()) for name, v in ended.info.items()},
             ends=(ends[0], ends[1], ends[2]),
+            counted_goals=int(ended.counted_goals[row]),
+            counted=bool(ended.counted[row]),
         )
 
     def _name_of(self, index: int) -> str:
@@ -140,10 +167,8 @@ class Ledger:
 
 def merged(ledgers: Sequence[Ledger]) -> Ledger:
     """One ledger of the episodes of several, in order."""
-    if len(ledgers) == 1:
-        return ledgers[0]
-    whole = Ledger(0, 1)
-    for ledger in ledgers:
+    whole = ledgers[0]
+    for ledger in ledgers[1:]:
         whole.take_in(ledger)
     return whole
 

@@ -99,6 +99,51 @@ def clustered_rate(
     return SuccessRate(count, total, float(min(max(draws, alike), total)))
 
 
+def rate_between_worlds(
+    counts: npt.NDArray[np.int64], totals: npt.NDArray[np.int64], worlds: npt.NDArray[np.int64]
+) -> SuccessRate:
+    """A rate over episodes of which some were in the same world: how they end hangs together.
+
+    A robot that blocks an aisle blocks it for all. How much is seen from how far apart worlds are, with
+    the variance of a ratio between them and Student's distribution for their number (E. L. Korn
+    and B. I. Graubard, see `clustered_rate`). Worlds without a difference tell nothing of it; then they count
+    as repetitions do.
+
+    Args:
+        counts: How often it happened in each episode, shape (n,).
+        totals: How often it could have, shape (n,).
+        worlds: Which episodes were in the same world: equal numbers from 0 up, shape (n,).
+    """
+    count, total = int(counts.sum()), int(totals.sum())
+    sizes = np.bincount(worlds, weights=totals)
+    hits = np.bincount(worlds, weights=counts)[sizes > 0]
+    sizes = sizes[sizes > 0]
+    many = len(sizes)
+    share = count / total if total else 0.0
+    errors = float(((hits - share * sizes) ** 2).sum())
+    if many < 2 or errors == 0.0:
+        return clustered_rate(counts, totals, worlds)
+    alike = total**2 / float((sizes**2).sum())
+    variance = errors / total**2 * many / (many - 1)
+    draws = share * (1.0 - share) / variance * (_Z_95 / _student(many - 1)) ** 2
+    return SuccessRate(count, total, float(min(max(draws, alike), total)))
+
+
+def _student(freedom: int) -> float:
+    """The quantile of Student's t for 95 %, to 1 % from three degrees of freedom up.
+
+    M. Abramowitz and I. A. Stegun, "Handbook of Mathematical Functions", 1964, 26.7.5.
+    """
+    z = _Z_95
+    terms = (
+        z,
+        (z**3 + z) / 4,
+        (5 * z**5 + 16 * z**3 + 3 * z) / 96,
+        (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384,
+    )
+    return float(sum(term / freedom**power for power, term in enumerate(terms)))
+
+
 class EpisodeLog:
     """Returns, lengths and outcomes of the latest episodes.
 
@@ -115,13 +160,16 @@ class EpisodeLog:
         """Take in the episodes that ended in one step."""
         unknown = np.full(len(episodes.slots), np.nan)
         told = episodes.outcomes
+        collisions, timeouts = (
+            each & episodes.counted for each in (episodes.collisions, episodes.timeouts)
+        )
         columns = {
             "return": episodes.returns,
             "length": episodes.lengths,
-            "goals": episodes.goals if "is_success" in told else unknown,
+            "goals": episodes.counted_goals if "is_success" in told else unknown,
             "attempts": episodes.attempts,
-            "collisions": episodes.collisions if "is_collision" in told else unknown,
-            "timeouts": episodes.timeouts if "is_timeout" in told else unknown,
+            "collisions": collisions if "is_collision" in told else unknown,
+            "timeouts": timeouts if "is_timeout" in told else unknown,
         }
         rows = np.column_stack([columns[name] for name in _COLUMNS])
         self._rows = np.concatenate([self._rows, rows])[-self.window :]

@@ -25,9 +25,10 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gazelle.array_types import Bools, Floats, Floats32
 from gazelle.envs.dict_rows import DictRows
 from gazelle.errors import TaskError
-from gazelle.training.episodes import OUTCOMES, Episodes
+from gazelle.training.episodes import OUTCOMES, Episodes, begins_early
 from gazelle.training.goal_reward import GoalReward, GoalRewards
 from gazelle.training.picture_layers import observation_dtype
+from gazelle.training.tasks import step_limit
 
 SCENARIO = "scenario"
 """In the info of an episode's first moment: numbers that set it apart from others."""
@@ -103,8 +104,10 @@ class Stepper:
         self._returns = np.zeros(self.num_envs)
         self._lengths = np.zeros(self.num_envs, dtype=np.int64)
         self._goals = np.zeros(self.num_envs, dtype=np.int64)
+        self._late_goals = np.zeros(self.num_envs, dtype=np.int64)
         self._goal_at = np.zeros(self.num_envs, dtype=np.int64)
         self._there = np.zeros(self.num_envs, dtype=np.bool_)
+        self._limit = step_limit(env)
         self.scenarios: Floats | None = None
         self._keep_info = keep_info
         self._teacher = None if goal_reward is None else GoalRewards(goal_reward, env.num_envs)
@@ -180,8 +183,15 @@ class Stepper:
         # A goal at which a task lets its robot stay is reached once.
         came = there & ~self._there
         self._goals += came
+        self._late_goals += came & self._begun_late()
         self._goal_at[came] = self._lengths[came]
         self._there = there
+
+    def _begun_late(self) -> Bools:
+        """Whether the running attempts began too late to count, shape (N,)."""
+        if self._limit is None:
+            return np.zeros(self.num_envs, np.bool_)
+        return ~begins_early(self._goal_at, self._limit)
 
     def _note_scenarios(self, info: dict[str, Any], began: Bools) -> None:
         """Keep what the info says of the episodes that began."""
@@ -207,6 +217,7 @@ class Stepper:
             "returns": self._returns,
             "lengths": self._lengths,
             "goals": self._goals,
+            "late_goals": self._late_goals,
             "goal_at": self._goal_at,
             "there": self._there,
         }
@@ -218,6 +229,8 @@ class Stepper:
         self._returns = np.array(state["returns"], dtype=np.float64)
         self._lengths = np.array(state["lengths"], dtype=np.int64)
         self._goals = np.array(state["goals"], dtype=np.int64)
+        # Earlier states knew nothing of them.
+        self._late_goals = np.array(state.get("late_goals", 0 * self._goals), dtype=np.int64)
         self._goal_at = np.array(state["goal_at"], dtype=np.int64)
         self._there = np.array(state["there"], dtype=np.bool_)
         if self._teacher is not None:
@@ -255,10 +268,12 @@ class Stepper:
             if name in info
         }
         last = outcomes.get("is_success", np.zeros(len(slots), np.bool_))
-        goals = self._goals[slots] + (last & ~self._there[slots])
+        came = last & ~self._there[slots]
+        goals = self._goals[slots] + came
+        late_goals = self._late_goals[slots] + (came & self._begun_late()[slots])
         if self.rows is not None and self.rows.has_goals:
             # It has one goal, at which it shall be in the end, whatever it met on the way.
-            goals = last.astype(np.int64)
+            goals, late_goals = last.astype(np.int64), np.zeros(len(slots), np.int64)
         if "goals_reached" in info:
             goals = np.asarray(info["goals_reached"])[slots].astype(np.int64)
         ended = Episodes(
@@ -269,6 +284,8 @@ class Stepper:
             goals=goals,
             since_goal=self._lengths[slots] - self._goal_at[slots],
             truncated=truncated[slots],
+            limit=self._limit,
+            late_goals=late_goals,
             scenarios=None if self.scenarios is None else self.scenarios[slots],
             info=_numbers(info, slots) if self._keep_info else {},
         )
@@ -279,6 +296,7 @@ class Stepper:
         """Count anew for the next episodes of these copies."""
         self._returns[slots] = 0.0
         self._lengths[slots] = self._goals[slots] = self._goal_at[slots] = 0
+        self._late_goals[slots] = 0
         self._there[slots] = False
 
 

@@ -186,6 +186,19 @@ def told_by(env: VectorEnv[Any, Any, Any], name: str) -> Any:
     return None
 
 
+def step_limit(env: VectorEnv[Any, Any, Any]) -> int | None:
+    """Control steps after which an episode is cut off; None if the environment does not tell.
+
+    Read from ``task.max_episode_steps`` of Gazelle's environments, else from the specification of the copies.
+    """
+    task = told_by(env, "task")
+    limit = getattr(task, "max_episode_steps", None)
+    if limit is None:
+        spec = next((each.spec for each in getattr(env.unwrapped, "envs", [])), None)
+        limit = None if spec is None else spec.max_episode_steps
+    return None if limit is None else int(limit)
+
+
 def plain_options(options: dict[str, Any]) -> dict[str, Any]:
     """Options as values that JSON can hold: paths become absolute, those that are None go.
 

@@ -236,7 +236,7 @@ def test_the_fleet_is_evaluated_in_any_number(episodes):
     actor = Actor((weight,), (np.array([0.6, 0.0], np.float32),), "tanh", "gaussian",
                   low=np.full(2, -1.0, np.float32), high=np.full(2, 1.0, np.float32))  # fmt: skip
     found = evaluate(actor, task="AGVFleet", episodes=episodes, max_episode_steps=200)
-    assert found.episodes == found.distinct == episodes
+    assert found.episodes == found.distinct == -(-episodes // 8) * 8  # of each AGV of a hall
     assert sum(shares(found)) == pytest.approx(1.0)
     assert found.success.value > 0.1
     assert found.collision.count > 0

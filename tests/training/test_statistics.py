@@ -7,7 +7,13 @@ from hypothesis import strategies as st
 from scipy.stats import binomtest
 
 from gazelle.training.episodes import Episodes
-from gazelle.training.statistics import EpisodeLog, SuccessRate, clustered_rate, wilson_interval
+from gazelle.training.statistics import (
+    EpisodeLog,
+    SuccessRate,
+    clustered_rate,
+    rate_between_worlds,
+    wilson_interval,
+)
 
 
 @given(st.integers(1, 500).flatmap(lambda n: st.tuples(st.integers(0, n), st.just(n))))
@@ -63,6 +69,37 @@ def test_a_robot_that_stopped_going_to_goals_has_failed():
     assert episodes([0.0], since=3, **given).attempts.tolist() == [4]
     assert episodes([0.0], since=5, **given).attempts.tolist() == [5]
     assert episodes([0.0], since=5, **given).timeouts.tolist() == [True]
+
+
+@pytest.mark.parametrize("halls", [3, 10, 40])
+@pytest.mark.parametrize(("share", "alike"), [(0.6, 0.0), (0.9, 0.02), (0.9, 0.1), (0.6, 0.5)])
+def test_intervals_of_robots_that_share_halls_hold_the_truth(halls, share, alike):
+    """Each hall has a share of its own, from a beta distribution whose intra-class correlation is known.
+
+    Of few halls, or where few fare ill, 95 % intervals hold 91 to 92 %.
+    """
+    rng = np.random.default_rng(7)
+    robots, inside, widths = 30, [], []
+    for _ in range(300):
+        each = np.full(halls, share)
+        if alike:
+            scale = 1.0 / alike - 1.0
+            each = rng.beta(share * scale, (1.0 - share) * scale, halls)
+        counts = rng.binomial(1, np.repeat(each, robots))
+        worlds = np.repeat(np.arange(halls), robots)
+        low, high = rate_between_worlds(counts, np.ones_like(counts), worlds).interval
+        inside.append(low < share < high)
+        widths.append(high - low)
+    assert np.mean(inside) > 0.9
+    spread = np.sqrt(share * (1 - share) / (halls * robots) * (1 + (robots - 1) * alike))
+    if halls >= 10:
+        assert np.mean(widths) < 1.5 * 2 * 1.96 * spread
+
+
+def test_halls_that_do_not_differ_count_as_repetitions():
+    worlds = np.repeat(np.arange(4), 30)
+    ones = np.ones(120, np.int64)
+    assert rate_between_worlds(ones, ones, worlds) == clustered_rate(ones, ones, worlds)
 
 
 @pytest.mark.parametrize("hits", [0, 1, 7, 13])
