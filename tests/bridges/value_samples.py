@@ -4,7 +4,7 @@ import numpy as np
 from control_samples import CONTROL_MAKERS
 from picture_samples import PICTURE_MAKERS
 
-from gazelle.engines import Contacts
+from gazelle.engines import Contacts, Motion, Placement
 from gazelle.navigation.values import Path
 from gazelle.sensors import ImuReading, LaserScan
 from gazelle.simulation import JointStates, Odometry, Transform, Transforms, WrenchValue
@@ -158,11 +158,21 @@ def bumper(rng, nworld, _stamp):
     return BumperValue(int(rng.integers(3)), rng.random(nworld) < 0.5)
 
 
+def placement(rng, nworld, _stamp):
+    return Placement(rng.normal(size=(nworld, 3)), _turns(rng, nworld))
+
+
+def motion(rng, nworld, _stamp):
+    return Motion(*rng.normal(size=(2, nworld, 3)))
+
+
 MAKERS = {
     **CONTROL_MAKERS,
     **PICTURE_MAKERS,
     Odometry: _odometry(Odometry),
     TruePose: _odometry(TruePose),
+    Placement: placement,
+    Motion: motion,
     JointStates: joint_states,
     Transforms: transforms,
     LaserScan: scan,

@@ -14,6 +14,7 @@ import gazelle.bridges.binding
 import gazelle.bridges.control  # noqa: F401  they teach all kinds
 from gazelle.bridges import conversions
 from gazelle.bridges.conversions import ConversionContext, encoder_of
+from gazelle.engines import Motion, Placement
 from gazelle.navigation.values import Path
 from gazelle.ros import Time, load_message
 from gazelle.ros.tf.naming import resolve_frame
@@ -142,6 +143,16 @@ def says_motion(message, value, world):
     assert diagonal(message.pose.covariance, 6) == list(value.pose_variance)
     assert diagonal(message.twist.covariance, 6) == list(value.twist_variance)
     assert np.count_nonzero(message.pose.covariance) <= 6
+
+
+def says_place(message, value, world, _view):
+    assert xyz(message.position) == list(value.position[world])
+    assert xyzw(message.orientation) == list(value.quaternion[world])
+
+
+def says_speed(message, value, world, _view):
+    assert xyz(message.linear) == list(value.linear[world])
+    assert xyz(message.angular) == list(value.angular[world])
 
 
 def says_joints(message, value, world, _view):
@@ -303,6 +314,8 @@ SAYS = {
     **PICTURES_SAY,
     Odometry: says_odometry,
     TruePose: says_true_pose,
+    Placement: says_place,
+    Motion: says_speed,
     JointStates: says_joints,
     Transforms: says_transforms,
     LaserScan: says_scan,
