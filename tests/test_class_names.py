@@ -77,6 +77,7 @@ def test_every_class_name_is_used_once():
     assert repeated(class_names(PACKAGE)) == {}
 
 
+@pytest.mark.long
 def test_the_list_of_ros_names_holds_nothing_else():
     found = class_names(PACKAGE)
     everywhere = Counter(name for name, _ in found)

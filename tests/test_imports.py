@@ -264,6 +264,7 @@ def circles(edges):
     return found
 
 
+@pytest.mark.long
 def test_no_modules_import_each_other():
     """Not for their types either: who needs a partner's type belongs into one module with it."""
     found = []

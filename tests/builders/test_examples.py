@@ -22,6 +22,7 @@ def run(script, *args):
     return done.stdout
 
 
+@pytest.mark.long
 def test_build_an_office(tmp_path):
     out = run("build_an_office.py", "--seed", 1, "--out", tmp_path, "--width", 80)
     assert "after 1.0 s the robot is at" in out
@@ -30,6 +31,7 @@ def test_build_an_office(tmp_path):
         assert check(tmp_path / f"{name}.world") == []
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [0, 5])
 def test_equip_a_robot(tmp_path, seed):
     out = run("equip_a_robot.py", "--seed", seed, "--out", tmp_path)

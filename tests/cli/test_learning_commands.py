@@ -26,6 +26,7 @@ def run(tmp_path_factory):
     return folder
 
 
+@pytest.mark.long
 def test_train_says_what_it_did_and_what_to_type_next(cli, tmp_path):
     code, out, err = cli("train", "CartPole-v1", *SHORT, "--out", tmp_path, "--seed", 3)
     assert code == 0

@@ -10,6 +10,7 @@ import pytest
 pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
 
+@pytest.mark.long
 def test_a_file_is_shown_until_ctrl_c(tmp_path):
     with subprocess.Popen(
         [sys.executable, "-m", "gazelle", "view", "turtlebot3_burger"],

@@ -238,6 +238,7 @@ def test_an_infinite_state_is_an_error_that_names_the_world():
         engine.step(3)
 
 
+@pytest.mark.long
 def test_links_of_one_model_do_not_collide_unless_asked():
     def pair(collide):
         links = tuple(

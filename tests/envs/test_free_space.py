@@ -50,6 +50,7 @@ def test_places_fill_a_room_up_to_the_margin(width, depth, margin, between):
     assert len(places) <= 1150
 
 
+@pytest.mark.long
 @given(
     st.lists(
         st.tuples(*[st.floats(-4.0, 4.0)] * 2, *[st.floats(0.1, 1.0)] * 2), min_size=1, max_size=8

@@ -23,6 +23,7 @@ def outcomes(corpus):
     return corpus_table.sweep(corpus)
 
 
+@pytest.mark.long
 def test_what_becomes_of_each_file_is_in_the_table(outcomes):
     expected = corpus_table.TABLE.read_text(encoding="utf-8").splitlines()
     found = corpus_table.as_text(outcomes).splitlines()

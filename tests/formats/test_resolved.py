@@ -13,7 +13,10 @@ from xml_samples import sdf
 from gazelle import Error, formats
 from gazelle.formats.sdf import state
 
-pytestmark = pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
+pytestmark = [
+    pytest.mark.long,  # a C++ program is compiled for them
+    pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning"),
+]
 
 
 @pytest.fixture(scope="module")

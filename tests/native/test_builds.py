@@ -84,6 +84,7 @@ def test_constants_of_compiled_modules_are_those_of_python(path):
     assert {name: float(value) for name, value in said.items()} == values
 
 
+@pytest.mark.long
 @pytest.mark.skipif(shutil.which("objdump") is None, reason="needs binutils")
 def test_no_build_multiplies_and_adds_at_once():
     """A processor that has such instructions would round differently from one that has not."""

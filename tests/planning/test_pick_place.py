@@ -241,6 +241,7 @@ def test_fifty_of_fifty_cubes_are_put_within_a_centimetre(seed):
     assert away < 0.01
 
 
+@pytest.mark.long
 def test_a_gripper_says_whether_it_closed_on_something():
     with fetch_robot.kitchen() as (robot, _):
         gripper = RobotGripper(robot)

@@ -46,6 +46,7 @@ def along_and_aside(robot):
     return ahead, motion[:, 1] * np.cos(yaw) - motion[:, 0] * np.sin(yaw)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("compliance", [0.0, 0.2, 1.0])
 def test_a_wheel_that_is_pulled_along_its_axle_slips_by_the_force(compliance):
     with driving(base(wheels(lateral=compliance))) as sim:
@@ -57,6 +58,7 @@ def test_a_wheel_that_is_pulled_along_its_axle_slips_by_the_force(compliance):
         assert ahead == pytest.approx(SPEEDS * RADIUS, abs=1e-3)
 
 
+@pytest.mark.long
 def test_a_wheel_that_is_braked_slips_along_its_way():
     with driving(base(wheels(longitudinal=1.0))) as sim:
         robot = sim.robots["base"]
@@ -82,6 +84,7 @@ def test_slip_ends_where_friction_does_and_wheels_that_stand_do_not_slip():
         assert robot.position[0, 1] - slid == pytest.approx(0.1 * GRAVITY * 0.75, rel=0.1)
 
 
+@pytest.mark.long
 def test_compliances_are_tuned_while_it_runs():
     with driving(base(wheels(robotNamespace="front"))) as sim:
         robot = sim.robots["base"]

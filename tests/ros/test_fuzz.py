@@ -88,6 +88,7 @@ def throw(port, data, rng):
             pass
 
 
+@pytest.mark.long
 @pytest.mark.timeout(3600)
 def test_garbage_on_every_port_disturbs_nobody(master, make_node, strangers, caplog):
     node, listener = make_node("node"), make_node("listener")

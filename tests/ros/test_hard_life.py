@@ -139,6 +139,7 @@ def test_nothing_is_lost_or_reordered_on_a_healthy_connection(make_node, flood, 
     assert got == list(range(30_000))
 
 
+@pytest.mark.long
 def test_a_flood_through_a_slow_subscriber_keeps_memory_flat(make_node, flood):
     seen = [0, 0]
 
@@ -294,6 +295,7 @@ def test_a_server_that_answers_nonsense_is_an_error(make_node):
             thread.join()
 
 
+@pytest.mark.long
 def test_a_thousand_nodes_register(master):
     proxy = MasterProxy(master.uri, "/crowd")
     begin = time.monotonic()

@@ -47,7 +47,9 @@ for persistent in (False, True):
 """
 
 
-@pytest.fixture(params=["our master", "real roscore"])
+@pytest.fixture(
+    params=["our master", pytest.param("real roscore", marks=pytest.mark.long)]  # it takes a second
+)
 def graph(request):
     """The URI of a master of either kind."""
     if request.param == "our master":

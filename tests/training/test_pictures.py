@@ -48,6 +48,7 @@ def test_numpy_sees_what_torch_sees(shape):
     np.testing.assert_allclose(found, wanted, atol=2e-6)
 
 
+@pytest.mark.long
 def test_a_policy_is_the_same_in_every_form(tmp_path):
     env = VectorEnvAdapter(make_task("gazelle/TurtleBot3CameraWorld-v0", 2, engine="planar"))
     learner = build_learner(recipe_for(TASK), env, seed=1)
@@ -80,6 +81,7 @@ def test_other_algorithms_say_that_they_do_not_see():
     env.close()
 
 
+@pytest.mark.long
 def test_a_training_goes_on_where_it_stopped(tmp_path):
     recipe = dataclasses.replace(
         recipe_for(TASK),

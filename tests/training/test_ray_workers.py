@@ -18,6 +18,8 @@ from gazelle.training.evaluation import evaluate
 from gazelle.training.progress import NoProgress
 from gazelle.training.workers.clusters import RayLink, connect
 
+pytestmark = pytest.mark.long  # a cluster is started for them
+
 
 @pytest.fixture(scope="module", autouse=True)
 def _cluster():
@@ -61,7 +63,6 @@ class KillAnActor(NoProgress):
             os.kill(pid, signal.SIGKILL)
 
 
-@pytest.mark.long
 def test_a_cluster_gives_the_same_curve_as_processes_and_survives_a_death(tmp_path, tiny, started):
     here = trained(tmp_path, tiny, 1)
     there = trained(tmp_path, tiny, None, ray="auto")
@@ -99,7 +100,6 @@ def test_processors_of_the_cluster_are_counted():
     assert connect("auto") == 2
 
 
-@pytest.mark.long
 def test_a_search_is_done_by_a_cluster_and_its_runs_come_back(tmp_path):
     pytest.importorskip("optuna")
     from test_sweep import TASK_FILE, write
@@ -117,7 +117,6 @@ def test_a_search_is_done_by_a_cluster_and_its_runs_come_back(tmp_path):
         assert evaluate(trial.run, episodes=plan.episodes).success.value == trial.score
 
 
-@pytest.mark.long
 def test_a_cluster_evaluates_as_processes_do(tmp_path, tiny):
     run = trained(tmp_path, tiny, 1).run.folder
     here = evaluate(run, episodes=30, workers=1)

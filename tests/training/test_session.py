@@ -30,7 +30,7 @@ SMALL = OffPolicySettings(
 
 def off_policy(algo):
     settings = heeded_only(algo, SMALL)
-    return Recipe(algo=algo, steps=600, num_envs=4, net_arch=(16,), settings=settings)
+    return Recipe(algo=algo, steps=320, num_envs=4, net_arch=(16,), settings=settings)
 
 
 class StopAt(NoProgress):
@@ -124,6 +124,7 @@ def test_second_interrupt_stops_at_once_and_leaves_the_handler_alone(tmp_path, t
     assert signal.getsignal(signal.SIGINT) is before
 
 
+@pytest.mark.long
 def test_training_learns_the_corridor(tmp_path, tiny):
     recipe = dataclasses.replace(tiny, steps=20_000, learning_rate=3e-3, gamma=0.95)
     result = train("test/Corridor-v0", recipe=recipe, out=tmp_path)

@@ -48,6 +48,7 @@ def world(tmp_path):
     return file
 
 
+@pytest.mark.long
 def test_it_runs_a_world_with_all_flags_until_ctrl_c(master, world):
     program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "gzserver"]
     process = subprocess.Popen([*program, *EVERY_FLAG.split(), str(world), "__name:=gazebo"])

@@ -237,12 +237,14 @@ def run(uri, classes, *command):
     return finished.stdout
 
 
+@pytest.mark.long
 def test_a_real_client_gets_gazebos_answers_from_every_service(background, classes):
     said = run(background.master.uri, classes, PYTHON, "-c", EVERY_SERVICE)
     lines = [line.rstrip() for line in said.strip().splitlines()]
     assert lines == ANSWERS.strip().splitlines()
 
 
+@pytest.mark.long
 def test_a_real_client_gets_gazebos_answers_to_what_cannot_be_done(background, classes):
     calls = json.dumps([(service, kind_of(service), fields) for service, fields, _ in ODD])
     said = run(background.master.uri, classes, PYTHON, "-c", ODD_CALLS, calls)

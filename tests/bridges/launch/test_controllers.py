@@ -304,6 +304,7 @@ def test_those_of_a_small_package_do_too(tmp_path):
     bring_up(OWN[0], DATA, tmp_path)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "case",
     [

@@ -14,6 +14,7 @@ SRDF = """<robot name="two_link_arm"><group name="arm">
   <joint name="shoulder"/><joint name="elbow"/></group></robot>"""
 
 
+@pytest.mark.long
 def test_a_simulated_arm_goes_where_it_is_told():
     with robot_graph(arm_text("Position")) as graph:
         graph.spawn("joints", "joint_state_controller/JointStateController", publish_rate=50)

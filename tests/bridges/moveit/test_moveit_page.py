@@ -6,11 +6,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from bridges.moveit.commander_graph import commander_graph
 
 PAGE = Path(__file__).parents[3] / "docs" / "moveit.md"
 
 
+@pytest.mark.long
 def test_the_script_of_the_page_runs(tmp_path):
     (script,) = re.findall(
         r"^```text\n(import sys.*?)^```", PAGE.read_text(), re.DOTALL | re.MULTILINE

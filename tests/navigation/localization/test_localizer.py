@@ -117,6 +117,7 @@ STAGE = {
 }  # fmt: skip
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("settings", [TB3, {**SURE, "max_particles": 5000}, STAGE, {}])
 def test_a_robot_is_found_anywhere_on_the_map(settings):
     """Twenty times of twenty, with the published numbers of particles (100 to 5,000)."""

@@ -282,6 +282,7 @@ def test_the_clock_runs_with_the_bag(play, write_bag, make_node):
     assert good == {"first", "last", "number"}
 
 
+@pytest.mark.long
 def test_it_begins_paused_steps_and_goes_on(write_bag, make_node, heard):
     node = make_node("player", clock=WallClock())
     player = Player(node, [str(write_bag(ROWS))], PlayOptions(paused=True))

@@ -13,7 +13,8 @@ from ros.graph import Flag, FlagResponse, Text, Word, until
 from gazelle.ros import Node, Time, load_message
 from gazelle.ros.errors import ServiceFailedError
 
-pytestmark = [pytest.mark.ros, real.needs_ros, pytest.mark.timeout(300)]
+# A C++ program is compiled for them.
+pytestmark = [pytest.mark.ros, pytest.mark.long, real.needs_ros, pytest.mark.timeout(300)]
 
 
 @pytest.mark.parametrize("nodelay", [False, True])

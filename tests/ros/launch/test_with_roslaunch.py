@@ -97,6 +97,7 @@ def comparable(answer):
     return answer
 
 
+@pytest.mark.long
 def test_every_launch_file_of_the_corpus(corpus):
     environment = SETTINGS | {"ROS_PACKAGE_PATH": str(corpus)}
     real = Roslaunch(environment)

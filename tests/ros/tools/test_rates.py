@@ -49,6 +49,7 @@ def test_sizes_are_measured():
     )
 
 
+@pytest.mark.long
 def test_rates_of_topics_are_written(graph, make_node, out):
     assert any(written_rate_is_right(graph, make_node, out) for _ in range(10))
 

@@ -64,6 +64,7 @@ def test_nodes_are_described(graph, make_node):
         nodes.node_info(graph, "/talkr")
 
 
+@pytest.mark.long
 def test_nodes_answer_pings(graph, make_node, out):
     make_node("talker").advertise("/a", STRING)
     complaints = []
