@@ -55,6 +55,7 @@ def office(request):
             thread.join()
 
 
+@pytest.mark.long
 def test_a_goal_on_the_graph_is_driven_to(office):
     paths, places = [], []
     office.node.subscribe("/path", load_message("nav_msgs/Path"), paths.append, 1)

@@ -164,6 +164,7 @@ def test_help_starts_fast_and_imports_nothing_heavy():
     assert found.stdout.endswith("[]\n")
 
 
+@pytest.mark.long
 def test_a_reader_that_goes_away_is_no_error():
     command = f"{sys.executable} -m gazelle.cli.main plugins | head -c 1"
     found = subprocess.run(

@@ -62,6 +62,7 @@ def test_a_bag_becomes_a_picture(bag, tmp_path, suffix, capsys):
     assert out.read_bytes().startswith(start)
 
 
+@pytest.mark.long
 def test_a_wall_of_the_map_is_dark_where_it_is(bag, tmp_path):
     out = tmp_path / "way.png"
     assert main(["plot", str(bag), str(out)]) == 0

@@ -46,6 +46,7 @@ def running(tmp_path):
         thread.join()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("poses", ["topic", "service"])
 def test_an_agv_moves_and_tells_how_long_it_took(running, poses):
     simulation, node = running
@@ -95,6 +96,7 @@ def test_moves_time_out_and_can_be_cancelled(running):
             canceller.join()
 
 
+@pytest.mark.long
 def test_what_is_not_there_is_told(running):
     _, node = running
     with pytest.raises(ClientError, match="topic or a service"):

@@ -133,6 +133,7 @@ def test_a_real_nodes_controllers_are_loaded_switched_and_killed(node):
         assert controllers.states() == {}
 
 
+@pytest.mark.long
 def test_a_real_nodes_joints_are_commanded(node):
     node.set_param("/r1/group", {"joints": ["one", "two"]})
     with (

@@ -110,6 +110,7 @@ def test_the_world_runs_on_if_wanted(spawn, graph, ball):
     assert not graph.sim.paused
 
 
+@pytest.mark.long
 def test_it_waits_for_another_model(spawn, graph, ball):
     flags = ("-sdf", "-file", ball, "-model", "second", "-wait", "first")
     waiter = threading.Thread(target=spawn, args=flags)

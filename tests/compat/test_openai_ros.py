@@ -72,6 +72,7 @@ def test_modules_have_the_names_that_scripts_import():
         assert issubclass(base, importlib.import_module("gym").Env)
 
 
+@pytest.mark.long
 def test_an_episode_goes_to_its_end(env):
     observation = env.env.reset()
     assert observation.shape == (4,)

@@ -68,6 +68,7 @@ def test_the_gripper_opens_and_closes_both_fingers():
         assert fingers(robot) == pytest.approx([position] * 2, abs=0.003)
 
 
+@pytest.mark.long
 def test_it_carries_a_cube_upside_down():
     sim, robot = arm6()
     grip(robot, 0.035)

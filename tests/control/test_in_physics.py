@@ -32,6 +32,7 @@ gains = st.fixed_dictionaries(
 )
 
 
+@pytest.mark.long
 @settings(max_examples=15, deadline=None)
 @given(gains, st.lists(st.tuples(numbers, numbers), min_size=1, max_size=4), st.booleans())
 def test_no_physics_step_is_stronger_than_limits_allow(pid, targets, within):

@@ -167,6 +167,7 @@ def test_a_ramp_ends_at_rest_and_begins_with_the_speed():
     assert positions(t, 5.0) == end.position.tolist()
 
 
+@pytest.mark.long
 @given(
     st.lists(
         st.tuples(

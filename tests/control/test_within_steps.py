@@ -158,6 +158,7 @@ def test_the_same_bits_at_any_number_of_worlds_and_threads(kind, law, options):
     assert np.array_equal(few[0], many[0][:2])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("law", ["pid", "trajectory"])
 def test_who_listens_changes_nothing(law):
     quiet, heard = (story("Effort", law, native=True, listen=each) for each in (False, True))
@@ -182,6 +183,7 @@ def test_a_listener_that_comes_late_is_not_told_what_it_missed(carried):
     assert np.diff(stamps).min() >= 19_000_000
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("kind", "gains"), [("effort", None), ("position", GAINS)])
 def test_grippers_and_sensors_need_no_python_unless_somebody_asks(carried, kind, gains):
     from gazelle.control.values import GripperGoal

@@ -55,6 +55,7 @@ def test_an_older_bundle_over_the_core_is_named(beside):
     judge(done, "mujoco-core 4.0.1 and mujoco 3.3.7 share a folder")
 
 
+@pytest.mark.long
 def test_two_that_happen_to_import_are_named_too(beside):
     package = {"__init__.py": "__version__ = '3.3.7'\n", "batch.py": ""}
     done = beside(package, mujoco="3.3.7", mujoco_core="4.0.1")

@@ -33,6 +33,7 @@ def largest(corpus):
     return [found[key] for key in sorted(found, reverse=True)[:COUNT]]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("place", range(COUNT))
 def test_beams_meet_the_triangles_of_the_file(largest, place, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))

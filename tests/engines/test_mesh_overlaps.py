@@ -56,6 +56,7 @@ def test_what_overlaps_is_not_thrown_out(tmp_path, below, above, depth, x, y):
     assert fastest < 0.3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("mu", [0.0, 0.05, 1.0])
 @pytest.mark.parametrize(
     ("below", "above", "pose"),

@@ -77,6 +77,7 @@ def test_near_misses_find_it():
         make_engine("mujoco_warp", world)
 
 
+@pytest.mark.long
 def test_other_engines_do_not_touch_it():
     code = (
         "import sys, gazelle; gazelle.Simulation('empty').step(); "

@@ -77,6 +77,7 @@ def test_a_spring_that_a_file_compresses_is_let_go():
     assert heights(engine, "ball", 0.1, 0.01).max() > 0.3
 
 
+@pytest.mark.long
 def test_a_change_of_the_world_leaves_what_strikes_alone():
     """An impact may be deep for a moment; spawning just then is not a reason to let it in."""
     box = scenes.box(pose=Pose(z=0.5))

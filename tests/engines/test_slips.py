@@ -76,6 +76,7 @@ def test_a_wheel_does_not_slip_further_than_its_friction_holds():
     assert gained / 0.5 == pytest.approx(1.0, rel=0.05)
 
 
+@pytest.mark.long
 def test_the_slip_of_the_file_can_be_read_and_changed_and_outlasts_new_masses():
     engine = described(slips(SLIP, 0.0, ALONG), nworld=2)
     np.testing.assert_allclose(engine.parameter("wheel_slip", WHEELS[0]), [[SLIP, 0.0]] * 2)

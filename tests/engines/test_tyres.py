@@ -49,6 +49,7 @@ def test_a_wheel_turns_under_its_tyre():
     assert engine.joint_velocity("base::joint0")[:, 0] == pytest.approx(0.0, abs=0.02)
 
 
+@pytest.mark.long
 def test_slip_lasts_when_models_come_and_go_and_ends_when_told():
     engine = slipping()
     velocity = pushed(engine)

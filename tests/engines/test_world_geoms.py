@@ -131,6 +131,7 @@ def processor_time_of(count):
     return time.process_time() - start
 
 
+@pytest.mark.long
 def test_four_times_as_many_shapes_take_hardly_more_than_four_times_as_long():
     """With each four thousand that come all names of the model were listed, of meshes as well."""
     few, many = processor_time_of(25_000), processor_time_of(100_000)

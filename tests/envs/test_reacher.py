@@ -87,6 +87,7 @@ def test_the_abbs_tools_are_where_their_lengths_put_them(rules, shoulder, bones)
     np.testing.assert_allclose(posed(task, angles), wanted, atol=1e-6)
 
 
+@pytest.mark.long
 def test_goals_lie_in_their_box_and_can_be_reached():
     for rules in (IRB120, IRB140, UR5):
         task = begun(rules, 100)
@@ -143,6 +144,7 @@ def test_being_there_is_the_end_and_a_success_but_for_speeds():
         assert step.terminated[0] == rules.ends
 
 
+@pytest.mark.long
 def test_worlds_do_not_know_of_others_and_states_go_on():
     many, one, other = (
         gym.make_vec("gazelle/UR5Reach-v0", num_envs=n, vectorization_mode="vector_entry_point")
@@ -160,6 +162,7 @@ def test_worlds_do_not_know_of_others_and_states_go_on():
         env.close()
 
 
+@pytest.mark.long
 def test_held_out_goals_are_other_places_of_the_same_box():
     pools = [ReachTask(IRB140, 1, ReachSettings(goals=kind))._goals for kind in SPLITS]
     np.testing.assert_array_equal(pools[0], pools[1])

@@ -86,11 +86,13 @@ def assert_same_space(octree, leaves):
     assert len(middles) <= len(leaves)
 
 
+@pytest.mark.long
 @given(inner, st.sampled_from([0.01, 0.05, 0.3]))
 def test_the_binary_form_survives(node, resolution):
     assert_same_space(Octree(resolution, binary_of(node)), leaves_of(node))
 
 
+@pytest.mark.long
 @given(inner, st.sampled_from([*RECORDS]))
 def test_the_full_form_survives(node, kind):
     octree = Octree(0.1, full_of(node, kind), binary=False, kind=kind)

@@ -33,6 +33,7 @@ def visited(tree, box, node=0):
     return 1 + sum(visited(tree, box, child) for child in tree.children[node])
 
 
+@pytest.mark.long
 @given(st.integers(1, 40).flatmap(boxes_of))
 def test_every_box_is_below_the_root_once_and_within_all_that_is_above_it(boxes):
     tree = BoxTree(boxes)

@@ -50,6 +50,7 @@ def test_move_l_stops_at_every_point(cases):
     assert away.max() <= motions.limits.distance + 1e-9
 
 
+@pytest.mark.long
 @settings(deadline=None, max_examples=60)
 @given(st.lists(st.tuples(angles, angles), min_size=1))
 def test_move_ofsc_ends_at_the_heading(cases):

@@ -74,6 +74,7 @@ SIDES = [(0, 1), (0, -1), (1, 0), (-1, 0)]
 AROUND = [(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1) if (a, b) != (0, 0)]
 
 
+@pytest.mark.long
 @given(st.integers(0, 2**32 - 1), st.integers(3, 14), st.integers(3, 14))
 def test_frontiers_are_those_of_a_plain_search(seed, rows, columns):
     random = np.random.default_rng(seed)
@@ -182,6 +183,7 @@ def check(true, ideal, found, least):
     assert np.mean(distances(drawn_walls(found), true) <= 1.0) >= 0.95
 
 
+@pytest.mark.long
 def test_turtlebot3_world_is_explored():
     true, ideal, found, _, seconds = explored("turtlebot3_world", "burger", (-2.0, -0.5))
     check(true, ideal, found, 400)

@@ -53,6 +53,7 @@ def test_a_robot_goes_around_the_pillars(world, localization):
         assert stands_free(world, robot)
 
 
+@pytest.mark.long
 def test_robots_on_one_map_keep_out_of_each_others_way(world):
     robots = [burger(world, "a", x=-1.7, y=-0.5), burger(world, "b", x=1.7, y=0.5, yaw=3.1)]
     tasks = [robots[0].navigation.go_to(1.7, 0.5), robots[1].navigation.go_to(-1.7, -0.5)]

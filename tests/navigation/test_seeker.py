@@ -74,6 +74,7 @@ def test_the_heading_of_a_goal_is_taken():
     assert ground.pose[2] == pytest.approx(math.pi / 2.0, abs=0.1)
 
 
+@pytest.mark.long
 @settings(max_examples=5, deadline=None)
 @given(st.integers(0, 10_000))
 def test_obstacles_are_driven_around(seed):
@@ -97,6 +98,7 @@ def test_a_dead_end_is_left():
     assert ground.nearest > 0.2
 
 
+@pytest.mark.long
 def test_where_there_is_no_way_it_waits_for_one():
     ring = [(2.0 * math.cos(a), 2.0 * math.sin(a), 0.2) for a in np.linspace(-3.1, 3.1, 40)]
     ground, seeker = Ground(*ring), GoalSeeker()

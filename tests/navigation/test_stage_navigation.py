@@ -96,6 +96,7 @@ def cell_of(grid, x, y):
     return int((y - grid.origin.y) / grid.resolution), int(column)
 
 
+@pytest.mark.long
 def test_what_its_map_lacks_is_seen_by_the_laser_in_each_world_not_by_sonars(start):
     sim = start(
         'base ( name "a" pose [-1.5 0 0 0] drive "omni" sonars() laser() )',

@@ -124,6 +124,7 @@ def test_reachable_poses_are_reached(name, request):
     assert InverseKinematics(robot, group).solve_many(wanted).found.mean() >= 0.999
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore::gazelle.errors.GazelleWarning")
 def test_meshes_collide_where_their_hulls_share_a_point(request):
     """All of Panda's meshes are convex to a hundredth of a millimetre."""

@@ -145,6 +145,7 @@ def test_other_joints_of_a_controller_are_held(lab):
     assert robot.joints["torso_lift_joint"].position == pytest.approx(before, abs=1e-3)
 
 
+@pytest.mark.long
 def test_a_controller_without_an_srdf_is_a_group(lab):
     _, robot = lab
     arm = Group(robot, "arm", tip="gripper_link")

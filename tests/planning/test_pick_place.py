@@ -140,6 +140,7 @@ def test_what_cannot_be_taken_is_refused_with_the_reason(scene):
         PickPlacePlanner(scene, scene.robot.group("arm"), "grip")
 
 
+@pytest.mark.long
 def test_a_lift_that_would_be_too_short_is_none(scene):
     far = GripperTranslation((0.0, 0.0, 1.0), desired=1.5, minimum=1.4)
     found = [

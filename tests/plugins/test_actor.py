@@ -63,6 +63,7 @@ def test_models_push_it_away_unless_they_are_ignored():
         assert sim.robots["walker"].position[0, 1] == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.long
 def test_targets_are_drawn_in_each_world_far_from_models_and_within_the_area():
     tags = "<area>-4 4 -4 4</area><ignore_obstacles><model>a</model><model>b</model></ignore_obstacles>"
     posts = [POST.format(name="a", x=3, y=3), POST.format(name="b", x=-3, y=-3)]

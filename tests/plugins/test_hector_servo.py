@@ -65,6 +65,7 @@ def test_angles_are_those_that_a_turn_was_made_of(order, angles):
     assert angles_of(turned(order, angles), order)[0] == pytest.approx(angles, abs=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("torque", ["0", "0.5"])
 @pytest.mark.parametrize("axes", ["zy", "xy", "zyx", "xyz"])
 def test_servos_turn_to_what_they_are_told(axes, torque):

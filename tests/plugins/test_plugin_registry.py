@@ -177,6 +177,7 @@ def test_an_installed_package_brings_plugins_by_entry_points(tmp_path):
     assert "did you mean 'libshove.so'?" in near
 
 
+@pytest.mark.long
 def test_a_list_that_an_older_installation_of_gazelle_left_is_passed_over(tmp_path):
     install(tmp_path, "gazelle", "gazebo_ros_api_plugin = gazelle.plugins.nowhere:Silent")
     done = run(tmp_path, "-c", USER, "libgazebo_ros_api_plugin.so")

@@ -38,6 +38,7 @@ def slerp(p, q, t):
     return p * Rotation.from_rotvec(t * (p.inv() * q).as_rotvec())
 
 
+@pytest.mark.long
 @given(st.floats(0.01, 0.99))
 def test_orientations_are_on_shoemakes_spline(t):
     path = PoseSpline(TIMES, POINTS, TURNS.as_quat())

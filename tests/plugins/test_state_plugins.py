@@ -69,6 +69,7 @@ def test_joints_are_published_with_positions_and_velocities():
         assert robot.outputs["joint_states"].topic == "/arm/joint_states"
 
 
+@pytest.mark.long
 def test_an_imu_sensor_at_rest_feels_gravity_and_says_its_variance():
     tags = plugin(
         "libgazebo_ros_imu_sensor.so",

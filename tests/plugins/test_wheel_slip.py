@@ -69,6 +69,7 @@ def test_a_wheel_that_is_braked_slips_along_its_way():
         assert aside == pytest.approx(0.0, abs=1e-4)
 
 
+@pytest.mark.long
 def test_slip_ends_where_friction_does_and_wheels_that_stand_do_not_slip():
     with simulate(base(wheels(lateral=1.0), mu=0.3)) as sim:
         robot = sim.robots["base"]
@@ -107,6 +108,7 @@ def test_compliances_are_tuned_while_it_runs():
         assert along_and_aside(robot)[1] == pytest.approx(expected(0.5), abs=3e-4)
 
 
+@pytest.mark.long
 def test_slipping_wheels_go_and_come_with_their_model():
     with driving(base(wheels(lateral=1.0))) as sim:
         sim.delete("base")

@@ -265,6 +265,7 @@ def test_pictures_do_not_depend_on_threads():
     assert digest(many(1)) == digest(many(3))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("build", ["baseline"])
 def test_pictures_are_the_same_in_every_build(build):
     if native.BUILD not in ("avx2", "baseline"):

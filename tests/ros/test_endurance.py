@@ -43,6 +43,7 @@ def pour(make_node, flood, number):
 
 
 @pytest.mark.skipif(not Path("/proc/self/statm").exists(), reason="no /proc to look into")
+@pytest.mark.long
 @pytest.mark.parametrize(
     "gigabytes", [1, pytest.param(10, marks=[pytest.mark.slow, pytest.mark.timeout(1800)])]
 )
@@ -117,6 +118,7 @@ def test_nodes_come_back_to_a_master_that_was_killed():
             process.wait()
 
 
+@pytest.mark.long
 def test_registering_is_quick_however_many_nodes_there_are(master):
     # Their ports are closed, as if all of them had been killed.
     proxy = MasterProxy(master.uri, "/late")

@@ -324,6 +324,7 @@ def scooter():
     register("libscooter.so", Scooter)
 
 
+@pytest.mark.long
 @settings(max_examples=8, deadline=None)
 @given(acts=st.lists(ACTS, min_size=4, max_size=10))
 def test_a_drive_of_a_user_takes_part(acts):

@@ -35,6 +35,7 @@ def drive(sim):
     sim.run(seconds=0.3)
 
 
+@pytest.mark.long
 def test_a_run_replays_to_the_bit(tmp_path):
     path = tmp_path / "run.jsonl"
     with Simulation(world(), nworld=2) as sim:

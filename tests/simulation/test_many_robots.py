@@ -124,6 +124,7 @@ def lived(sim):
     return found, heard, told(sim)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("nworld", [1, 3])
 def test_robots_do_together_what_each_does_alone(nworld):
     with yard(native=False, nworld=nworld, threads=1) as sim:
@@ -228,6 +229,7 @@ def test_plugins_that_cannot_make_their_system_are_updated_alone():
         assert Herd.calls == 2 * 5
 
 
+@pytest.mark.long
 def test_a_hundred_robots_load_quickly_enough_to_be_tested():
     """Motors were given by building the whole world anew: a hundred robots took minutes."""
     with yard(100) as sim:

@@ -162,6 +162,7 @@ def test_read_gives_the_scan_of_one_world_with_its_stamp():
         assert robot.sensors["lds"].read().stamp == 400_000_000
 
 
+@pytest.mark.long
 def test_requests_of_other_threads_are_done_between_steps():
     with burger_world() as sim:
         robot = sim.spawn(scenes.burger())

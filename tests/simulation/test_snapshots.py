@@ -56,6 +56,7 @@ def running():
         yield sim
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("value", [None, np.zeros(7), np.array("x")])
 def test_a_snapshot_with_any_part_damaged_is_refused_and_nothing_changes(running, value):
     """But for the parts of plugins: one that cannot read its own is detached and named."""

@@ -300,6 +300,7 @@ def test_what_threads_write_for_long_does_the_same_as_one_thread(engine):
     assert found == write_again(engine, end_ns, log)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_reader_is_answered_soon_while_the_simulation_runs_and_while_it_rests(engine):
     with burger(engine) as sim:

@@ -96,6 +96,7 @@ def test_targets_stay_within_what_rewards_can_add_up_to(env):
     assert (free._target(free.replay_buffer.sample(8)) > 100.0).all()
 
 
+@pytest.mark.long
 def test_large_actions_have_a_price(env):
     size = {}
     for price in (0.0, 50.0):

@@ -218,6 +218,7 @@ def test_a_policy_that_always_arrives_succeeds_always(engine):
     assert found.distinct == 1
 
 
+@pytest.mark.long
 def test_the_published_list_is_thirteen_episodes():
     given = {"task": "TurtleBot3Stage4", "engine": "planar", "respawn": False}
     published = evaluate(turn(28, 2), episodes=300, goals="published", starts="published", **given)

@@ -127,6 +127,7 @@ def stage4(tmp_path_factory):
     return result.run.folder
 
 
+@pytest.mark.long
 def test_the_contract_tells_layout_units_rates_and_limits(stage4, tmp_path):
     files = export_policy(stage4, "numpy", tmp_path / "robot.npz")
     assert files.contract == tmp_path / "robot.json"

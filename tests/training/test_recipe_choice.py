@@ -99,6 +99,7 @@ def test_an_unknown_task_is_named():
         task_recipe("test/Slyder-v0")
 
 
+@pytest.mark.long
 def test_train_uses_it_from_python_and_the_command_line(tmp_path):
     result = train("test/Slider-v0", steps=64, num_envs=2, out=tmp_path)
     assert result.run.config.recipe.algo == GOALS.algo

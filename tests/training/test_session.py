@@ -66,10 +66,10 @@ CASES = [
     ("ppo", "SameStep", False),
     ("ppo", "NextStep", True),
     ("ppo", "Disabled", False),
-    ("dqn", "SameStep", False),
-    ("sac", "NextStep", True),
-    ("td3", "SameStep", True),
-    ("ddpg", "SameStep", True),
+    pytest.param("dqn", "SameStep", False, marks=pytest.mark.long),
+    pytest.param("sac", "NextStep", True, marks=pytest.mark.long),
+    pytest.param("td3", "SameStep", True, marks=pytest.mark.long),
+    pytest.param("ddpg", "SameStep", True, marks=pytest.mark.long),
 ]
 
 

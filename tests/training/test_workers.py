@@ -136,6 +136,7 @@ def test_more_workers_than_parts_is_one_clear_error(tmp_path, tiny):
     assert "--num-envs" in caught.value.hint
 
 
+@pytest.mark.long
 def test_an_error_of_the_task_is_told_as_it_is(tmp_path, tiny):
     with pytest.raises(TaskError, match="does not take all of these options"):
         trained(tmp_path, tiny, 2, nonsense=3)

@@ -136,6 +136,7 @@ def test_a_map_that_is_turned_lies_as_it_should(tmp_path):
     assert places[:, 0].min() == pytest.approx(-1.0, abs=0.05)
 
 
+@pytest.mark.long
 def test_films_choose_what_there_is_to_see(tmp_path, capsys):
     bag = write(tmp_path / "drive.bag")
     with bag_source(bag) as source:

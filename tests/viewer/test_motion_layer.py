@@ -60,6 +60,7 @@ def pictured(view):
     return next(iter(motion_layer(view)._ghosts.values()), None)
 
 
+@pytest.mark.long
 def test_a_plan_of_a_group_is_shown_until_it_is_made(arm):
     with LiveView(arm.simulation) as view:
         assert pictured(view) is None

@@ -68,6 +68,7 @@ def storm(graph, calls):
     return faults
 
 
+@pytest.mark.long
 def test_clients_that_call_at_once_all_get_their_answers(running):
     assert storm(running, 1600) == []
 

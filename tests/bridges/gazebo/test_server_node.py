@@ -119,6 +119,7 @@ def test_what_does_not_answer_any_more_is_no_obstacle(master):
     refuse_twin("gazebo", dead)
 
 
+@pytest.mark.long
 def test_what_is_not_supported_is_a_line_and_no_more(master, world):
     text = WORLD.replace("<link", "<plugin name='p' filename='libno_such.so'/><link")
     world.write_text(text, encoding="utf-8")

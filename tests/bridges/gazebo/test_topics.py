@@ -74,6 +74,7 @@ def test_who_comes_late_is_told_the_time_of_a_paused_world(graph):
     assert clock[0].clock.to_sec() == pytest.approx(0.042)
 
 
+@pytest.mark.long
 def test_after_a_reset_one_consistent_set_is_published_before_the_answer(graph):
     heard = {topic: graph.client.listen(topic, kind) for topic, kind in KINDS.items()}
     wait_until_heard(graph)

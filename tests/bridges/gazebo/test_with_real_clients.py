@@ -252,6 +252,7 @@ def test_a_real_client_gets_gazebos_answers_to_what_cannot_be_done(background, c
     assert said.strip().splitlines() == expected
 
 
+@pytest.mark.long
 def test_a_real_client_uses_what_gazebo_does_not_have(background, classes):
     said = run(background.master.uri, classes, PYTHON, "-c", OWN_AND_TOPICS)
     lines = said.strip().splitlines()

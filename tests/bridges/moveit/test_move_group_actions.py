@@ -114,6 +114,7 @@ def positions_of(trajectory, number=-1):
     return dict(zip(joints.joint_names, joints.points[number].positions, strict=True))
 
 
+@pytest.mark.long
 def test_it_plans_and_moves(robot):
     shown, said = threading.Event(), []
     feedback = robot.client.node.subscribe(
@@ -236,6 +237,7 @@ def execute(robot, trajectory):
     return client.get_result().error_code.val
 
 
+@pytest.mark.long
 def test_trajectories_are_executed(robot):
     planned = send(robot, goal_of(plan_only=True, shoulder_pan_joint=0.6))[0].planned_trajectory
     assert execute(robot, planned) == PlanOutcome.SUCCESS
@@ -297,6 +299,7 @@ def test_fake_controllers_only_say_where_joints_are(kind):
             assert len(path) > 3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "manager", ["moveit_fake_controller_manager/MoveItFakeControllerManager", ""]
 )

@@ -134,6 +134,7 @@ def test_velocities_poses_and_reset(stage, running):
         )
 
 
+@pytest.mark.long
 def test_tf2_takes_the_frames(stage, running):
     world = stage("robot ( pose [1 2 0 90] ) robot ( pose [3 4 0 90] )")
     running(world.server)

@@ -55,6 +55,7 @@ def run(seed, *, shape, kind, bounds, walls, nworld, forget, euler=False, thread
     return seen
 
 
+@pytest.mark.long
 @given(
     seed=st.integers(0, 10**6),
     shape=st.sampled_from(sorted(SHAPES)),

@@ -29,6 +29,7 @@ def begun():
     task.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine", ["planar", "mujoco"])
 def test_gymnasiums_checker_finds_nothing(engine):
     env = gym.make(ID, engine=engine, render_mode="rgb_array")

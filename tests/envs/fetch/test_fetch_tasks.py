@@ -268,6 +268,7 @@ def picked(env, seed, reach=0.033):
     return info["is_success"], obs
 
 
+@pytest.mark.long
 def test_what_is_grasped_is_lifted_and_carried_to_the_goal(envs):
     success, obs = picked(envs["PickAndPlace"], 0)
     assert success.mean() > 0.95

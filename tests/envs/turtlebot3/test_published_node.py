@@ -49,6 +49,7 @@ def judged(stage, ranges, position, yaw, goal, action, start_distance):
     return observation(rules, view)[0], reward[0], crashed[0], arrived[0]
 
 
+@pytest.mark.long
 @settings(max_examples=400)
 @given(
     st.sampled_from([1, 2, 3, 4]), scans, places, st.floats(-math.pi, math.pi), places,

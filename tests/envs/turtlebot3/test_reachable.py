@@ -12,6 +12,7 @@ def search(stage, **options):
     return reached(rules.world, rules.start, stage_goals(stage).points, **options)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("stage", STAGES)
 def test_every_goal_can_be_reached_within_an_episode(stage):
     found = search(stage)
@@ -24,6 +25,7 @@ def test_every_goal_of_stage_3_can_be_reached_whichever_way_the_ring_stands(begi
     assert search(3, begin=begin).all()
 
 
+@pytest.mark.long
 def test_the_search_finds_what_cannot_be_reached():
     """A ring of 0.5 rad/s is faster than the robot: none gets out between its pillars."""
     found = search(3, spin=0.5, limit=150)

@@ -51,6 +51,7 @@ def test_world_0_is_the_single_environment_bit_for_bit(task):
     one.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("stage", [1, 3, 4])
 def test_no_world_depends_on_the_number_of_worlds(stage):
     task = f"gazelle/TurtleBot3Stage{stage}-v0"

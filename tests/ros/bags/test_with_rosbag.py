@@ -70,6 +70,7 @@ def test_the_real_one_reads_ours(tmp_path, kind):
     assert len(theirs) == 100
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 def test_we_read_the_real_one(tmp_path, kind):
     path = tmp_path / "real.bag"
@@ -78,6 +79,7 @@ def test_we_read_the_real_one(tmp_path, kind):
     assert len(ours(path)) == 100
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("rates", [False, True])
 def test_information_is_the_same(tmp_path, kind, rates):
@@ -90,6 +92,7 @@ def test_information_is_the_same(tmp_path, kind, rates):
     assert tool("", "rosbag", "info", "-y", *option, str(path)).strip() == yaml.strip()
 
 
+@pytest.mark.long
 def test_the_real_one_appends_to_ours_and_we_to_its(tmp_path):
     path = tmp_path / "both.bag"
     write(path, "none")
@@ -106,6 +109,7 @@ def test_the_real_one_appends_to_ours_and_we_to_its(tmp_path):
     assert [row[1] for row in theirs[-2:]] == ['data: "theirs"', 'data: "ours"']
 
 
+@pytest.mark.long
 def test_a_cut_recording_of_the_real_one_is_reindexed(tmp_path):
     path = tmp_path / "cut.bag"
     real_python(WRITE, path, "none")

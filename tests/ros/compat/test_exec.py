@@ -140,6 +140,7 @@ def test_a_close_name_is_offered_for_a_missing_script(execute, tmp_path):
     assert "did you mean 'script.py'" in done.stderr
 
 
+@pytest.mark.long
 def test_a_package_and_a_program_stand_for_a_script(tmp_path, master):
     package = tmp_path / "ws" / "robot" / "scripts"
     package.mkdir(parents=True)

@@ -158,6 +158,7 @@ def test_our_client_sends_goals_to_a_real_server(node, master):
         assert client.get_state() == actionlib.GoalStatus.PREEMPTED
 
 
+@pytest.mark.long
 def test_a_real_client_sends_goals_to_our_server(node, master):
     actionlib = importlib.import_module("actionlib")
     messages = importlib.import_module("actionlib.msg")
@@ -210,6 +211,7 @@ def test_a_real_client_misses_nothing_of_goals_that_are_done_at_once(node, maste
         client.expect("True", "30")
 
 
+@pytest.mark.long
 def test_a_real_client_changes_our_parameters(node, master):
     server_module = importlib.import_module("dynamic_reconfigure.server")
     from ros.compat.test_other_modules import described

@@ -88,6 +88,7 @@ def test_a_slash_joins_a_package_and_what_follows(workspace, text):
     assert known.resolve(text) == JOINED[text].format(workspace / "robot")
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not Path("/usr/lib/python3/dist-packages/roslaunch").exists(), reason="no ROS")
 def test_roslaunch_joins_so_itself(workspace):
     program = (

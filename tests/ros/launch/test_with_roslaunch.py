@@ -158,6 +158,7 @@ INNER = """
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("args", [{}, {"a": "5"}, {"b": "x y"}, {"nope": "1"}])
 def test_a_file_with_everything(tmp_path, args):
     path = tmp_path / "all.launch"

@@ -130,6 +130,7 @@ def test_every_kind_of_field_has_the_bytes_and_types_of_genpy(all_kinds, genpy):
             assert kinds[0] == kinds[1].rpartition("__")[2], slot
 
 
+@pytest.mark.long
 @RELAXED
 @given(st.data())
 def test_reading_what_was_written_gives_the_message_back(all_kinds, data):
@@ -150,6 +151,7 @@ def test_reading_what_was_written_gives_the_message_back(all_kinds, data):
         assert again.getvalue() == written
 
 
+@pytest.mark.long
 @settings(max_examples=300)
 @given(st.sampled_from(TYPES), st.binary(max_size=200), st.booleans())
 def test_garbage_is_a_message_or_an_error(name, data, arrays):

@@ -223,6 +223,7 @@ def random_definition(rng: random.Random) -> str:
     return rng.choice(["", "\n", "# start\n"]) + "\n".join(lines) + rng.choice(["", "\n"])
 
 
+@pytest.mark.long
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**32))
 def test_the_md5_sum_of_any_definition_is_genpys(genpy, seed):
@@ -325,6 +326,7 @@ def test_registering_a_type_again_changes_it_and_those_that_contain_it():
     assert after[0]().part.b == 0
 
 
+@pytest.mark.long
 @given(name=st.text(min_size=1).filter(lambda text: not text.isprintable()))
 @example(name="\0")
 @example(name="std_msgs/Str\0ing")

@@ -290,6 +290,7 @@ def call_ours(name, args):
     return ball.matrix()
 
 
+@pytest.mark.long
 @pytest.mark.ros
 def test_every_function_gives_the_real_modules_numbers():
     peers.need("tf.transformations")
