@@ -85,6 +85,7 @@ def everything(corpus, tmp_path):
     return joined
 
 
+@pytest.mark.long
 @pytest.mark.corpus
 def test_the_readme_works_beside_everything(everything, tmp_path):
     run(["-c", python_of(ROOT / "README.md")], everything, tmp_path)

@@ -205,6 +205,7 @@ def grip(robot, position, effort=0.0):
     return done(action.send(GripperGoal(position, effort)), robot.simulation)
 
 
+@pytest.mark.long
 def test_it_stands_and_holds_its_arm(fetch):
     sim = fetch.simulation
     sim.run(1.0)
@@ -215,6 +216,7 @@ def test_it_stands_and_holds_its_arm(fetch):
     assert abs(fetch.pose.pitch) < 5e-3
 
 
+@pytest.mark.long
 def test_it_tucks_its_arm_as_the_published_script_does(fetch):
     still = (0.0,) * 7
     way = [
@@ -228,6 +230,7 @@ def test_it_tucks_its_arm_as_the_published_script_does(fetch):
     assert [fetch.joints[name].position for name in ARM] == pytest.approx(way[-1][1], abs=0.01)
 
 
+@pytest.mark.long
 def test_fingers_go_to_an_opening_alike(fetch):
     for opening in (0.1, 0.02, 0.06):
         goal = grip(fetch, opening)
@@ -245,6 +248,7 @@ def test_its_topics_have_the_robots_names(fetch):
     assert fetch.inputs["cmd_vel"].topic == "/cmd_vel"
 
 
+@pytest.mark.long
 def test_it_drives_and_knows_how_far(fetch):
     fetch.inputs["cmd_vel"].send(0.5, 0.0)
     fetch.simulation.run(3.0)

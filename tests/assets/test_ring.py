@@ -45,6 +45,7 @@ def scripted():
         return float(simulation.robots["obstacle"].yaw[0]) / 10.0
 
 
+@pytest.mark.long
 def test_the_ring_turns_as_fast_as_a_loose_one_that_is_pushed_every_tenth_of_a_second():
     # A node sleeps for 0.1 s of wall time and then waits for a message: 0.10 to 0.11 s.
     slow, fast = pushed(formats.load(OWN), 0.11), pushed(formats.load(OWN), 0.1)
@@ -59,6 +60,7 @@ def test_the_pushed_ring_turns_as_far_as_friction_lets_it():
     assert most / math.sqrt(2.0) < pushed(formats.load(OWN), 0.1) < 1.01 * most
 
 
+@pytest.mark.long
 @pytest.mark.corpus
 def test_the_published_world_has_the_same_ring(corpus, monkeypatch):
     file = corpus / PUBLISHED

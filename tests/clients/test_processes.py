@@ -52,6 +52,7 @@ def test_a_simulator_is_there_when_made_and_gone_when_closed(master):
     assert summary["real_time_factor"]["most"] > 0.0
 
 
+@pytest.mark.long
 def test_a_simulator_is_not_taken_for_another(master):
     with SimulatorProcess(), pytest.raises(ClientError, match="on this graph already: /gazebo"):
         SimulatorProcess()
@@ -107,6 +108,7 @@ def test_everything_on_a_graph_is_ended_the_master_too():
         assert master.ended.wait(60.0)
 
 
+@pytest.mark.long
 def test_a_simulator_that_cannot_begin_says_why(master):
     with pytest.raises(ClientError, match="no_such_world"):
         SimulatorProcess("no_such_world")

@@ -67,6 +67,7 @@ def test_courier_goes_as_it_is_told_and_knows_where_it_is(forward, turning):
     compare(sim, robot, start)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("forward", "angle"), [(1.0, 0.0), (0.6, 0.3), (0.5, -0.5), (-0.4, 0.4)])
 def test_the_ackermann_base_rounds_a_circle_of_its_steering_angle(forward, angle):
     sim, robot = base("ackermann_base")
@@ -85,6 +86,7 @@ def test_the_ackermann_base_rounds_a_circle_of_its_steering_angle(forward, angle
     compare(sim, robot, start)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("make", [courier, lambda nworld: base("ackermann_base", nworld)])
 def test_a_base_that_is_told_nothing_more_stands_still(make):
     sim, robot = make(nworld=2)

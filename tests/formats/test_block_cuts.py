@@ -133,6 +133,7 @@ def test_a_hull_after_another_knows_nothing_of_it():
         assert builder.hull(points).tolist() == HullBuilder(300).hull(points).tolist()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("build", ["avx2", "python"])
 def test_blocks_do_not_depend_on_the_build(build):
     if build == "avx2" and native.BUILD != "avx2":

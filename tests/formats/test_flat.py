@@ -91,6 +91,7 @@ def test_the_same_surface_gives_the_same_polygons():
     np.testing.assert_array_equal(first.vertices, again.vertices)
 
 
+@pytest.mark.long
 def test_a_large_curved_surface_takes_seconds_not_half_a_minute():
     import time
 

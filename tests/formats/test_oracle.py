@@ -5,16 +5,13 @@ the comparison. That loading a written file gives the same description again is 
 ``test_write_sdf`` to say.
 """
 
-import os
 import re
-import shutil
-import subprocess
 import warnings
 import xml.etree.ElementTree as ET
 
 import corpus_table
+import libsdformat
 import pytest
-from missing import skip_or_fail
 from oracle_variants import EXTENDED
 from plain_sdf import as_urdf, differences, table
 
@@ -77,27 +74,17 @@ KNOWN_VALUES = {
 
 @pytest.fixture(autouse=True, scope="module")
 def _tool():
-    if shutil.which("ign") is None:
-        skip_or_fail("`ign sdf` is not installed (Debian: libsdformat-dev ignition-tools)")
+    libsdformat.needed()
 
 
 def oracle(path, roots=()):
     """What libsdformat makes of a file, as it prints it; None where it refuses the file."""
-    run = subprocess.run(
-        ["ign", "sdf", "-p", str(path)],
-        capture_output=True,
-        text=True,
-        timeout=600,
-        check=False,
-        env={**os.environ, "SDF_PATH": ":".join(map(str, roots))},
-    )
-    return run.stdout[run.stdout.index("<sdf") :] if "<sdf" in run.stdout else None
+    return libsdformat.printed(path, roots=roots)
 
 
 def complaints(path):
     """What libsdformat says against a file."""
-    command = ["ign", "sdf", "-k", str(path)]
-    run = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
+    run = libsdformat.ign_sdf("-k", path)
     said = [*run.stdout.splitlines(), *run.stderr.splitlines()]
     return [line for line in said if "rror" in line and "Library error" not in line]
 

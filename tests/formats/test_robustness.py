@@ -56,6 +56,7 @@ def test_flipped_bytes(text, seed, count):
     survives(bytes(data))
 
 
+@pytest.mark.long
 @settings(max_examples=300, deadline=5000, suppress_health_check=[HealthCheck.too_slow])
 @given(st.sampled_from([SDF, URDF, XACRO]), st.integers(0, 2**32), st.sampled_from(EVIL))
 def test_values_replaced(text, seed, value):

@@ -51,6 +51,7 @@ def test_growing_moves_nothing():
         assert (grid.cell_of(point) < grid.cells.shape).all()
 
 
+@pytest.mark.long
 @given(st.lists(st.tuples(st.integers(0, 19), st.integers(0, 24)), max_size=6), st.floats(0.0, 7.0))
 def test_a_grown_mask_is_what_is_within_the_radius(marked, radius):
     mask = np.zeros((20, 25), np.bool_)

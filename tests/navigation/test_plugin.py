@@ -67,6 +67,7 @@ def test_goals_are_reached_without_a_touch(courier):
     assert not len(ways[-1].poses[0])
 
 
+@pytest.mark.long
 def test_what_turns_up_in_its_way_is_driven_around():
     with gazelle.Simulation("empty") as sim:
         courier = Courier(sim)
@@ -142,6 +143,7 @@ def test_a_reset_forgets_the_goal(courier):
     assert courier.robot.pose.x == pytest.approx(0.0, abs=1e-3)
 
 
+@pytest.mark.long
 def test_a_snapshot_goes_on_to_the_bit(courier):
     sim = courier.sim
     courier.robot.inputs["goal"].send(GoalPose(0.7, -1.3))
@@ -155,6 +157,7 @@ def test_a_snapshot_goes_on_to_the_bit(courier):
     assert ends[0] == ends[1]
 
 
+@pytest.mark.long
 def test_worlds_of_a_batch_have_goals_of_their_own():
     with gazelle.Simulation("empty", nworld=3) as sim:
         courier = Courier(sim)

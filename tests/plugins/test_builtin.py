@@ -8,6 +8,7 @@ from gazelle.errors import PluginWarning
 from gazelle.plugins.battery import LinearBattery
 
 
+@pytest.mark.long
 def test_a_random_velocity_begins_as_told_and_is_drawn_anew_in_each_world():
     tags = plugin(
         "libRandomVelocityPlugin.so",

@@ -17,6 +17,7 @@ def desired(position, frame="world", child="hog_desired"):
     return Transforms(0, (Transform(frame, child, np.array([position]), upright),))
 
 
+@pytest.mark.long
 def test_a_hand_draws_its_link_to_a_frame_without_swinging():
     with simulate(block(plugin=HAND), ground=False, nworld=2) as sim:
         robot = sim.robots["cube"]
@@ -41,6 +42,7 @@ def test_a_hand_draws_its_link_to_a_frame_without_swinging():
         assert robot.position[1] == pytest.approx([0.3, 0.0, 1.0], abs=0.01)
 
 
+@pytest.mark.long
 def test_a_hand_follows_a_frame_through_others():
     east = np.array([[0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)]])
     with simulate(block(plugin=HAND), ground=False, nworld=2) as sim:

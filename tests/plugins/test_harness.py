@@ -26,6 +26,7 @@ def harness(joint=ROPE, rest=WINCH, **tags):
     return block(plugin=text.replace("</plugin>", f"{joint}{rest}</plugin>"))
 
 
+@pytest.mark.long
 def test_a_model_hangs_where_the_winch_bears_its_weight():
     with simulate(harness(), nworld=2) as sim:
         robot = sim.robots["cube"]
@@ -37,6 +38,7 @@ def test_a_model_hangs_where_the_winch_bears_its_weight():
         assert robot.position[:, :2] == pytest.approx(0.0, abs=1e-3)
 
 
+@pytest.mark.long
 def test_a_winch_pays_out_at_its_speed_and_stops_where_it_is():
     with simulate(harness(), nworld=2) as sim:
         robot = sim.robots["cube"]
@@ -55,6 +57,7 @@ def test_a_winch_pays_out_at_its_speed_and_stops_where_it_is():
         assert robot.position[1, 2] == pytest.approx(stopped - GRAVITY / STRENGTH, abs=0.01)
 
 
+@pytest.mark.long
 def test_what_is_let_go_falls_in_its_world_and_hangs_again_after_a_reset():
     with simulate(harness(), nworld=2) as sim:
         robot = sim.robots["cube"]

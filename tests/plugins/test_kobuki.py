@@ -24,6 +24,7 @@ def test_it_drives_until_its_command_is_too_old():
         assert robot.twist.linear[0] == pytest.approx(0.0, abs=0.01)
 
 
+@pytest.mark.long
 def test_its_heading_comes_from_the_gyro():
     with simulate(kobuki(), nworld=2) as sim:
         robot = sim.robots["base"]
@@ -39,6 +40,7 @@ def test_its_heading_comes_from_the_gyro():
         assert robot.outputs["imu_data"].topic == "/mobile_base/sensors/imu_data"
 
 
+@pytest.mark.long
 def test_without_power_it_stands():
     with simulate(kobuki(), nworld=2) as sim:
         robot = sim.robots["base"]
@@ -51,6 +53,7 @@ def test_without_power_it_stands():
         assert (robot.outputs["odom"].last.position == 0.0).all()
 
 
+@pytest.mark.long
 def test_it_tells_of_cliffs_when_they_come_and_go():
     with simulate(kobuki()) as sim:
         robot = sim.robots["base"]
@@ -66,6 +69,7 @@ def test_it_tells_of_cliffs_when_they_come_and_go():
         assert [bool(each.deep[0]) for each in heard] == [True, False]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("place", "x", "y", "size"),
     [("center", 0.5, 0.0, "0.1 0.1"), ("left", 0.3, 0.15, "0.06 0.02")],

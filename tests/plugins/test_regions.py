@@ -19,6 +19,7 @@ EVENTS = """<plugin name="e" filename="libSimEventsPlugin.so"><region><name>r</n
 <region>{region}</region><topic>~/elevator</topic><msg_data>1</msg_data></event></plugin>"""
 
 
+@pytest.mark.long
 def test_a_lift_comes_where_somebody_waits():
     with simulate(LIFT, block(), EVENTS.format(kind="occupied", region="r"), nworld=2) as sim:
         sim.run(seconds=0.5)

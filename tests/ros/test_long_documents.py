@@ -161,6 +161,7 @@ def test_what_is_wrong_with_a_long_document_is_said(served):
     assert not proxy.has_param("/a")
 
 
+@pytest.mark.long
 def test_a_client_that_leaves_meanwhile_harms_nobody(served):
     master, proxy = served
     body = write_call("setParam", ("/x", "/a", NUMBERS))

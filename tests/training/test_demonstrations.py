@@ -112,6 +112,7 @@ def test_what_was_shown_is_imitated_where_it_is_worth_more(env, shown, algo):
         torch.testing.assert_close(found.grad, right, atol=1e-5, rtol=1e-3)
 
 
+@pytest.mark.long
 def test_a_policy_comes_to_do_what_was_shown(env, shown):
     name = f"{shown}:towards"
     towards = find_demonstrator(name)
@@ -152,6 +153,7 @@ def test_the_first_steps_are_remembered_until_they_are_overwritten(env):
     assert learnt(env, given, 240).replay_buffer.sample_first(50, 10) is None
 
 
+@pytest.mark.long
 def test_a_run_knows_its_demonstrator_wherever_it_goes_on(shown, tmp_path, monkeypatch):
     given = dataclasses.replace(recipe(f"{shown}:towards", imitation=5.0), steps=480)
     options = {"recipe": given, "imports": ["slider_task"], "out": tmp_path}

@@ -259,6 +259,7 @@ def test_every_algorithm_learns_from_it_and_resumes_with_the_same_bits(tmp_path,
         np.testing.assert_array_equal(left, right)
 
 
+@pytest.mark.long
 def test_a_policy_is_evaluated_and_exported(tmp_path):
     result = train("test/Slider-v0", recipe=recipe("td3"), out=tmp_path)
     found = evaluate(result.run.folder, episodes=12)
@@ -273,6 +274,7 @@ def test_a_policy_is_evaluated_and_exported(tmp_path):
     env.close()
 
 
+@pytest.mark.long
 def test_an_environment_without_a_vector_version_and_workers_learn_too(tmp_path):
     train("test/SingleSlider-v0", recipe=recipe("sac", steps=300, num_envs=2), out=tmp_path)
 

@@ -44,6 +44,7 @@ def results(rows):
     return {(float(row["factor"]), int(row["seed"])): float(row["result"]) for row in rows}
 
 
+@pytest.mark.long
 def test_all_combinations_are_in_the_table(file, tmp_path):
     study = Study(function=f"{file}:square", vary={"factor": [1.0, 2.5]}, seeds=3)
     told = []
@@ -54,6 +55,7 @@ def test_all_combinations_are_in_the_table(file, tmp_path):
     assert told[-1] == (6, 6)
 
 
+@pytest.mark.long
 def test_a_study_that_was_cut_short_goes_on(file, tmp_path):
     out = tmp_path / "t.csv"
     study = Study(function=f"{file}:square", vary={"factor": [1.0]}, seeds=4)
@@ -66,6 +68,7 @@ def test_a_study_that_was_cut_short_goes_on(file, tmp_path):
     assert conduct(study, out, workers=1).new == 0
 
 
+@pytest.mark.long
 def test_a_worker_that_is_killed_is_replaced(file, tmp_path):
     study = Study(function=f"{file}:square", vary={"factor": [1.0], "fatal": [1]}, seeds=3)
     done = conduct(study, tmp_path / "t.csv", workers=1)

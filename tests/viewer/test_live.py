@@ -373,6 +373,7 @@ def test_a_page_to_look_at_alone_changes_nothing(room):
         assert not any("Controls" in type(layer).__name__ for layer in view._layers[1:])
 
 
+@pytest.mark.long
 def test_copies_that_learn_are_watched(capsys):
     pytest.importorskip("stable_baselines3", reason="the extra 'train' is not installed")
     import argparse

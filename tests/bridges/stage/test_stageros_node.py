@@ -33,6 +33,7 @@ def start(master, *arguments):
     )
 
 
+@pytest.mark.long
 def test_it_runs_with_stageros_arguments_until_it_is_told_to_end(master, tmp_path):
     world = write(tmp_path, TWO)
     process = start(master, "-g", "-u", str(world), "__name:=sim", "_base_watchdog_timeout:=0.0")
@@ -56,6 +57,7 @@ def test_it_runs_with_stageros_arguments_until_it_is_told_to_end(master, tmp_pat
         process.stderr.close()
 
 
+@pytest.mark.long
 def test_it_ends_at_the_files_quit_time(master, tmp_path):
     process = start(master, str(write(tmp_path, "quit_time 2 " + TWO)))
     with process.stderr:
@@ -82,6 +84,7 @@ def test_it_waits_for_a_master_and_ends_while_it_waits(tmp_path):
             assert process.wait(60) == 0
 
 
+@pytest.mark.long
 def test_what_the_file_is_warned_of_is_on_rosout(master, tmp_path):
     odd = TWO.replace('name "b"', 'name "b" colour "red"')
     heard = []

@@ -144,6 +144,7 @@ def test_a_task_on_systems_begins_as_one_on_plugins(stage):
         task.close()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine", ENGINES)
 def test_a_saved_environment_goes_on_with_the_same_bits(engine):
     env = many(4, 4, engine, respawn=False, max_episode_steps=8, **HELD_OUT)
@@ -164,6 +165,7 @@ def test_a_saved_environment_goes_on_with_the_same_bits(engine):
     other.close()
 
 
+@pytest.mark.long
 def test_worlds_know_nothing_of_each_other():
     few, lots = many(4, 3, **HELD_OUT), many(4, 20, **HELD_OUT)
     one = gym.make("gazelle/TurtleBot3Stage4-v0", engine="planar", **HELD_OUT)

@@ -81,6 +81,7 @@ def test_any_bytes_do_no_harm(folder, data, head):
     survives(folder, head + data)
 
 
+@pytest.mark.long
 @fuzzing
 @given(
     cut=st.tuples(st.integers(0, len(SAMPLE)), st.integers(0, 40)),

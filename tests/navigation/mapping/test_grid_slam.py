@@ -53,6 +53,7 @@ def wall_error(found, true):
     return near[cells[:, 1], cells[:, 0]][seen]
 
 
+@pytest.mark.long
 def test_a_map_agrees_with_the_truth_and_the_place_with_it():
     true, random = room(), np.random.default_rng(2)
     model = BeamModel((true.data != 0).view(np.uint8), (-1.0, -1.0), 0.05, np.ones(4), 0.2, 0.1)

@@ -27,6 +27,7 @@ def check(world, start, goals, slip, least):
     assert heading.mean() < 0.005
 
 
+@pytest.mark.long
 def test_a_part_of_turtlebot3_world():
     check("turtlebot3_world", (-2.0, -0.5), WORLD[:3], 0.05, 150)
 
@@ -53,6 +54,7 @@ def scans():
     return found
 
 
+@pytest.mark.long
 def test_karto_mends_odometry_that_slips(scans):
     slam = KartoSlam(KartoSettings.read({"minimum_travel_distance": 0.12}))
     slip, errors = (0.02, 0.0, 0.01), []
@@ -69,6 +71,7 @@ def test_karto_mends_odometry_that_slips(scans):
     assert (slam.map().data == 100).sum() > 150
 
 
+@pytest.mark.long
 def test_hector_needs_no_odometry(scans):
     values = {
         "map_resolution": 0.05, "map_size": 256, "map_multi_res_levels": 2, "laser_min_dist": 0.12,

@@ -110,6 +110,7 @@ def test_frames_are_those_of_the_real_kdl(capsys):
         assert mine == pytest.approx(other, abs=1e-9)
 
 
+@pytest.mark.long
 @given(FRAMES)
 def test_posemath_goes_there_and_back(f):
     posemath = load("tf_conversions.posemath")

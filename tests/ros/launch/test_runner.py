@@ -223,6 +223,7 @@ def test_a_required_node_ends_the_launch(launch, script):
     assert any("exit code 2" in text for text in running.said)
 
 
+@pytest.mark.long
 def test_all_are_ended_with_all_they_started(launch, script, tmp_path):
     script("family.sh", f"#!/bin/sh\nsleep 100 &\necho $! > {tmp_path}/child\nwait\n")
     running = launch(node("family.sh"))
@@ -233,6 +234,7 @@ def test_all_are_ended_with_all_they_started(launch, script, tmp_path):
     until(lambda: gone(child))
 
 
+@pytest.mark.long
 def test_the_stubborn_are_killed(launch, script, tmp_path):
     script(
         "no.sh",
@@ -327,6 +329,7 @@ def test_other_machines_are_refused(launch, script, machine, message):
         launch(machine + node("true.sh", machine="m"))
 
 
+@pytest.mark.long
 def test_the_command_ends_cleanly_on_ctrl_c(workspace, script, tmp_path):
     script("sleep.sh", f"#!/bin/sh\ntouch {tmp_path}/up\nexec sleep 100\n")
     file = tmp_path / "f.launch"

@@ -160,6 +160,7 @@ def test_loading_and_dumping_are_told_the_same(uri, tmp_path):
         assert ours(uri, "param", *words) == tool(uri, "rosparam", *words)
 
 
+@pytest.mark.long
 def test_what_we_publish_the_real_one_echoes(uri):
     command = ["topic", "pub", "-r", "20", "/out", "geometry_msgs/Point", "{x: 1, z: -2.5}"]
     process = subprocess.Popen(

@@ -26,6 +26,7 @@ def edges_of(lines):
     return found
 
 
+@pytest.mark.long
 @given(cells=masks)
 def test_the_outline_has_every_edge_once_with_the_wall_on_its_left(cells):
     edges = edges_of(outline(cells))
