@@ -19,6 +19,7 @@ from gazelle.bridges.conversions import (
     quaternion,
 )
 from gazelle.simulation.values import (
+    DriveCommand,
     EmergencyStop,
     Flags,
     JointPath,
@@ -78,6 +79,10 @@ add_service(
 )
 add_decoder(
     EmergencyStop, Decoder("std_msgs/Bool", lambda message: EmergencyStop(bool(message.data)))
+)
+add_decoder(
+    DriveCommand,
+    Decoder("usv_msgs/UsvDrive", lambda message: DriveCommand(message.left, message.right)),
 )
 add_decoder(Number, Decoder("std_msgs/Float32", lambda message: Number(message.data)))
 add_decoder(

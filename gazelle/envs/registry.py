@@ -89,6 +89,7 @@ ENTRIES = (
     *(_named("kobuki_maze", f"Kobuki{name}", 1000) for name in _KOBUKIS),
     _named("hopper", "HopperStayUp", 1000),
     _named("parrot_drone", "ParrotDroneGoto", 100),
+    _named("wamv", "WamvBuoys", 100),
     *(_named("reacher", name, steps) for name, steps in _REACHERS.items()),
     *_fetch(),
 )

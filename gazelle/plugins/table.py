@@ -38,6 +38,7 @@ _DRIVES = (
     _simulated("DiffDrivePlugin", "Gazebo's own two wheels; sizes of the model", "builtin_drives:BuiltinDiffDrive"),
     _simulated("SkidSteerDrivePlugin", "Gazebo's own four wheels; sizes of the model", "builtin_drives:BuiltinSkidSteer"),
     _simulated("plugin_drone", "SJTU's quadrotor: takes off, flies as it is told, lands", "drone:Drone"),
+    _simulated("usv_gazebo_thrust_plugin", "propellers of a vessel", "usv_thrust:UsvThrust"),
     _simulated("gazelle_go_to_goal", "drives a model with a drive and a laser to goals", "gazelle.navigation.plugin:GoToGoal"),
     _simulated("gazelle_navigation", "takes a model with a drive and a laser to goals as move_base does", "gazelle.navigation.robot_navigation:RobotNavigation"),
 )
@@ -104,6 +105,7 @@ _WORLDS = (
     _simulated("GravityCompensationPlugin", "joints bear the weight they carry", "gravity_compensation:GravityCompensation"),
     _simulated("LiftDragPlugin", "wings and keels", "lift_drag:LiftDrag"),
     _simulated("BuoyancyPlugin", "bodies in water", "buoyancy:Buoyancy"),
+    _simulated("usv_gazebo_dynamics_plugin", "a vessel with two hulls on still water", "usv_dynamics:UsvDynamics"),
     _simulated("LinearBatteryPlugin", "a battery that runs down", "battery:LinearBattery"),
     _simulated("LinearBatteryConsumerPlugin", "takes power", "battery:BatteryConsumer"),
     _simulated("hector_gazebo_reset_plugin", "tells of resets", "hector_reset:HectorReset"),

@@ -10,6 +10,7 @@ import dataclasses
 import warnings
 
 from gazelle.errors import TaskWarning
+from gazelle.training.flight_recipes import FLIGHT, VESSEL
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.heeded import SOME_HEED, heeded_only
 from gazelle.training.recipe import (
@@ -108,20 +109,6 @@ _REACH = Recipe(
     training_options={"engine": "mujoco", "time_step": 0.05},
     evaluation_options={"time_step": 0.01},
     settings=_REACH_SETTINGS,
-)
-
-# A step of a second is 100 coarse ones of physics; the drone holds its velocity with those, too.
-_FLIGHT = Recipe(
-    steps=100_000,
-    num_envs=256,
-    activation="relu",
-    learning_rate=2e-3,
-    gamma=0.97,
-    goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3, other_end=2.0),
-    features=True,
-    training_options={"engine": "mujoco", "time_step": 0.01, "starts": "training"},
-    evaluation_options={"time_step": 0.004},
-    settings=PPOSettings(n_steps=16, batch_size=1024, n_epochs=6),
 )
 
 # Small networks, a step size that stays, a target that follows soon: goals are few steps away.
@@ -251,7 +238,8 @@ RECIPES: dict[str, Recipe] = {
     "SummitXLRoom": dataclasses.replace(
         _TO_PLACE, goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3, other_end=2.0)
     ),
-    "ParrotDroneGoto": _FLIGHT,
+    "ParrotDroneGoto": FLIGHT,
+    "WamvBuoys": VESSEL,
     "TurtleBot2Maze": _DRIVING,
     "TurtleBot2Wall": _TO_PLACE,
     "TurtleBot3World": _DRIVING,

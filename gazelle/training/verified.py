@@ -65,6 +65,7 @@ VERIFIED: dict[str, Verified] = {
     ),
     "KobukiEmpty": Verified(success={"planar": SuccessRate(200, 200)}, seeds=1, seconds=11),
     "ParrotDroneGoto": Verified(success={"mujoco": SuccessRate(283, 300)}, seeds=1, seconds=72),
+    "WamvBuoys": Verified(success={"mujoco": SuccessRate(291, 300)}, seeds=1, seconds=110),
     "SummitXLRoom": Verified(success={"planar": SuccessRate(118, 200)}, seeds=1, seconds=25),
     "TurtleBot2Maze": Verified(success={"planar": SuccessRate(166, 200)}, seeds=1, seconds=17),
     "TurtleBot3World": Verified(success={"planar": SuccessRate(187, 200)}, seeds=1, seconds=21),

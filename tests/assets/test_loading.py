@@ -16,7 +16,7 @@ OF_TASKS = {
     "fetch_cube",
     "fetch_puck",
     *("turtlebot2_maze", "turtlebot2_wall", "kobuki_maze", "kobuki_boxes"),
-    *("rosbot_playground", "summit_xl_room", "turtlebot3_camera", "drone_field"),
+    *("rosbot_playground", "summit_xl_room", "turtlebot3_camera", "drone_field", "wamv_channel"),
 }
 LIKE_GAZEBO = {"shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range", "pick_and_place"}
 LIKE_TURTLEBOT3 = set(assets.worlds()) - LIKE_GAZEBO - BUILT - OF_TASKS
@@ -46,6 +46,7 @@ OPENAI_ROS = {
     "abb_irb120": SIX_AXES,
     "abb_irb140": SIX_AXES,
     "parrot_ardrone": "",
+    "wamv": "",
     "monoped": "haa_joint hfe_joint kfe_joint",
     "ur5": (
         "shoulder_pan_joint shoulder_lift_joint elbow_joint wrist_1_joint wrist_2_joint"

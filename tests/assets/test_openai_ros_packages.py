@@ -45,6 +45,7 @@ PACKAGES = [
     ),
     Launched("turtlebot3_gazebo", model="turtlebot3"),
     Launched("drone_construct", model="sjtu_drone"),
+    Launched("robotx_gazebo", model="wamv"),
     Launched("kobuki_maze_rl", model="kobuki_robot"),
     Launched("rosbot_gazebo", worlds=("start_world_maze.launch",), model="rosbot"),
     Launched("summit_xl_gazebo", model="summit_xl"),

@@ -22,6 +22,7 @@ def test_worlds_by_name():
     indoors = {"furnished_room", "office", "turtlebot3_world", "fleet", "depot"}
     tasks = {"turtlebot2_maze", "turtlebot2_wall", "kobuki_maze", "kobuki_boxes"}
     tasks |= {"rosbot_playground", "summit_xl_room", "turtlebot3_camera", "drone_field"}
+    tasks |= {"wamv_channel"}
     tasks |= {"fetch_table", "fetch_cube", "fetch_puck"}
     assert stages | gazebos | tables | indoors | tasks == set(assets.worlds())
     assert assets.world("empty") == assets.root() / "worlds" / "empty.world"

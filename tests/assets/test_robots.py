@@ -103,7 +103,7 @@ def test_names_of_the_robots():
             *ROBOTS,
             *("ackermann_base", "arm6", "cartpole", "courier", "fetch", "rrbot"),
             *("kobuki", "moving_cube", "rosbot", "summit_xl"),
-            *("abb_irb120", "abb_irb140", "monoped", "parrot_ardrone", "ur5"),
+            *("abb_irb120", "abb_irb140", "monoped", "parrot_ardrone", "ur5", "wamv"),
         ]
     )
 

@@ -10,7 +10,7 @@ from gazelle.envs import task_ids
 
 
 def test_all_ids_are_known_to_gymnasium():
-    assert len(task_ids()) == 36
+    assert len(task_ids()) == 37
     for task in task_ids():
         spec = gym.spec(task)
         steps = {
@@ -27,6 +27,7 @@ def test_all_ids_are_known_to_gymnasium():
             "SummitXL": 500,
             "Hopper": 1000,
             "ParrotDrone": 100,
+            "Wamv": 100,
             "VelocityReach": 300,
             "Reach": 50,
         }

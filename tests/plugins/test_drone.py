@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 from models import block, plugin, simulate
 
+from gazelle import ros
+from gazelle.bridges.conversions import ConversionContext, encoder_of
+from gazelle.engines import Motion, Placement
 from gazelle.plugins.drone import Drone, FlightPhase
 from gazelle.plugins.filtered_pid import FilteredGains, FilteredPids
 from gazelle.rotations import roll_pitch_yaw
@@ -240,6 +243,20 @@ def test_it_tells_the_truth_of_its_pose_and_its_velocity_turned():
         assert poses[0].position[0] == pytest.approx([0.0, 0.0, 2.0])
         assert speeds[0].linear[0] == pytest.approx([0.0, 1.0, 0.0], abs=1e-6)
         assert not speeds[0].angular.any()
+
+
+def test_poses_and_velocities_become_messages_without_stamps():
+    place = Placement(np.array([[1.0, 2.0, 3.0]]), np.array([[0.0, 0.0, 1.0, 0.0]]))
+    motion = Motion(np.array([[4.0, 5.0, 6.0]]), np.zeros((1, 3)))
+    view = ConversionContext("", 0, lambda _stamp: None)
+    for value, kind in ((place, "geometry_msgs/Pose"), (motion, "geometry_msgs/Twist")):
+        encoder = encoder_of(type(value))
+        assert encoder.message == kind
+        message = ros.load_message(kind)()
+        encoder.fill(message, value, view)
+        told = message.position if value is place else message.linear
+        wanted = value.position if value is place else value.linear
+        assert (told.x, told.y, told.z) == tuple(wanted[0])
 
 
 SENSORS = """<sensor name="eye" type="sonar"><pose>0.5 0 0.3 0 1.5707963 3.14159265</pose>

@@ -12,6 +12,7 @@ from gazelle.control.measurements import (
 )
 from gazelle.simulation.values.commands import (
     Bias,
+    DriveCommand,
     EmergencyStop,
     GeoReference,
     JointPath,
@@ -56,6 +57,7 @@ __all__ = [
     "ChannelPoints",
     "CliffValue",
     "CompressedImageValue",
+    "DriveCommand",
     "EmergencyStop",
     "Fix",
     "Flags",

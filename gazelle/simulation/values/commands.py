@@ -111,6 +111,19 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True)
+class DriveCommand:
+    """What the two sides of a vessel shall do, in one world or in many.
+
+    Attributes:
+        left: Of the full thrust, from -1 to 1, shape () or (n,).
+        right: Likewise.
+    """
+
+    left: ArrayLike
+    right: ArrayLike
+
+
+@dataclass(frozen=True, slots=True)
 class Bias:
     """What a sensor shall be wrong by from now on.
 

@@ -17,6 +17,7 @@ from gazelle.ros import load_message, load_service
 from gazelle.simulation import Transforms
 from gazelle.simulation.values import (
     Bias,
+    DriveCommand,
     EmergencyStop,
     GeoReference,
     JointPath,
@@ -117,7 +118,13 @@ def hears_stop(value, message):
     assert value.on == bool(message.data)
 
 
+def hears_drive(value, message):
+    told = (value.left, value.right)
+    assert np.array_equal(told, (message.left, message.right), equal_nan=True)
+
+
 HEARS = {
+    DriveCommand: hears_drive,
     EmergencyStop: hears_stop,
     GoalPose: hears_goal,
     JointPath: hears_path,

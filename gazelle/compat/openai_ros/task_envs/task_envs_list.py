@@ -22,6 +22,7 @@ MODULES = {
     "TurtleBot2Maze-v0": ("turtlebot2.turtlebot2_maze", "TurtleBot2MazeEnv"),
     "MyTurtleBot2Wall-v0": ("turtlebot2.turtlebot2_wall", "TurtleBot2WallEnv"),
     "TurtleBot2Wall-v0": ("turtlebot2.turtlebot2_wall", "TurtleBot2WallEnv"),
+    "WamvNavTwoSetsBuoys-v0": ("wamv.wamv_nav_twosets_buoys", "WamvNavTwoSetsBuoysEnv"),
     "TurtleBot3World-v0": ("turtlebot3.turtlebot3_world", "TurtleBot3WorldEnv"),
 }
 """From the name to the module below ``task_envs``, and the class in it."""
@@ -35,7 +36,6 @@ WITHOUT_ROBOT = (
     "IriWamTcpToBowl-v0",
     "SawyerTouchCube-v0",
     "ShadowTcGetBall-v0",
-    "WamvNavTwoSetsBuoys-v0",
 )
 """Names that openai_ros has besides, and Gazelle not."""
 

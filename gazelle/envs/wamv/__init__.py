@@ -1,0 +1,1 @@
+"""The catamaran of openai_ros that goes between buoys."""
