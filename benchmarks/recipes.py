@@ -9,6 +9,7 @@ together, with 95 % intervals; beside them those of each seed.
   gazelle bench recipes                            # the TurtleBot3 stages
   gazelle bench recipes --tasks Husarion UR5Reach
   gazelle bench recipes --tasks all --seeds 0
+  gazelle bench recipes --algo sac --tasks TurtleBot3Stage4Continuous
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from gazelle.training import (
     SuccessRate,
     choose_progress,
     evaluate,
+    recipe_for,
     train,
 )
 
@@ -41,15 +43,15 @@ _SHARE = {"held-out": 1.0, "in a row": 0.1, "published": 0.5}
 """Of the episodes; one in which goals follow each other has some eight of them."""
 
 
-def trained(task: str, out: Path, seed: int) -> Run:
+def trained(task: str, algo: str | None, out: Path, seed: int) -> Run:
     """The newest run of a task that is there with all its steps, or a new one."""
-    for folder in sorted(out.glob(f"{task}-*"), reverse=True):
+    for folder in sorted(out.glob(f"{task}-{algo or recipe_for(task).algo}-*"), reverse=True):
         run = Run.open(folder)
         done = [int(path.name) for path in run.checkpoints()]
         if done and done[-1] >= run.config.recipe.steps and run.config.seed == seed:
             return run
     watch = StopWatch()
-    result = train(task, out=out, seed=seed, progress=choose_progress(sys.stderr))
+    result = train(task, algo=algo, out=out, seed=seed, progress=choose_progress(sys.stderr))
     print(f"{task}, seed {seed}: {watch.read()}", flush=True)
     return result.run
 
@@ -95,6 +97,7 @@ def main() -> None:
     parser.add_argument(
         "--tasks", nargs="+", default=_STAGES, metavar="TASK", help="or all that have a figure"
     )
+    parser.add_argument("--algo", help="by default that of the task's recipe")
     parser.add_argument("--engines", nargs="+", help="by default those of the task")
     parser.add_argument("--episodes", type=int, default=1000, help="of each seed")
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2], help="of the training")
@@ -103,7 +106,9 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as spare:
         out = args.out or Path(spare)
         tasks = list(VERIFIED) if list(args.tasks) == ["all"] else args.tasks
-        runs = {task: [trained(task, out, seed) for seed in args.seeds] for task in tasks}
+        runs = {
+            task: [trained(task, args.algo, out, seed) for seed in args.seeds] for task in tasks
+        }
         print(f"default recipes, seeds {args.seeds}, {args.episodes} episodes of each")
         print(
             f"{'task':<27}{'engine':<8}{'goals':<10}{'tried':>7}  "

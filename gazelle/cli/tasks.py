@@ -71,7 +71,7 @@ def _row(task: Task) -> tuple[str, ...]:
 
 def _told(task: Task) -> str:
     """All about one task."""
-    from gazelle.training import VERIFIED, listed_recipe
+    from gazelle.training import VERIFIED, VERIFIED_WITH, listed_recipe
 
     found = VERIFIED.get(task.name)
     recipe = listed_recipe(task.id)
@@ -88,6 +88,9 @@ def _told(task: Task) -> str:
         rows.append(("figure", _why_not(task) or "none is known of this task"))
     else:
         rows += _figures(found)
+    for (name, algo), other in VERIFIED_WITH.items():
+        if _is_own(task) and name == task.name:
+            rows += _with_algorithm(name, algo, other)
     return f"{task.id}\n" + showing.table([("  " + name, text) for name, text in rows])
 
 
@@ -103,6 +106,14 @@ def _figures(found: Verified) -> list[tuple[str, str]]:
         where = f"of {wall.processors} processors, others kept {wall.others:.1f} busy"
         rows.append(("wall", f"{wall.seconds:.0f} s; {where}"))
     return rows
+
+
+def _with_algorithm(task: str, algo: str, found: Verified) -> list[tuple[str, str]]:
+    """What an algorithm reaches that is not the recipe's."""
+    rows = [("or", f"gazelle train {task} --algo {algo}")]
+    for engine, reached in found.success.items():
+        rows.append((engine, showing.rate(reached).lstrip()))
+    return [*rows, ("time", f"{found.seconds:.0f} s")]
 
 
 def _why_not(task: Task) -> str | None:

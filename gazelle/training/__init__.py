@@ -40,7 +40,13 @@ if TYPE_CHECKING:
     from gazelle.training.statistics import SuccessRate, wilson_interval
     from gazelle.training.study import Study, StudyResult, conduct
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
-    from gazelle.training.verified import UNVERIFIED, VERIFIED, Verified, WallTime
+    from gazelle.training.verified import (
+        UNVERIFIED,
+        VERIFIED,
+        VERIFIED_WITH,
+        Verified,
+        WallTime,
+    )
 
 _EXTRA = ("stable_baselines3", "tensorboard", "threadpoolctl", "torch", "tqdm")
 
@@ -66,6 +72,7 @@ _HOMES = {
     "TrainResult": "session",
     "UNVERIFIED": "verified",
     "VERIFIED": "verified",
+    "VERIFIED_WITH": "verified",
     "Verified": "verified",
     "WallTime": "verified",
     "choose_progress": "progress",
@@ -91,6 +98,7 @@ __all__ = [
     "RECIPES",
     "UNVERIFIED",
     "VERIFIED",
+    "VERIFIED_WITH",
     "Actor",
     "EpisodeRecord",
     "Evaluation",

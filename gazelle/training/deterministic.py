@@ -113,7 +113,7 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
         seen = features if shown is None else torch.cat((features, shown.features))
         outputs = self._outputs(self.actor.mu, seen)
         critic = self.critic.q_networks[0]
-        with _frozen(critic.parameters()):
+        with frozen(critic.parameters()):
             values = self._outputs(critic, torch.cat((seen, outputs), dim=1))
         loss = self.ways.action_penalty * outputs[:count].square().mean() - values[:count].mean()
         if shown is not None:
@@ -145,12 +145,7 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
             torch._foreach_lerp_(old, new, self.tau)
 
     def _outputs(self, net: nn.Sequential, inputs: torch.Tensor) -> torch.Tensor:
-        """Of a network whose hidden layers may multiply in bfloat16; the last one never does."""
-        last = max(i for i, layer in enumerate(net) if isinstance(layer, nn.Linear))
-        with torch.autocast("cpu", torch.bfloat16, enabled=self.ways.bfloat16):
-            hidden = net[:last](inputs)
-        outputs: torch.Tensor = net[last:](hidden.float())
-        return outputs
+        return outputs_of(net, inputs, bfloat16=self.ways.bfloat16)
 
     def _sample_action(
         self, learning_starts: int, action_noise: Any = None, n_envs: int = 1
@@ -179,8 +174,17 @@ class FastTD3(_Deterministic):
     """TD3; likewise."""
 
 
+def outputs_of(net: nn.Sequential, inputs: torch.Tensor, *, bfloat16: bool) -> torch.Tensor:
+    """Of a network whose hidden layers may multiply in bfloat16; the last one never does."""
+    last = max(i for i, layer in enumerate(net) if isinstance(layer, nn.Linear))
+    with torch.autocast("cpu", torch.bfloat16, enabled=bfloat16):
+        hidden = net[:last](inputs)
+    outputs: torch.Tensor = net[last:](hidden.float())
+    return outputs
+
+
 @contextlib.contextmanager
-def _frozen(parameters: Iterable[nn.Parameter]) -> Any:
+def frozen(parameters: Iterable[nn.Parameter]) -> Any:
     """Ask for no gradients of these meanwhile."""
     held = list(parameters)
     for each in held:

@@ -33,13 +33,14 @@ SOME_HEED: dict[str, tuple[str, ...]] = {
             "random_actions",
             "action_penalty",
             "bound_values",
-            "policy_delay",
             "demonstrator",
             "imitation",
         ),
         _NOISY,
     ),
-    "bfloat16": ("ppo", *_NOISY),
+    "bfloat16": ("ppo", "sac", *_NOISY),
+    "policy_delay": ("sac", *_NOISY),
+    "initial_entropy_weight": ("sac",),
     **dict.fromkeys(
         ("exploration_fraction", "exploration_final", "target_update_interval"), _EXPLORING
     ),

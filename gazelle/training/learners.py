@@ -8,7 +8,7 @@ from typing import Any
 
 import gymnasium as gym
 import numpy as np
-from stable_baselines3 import DQN, SAC
+from stable_baselines3 import DQN
 from stable_baselines3.common.noise import NormalActionNoise
 from torch import nn
 
@@ -22,6 +22,7 @@ from gazelle.training.picture_layers import is_picture
 from gazelle.training.ppo import FastPPO
 from gazelle.training.recipes import LIBRARY_ALGORITHMS, OffPolicySettings, PPOSettings, Recipe
 from gazelle.training.scaling import ObservationScale, ScaledObservations
+from gazelle.training.soft import FastSAC
 from gazelle.training.vecenv import VectorEnvAdapter
 
 Learner = Any
@@ -72,10 +73,6 @@ class _DQN(_Rescaled, DQN):  # type: ignore[misc]  # untyped base
     pass
 
 
-class _SAC(_Rescaled, SAC):  # type: ignore[misc]  # untyped base
-    pass
-
-
 def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
     settings = recipe.settings
     if not isinstance(settings, PPOSettings):
@@ -114,7 +111,15 @@ def _build_dqn(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
 
 
 def _build_sac(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
-    return _SAC("MlpPolicy", env, **_replaying(recipe, env, _off_policy(recipe), seed))
+    settings = _off_policy(recipe)
+    learner = FastSAC(
+        "MlpPolicy",
+        env,
+        ent_coef=f"auto_{settings.initial_entropy_weight}",
+        **_replaying(recipe, env, settings, seed),
+    )
+    learner.ways = settings
+    return learner
 
 
 def _build_td3(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:

@@ -16,6 +16,9 @@ Activation = Literal["tanh", "relu"]
 ALGORITHM_NAMES = ("ppo", "dqn", "sac", "td3", "ddpg")
 """The names of the algorithms; `gazelle.training.ALGORITHMS` says how they are built."""
 
+NEED_CONTINUOUS_ACTIONS = frozenset({"sac", "td3", "ddpg", "tqc"})
+"""Those that cannot choose among numbered actions."""
+
 LIBRARY_ALGORITHMS = {
     "a2c": ("stable_baselines3", "A2C"),
     "qrdqn": ("sb3_contrib", "QRDQN"),
@@ -78,7 +81,10 @@ class OffPolicySettings:
     bound_values: bool = False
     """Whether targets stay within what the rewards seen so far can add up to (DDPG, TD3)."""
     policy_delay: int | None = None
-    """Minibatches for each update of DDPG's and TD3's policy; by default 1 and 2."""
+    """Minibatches for each update of the policy (DDPG, TD3, SAC); by default 1, for TD3 2."""
+    initial_entropy_weight: float = 1.0
+    """Weight of the entropy at first (SAC), in units of the reward: it is learnt, but where rewards are
+    small, one that is large makes all actions alike for long."""
     demonstrator: str | None = None
     """``module:function`` that acts before the first update (DDPG, TD3), in place of chance: it takes
     observations in rows and gives actions; see `gazelle.training.demonstrations`."""
@@ -86,7 +92,7 @@ class OffPolicySettings:
     """Price of the mean square by which the policy misses actions that were shown (DDPG, TD3), where
     they are worth more than its own."""
     bfloat16: bool = False
-    """Whether hidden layers multiply in bfloat16 (DDPG, TD3), where the processor can far faster."""
+    """Whether hidden layers multiply in bfloat16 (DDPG, TD3, SAC), where the processor can far faster."""
     exploration_fraction: float = 0.2
     """Share of the training in which DQN's random actions become rare."""
     exploration_final: float = 0.05

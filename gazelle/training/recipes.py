@@ -13,6 +13,7 @@ from gazelle.errors import TaskWarning
 from gazelle.training.flight_recipes import FLIGHT, VESSEL
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.heeded import SOME_HEED, heeded_only
+from gazelle.training.plain_recipes import OFF_POLICY, library_recipe, plain_recipe
 from gazelle.training.recipe import (
     ALGORITHM_NAMES,
     LIBRARY_ALGORITHMS,
@@ -277,51 +278,6 @@ RECIPES: dict[str, Recipe] = {
 """The recipe of each task, by the task's name without ``gazelle/`` and version."""
 
 
-_ON_POLICY_COPIES = 64
-
-
-def _library(algo: str) -> Recipe:
-    """The library's own settings, but for what many copies ask for."""
-    if algo in {"tqc", "qrdqn"}:
-        options = {"learning_starts": 5_000, "train_freq": 1, "gradient_steps": 4}
-        return Recipe(
-            algo=algo, num_envs=16, steps=200_000, settings=LibrarySettings(options=options)
-        )
-    return Recipe(
-        algo=algo, num_envs=_ON_POLICY_COPIES, learning_rate=7e-4, settings=LibrarySettings()
-    )
-
-
-def _continuous(algo: str) -> Recipe:
-    return Recipe(
-        algo=algo,
-        num_envs=32,
-        steps=120_000,
-        net_arch=(128, 128),
-        activation="relu",
-        learning_rate=1e-3,
-        learning_rate_decay=False,
-        settings=OffPolicySettings(gradient_steps=4),
-    )
-
-
-_OFF_POLICY: dict[str, Recipe] = {
-    "dqn": Recipe(
-        algo="dqn",
-        net_arch=(128, 128),
-        activation="relu",
-        learning_rate=5e-4,
-        learning_rate_decay=False,
-        settings=OffPolicySettings(gradient_steps=4, tau=1.0),
-    ),
-    **{algo: _continuous(algo) for algo in ("sac", "td3", "ddpg")},
-}
-
-# Where standing still is an action, a dear collision teaches just that: with it TD3 reaches 28 %
-# of stage 4's held-out goals after 97,000 steps, with this 90 % after 128,000.
-_CHEAP_COLLISIONS = {"TurtleBot3Stage4": GoalReward(goal=2.0, collision=1.0)}
-
-
 def recipe_for(task: str, algo: str | None = None) -> Recipe:
     """The recipe for a task, by default with the algorithm that suits it best.
 
@@ -345,17 +301,15 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
         return _DEFAULT
     if own is not None and isinstance(own.settings, OffPolicySettings):
         return _with_memory(own, own.settings, algo)
-    if algo in LIBRARY_ALGORITHMS:
-        base = _library(algo)
-    else:
-        base = _OFF_POLICY[algo] if algo in _OFF_POLICY else Recipe(algo=algo)
+    name = task_name(task).removesuffix("Continuous")
+    base = plain_recipe(name, algo)
     if own is None:
         return base
     return dataclasses.replace(
         base,
         gamma=own.gamma,
         reward_scale=own.reward_scale,
-        goal_reward=_reward_of(task, own, algo),
+        goal_reward=base.goal_reward or own.goal_reward,
         features=own.features,
         training_options=own.training_options,
         evaluation_options=own.evaluation_options,
@@ -364,10 +318,10 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
 
 def _with_memory(own: Recipe, settings: OffPolicySettings, algo: str) -> Recipe:
     """The recipe of a task for another algorithm; those that learn from a memory keep its numbers."""
-    if algo in _OFF_POLICY:
+    if algo in OFF_POLICY:
         return dataclasses.replace(own, algo=algo, settings=heeded_only(algo, settings))
     if algo != "tqc":
-        return dataclasses.replace(_library(algo), gamma=own.gamma)
+        return dataclasses.replace(library_recipe(algo), gamma=own.gamma)
     shared = ("buffer_size", "batch_size", "learning_starts", "gradient_steps", "tau")
     options = {name: getattr(settings, name) for name in shared}
     return dataclasses.replace(own, algo=algo, settings=LibrarySettings(options=options))
@@ -377,16 +331,9 @@ def _tell_of_demonstrator(own: Recipe | None, algo: str) -> None:
     """Say that a recipe has one, and an algorithm does not learn from it."""
     shown = own is not None and getattr(own.settings, "demonstrator", None) is not None
     able = SOME_HEED["demonstrator"]
-    if shown and algo in (*_OFF_POLICY, *LIBRARY_ALGORITHMS, "ppo") and algo not in able:
+    if shown and algo in (*OFF_POLICY, *LIBRARY_ALGORITHMS, "ppo") and algo not in able:
         text = f"{algo} cannot be shown what to do, so this recipe's demonstrator is left out"
         warnings.warn(TaskWarning(f"{text}; {' and '.join(able)} can"), stacklevel=3)
-
-
-def _reward_of(task: str, own: Recipe, algo: str) -> GoalReward | None:
-    """What pays a learner that is not the recipe's own."""
-    if algo in {"sac", "td3", "ddpg", "tqc"}:
-        return _CHEAP_COLLISIONS.get(task_name(task).removesuffix("Continuous"), own.goal_reward)
-    return own.goal_reward
 
 
 def task_name(task: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import time
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 
 import torch
 
-from gazelle.errors import TaskError
+from gazelle.errors import TaskError, TaskWarning
 from gazelle.training.callback import StopOnSignal, StopRequested, TrainingCallback
 from gazelle.training.checkpoint import read_checkpoint
 from gazelle.training.contracts import contract_of, save_contract
@@ -19,8 +20,8 @@ from gazelle.training.demonstrations import with_demonstrator_found
 from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.learners import Learner, build_learner
 from gazelle.training.progress import NoProgress, Progress, Watched
+from gazelle.training.recipe import NEED_CONTINUOUS_ACTIONS, Recipe
 from gazelle.training.recipe_choice import task_recipe
-from gazelle.training.recipes import Recipe
 from gazelle.training.runs import Run, RunConfig
 from gazelle.training.statistics import EpisodeLog
 from gazelle.training.tasks import (
@@ -28,6 +29,7 @@ from gazelle.training.tasks import (
     make_task,
     plain_options,
     split_module,
+    with_continuous_actions,
 )
 from gazelle.training.threads import limit_threads
 from gazelle.training.user_callbacks import find_callbacks, make_callbacks
@@ -110,7 +112,7 @@ def train(
     module, task = split_module(task)
     homes, names = find_callbacks(callbacks)
     modules = load_all([*imports, *([] if module is None else [module]), *homes])
-    task = find_task(task)
+    task = _fitting(find_task(task), algo if recipe is None else recipe.algo)
     recipe = recipe or task_recipe(task, algo, options=options)
     recipe = dataclasses.replace(
         recipe,
@@ -198,6 +200,16 @@ def resume(
         return session.go(found, checkpoint)
     finally:
         session.close()
+
+
+def _fitting(task: str, algo: str | None) -> str:
+    """The task, or its twin where an algorithm needs continuous actions."""
+    twin = with_continuous_actions(task)
+    if algo not in NEED_CONTINUOUS_ACTIONS or twin == task:
+        return task
+    text = f"{algo} needs continuous actions: it learns {twin} instead of {task}"
+    warnings.warn(TaskWarning(text), stacklevel=3)
+    return twin
 
 
 class _Session:

@@ -66,6 +66,22 @@ def find_task(name: str) -> str:
     raise TaskError(f"there is no task '{bare_id}'", hint=_hint(bare_id))
 
 
+def with_continuous_actions(task: str) -> str:
+    """The twin of a task (``NAMEContinuous``) whose actions are continuous; the task if it has none.
+
+    Args:
+        task: A registered id.
+    """
+    spec = gym.registry[task]
+    twins = [
+        other.id
+        for other in gym.registry.values()
+        if (other.namespace, other.name, other.version)
+        == (spec.namespace, f"{spec.name}Continuous", spec.version)
+    ]
+    return twins[0] if twins else task
+
+
 def split_module(name: str) -> tuple[str | None, str]:
     """``module:id`` to both; None for the module where there is none."""
     module, colon, rest = name.rpartition(":")

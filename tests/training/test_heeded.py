@@ -81,7 +81,7 @@ def test_what_is_said_to_be_heeded_is_what_an_algorithm_reads(algo, shows):
     ("algo", "values", "complaint"),
     [
         ("sac", {"demonstrator": PUSH}, r"sac takes no notice of 'demonstrator'.*td3, ddpg"),
-        ("sac", {"policy_delay": 2}, r"sac takes no notice of 'policy_delay'.*td3, ddpg"),
+        ("dqn", {"policy_delay": 2}, r"dqn takes no notice of 'policy_delay'.*sac, td3, ddpg"),
         ("dqn", {"action_noise": 0.3}, r"dqn takes no notice of 'action_noise'.*td3, ddpg"),
         ("td3", {"exploration_final": 0.1}, r"td3 takes no notice of 'exploration_final'.*dqn"),
         ("ddpg", {"imitation": 2.0}, "nobody to imitate; name a demonstrator"),
@@ -104,10 +104,10 @@ def test_a_recipe_refuses_hindsight_where_nothing_is_remembered():
     ("algo", "name", "complaint"),
     [
         ("sac", "imitation", r"sac takes no notice of 'imitation'.*td3, ddpg would"),
-        ("ppo", "policy_delay", r"ppo takes no notice of 'policy_delay'.*td3, ddpg would"),
+        ("ppo", "policy_delay", r"ppo takes no notice of 'policy_delay'.*sac, td3, ddpg would"),
         ("ppo", "tau", r"ppo takes no notice of 'tau'.*dqn, sac, td3, ddpg would"),
         ("sac", "n_epochs", r"sac takes no notice of 'n_epochs'.*ppo would"),
-        ("sac", "bfloat16", r"sac takes no notice of 'bfloat16'.*ppo, td3, ddpg would"),
+        ("dqn", "bfloat16", r"dqn takes no notice of 'bfloat16'.*ppo, sac, td3, ddpg would"),
         ("ppo", "hindsight", r"ppo takes no notice of 'hindsight'.*dqn, sac"),
         ("td3", "policy_dellay", r"has no 'policy_dellay'; did you mean 'policy_delay'"),
     ],
@@ -145,7 +145,8 @@ def test_what_is_heeded_is_kept():
     own = recipe_for("FetchPush").settings
     left = heeded_only("sac", own)
     assert left.batch_size == own.batch_size != OffPolicySettings().batch_size
-    assert left.policy_delay is None
+    assert left.demonstrator is None
+    assert left.policy_delay == own.policy_delay
     assert heeded_only("ddpg", own) == own
 
 

@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from gazelle.errors import TaskError
+from gazelle.errors import TaskError, TaskWarning
 from gazelle.training.recipes import (
     RECIPES,
     OffPolicySettings,
@@ -15,6 +15,7 @@ from gazelle.training.recipes import (
     recipe_to_dict,
     task_name,
 )
+from gazelle.training.tasks import find_task, with_continuous_actions
 
 
 @pytest.mark.filterwarnings("ignore:.* cannot be shown what to do:gazelle.errors.TaskWarning")
@@ -80,3 +81,25 @@ def test_learners_that_can_stand_still_pay_less_for_collisions_on_stage_4():
         assert recipe_for("TurtleBot3Stage4Continuous", algo).goal_reward.collision < own.collision
         assert recipe_for("TurtleBot3Stage1Continuous", algo).goal_reward == own
     assert recipe_for("TurtleBot3Stage4", "dqn").goal_reward == own
+
+
+@pytest.mark.parametrize("algo", ["sac", "td3", "ddpg"])
+def test_algorithms_that_need_continuous_actions_learn_the_twin(tmp_path, algo):
+    from gazelle.training import Run, train
+
+    settings = OffPolicySettings(buffer_size=100, learning_starts=100)
+    recipe = dataclasses.replace(
+        recipe_for("TurtleBot3Stage4", algo), steps=8, num_envs=4, settings=settings
+    )
+    with pytest.warns(TaskWarning, match=f"{algo} needs continuous actions"):
+        result = train("TurtleBot3Stage4", recipe=recipe, out=tmp_path)
+    assert Run.open(result.run.folder).config.task == "gazelle/TurtleBot3Stage4Continuous-v0"
+
+
+def test_others_learn_the_task_itself_and_a_twin_is_its_own():
+    for name in ("TurtleBot3Stage4Continuous", "Husarion", "TurtleBot3World"):
+        task = find_task(name)
+        assert with_continuous_actions(task) == task
+    assert with_continuous_actions(find_task("TurtleBot3Stage2")) == find_task(
+        "TurtleBot3Stage2Continuous"
+    )

@@ -10,6 +10,7 @@ from gazelle.cli.main import main
 from gazelle.training import (
     UNVERIFIED,
     VERIFIED,
+    VERIFIED_WITH,
     WallTime,
     evaluate,
     find_task,
@@ -55,6 +56,30 @@ def test_one_task_is_told_with_its_command_and_intervals_in_80_columns(task, cap
         low, high = (f"{100.0 * end:.1f} %" for end in rate.interval)
         assert f"95 % interval {low} to {high}   ({rate.count} of {rate.total})" in out
         assert f"gazelle eval RUN --engine {engine} " in out
+
+
+@pytest.mark.parametrize(("task", "algo"), VERIFIED_WITH)
+def test_what_other_algorithms_reach_is_told_with_their_command(task, algo, capsys):
+    found = VERIFIED_WITH[task, algo]
+    recipe = recipe_for(task, algo)
+    assert recipe.algo == algo != recipe_for(task).algo
+    assert recipe.training_options["engine"] in found.success
+    assert main(["tasks", task]) == 0
+    out = capsys.readouterr().out
+    assert f"gazelle train {task} --algo {algo}\n" in out
+    for rate in found.success.values():
+        assert f"({rate.count} of {rate.total})" in out
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("task", "algo"), VERIFIED_WITH)
+def test_a_training_with_another_algorithm_reaches_what_is_said(task, algo, tmp_path):
+    """With a seed of its own, as far as seeds of these differ."""
+    found = VERIFIED_WITH[task, algo]
+    result = train(task, algo=algo, seed=7, out=tmp_path)
+    for engine, said in found.success.items():
+        rate = evaluate(result.run.folder, episodes=500, engine=engine).success
+        assert rate.interval[1] >= said.value - 0.04
 
 
 def test_wall_times_say_whether_something_ran_beside_them(capsys, monkeypatch):
