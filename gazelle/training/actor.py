@@ -22,6 +22,7 @@ import numpy.typing as npt
 
 from gazelle.array_types import Floats32
 from gazelle.errors import FormatError, TaskError
+from gazelle.training.bearing import Bearing
 from gazelle.training.features import Features
 from gazelle.training.memory_layers import MemoryLayers, PolicyMemory
 from gazelle.training.picture_layers import PictureLayers
@@ -30,6 +31,7 @@ Head = Literal["categorical", "greedy", "gaussian", "squashed"]
 
 _FORMAT = "gazelle-policy-1"
 _FEATURES = ("angles", "magnitudes", "spans")
+_BEARING = "bearing"
 _PICTURE = "picture"
 _MEMORY = ("memory_inputs", "memory_hidden", "memory_bias")
 _OPTIONAL = ("log_std", "low", "high", "limits")
@@ -218,7 +220,7 @@ class Actor:
             if getattr(self, name) is not None:
                 arrays[name] = getattr(self, name)
         if self.features is not None:
-            arrays |= {name: getattr(self.features, name) for name in _FEATURES}
+            arrays |= _feature_arrays(self.features)
         if self.pictures is not None:
             arrays |= _picture_arrays(self.pictures)
         if self.memory is not None:
@@ -246,7 +248,7 @@ def load_actor(path: Path) -> Actor:
             layers = range(about["layers"])
             extra: dict[str, Any] = {name: file[name] for name in _OPTIONAL if name in file}
             if _FEATURES[0] in file:
-                extra["features"] = Features(*(file[name] for name in _FEATURES))
+                extra["features"] = _features(file)
             if _PICTURE in file:
                 extra["pictures"] = _picture_layers(file)
             if f"{_MEMORY[0]}0" in file:
@@ -263,6 +265,27 @@ def load_actor(path: Path) -> Actor:
         raise FormatError(
             f"not a policy: {error}", file=str(path), hint="expected a policy.npz of a Gazelle run"
         ) from error
+
+
+def _feature_arrays(features: Features) -> dict[str, npt.NDArray[Any]]:
+    """What is added to observations, as arrays by name."""
+    arrays: dict[str, npt.NDArray[Any]] = {name: getattr(features, name) for name in _FEATURES}
+    if features.bearing is not None:
+        to = features.bearing
+        arrays[_BEARING] = np.array([to.x, to.y, -1 if to.yaw is None else to.yaw, *to.goal])
+    return arrays
+
+
+def _features(file: Any) -> Features:
+    """What `_feature_arrays` gave."""
+    bearing = None
+    if _BEARING in file:
+        x, y, yaw, *goal = file[_BEARING].tolist()
+        bearing = Bearing(
+            x=int(x), y=int(y), yaw=None if yaw < 0 else int(yaw), goal=(goal[0], goal[1])
+        )
+    angles, magnitudes, spans = (file[name] for name in _FEATURES)
+    return Features(angles, magnitudes, spans, bearing)
 
 
 def _picture_arrays(pictures: PictureLayers) -> dict[str, npt.NDArray[Any]]:

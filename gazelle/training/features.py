@@ -1,4 +1,4 @@
-"""Sines, cosines and logarithms of observations, which small networks are slow to make themselves.
+"""Sines, cosines, logarithms and bearings of observations, which small networks are slow to make themselves.
 
 To keep away from what is near, a policy must tell 0.2 m from 0.3 m and need not tell 2.2 m from
 2.3 m; and an angle of pi is one of -pi. What an entry is shows in its bounds: one between -pi and
@@ -16,6 +16,8 @@ import numpy as np
 
 from gazelle.array_types import Floats32, Indices
 from gazelle.errors import TaskError
+from gazelle.training import bearing as bearings
+from gazelle.training.bearing import Bearing
 
 LEAST = 0.03
 """Share of an entry's upper bound below which its logarithm hardly changes."""
@@ -33,15 +35,22 @@ class Features:
         angles: The entries whose sines and cosines are added, shape (a,).
         magnitudes: Those whose logarithms are added, shape (m,).
         spans: The upper bounds of those, shape (m,), float32.
+        bearing: Of a fixed goal, if that is added.
     """
 
     angles: Indices
     magnitudes: Indices
     spans: Floats32
+    bearing: Bearing | None = None
 
     @classmethod
     def of(
-        cls, space: gym.spaces.Box, *, by_bounds: bool = True, angles: Sequence[int] = ()
+        cls,
+        space: gym.spaces.Box,
+        *,
+        by_bounds: bool = True,
+        angles: Sequence[int] = (),
+        bearing: Bearing | None = None,
     ) -> Features:
         """What the bounds of a space ask for, and what is known of it.
 
@@ -49,6 +58,7 @@ class Features:
             space: Of the observations.
             by_bounds: Whether bounds count.
             angles: Entries that are angles anyway.
+            bearing: Of a fixed goal, if that shall be added.
 
         Raises:
             TaskError: There is no such entry.
@@ -58,6 +68,8 @@ class Features:
             if not 0 <= entry < len(low):
                 hint = f"observations have entries 0 to {len(low) - 1}"
                 raise TaskError(f"there is no entry {entry} that could be an angle", hint=hint)
+        if bearing is not None:
+            bearing.check(len(low))
         pi = np.float32(np.pi)
         with np.errstate(invalid="ignore"):
             turning = (np.abs(low + pi) < _ROUNDED) & (np.abs(high - pi) < _ROUNDED) & by_bounds
@@ -67,19 +79,22 @@ class Features:
             np.flatnonzero(turning),
             np.flatnonzero(magnitudes),
             high[magnitudes].astype(np.float32),
+            bearing,
         )
 
     @property
     def count(self) -> int:
         """How many entries are added."""
-        return 2 * len(self.angles) + len(self.magnitudes)
+        steered = 0 if self.bearing is None else bearings.COUNT
+        return 2 * len(self.angles) + len(self.magnitudes) + steered
 
     def added_to(self, obs: Floats32) -> Floats32:
         """Observations of shape (N, entries) with the added ones behind, float32."""
         angles = obs[:, self.angles]
         share = np.maximum(obs[:, self.magnitudes] / self.spans, np.float32(0))
         logs = np.log(share + np.float32(LEAST)) + np.float32(MIDDLE)
-        result: Floats32 = np.concatenate(
-            (obs, np.sin(angles), np.cos(angles), logs), axis=1, dtype=np.float32
-        )
+        parts = [obs, np.sin(angles), np.cos(angles), logs]
+        if self.bearing is not None:
+            parts.append(self.bearing.of(obs))
+        result: Floats32 = np.concatenate(parts, axis=1, dtype=np.float32)
         return result

@@ -20,7 +20,7 @@ from gazelle.errors import TaskError
 
 @dataclass(frozen=True, kw_only=True)
 class GoalReward:
-    """What the learner is paid in place of the task's reward."""
+    """What the learner is paid in place of the task's reward, or beside it."""
 
     goal: float = 1.0
     """For a goal that is reached (``is_success``)."""
@@ -33,6 +33,8 @@ class GoalReward:
     ``distance`` is to the next one."""
     other_end: float = 0.0
     """Taken where the task ends an episode otherwise, such as out of its work space."""
+    own: float = 0.0
+    """What the task's own reward is multiplied by and added."""
 
 
 class GoalRewards:
@@ -43,12 +45,13 @@ class GoalRewards:
         copies: Of the environment, N.
 
     Attributes:
+        pay: What is paid for what.
         distance: To the goal that is under way [m], NaN where not known yet, shape (N,).
         waypoints: How many points on the way to it were reached, shape (N,).
     """
 
     def __init__(self, pay: GoalReward, copies: int) -> None:
-        self._pay = pay
+        self.pay = pay
         self.distance: Floats = np.full(copies, np.nan)
         self.waypoints: Floats = np.zeros(copies)
 
@@ -82,7 +85,7 @@ class GoalRewards:
         )
         nearer = self.distance - now
         nearer[np.isnan(nearer)] = 0.0
-        pay = self._pay
+        pay = self.pay
         reward = pay.goal * success - pay.collision * collision + pay.progress * nearer
         reward -= pay.other_end * (terminated & (success == 0.0) & (collision == 0.0))
         passed = np.zeros_like(success)

@@ -161,7 +161,7 @@ def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
     )
     extractor: dict[str, Any] = {"scale": scale, "features": recipe.features}
     if not sees:
-        extractor["angles"] = recipe.angles
+        extractor |= {"angles": recipe.angles, "bearing": recipe.bearing}
     if recipe.goal_differences and not sees:
         extractor["goals"] = _goal_places(env)
     return {

@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from gazelle.errors import MissingExtraError, TaskError
 from gazelle.training.actor import Actor
+from gazelle.training.bearing import CENTRE, HALF, NEAR, SHORTEST, Bearing
 from gazelle.training.features import LEAST, MIDDLE, Features
 from gazelle.training.picture_layers import STRIDE, PictureLayers
 
@@ -116,7 +117,34 @@ def _add_features(graph: _Graph, features: Features, name: str) -> str:
         part = graph.add("Relu", graph.add("Div", part, graph.constant(features.spans)))
         part = graph.add("Log", graph.add("Add", part, graph.constant(LEAST)))
         parts.append(graph.add("Add", part, graph.constant(MIDDLE)))
+    if features.bearing is not None:
+        parts += _add_bearing(graph, features.bearing, name)
     return graph.add("Concat", *parts, axis=1)
+
+
+def _add_bearing(graph: _Graph, bearing: Bearing, name: str) -> list[str]:
+    """What `Bearing.of` does."""
+    dx, dy = (
+        graph.add("Sub", graph.constant(side), _entry(graph, name, entry))
+        for entry, side in zip((bearing.x, bearing.y), bearing.goal, strict=True)
+    )
+    away = graph.add("Sqrt", graph.add("Add", *(graph.add("Mul", d, d) for d in (dx, dy))))
+    part = graph.add("Log", graph.add("Add", away, graph.constant(NEAR)))
+    part = graph.add("Sub", part, graph.constant(CENTRE))
+    distance = graph.add("Div", part, graph.constant(HALF))
+    ahead, left = dx, dy
+    if bearing.yaw is not None:
+        yaw = _entry(graph, name, bearing.yaw)
+        cos, sin = graph.add("Cos", yaw), graph.add("Sin", yaw)
+        ahead = graph.add("Add", graph.add("Mul", dx, cos), graph.add("Mul", dy, sin))
+        left = graph.add("Sub", graph.add("Mul", dy, cos), graph.add("Mul", dx, sin))
+    length = graph.add("Max", away, graph.constant(SHORTEST))
+    return [distance, *(graph.add("Div", side, length) for side in (ahead, left))]
+
+
+def _entry(graph: _Graph, name: str, entry: int) -> str:
+    """One entry of observations, shape (N, 1)."""
+    return graph.add("Gather", name, graph.constant([entry], np.int64), axis=1)
 
 
 def _add_pictures(graph: _Graph, pictures: PictureLayers, name: str) -> str:

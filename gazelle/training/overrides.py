@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from gazelle.errors import TaskError, did_you_mean
+from gazelle.training.bearing import bearing_of
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.heeded import SOME_HEED, heeds, unheeded_error
 from gazelle.training.recipes import (
@@ -44,7 +45,7 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
         if name in fields | inner and not heeds(recipe.algo, name):
             raise unheeded_error(recipe.algo, name, SOME_HEED[name])
         if name in fields:
-            outer[name] = tuple(value) if isinstance(value, list) else value
+            outer[name] = _typed(name, value)
         elif name in rewards:
             reward[name.partition(".")[2]] = value
         elif library or name in inner:
@@ -79,3 +80,10 @@ def _changed(settings: Any, values: dict[str, Any]) -> Any:
     if isinstance(settings, LibrarySettings):
         return LibrarySettings(options={**settings.options, **values})
     return dataclasses.replace(settings, **values)
+
+
+def _typed(name: str, value: Any) -> Any:
+    """A value of a recipe, from what JSON has for it."""
+    if name == "bearing" and value is not None:
+        return bearing_of(value)
+    return tuple(value) if isinstance(value, list) else value

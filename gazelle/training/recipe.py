@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from gazelle.errors import TaskError, did_you_mean
+from gazelle.training.bearing import Bearing, bearing_of
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.heeded import check_heeded
 
@@ -145,6 +146,9 @@ class Recipe:
     angles: tuple[int, ...] = ()
     """Which entries of observations are angles, beside those whose bounds are -pi and pi (`features`):
     those of joints, whose limits are anywhere."""
+    bearing: Bearing | None = None
+    """Which entries say where a base is and where its goal stands, if the network is also given how far that
+    is and in which direction: of tasks whose goal is fixed and so not observed."""
     hindsight: float = 0.8
     """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
     by algorithms with a replay memory."""
@@ -226,6 +230,8 @@ def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
     for name in {"net_arch", "angles"} & set(rest):
         rest[name] = tuple(rest[name])
+    if rest.get("bearing") is not None:
+        rest["bearing"] = bearing_of(rest["bearing"])
     if rest.get("goal_reward") is not None:
         rest["goal_reward"] = GoalReward(**_checked(GoalReward, rest["goal_reward"]))
     return Recipe(**rest, settings=settings)

@@ -11,8 +11,10 @@ import warnings
 
 from gazelle.errors import TaskWarning
 from gazelle.training.flight_recipes import FLIGHT, VESSEL
+from gazelle.training.frobs_rl_recipes import FROBS_RL
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.heeded import SOME_HEED, heeded_only
+from gazelle.training.openai_ros_recipes import OPENAI_ROS
 from gazelle.training.plain_recipes import OFF_POLICY, library_recipe, plain_recipe
 from gazelle.training.recipe import (
     ALGORITHM_NAMES,
@@ -58,59 +60,6 @@ _NAVIGATION = Recipe(
 # For tasks of anybody: a pole on a cart that is driven stays up for good after 300,000 steps, with
 # a third of the step size and fewer, longer rollouts in 15 % of the episodes.
 _DEFAULT = Recipe(learning_rate=1e-3, settings=PPOSettings(n_steps=32, n_epochs=6))
-
-# openai_ros' bases with a few velocities: rewards of up to 200 come down to the size of values.
-_DRIVING = Recipe(
-    steps=600_000,
-    num_envs=128,
-    activation="relu",
-    learning_rate=1e-3,
-    gamma=0.97,
-    reward_scale=0.02,
-    features=True,
-    training_options={"engine": "planar", "starts": "training"},
-    settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
-)
-
-# The same bases on the way to a place.
-_TO_PLACE = dataclasses.replace(
-    _DRIVING,
-    steps=1_000_000,
-    gamma=0.98,
-    reward_scale=1.0,
-    goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3),
-)
-
-# frobs_rl's goals are far away: what counts is coming nearer.
-_KOBUKI = Recipe(
-    steps=300_000,
-    num_envs=128,
-    learning_rate=2e-3,
-    gamma=0.97,
-    goal_reward=GoalReward(goal=5.0, collision=1.0),
-    features=True,
-    training_options={"engine": "planar"},
-    settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
-)
-
-# Arms turn further in a step than to the goal and back: steps are taken small at first, and what
-# counts is what the very next ones bring. Coarse steps of physics hold joints' speeds as well.
-_REACH_SETTINGS = PPOSettings(
-    n_steps=16, batch_size=1024, n_epochs=6, ent_coef=0.0, initial_std=0.3, bfloat16=True
-)
-_REACH = Recipe(
-    steps=500_000,
-    num_envs=128,
-    net_arch=(128, 128),
-    activation="relu",
-    learning_rate=2e-3,
-    gamma=0.9,
-    goal_reward=GoalReward(goal=1.0, collision=0.0, progress=4.0),
-    angles=tuple(range(6, 12)),
-    training_options={"engine": "mujoco", "time_step": 0.05},
-    evaluation_options={"time_step": 0.01},
-    settings=_REACH_SETTINGS,
-)
 
 # Small networks, a step size that stays, a target that follows soon: goals are few steps away.
 _FETCH_REACH = Recipe(
@@ -207,43 +156,10 @@ RECIPES: dict[str, Recipe] = {
         gamma=0.99,
         settings=PPOSettings(n_steps=64, batch_size=256, n_epochs=10, ent_coef=0.0),
     ),
-    "CartPoleStayUp": Recipe(
-        steps=300_000,
-        learning_rate=2e-3,
-        training_options={"engine": "mujoco"},
-        settings=PPOSettings(n_steps=32, n_epochs=6, ent_coef=0.0),
-    ),
-    "ABBIRB120Reach": _REACH,
-    "ABBIRB140Reach": dataclasses.replace(_REACH, steps=400_000),
-    "UR5Reach": dataclasses.replace(_REACH, steps=300_000),
-    "ABBIRB140VelocityReach": dataclasses.replace(
-        _REACH,
-        gamma=0.97,
-        goal_reward=GoalReward(goal=0.05, collision=0.0, progress=4.0),
-        angles=tuple(range(6)),
-        settings=dataclasses.replace(_REACH_SETTINGS, initial_std=0.1),
-    ),
-    **dict.fromkeys(("KobukiEmpty", "KobukiDynamic1", "KobukiDynamic2", "KobukiDynamic3"), _KOBUKI),
-    # Points of the way stand behind walls: each is paid for, and the way to the next one from there.
-    "KobukiMaze": dataclasses.replace(
-        _KOBUKI,
-        steps=600_000,
-        gamma=0.98,
-        goal_reward=GoalReward(goal=5.0, collision=1.0, waypoint=2.0),
-    ),
-    # As published the goal is out of the work space; see the data sheet.
-    "Husarion": dataclasses.replace(
-        _DRIVING,
-        training_options={**_DRIVING.training_options, "goal": [-2.9, 2.5]},
-    ),
-    "SummitXLRoom": dataclasses.replace(
-        _TO_PLACE, goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3, other_end=2.0)
-    ),
+    **OPENAI_ROS,
+    **FROBS_RL,
     "ParrotDroneGoto": FLIGHT,
     "WamvBuoys": VESSEL,
-    "TurtleBot2Maze": _DRIVING,
-    "TurtleBot2Wall": _TO_PLACE,
-    "TurtleBot3World": _DRIVING,
     "TurtleBot3CameraWorld": Recipe(
         steps=80_000,
         net_arch=(64,),
@@ -311,6 +227,7 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
         reward_scale=own.reward_scale,
         goal_reward=base.goal_reward or own.goal_reward,
         features=own.features,
+        bearing=own.bearing,
         training_options=own.training_options,
         evaluation_options=own.evaluation_options,
     )

@@ -17,6 +17,7 @@ import torch
 from stable_baselines3.common.torch_layers import BaseFeaturesExtractor
 
 from gazelle.array_types import Floats, Floats32
+from gazelle.training.bearing import Bearing
 from gazelle.training.features import LEAST, MIDDLE, Features
 
 _LARGEST_BOUND = 1e4
@@ -134,6 +135,7 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
         scale: By what; that of all networks of the learner. By default the bounds alone.
         features: Whether sines, cosines and logarithms are added, as bounds ask for.
         angles: Entries whose sines and cosines are added anyway.
+        bearing: Of a fixed goal, if that is added.
         goals: Where what is reached and the goal stand, if by how much it is missed is added,
             scaled as the goal is.
     """
@@ -145,13 +147,16 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
         scale: ObservationScale | None = None,
         features: bool = False,
         angles: Sequence[int] = (),
+        bearing: Bearing | None = None,
         goals: tuple[slice, slice] | None = None,
     ) -> None:
         scale = scale or ObservationScale(observation_space)
         size = int(np.prod(observation_space.shape))
         self.features = None
-        if features or angles:
-            self.features = Features.of(observation_space, by_bounds=features, angles=angles)
+        if features or angles or bearing is not None:
+            self.features = Features.of(
+                observation_space, by_bounds=features, angles=angles, bearing=bearing
+            )
         added = 0 if self.features is None else self.features.count
         self.goals = goals
         if goals is not None:
@@ -183,4 +188,7 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
         """What `Features.added_to` adds, of shape (N, added)."""
         angles = flat[:, self._angles]
         share = (flat[:, self._magnitudes] / self._spans).clamp(min=0.0)
-        return torch.cat((angles.sin(), angles.cos(), (share + LEAST).log() + MIDDLE), dim=1)
+        parts = [angles.sin(), angles.cos(), (share + LEAST).log() + MIDDLE]
+        if self.features is not None and self.features.bearing is not None:
+            parts.append(self.features.bearing.of_tensor(flat))
+        return torch.cat(parts, dim=1)

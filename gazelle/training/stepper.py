@@ -173,7 +173,8 @@ class Stepper:
         """What the learner is given for a step."""
         if self._teacher is None:
             return rewards
-        return self._teacher.of_step(info, last, slots, terminated, valid)
+        paid = self._teacher.of_step(info, last, slots, terminated, valid)
+        return paid + self._teacher.pay.own * np.where(valid, rewards, 0.0)
 
     def _count_goals(self, info: dict[str, Any], valid: Bools, done: Bools) -> None:
         """Count goals reached on the way; those of a last step are counted when it is closed."""

@@ -13,6 +13,7 @@ from gymnasium.wrappers import FrameStackObservation
 
 import gazelle.envs
 from gazelle.envs import TaskVectorEnv
+from gazelle.envs.course import CourseTask
 from gazelle.envs.wrappers import (
     ActionDelayTask,
     ActionSmoothingTask,
@@ -23,6 +24,7 @@ from gazelle.envs.wrappers import (
 )
 
 CART = "gazelle/CartPoleStayUp-v0"
+WALL = "gazelle/TurtleBot2Wall-v0"
 STAGE = "gazelle/TurtleBot3Stage1Continuous-v0"
 KINDS = [
     (CART, FrameStackTask, {"count": 3}),
@@ -30,11 +32,12 @@ KINDS = [
     (CART, ObservationDelayTask, {"steps": 2}),
     (CART, ActionDelayTask, {"steps": 2, "idle": 1}),
     (STAGE, ActionSmoothingTask, {"weight": 0.3}),
+    (WALL, CourseTask, {"x": 5, "y": 6, "steps": (1, 4)}),
 ]
 
 
 def vector(task, count, **options):
-    if task == STAGE:
+    if task in {STAGE, WALL}:
         options |= {"engine": "planar"}
     return gym.make_vec(task, num_envs=count, vectorization_mode="vector_entry_point", **options)
 

@@ -61,6 +61,20 @@ def test_goals_collisions_and_progress_are_paid_in_every_mode(mode):
     assert min(ended.values()) > 5
 
 
+@pytest.mark.parametrize("mode", MODES)
+def test_the_tasks_own_reward_can_be_paid_beside_it_in_every_mode(mode):
+    pay = GoalReward(goal=3.0, collision=5.0, progress=2.0, own=0.25)
+    alone, beside = (
+        Stepper(Measured(8, mode=mode.value, limit=12), goal_reward=each) for each in (PAY, pay)
+    )
+    alone.reset(seed=2)
+    beside.reset(seed=2)
+    for actions in moves(8, 100):
+        first, second = alone.step(actions), beside.step(actions)
+        extra = 0.25 * np.where(second.valid, second.rewards, 0.0)
+        np.testing.assert_allclose(second.taught, first.taught + extra)
+
+
 class Unnamed(Measured):
     """As `Measured`, but ends beside the corridor are not called collisions."""
 
@@ -171,7 +185,7 @@ def test_points_on_the_way_are_paid_for_and_the_next_one_is_approached_from_ther
         )
     ]
     np.testing.assert_allclose(taught, [[2, 1], [4, 1], [0, 1], [2, 1], [11, 0]])
-    resumed = GoalRewards(teacher._pay, 2)
+    resumed = GoalRewards(teacher.pay, 2)
     resumed.set_state(teacher.get_state())
     assert resumed.waypoints.tolist() == [2.0, 0.0]
     teacher.begin(_way([6.0, 1.0], [0, 0]), np.array([True, False]))

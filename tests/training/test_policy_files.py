@@ -21,6 +21,7 @@ from gazelle.training import (
     load_policy,
     train,
 )
+from gazelle.training.bearing import Bearing
 from gazelle.training.checkpoint import read_checkpoint
 from gazelle.training.heeded import heeded_only
 from gazelle.training.learners import build_learner
@@ -69,6 +70,8 @@ CASES = [
     ("ddpg", {"continuous": True}, {"net_arch": (16,), "activation": "relu"}),
     ("ppo", {"continuous": False}, {"features": True, "activation": "relu"}),
     ("sac", {"continuous": True}, {"features": True}),
+    ("ppo", {"continuous": False}, {"bearing": Bearing(x=0, y=1, goal=(0.3, -0.2))}),
+    ("td3", {"continuous": True}, {"bearing": Bearing(x=1, y=0, yaw=1, goal=(1.0, 2.0))}),
     ("ppo", {"continuous": True, "bound": 1000.0}, {}),  # normalised by what is observed
     ("dqn", {"continuous": False, "bound": 1000.0}, {}),
     ("td3", {"continuous": True}, {"scale_observations": False}),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +14,8 @@ import gazelle
 from gazelle import assets, formats
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import Pose
-from gazelle.envs.batched_task import Info
+from gazelle.envs.batched_task import BatchedTask, Info
+from gazelle.envs.course import CourseTask
 from gazelle.envs.decimals import rounded
 from gazelle.envs.discrete_drive.rules import CONTROL_PERIOD, DriveRules
 from gazelle.envs.discrete_drive.scoring import ends_of, reward_of
@@ -38,19 +40,39 @@ class DriveSettings(TaskSettings):
         starts: ``published``, or ``training`` or ``held-out``: anywhere in free space, with any
             heading; places of the two are not the same.
         goal: Where to go instead (x, y) [m], in tasks with a goal.
+        course: Numbers of steps over which its course is shown as well, in tasks with a goal; see
+            `CourseTask`.
     """
 
     starts: str = "published"
     goal: tuple[float, float] | None = None
+    course: Sequence[int] = ()
 
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
         TaskSettings.__post_init__(self)
         check_name("kind of starts", str(self.starts), SPLITS)
+        if not isinstance(self.course, list | tuple):
+            raise TaskError(f"course must be numbers of steps, not {self.course!r}")
         if self.goal is not None:
             place = np.asarray(self.goal, dtype=np.float64)
             if place.shape != (_SIDES,) or not np.isfinite(place).all():
                 raise TaskError(f"goal must be x and y, not {self.goal!r}")
+
+
+def drive_task(rules: DriveRules, nworld: int, settings: DriveSettings) -> BatchedTask:
+    """The task that these rules and options ask for.
+
+    Raises:
+        TaskError: An option does not fit the task.
+    """
+    if not settings.course:
+        return DriveTask(rules, nworld, settings)
+    if rules.goal is None:
+        raise TaskError("this task shows no place to take a course from", hint="leave out course")
+    task = DriveTask(rules, nworld, settings)
+    first = task.lidar.lidar.horizontal.samples
+    return CourseTask(task, first, first + 1, settings.course)
 
 
 class DriveTask(SimulationTask):
