@@ -14,8 +14,10 @@ class MovingCubeEnv(SettingsEnv):
 
     The task ``MovingCubeOneDiskWalk-v0`` of openai_ros with its observation, actions, reward and
     ends, in simulated time. Id: ``gazelle/MovingCubeOneDiskWalk-v0``. Cube and wheel weigh 0.5 kg
-    each, the cube is 0.2 m wide, the wheel has a radius of 0.08 m. A jump of the wheel's speed by
-    100 rad/s rolls the cube over its edge; one by 50 rad/s only rocks it.
+    each, the cube is 0.2 m wide, the wheel has a radius of 0.08 m; the cube does not slip (friction
+    of 1,000,000, as published). A jump of the wheel's speed by 100 rad/s rolls the cube over its
+    edge; one by 50 rad/s only rocks it. So it walks for good by -50, 50 and 0 rad/s for half a second
+    each: it is sped up in one jump and slowed down in two.
 
     ## Observation
 
@@ -57,7 +59,7 @@ class MovingCubeEnv(SettingsEnv):
 
     Terminated when pitch or yaw, rounded, are beyond 0.3 rad. Truncated after 1,000 steps (40 s; openai_ros
     has 10,000). Gazelle counts an episode as a success (``info["is_success"]``) that lasts to the
-    end and is 1 m along y then.
+    end and is 1 m along y then; ``info["distance"]`` is what is left of that metre.
 
     ## Options
 

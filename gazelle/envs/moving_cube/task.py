@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 import gazelle
 from gazelle import assets
-from gazelle.array_types import Floats, Floats32, Worlds
+from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import Pose
+from gazelle.envs.batched_task import Info
 from gazelle.envs.decimals import rounded
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome
@@ -136,4 +137,13 @@ class MovingCubeTask(SimulationTask):
         self.memory["place"][:] = y
         reward = np.where(failed, self._failure, way + rounded(WEIGHT * speed, 0) + turned)
         success = self.lasting & ~failed & (y >= WALKED)
-        return StepOutcome(reward, failed, {"is_success": success, "distance": y})
+        return StepOutcome(reward, failed, self._info(success, y))
+
+    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
+        seen = super()._look(worlds)[0]
+        return seen, self._info(np.zeros(len(worlds), np.bool_), rounded(seen[:, 1], 1))
+
+    @staticmethod
+    def _info(success: Bools, y: Floats) -> Info:
+        left = np.maximum(WALKED - y, 0.0)
+        return {"is_success": success, "is_collision": np.zeros_like(success), "distance": left}

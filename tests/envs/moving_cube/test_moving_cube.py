@@ -9,6 +9,7 @@ from gymnasium.utils.env_checker import check_env
 
 import gazelle.envs
 from gazelle.envs.moving_cube.task import MovingCubeSettings, MovingCubeTask
+from gazelle.rotations import roll_pitch_yaw
 
 ID = "gazelle/MovingCubeOneDiskWalk-v0"
 FORWARD, BACKWARD, STOP = 0, 1, 2
@@ -63,6 +64,27 @@ def test_a_jump_by_a_hundred_rolls_it_over_and_by_fifty_does_not():
     y = steps[-1].observation[0, 1]
     assert y == pytest.approx(0.2, abs=0.051)
     assert sum(step.reward[0] for step in steps) > 300
+
+
+def test_speeding_up_at_once_and_slowing_down_in_two_steps_walks():
+    """As its friction is published, it stays on its way: 1 m in 200 steps, from any start."""
+    task = begun(8)
+    actions = [STOP] * 12 + [BACKWARD] * 12 + [FORWARD] * 12
+    steps = played(task, actions * 6)
+    assert not any(step.terminated.any() for step in steps)
+    np.testing.assert_allclose(steps[-1].observation[:, 1], 1.2, atol=0.051)
+    assert (steps[-1].info["distance"] == 0.0).all()
+    placement = task._cube.placement(None)
+    turned = roll_pitch_yaw(placement.quaternion)[:, 2] - task.memory["start"][:, 0]
+    assert np.abs(turned).max() < 0.01
+
+
+def test_what_is_left_to_walk_is_told_from_the_start():
+    env = vector(2)
+    info = env.reset(seed=0)[1]
+    assert info["distance"].tolist() == [1.0, 1.0]
+    assert not info["is_success"].any()
+    env.close()
 
 
 def test_the_reward_is_the_published_sum_of_rounded_parts():
