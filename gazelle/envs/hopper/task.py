@@ -72,6 +72,10 @@ class HopperTask(SimulationTask):
     def start(self, worlds: Worlds) -> None:
         """It stands straight and leans a little."""
         lean = self.memory["start"][worlds] = self.draw(-START, START, worlds, 2)
+        self.set_lean(lean, worlds)
+
+    def set_lean(self, lean: Floats, worlds: Worlds) -> None:
+        """Stand it straight in these worlds with this roll and pitch [rad], shape (n, 2)."""
         half = 0.5 * lean
         cos, sin = np.cos(half), np.sin(half)
         turned = np.column_stack(
