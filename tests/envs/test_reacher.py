@@ -140,8 +140,12 @@ def test_being_there_is_the_end_and_a_success_but_for_speeds():
         task = begun(rules, 1)
         task.memory["goal"][:] = task._see(None).tool
         step = task.advance(np.zeros((1, 6)))
-        assert step.info["is_success"][0]
-        assert step.terminated[0] == rules.ends
+        assert step.info["is_success"][0] == step.terminated[0] == rules.ends
+    task.max_episode_steps = 3
+    assert not task.advance(np.zeros((1, 6))).info["is_success"][0]
+    last = task.advance(np.zeros((1, 6)))
+    assert last.truncated[0]
+    assert last.info["is_success"][0]
 
 
 @pytest.mark.long

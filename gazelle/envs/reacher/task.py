@@ -128,8 +128,11 @@ class ReachTask(SimulationTask):
         low, high = self._lower + rules.limit_margin, self._upper - rules.limit_margin
         at_limit = ((seen.angles <= low) | (seen.angles >= high)).any(axis=1)
         reward = np.where(there, rules.goal_reward, away) + rules.limit_reward * at_limit
-        over: Bools = there if rules.ends else np.zeros(self.nworld, np.bool_)
-        return StepOutcome(reward, over.copy(), self._info(seen, there))
+        if rules.ends:
+            return StepOutcome(reward, there, self._info(seen, there.copy()))
+        # Where being there is not the end, what counts is to be there in the end.
+        over = np.zeros(self.nworld, np.bool_)
+        return StepOutcome(reward, over, self._info(seen, there & self.lasting))
 
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         seen = self._see(worlds)
