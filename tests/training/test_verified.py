@@ -117,6 +117,7 @@ def test_a_training_reaches_what_is_said_in_each_engine(task, tmp_path):
     for engine, rate in VERIFIED[task].success.items():
         own = engine == run.config.options["engine"]
         found = evaluate(run.folder, episodes=1000 if own else 200, engine=engine)
-        assert found.distinct == found.episodes
+        # A start that is always the same leaves the goals alone, of which there are a few thousand.
+        assert found.distinct > 0.8 * found.episodes
         assert found.success is not None
         assert found.success.interval[1] + 0.02 > rate.value
