@@ -37,6 +37,17 @@ OPENAI_ROS: dict[str, Recipe] = {
         training_options={"engine": "mujoco"},
         settings=PPOSettings(n_steps=32, n_epochs=6, ent_coef=0.0),
     ),
+    # The published pay for its speed is lost again with each backward rock, and failing earns points.
+    "MovingCubeOneDiskWalk": Recipe(
+        steps=300_000,
+        num_envs=128,
+        learning_rate=2e-3,
+        gamma=0.97,
+        goal_reward=GoalReward(goal=1.0, collision=0.0, progress=5.0, other_end=3.0),
+        angles=(2,),
+        training_options={"engine": "mujoco"},
+        settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
+    ),
     # As published the goal is out of the work space; see the data sheet.
     "Husarion": dataclasses.replace(
         _DRIVING,

@@ -99,6 +99,13 @@ def test_wall_times_say_whether_something_ran_beside_them(capsys, monkeypatch):
     assert "59 s; of 2 processors, others kept 1.4 busy" in capsys.readouterr().out
 
 
+def test_the_list_of_tasks_fits_80_columns_and_names_each(capsys):
+    assert main(["tasks"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert max(map(len, lines)) <= WIDTH
+    assert {line.split()[0] for line in lines if line} >= OWN
+
+
 def test_a_task_that_no_figure_is_known_of_says_so(capsys):
     assert main(["tasks", "CartPole-v1"]) == 0
     assert "none is known of this task" in capsys.readouterr().out
