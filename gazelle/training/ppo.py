@@ -8,6 +8,7 @@ its reset are left out of the update.
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 import gymnasium as gym
@@ -25,7 +26,7 @@ from gazelle.training.export import export_actor
 from gazelle.training.ppo_update import NAMES, Transitions, Weights, learns_features, loss_of
 from gazelle.training.rollout import CutOff, Rollout
 from gazelle.training.scaling import ObservationScale
-from gazelle.training.threads import products
+from gazelle.training.threads import multiplies_bfloat16, products
 from gazelle.training.vecenv import VectorEnvAdapter
 
 _TOGETHER = 4096  # observations that are valued at once: pictures of a whole rollout are large
@@ -144,10 +145,13 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         data = self.rollout_buffer.transitions(self.policy)
         dense = None
         if fits_dense_update(self.policy):
-            dense = DenseUpdate(self.policy, self.max_grad_norm)
+            rounded = self.bfloat16 and multiplies_bfloat16()
+            dense = DenseUpdate(self.policy, self.max_grad_norm, bfloat16=rounded)
+            if rounded:
+                data = dataclasses.replace(data, features=data.features.bfloat16())
         learn = self._learn_from if dense is None else dense.learn_from
         told: list[torch.Tensor] = []
-        with products(bfloat16=self.bfloat16):
+        with products(bfloat16=self.bfloat16 and dense is None):
             for _ in range(self.n_epochs):
                 order = self.rollout_buffer.new_order(len(data.returns))
                 told += [

@@ -57,3 +57,12 @@ def products(*, bfloat16: bool) -> Iterator[None]:
         yield
     finally:
         torch.set_float32_matmul_precision(before)
+
+
+def multiplies_bfloat16() -> bool:
+    """Whether this processor multiplies bfloat16 faster than float32."""
+    import torch
+
+    able = torch.backends.mkldnn.is_available()  # type: ignore[no-untyped-call]  # of torch
+    found = ("_is_avx512_bf16_supported", "_is_amx_tile_supported")
+    return able and any(getattr(torch.cpu, name, lambda: False)() for name in found)

@@ -100,6 +100,42 @@ def test_one_step_with_ratios_that_are_clipped(continuous):
         np.testing.assert_allclose(weight.detach().numpy(), other.numpy(), atol=1e-5)
 
 
+@pytest.mark.parametrize("activation", ["tanh", "relu"])
+def test_bfloat16_gives_the_same_gradients_but_for_rounding(activation):
+    learner, callback = made(activation=activation)
+    learner.collect_rollouts(learner.env, callback, learner.rollout_buffer, 40)
+    data = learner.rollout_buffer.transitions(learner.policy)
+    found = []
+    for rounded in (False, True):
+        dense = DenseUpdate(learner.policy, learner.max_grad_norm, bfloat16=rounded)
+        features = data.features.bfloat16() if rounded else data.features
+        told = dense.learn_from(dataclasses.replace(data, features=features), WEIGHTS)
+        found.append((dense._gradients, told))
+    (exact, shown), (near, other) = found
+    assert not torch.equal(exact, near)
+    assert torch.linalg.vector_norm(near - exact) < 0.02 * torch.linalg.vector_norm(exact)
+    np.testing.assert_allclose(other.numpy(), shown.numpy(), rtol=0.02, atol=2e-3)
+
+
+def test_updates_in_bfloat16_are_those_of_processors_that_multiply_it(monkeypatch):
+    made_with = []
+
+    class Watched(DenseUpdate):
+        def __init__(self, *arguments, bfloat16=False):
+            made_with.append(bfloat16)
+            super().__init__(*arguments, bfloat16=bfloat16)
+
+    monkeypatch.setattr(ppo, "DenseUpdate", Watched)
+    for able in (True, False):
+        monkeypatch.setattr(ppo, "multiplies_bfloat16", lambda able=able: able)
+        for wanted in (True, False):
+            settings = dataclasses.replace(RECIPE.settings, bfloat16=wanted)
+            learner, callback = made(settings=settings)
+            learner.collect_rollouts(learner.env, callback, learner.rollout_buffer, 40)
+            learner.train()
+    assert made_with == [True, False, False, False]
+
+
 def test_what_it_does_not_know_is_left_to_recorded_gradients():
     learner, _ = made()
     policy = learner.policy
