@@ -22,7 +22,7 @@ KERNEL_TESTS := tests/native/test_loop.py tests/formats/test_block_cuts.py tests
 	tests/engines/test_rolling.py tests/engines/planar/test_scans.py tests/engines/planar/test_small_scenes.py tests/engines/planar/test_fleet.py tests/engines/planar/test_sweeping.py tests/sensors/test_lidar_ranges.py tests/simulation/test_many_robots.py tests/rendering/test_renderer.py \
 	tests/planning/test_inverse.py tests/planning/test_kinematics.py tests/planning/test_timing.py
 BUILD_INPLACE = $(VENV)/bin/python setup.py --quiet build_ext --inplace
-ON_KERNELS = $(VENV)/bin/python -m pytest -q -m "not slow" -p no:cacheprovider \
+ON_KERNELS = $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile -m "not slow" -p no:cacheprovider \
 	-W error::pytest.PytestUnraisableExceptionWarning $(KERNEL_TESTS)
 
 .PHONY: help setup demo test test-slow ros-suites lint bench checked wheel clean

@@ -32,6 +32,7 @@ def test_what_becomes_of_each_file_is_in_the_table(outcomes):
     assert len(outcomes) > 800
 
 
+@pytest.mark.long
 def test_none_takes_more_than_a_second(corpus, outcomes):
     slow = [name for name, (_, s) in outcomes.items() if s > SLOW.get(name, 1.0)]
     again = {

@@ -44,9 +44,9 @@ QUIET = ["-Wno-unused-function", "-Wno-unreachable-code", "-Wno-unused-variable"
 BUILDS = {
     "baseline": FAST,
     "avx2": [*FAST, "-mavx2"],
-    "checked": ["-O1", *PRECISE, "-g1"],
+    "checked": ["-O0", *PRECISE, "-g1"],
     "sanitize": [
-        *["-O1", *PRECISE, "-g1", "-fno-omit-frame-pointer"],
+        *["-O0", *PRECISE, "-g1", "-fno-omit-frame-pointer"],
         *["-fsanitize=address,undefined", "-fno-sanitize-recover=undefined"],
     ],
 }
