@@ -137,7 +137,8 @@ def _shown_fetch(task: str, steps: int) -> Recipe:
 
 
 RECIPES: dict[str, Recipe] = {
-    # A hall full of AGVs: what bumps is two that meet, so that is dear, and far goals draw gently.
+    # A hall full of AGVs: what bumps is two that meet, so that is dear, and far goals draw gently. An
+    # AGV of 0.5 m is never between two of 48 rays within 3.8 m, but was between two of 24 at 1.9 m.
     "AGVFleet": Recipe(
         steps=1_500_000,
         num_envs=576,
@@ -146,7 +147,7 @@ RECIPES: dict[str, Recipe] = {
         gamma=0.98,
         goal_reward=GoalReward(goal=1.0, collision=3.0, progress=0.2),
         features=True,
-        training_options={"engine": "planar", "agents": 72},
+        training_options={"engine": "planar", "agents": 72, "lidar_samples": 48},
         settings=PPOSettings(n_steps=16, n_epochs=3, ent_coef=0.0, bfloat16=True),
     ),
     "CartPole": Recipe(

@@ -66,13 +66,12 @@ def test_impossible_recipes_are_refused(change):
 
 @pytest.mark.slow
 def test_the_fleets_recipe_learns_what_the_defaults_do_not(tmp_path):
-    """72 of them in a hall, in half of its steps."""
+    """72 of them in a hall; seeds differ, of three the worst had 0.80."""
     from gazelle.training import evaluate, train
 
-    result = train("AGVFleet", steps=700_000, out=tmp_path)
-    # Of few episodes those that end soon, by a collision, are too many.
-    found = evaluate(result.run.folder, episodes=720)
-    assert found.success.interval[0] > 0.75
+    result = train("AGVFleet", out=tmp_path)
+    found = evaluate(result.run.folder, episodes=720, num_envs=720)
+    assert found.success.interval[0] > 0.8
 
 
 def test_learners_that_can_stand_still_pay_less_for_collisions_on_stage_4():
