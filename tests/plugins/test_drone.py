@@ -217,7 +217,7 @@ def test_reset_and_snapshots_give_the_same_flight_again():
         def fly():
             for speed in (0.5, -0.5):
                 robot.inputs["cmd_vel"].send(np.array([[speed, 0.0, 0.2]] * 2), 0.1)
-                sim.run(0.4)
+                sim.run(0.2)
             return robot.placement().position
 
         first = fly()
