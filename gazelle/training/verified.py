@@ -69,7 +69,7 @@ VERIFIED: dict[str, Verified] = {
     "MovingCubeOneDiskWalk": Verified(
         success={"mujoco": SuccessRate(174, 300)}, seeds=1, seconds=39
     ),
-    "ParrotDroneGoto": Verified(success={"mujoco": SuccessRate(283, 300)}, seeds=1, seconds=72),
+    "ParrotDroneGoto": Verified(success={"mujoco": SuccessRate(571, 600)}, seeds=2, seconds=82),
     "WamvBuoys": Verified(success={"mujoco": SuccessRate(291, 300)}, seeds=1, seconds=110),
     "SummitXLRoom": Verified(success={"planar": SuccessRate(977, 1000)}, seeds=1, seconds=32),
     "TurtleBot2Maze": Verified(success={"planar": SuccessRate(284, 300)}, seeds=1, seconds=17),
