@@ -54,7 +54,7 @@ FROBS_RL: dict[str, Recipe] = {
     "ABBIRB140VelocityReach": dataclasses.replace(
         _REACH,
         gamma=0.97,
-        goal_reward=GoalReward(goal=0.05, collision=0.0, progress=4.0),
+        goal_reward=GoalReward(goal=0.0, collision=0.0, progress=4.0, own=0.005),
         angles=tuple(range(6)),
         settings=dataclasses.replace(_REACH_SETTINGS, initial_std=0.1),
     ),

@@ -72,7 +72,7 @@ VERIFIED: dict[str, Verified] = {
     "ParrotDroneGoto": Verified(success={"mujoco": SuccessRate(571, 600)}, seeds=2, seconds=82),
     "WamvBuoys": Verified(success={"mujoco": SuccessRate(291, 300)}, seeds=1, seconds=110),
     "SummitXLRoom": Verified(success={"planar": SuccessRate(977, 1000)}, seeds=1, seconds=32),
-    "TurtleBot2Maze": Verified(success={"planar": SuccessRate(284, 300)}, seeds=1, seconds=17),
+    "TurtleBot2Maze": Verified(success={"planar": SuccessRate(503, 600)}, seeds=2, seconds=17),
     "TurtleBot2Wall": Verified(success={"planar": SuccessRate(968, 1000)}, seeds=1, seconds=55),
     "TurtleBot3World": Verified(success={"planar": SuccessRate(187, 200)}, seeds=1, seconds=21),
     "FetchPush": Verified(success={"mujoco": SuccessRate(298, 300)}, seeds=3, seconds=172),
@@ -149,7 +149,7 @@ VERIFIED_WITH: dict[tuple[str, str], Verified] = {
 
 _DENSE = "{task}'s recipe, which was not tried with a reward at every step"
 UNVERIFIED: dict[str, str] = {
-    "ABBIRB140VelocityReach": "not trained yet",
+    "ABBIRB140VelocityReach": "learns little yet: 18 of 100 there in the end, 500,000 steps; joints stay at limits",
     "FetchPickAndPlaceDense": _DENSE.format(task="FetchPickAndPlace"),
     "FetchPushDense": _DENSE.format(task="FetchPush"),
     "FetchSlideDense": _DENSE.format(task="FetchSlide"),
