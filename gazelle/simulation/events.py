@@ -3,13 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
-
-from gazelle.array_types import Worlds
-
-if TYPE_CHECKING:
-    from gazelle.simulation.joint_motion import JointMotion
-    from gazelle.simulation.robot import Robot
+from typing import Any
 
 
 class Event:
@@ -23,7 +17,7 @@ class Event:
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
-    def tell(self, *arguments: Robot | Worlds | JointMotion | bool | int | None) -> None:
+    def tell(self, *arguments: object) -> None:
         """It happened."""
         for listener in tuple(self._listeners):
             listener(*arguments)

@@ -6,7 +6,7 @@ import json
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -14,9 +14,7 @@ from gazelle.engines import Call, DivergenceError
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.encoding import encode
 from gazelle.simulation.recording import header
-
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
+from gazelle.simulation.running_state import RunningState
 
 Policy = Literal["raise", "reset"]
 POLICIES = ("raise", "reset")
@@ -63,7 +61,7 @@ class FaultLog:
         self._path = None if dump is None else Path(dump)
         self._dumps = 0
 
-    def note(self, simulation: Simulation, error: DivergenceError, time_ns: int) -> str:
+    def note(self, simulation: RunningState, error: DivergenceError, time_ns: int) -> str:
         """Dump and keep what happened; returns one line that says it."""
         fresh = []
         for row, world in enumerate(error.worlds):
@@ -79,7 +77,9 @@ class FaultLog:
     def _has_room(self) -> bool:
         return self._dumps < _MOST_DUMPS
 
-    def _dump(self, simulation: Simulation, error: DivergenceError, row: int, time_ns: int) -> Path:
+    def _dump(
+        self, simulation: RunningState, error: DivergenceError, row: int, time_ns: int
+    ) -> Path:
         """Write the steps that broke one world as a recording of that world alone."""
         world = int(error.worlds[row])
         history = [_of_one(call, world) for call in simulation.engine.history()]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -13,22 +11,20 @@ from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, finite, numbers, size_of
 from gazelle.simulation.requests import between_steps
 from gazelle.simulation.retuning import set_parameters
-
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
+from gazelle.simulation.running_state import RunningState
 
 
 class JointHandle:
     """A joint of a robot; values are of world 0 when read, of all worlds when set."""
 
-    def __init__(self, simulation: Simulation, name: str) -> None:
+    def __init__(self, simulation: RunningState, name: str) -> None:
         self.name = name
         self._simulation = simulation
         self._requests = simulation.requests
         self._engine = simulation.engine
 
     @property
-    def simulation(self) -> Simulation:
+    def simulation(self) -> RunningState:
         """What it is in."""
         return self._simulation
 

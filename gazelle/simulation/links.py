@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -15,15 +13,13 @@ from gazelle.rotations import from_yaw
 from gazelle.simulation.inputs import chosen, finite, motion, numbers, placement, size_of
 from gazelle.simulation.requests import between_steps
 from gazelle.simulation.retuning import set_parameters
-
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
+from gazelle.simulation.running_state import RunningState
 
 
 class LinkHandle:
     """A link of a robot."""
 
-    def __init__(self, simulation: Simulation, name: str, link: Link) -> None:
+    def __init__(self, simulation: RunningState, name: str, link: Link) -> None:
         self.name = name
         self.description = link
         self._simulation = simulation

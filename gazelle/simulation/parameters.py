@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.description import Model
 from gazelle.engines import PARAMETERS
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.sensors import LidarModel
 from gazelle.simulation.inputs import VECTORS, chosen, finite, numbers, placement, size_of
 from gazelle.simulation.requests import between_steps
+from gazelle.simulation.running_state import RunningState
 from gazelle.streams import Stream
-
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
 
 
 class Parameter:
@@ -26,7 +25,7 @@ class Parameter:
     Reading gives the values of all worlds, shape (nworld,), or (nworld, width) for vectors.
     """
 
-    def __init__(self, simulation: Simulation, kind: str) -> None:
+    def __init__(self, simulation: RunningState, kind: str) -> None:
         self._simulation = simulation
         self._requests = simulation.requests
         self._kind = kind
@@ -62,10 +61,38 @@ class Parameter:
         engine.set_parameter(self._kind, name, given, some)
 
 
+class Measured(Protocol):
+    """A sensor; see ``SensorUnit``."""
+
+    name: str
+
+    @property
+    def model(self) -> object:
+        """What measures it."""
+
+
+class Equipped(Protocol):
+    """A model with sensors; see ``Robot``."""
+
+    description: Model
+
+    @property
+    def sensors(self) -> Mapping[str, Measured]:
+        """By name."""
+
+
+class PopulatedState(RunningState, Protocol):
+    """A simulation with its models."""
+
+    @property
+    def robots(self) -> Mapping[str, Equipped]:
+        """By name."""
+
+
 class SensorNoise:
     """Standard deviation of the white noise of lidars, by scoped name [m]."""
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: PopulatedState) -> None:
         self._simulation = simulation
         self._requests = simulation.requests
 
@@ -96,7 +123,7 @@ class SensorNoise:
 class InitialPoses:
     """Where models start after a reset, by name: arrays (nworld, 7) of x, y, z and quaternion."""
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: PopulatedState) -> None:
         self._simulation = simulation
         self._requests = simulation.requests
         self._poses: dict[str, Floats] = {}
@@ -162,7 +189,7 @@ class WorldParameters:
         pose: Where models start after a reset, by model.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: PopulatedState) -> None:
         self._simulation = simulation
         self._requests = simulation.requests
         self.link_mass = Parameter(simulation, "link_mass")

@@ -6,16 +6,14 @@ import math
 import operator
 import warnings
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gazelle.description import Atmosphere, Physics, Vector3, World
 from gazelle.engines.laws import with_profile
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.simulation.inputs import finite
 from gazelle.simulation.requests import between_steps
-
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
+from gazelle.simulation.running_state import RunningState
 
 # Names here, and where the description has them: in the world, its profile, or ODE's terms.
 _OF_WORLD = {name: name for name in ("gravity", "magnetic_field", "wind", "atmosphere")}
@@ -75,7 +73,7 @@ class PhysicsProperties:
         simulation: The run.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: RunningState) -> None:
         self._simulation = simulation
         self._requests = simulation.requests
 
@@ -132,7 +130,7 @@ class PhysicsProperties:
 
         As in Gazebo classic it is the update rate times the time step, whatever
         ``real_time_factor`` says, and an update rate of 0 does not hold anything back. A door
-        that runs in real time gives it to ``Simulation.run`` as ``rate``; Python's own
+        that runs in real time gives it to ``RunningState.run`` as ``rate``; Python's own
         default is as fast as possible.
         """
         profile = self.profile
@@ -140,7 +138,7 @@ class PhysicsProperties:
 
     @property
     def gravity(self) -> Vector3:
-        """Gravity of all worlds [m/s²]; ``Simulation.parameters`` has that of each."""
+        """Gravity of all worlds [m/s²]; ``RunningState.parameters`` has that of each."""
         return self._simulation.world.gravity
 
     @gravity.setter

@@ -12,7 +12,7 @@ import json
 from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,22 @@ from gazelle.closing import Closeable
 from gazelle.engines import Call, DivergenceError, Engine, changes_of
 from gazelle.errors import Error
 from gazelle.simulation.encoding import encode
+from gazelle.simulation.running_state import RunningState
 
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
+
+class StepCuts(Protocol):
+    """What makes steps; see ``StepLoop``."""
+
+    cut: bool
+
+
+class RecordedRun(RunningState, Protocol):
+    """What can be recorded."""
+
+    @property
+    def loop(self) -> StepCuts:
+        """What makes its steps."""
+
 
 FORMAT = "gazelle-recording"
 VERSION = 1
@@ -35,7 +48,7 @@ def state_hash(state: NDArray[np.float64]) -> str:
 
 
 def header(
-    simulation: Simulation, history: Iterable[Call], state: NDArray[np.float64], time_ns: int
+    simulation: RunningState, history: Iterable[Call], state: NDArray[np.float64], time_ns: int
 ) -> dict[str, Any]:
     """The first line of a recording: what ran, and from where on."""
     return {
@@ -60,7 +73,7 @@ class Recorder(Closeable):
         path: Where to write; an existing file is replaced.
     """
 
-    def __init__(self, simulation: Simulation, path: str | Path) -> None:
+    def __init__(self, simulation: RecordedRun, path: str | Path) -> None:
         self.path = Path(path)
         self._simulation = simulation
         self._engine: Engine = simulation.engine
@@ -74,6 +87,8 @@ class Recorder(Closeable):
         # What systems change is not called: plugins do it themselves meanwhile.
         self._native, simulation.native = simulation.native, None
         self._carrier, simulation.carrier = simulation.carrier, None
+        own = vars(self._engine)  # some engines keep methods of their parts there
+        self._methods = {name: own[name] for name in changes_of(self._engine) if name in own}
         for name in changes_of(self._engine):
             setattr(self._engine, name, partial(self._called, name, getattr(self._engine, name)))
 
@@ -83,6 +98,8 @@ class Recorder(Closeable):
             if not self._file.closed:
                 for name in changes_of(self._engine):
                     delattr(self._engine, name)
+                    if name in self._methods:
+                        setattr(self._engine, name, self._methods[name])
                 self._simulation.native = self._native
                 self._simulation.carrier = self._carrier
                 self._flush()

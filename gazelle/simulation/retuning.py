@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.errors import Error, SimulationError
 from gazelle.simulation.inputs import VECTORS, chosen, numbers
-
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
-
+from gazelle.simulation.running_state import RunningState
 
 _LIMITS = ("joint_lower", "joint_upper")
 
 
 def set_parameters(
-    simulation: Simulation,
+    simulation: RunningState,
     name: str,
     given: Mapping[str, ArrayLike | None],
     worlds: Worlds | None,
@@ -45,7 +41,7 @@ def set_parameters(
         raise
 
 
-def _check_limits(simulation: Simulation, joint: str, worlds: Worlds | None) -> None:
+def _check_limits(simulation: RunningState, joint: str, worlds: Worlds | None) -> None:
     lower, upper = (simulation.engine.parameter(kind, joint, worlds) for kind in _LIMITS)
     if (lower > upper).any():
         low, high = lower[lower > upper][0], upper[lower > upper][0]

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Model, Pose
 from gazelle.engines.tracer import Tracer, make_tracer
 from gazelle.sensors import View, range_image, render
-
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
+from gazelle.simulation.running_state import RunningState
 
 
 class SceneRenderer:
@@ -22,15 +18,15 @@ class SceneRenderer:
         self._models: tuple[Model, ...] = ()
         self._tracer: Tracer | None = None
 
-    def picture(self, simulation: Simulation, view: View, world: int) -> NDArray[np.uint8]:
+    def picture(self, simulation: RunningState, view: View, world: int) -> NDArray[np.uint8]:
         """A picture of one world, shape (height, width, 3)."""
         return render(self._placed(simulation, world), simulation.engine.world, view)
 
-    def ranges(self, simulation: Simulation, view: View, world: int) -> NDArray[np.float64]:
+    def ranges(self, simulation: RunningState, view: View, world: int) -> NDArray[np.float64]:
         """Distances to what a picture shows, shape (height, width)."""
         return range_image(self._placed(simulation, world), view)
 
-    def _placed(self, simulation: Simulation, world: int) -> Tracer:
+    def _placed(self, simulation: RunningState, world: int) -> Tracer:
         """What follows rays through one world as it is now."""
         engine = simulation.engine
         if self._tracer is None or self._models is not engine.world.models:

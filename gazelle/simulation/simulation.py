@@ -99,9 +99,10 @@ class Simulation(Closeable):
         self._engine = make_engine(engine, loaded, nworld, time_step=time_step, threads=threads)
         self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
-        self.native = self._engine if isinstance(self._engine, SystemEngine) else None
-        self.carrier = self._engine if isinstance(self._engine, CarryingEngine) else None
-        self.tables = self._engine if isinstance(self._engine, TableEngine) else None
+        moved: object = self._engine
+        self.native: SystemEngine | None = moved if isinstance(moved, SystemEngine) else None
+        self.carrier: CarryingEngine | None = moved if isinstance(moved, CarryingEngine) else None
+        self.tables: TableEngine | None = moved if isinstance(moved, TableEngine) else None
         self.seed = seed_of(seed)
         self.clock = Clock(self._engine.time_step)
         self.paused = False

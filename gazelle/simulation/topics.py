@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from gazelle.description import Parameters
 
-if TYPE_CHECKING:
-    from gazelle.simulation.robot import Robot
+
+class Spawned(Protocol):
+    """A model in a running simulation."""
+
+    namespace: str
 
 
-def namespace_of(robot: Robot, parameters: Parameters, otherwise: str = "") -> str:
+def namespace_of(robot: Spawned, parameters: Parameters, otherwise: str = "") -> str:
     """The namespace of a plugin: its ``robotNamespace``, else the one it was spawned in.
 
     As Gazebo gives the latter to plugins without the tag, an empty tag keeps it away.

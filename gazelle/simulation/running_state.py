@@ -1,0 +1,49 @@
+"""What parts of a simulation know of it: the engine, the clock, and who owns the state."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from gazelle.description import World
+from gazelle.engines import CarryingEngine, Engine, SystemEngine, TableEngine
+from gazelle.simulation.clock import Clock
+from gazelle.simulation.loads import Loads
+from gazelle.simulation.requests import RequestQueue
+
+
+class RunningState(Protocol):
+    """A simulation as its handles, parameters and records see it.
+
+    Attributes:
+        requests: What threads ask for.
+        clock: Simulated time.
+        seed: Decides all random numbers.
+        engine_name: As it was asked for.
+        native: The engine, if it updates systems between its steps; else None.
+        carrier: The engine, if it takes controllers of joints into its steps; else None.
+        tables: The engine, if it looks at many links and joints at once; else None.
+    """
+
+    requests: RequestQueue
+    clock: Clock
+    seed: int
+    engine_name: str
+    native: SystemEngine | None
+    carrier: CarryingEngine | None
+    tables: TableEngine | None
+
+    @property
+    def nworld(self) -> int:
+        """Number of worlds."""
+
+    @property
+    def world(self) -> World:
+        """The world that runs."""
+
+    @property
+    def engine(self) -> Engine:
+        """What moves the world."""
+
+    @property
+    def loads(self) -> Loads:
+        """Forces that act for a time."""
