@@ -145,8 +145,8 @@ def beside_mujoco(seconds: float) -> None:
     """``Simulation.step`` beside ``mj_step``, on the compiled model and on one made by hand."""
     sim = burger(1, 1)
     sim.run(seconds=0.5)
-    ours = sim.engine._batch.model  # noqa: SLF001  the benchmark looks under the hood
-    state = sim.engine._batch.get_data(0)  # noqa: SLF001
+    ours = sim.engine.running.batch.model
+    state = sim.engine.running.batch.get_data(0)
     model = mujoco.MjModel.from_xml_path(str(BY_HAND))
     data = mujoco.MjData(model)
     data.ctrl[:] = state.userdata[: model.nu]  # the velocities that its motors hold
@@ -182,7 +182,7 @@ def big_worlds(seconds: float) -> None:
             listen(add_burger(sim, *STARTS[name]))
         load = time.process_time() - start
         (rate,) = on_one_core([running(sim)], seconds / 2.0)
-        shapes = sim.engine._batch.model.ngeom  # noqa: SLF001
+        shapes = sim.engine.running.batch.model.ngeom
         print(f"{name}, {shapes} shapes: loads in {load:.1f} s, real-time factor {rate:,.0f}")
 
 

@@ -142,7 +142,7 @@ class _Watch:
 
     def __init__(self, engine) -> None:
         self._engine = engine
-        self._batch = engine._batch
+        self._batch = engine.running.batch
         model = self._model = self._batch.model
         self._data = mujoco.MjData(model)
         mobile = [b for b in range(1, model.nbody) if model.body_weldid[b] != 0]
@@ -176,7 +176,7 @@ class _Watch:
         self.looks += 1
         height, speed, energy = self._look_closer()
         in_world = height > -20.0
-        if self.time < SETTLING or self._engine._overlaps.any:
+        if self.time < SETTLING or self._engine.running.overlaps.any:
             if in_world.any() and speed[in_world].max() > self.thrown:
                 self.thrown = float(speed[in_world].max())
             # What overlaps in a file is pushed apart: it may gain energy at first.
@@ -203,7 +203,7 @@ class _Watch:
 def _lowest(world: World) -> float:
     """Height of the lowest point of all collision shapes [m]."""
     engine = make_engine("mujoco", world, threads=1)
-    model = engine._batch.model
+    model = engine.running.batch.model
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     lows = [_low(model, data, g) for g in range(model.ngeom) if _is_solid(model, g)]

@@ -13,7 +13,7 @@ from gazelle.control import POSITION, VELOCITY
 from gazelle.control.base_controller import BaseController
 from gazelle.control.values import BaseTwist, FourWheelCommand
 from gazelle.description import Plugin, Transmission, World
-from gazelle.engines.mujoco.engine import MujocoEngine
+from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.simulation.walking import StepLoop
 from tests.control.robots import ROUND, urdf
 from tests.control.test_in_physics import base_text
@@ -176,9 +176,9 @@ def test_a_snapshot_is_continued_to_the_bit(kind):
 def test_robots_of_a_world_are_compiled_together_however_many_have_motors(monkeypatch):
     """Each robot's plugin puts motors on wheels; with a model made for each, 100 took two minutes."""
     counts = []
-    change = MujocoEngine._change
+    change = RunningWorlds.change
     monkeypatch.setattr(
-        MujocoEngine, "_change", lambda *given: (counts.append(1), change(*given))[1]
+        RunningWorlds, "change", lambda *given: (counts.append(1), change(*given))[1]
     )
     model = formats.load_model_string(base_text())
     many = tuple(replace(model, name=f"r{i}", pose=gazelle.Pose(y=2.0 * i)) for i in range(6))

@@ -50,9 +50,9 @@ def test_contacts_are_those_that_mujocos_own_trees_find(world, drive, monkeypatc
 
 
 def test_the_trees_are_other_ones(monkeypatch):
-    ours = make_engine("mujoco", heap())._batch.model
+    ours = make_engine("mujoco", heap()).running.batch.model
     monkeypatch.setattr(compiler, "tighten_hierarchies", lambda model: None)
-    theirs = make_engine("mujoco", heap())._batch.model
+    theirs = make_engine("mujoco", heap()).running.batch.model
     assert (ours.bvh_child != theirs.bvh_child).any()
 
 
@@ -83,7 +83,7 @@ def test_forces_that_act_are_not_left_out(model):
 def test_gravity_of_a_link_is_taken_away_while_it_falls():
     """Where no force was to act, one acts from now on, in one world of two."""
     engine = make_engine("mujoco", scenes.world(scenes.box(pose=Pose(z=9.0))), 2)
-    assert engine._batch.model.opt.disableflags & PASSIVE_OFF
+    assert engine.running.batch.model.opt.disableflags & PASSIVE_OFF
     engine.step(100)
     engine.set_parameter("link_gravity", engine.link_names[0], [[0.0], [1.0]])
     speed = engine.link_motion(engine.link_names[0]).linear[:, 2].copy()

@@ -153,7 +153,7 @@ def test_ground_of_many_triangles_is_one_field_of_heights(tmp_path, mesh, fields
     places = [pose.apply((*chance.uniform((-2, -1), (4, 3)), 0.7)) for _ in range(5)]
     balls = [scenes.ball(f"ball_{i}", pose=Pose(*place)) for i, place in enumerate(places)]
     engine = make_engine("mujoco", scenes.world(ground, *balls))
-    assert engine._batch.model.nhfield == fields
+    assert engine.running.batch.model.nhfield == fields
     placed = mesh.copy().apply_transform(pose.matrix())
     touched = 0
     for _ in range(8):

@@ -111,6 +111,6 @@ def test_a_saved_state_goes_on_alike_while_something_is_let_out_and_it_ends(tmp_
         other.step(200)
         assert (engine.snapshot() == other.snapshot()).all()
     engine.step(5000)
-    assert not engine._overlaps.any
+    assert not engine.running.overlaps.any
     engine.reset()
     assert (engine.snapshot() == start).all()

@@ -259,6 +259,6 @@ def test_what_is_wedged_does_not_shoot_out(angle, mu):
     fastest = 0.0
     for _ in range(200):
         engine.step(5)
-        if engine._overlaps.any:
+        if engine.running.overlaps.any:
             fastest = max(fastest, float(np.linalg.norm(engine.link_motion("ball::link").linear)))
     assert 0.05 < fastest < 0.21

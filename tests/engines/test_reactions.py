@@ -272,7 +272,7 @@ def test_contacts_of_many_worlds_are_those_of_each():
     engine = make_engine("mujoco", scenes.world(*models), nworld=4)
     engine.set_model_placement("burger", (0.0, 0.0, 5.0), (0.0, 0.0, 0.0, 1.0), np.array([2]))
     engine.step(50)
-    names = [n for n in engine._layout.collisions if n.startswith(("burger", "box"))]
+    names = [n for n in engine.running.layout.collisions if n.startswith(("burger", "box"))]
     worlds = np.array([3, 2, 0])
     where, every = engine.touching(names, worlds)
     assert len(set(where.tolist())) == 3
@@ -293,8 +293,8 @@ def test_contact_forces_are_those_that_mujoco_tells(model):
     ode = replace(world.profile.ode, friction_model=model)
     engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)))
     engine.step(100)
-    found = engine.contacts(list(engine._layout.collisions))
-    known, data = engine._probe(0)
+    found = engine.contacts(list(engine.running.layout.collisions))
+    known, data = engine.reactions.probe(0)
     forces = np.zeros((data.ncon, 6))
     for index, row in enumerate(forces):
         mujoco.mj_contactForce(known, data, index, row)

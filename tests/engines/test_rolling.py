@@ -37,7 +37,7 @@ def driven(name, step, left, right, slope=0.0):
 @pytest.mark.parametrize("robot", ROBOTS)
 def test_the_solver_finds_the_forces_below_a_robot_that_drives_at_once(robot, step, speeds):
     engine, _ = driven(robot, step, *speeds)
-    model, data = engine._batch.model, engine._batch.get_data(0)
+    model, data = engine.running.batch.model, engine.running.batch.get_data(0)
     searched, steps = 0, 200
     for _ in range(steps):
         mujoco.mj_step(model, data)
@@ -73,7 +73,11 @@ def test_wheels_that_start_at_once_rub_by_coulombs_law_beside_loose_things(robot
 
 def _rubbed(engine):
     """Where the first body is after steps in which no contact rubs too much, and islands."""
-    compiled, data, force = engine._batch.model, engine._batch.get_data(0), np.zeros(6)
+    compiled, data, force = (
+        engine.running.batch.model,
+        engine.running.batch.get_data(0),
+        np.zeros(6),
+    )
     for _ in range(40):
         mujoco.mj_step(compiled, data)
         for index, contact in enumerate(data.contact):
@@ -86,7 +90,7 @@ def _rubbed(engine):
 @pytest.mark.parametrize("robot", ["turtlebot3_burger", "turtlebot3_waffle"])
 def test_the_wheels_of_a_robot_that_drives_do_not_pull_against_each_other(robot):
     engine, name = driven(robot, 0.001, 6.0, 4.0)
-    model, data = engine._batch.model, engine._batch.get_data(0)
+    model, data = engine.running.batch.model, engine.running.batch.get_data(0)
     mujoco.mj_step(model, data)
     x, y, z, w = engine.model_placement(name).quaternion[0]
     yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))

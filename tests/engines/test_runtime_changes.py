@@ -138,7 +138,7 @@ def test_boxes_at_rest_fall_asleep_and_wake_when_hit():
     boxes = [scenes.box(f"box_{i}", pose=Pose(i * 0.5, 0.0, 0.1)) for i in range(20)]
     engine = make(scenes.ground(), *boxes)
     engine.step(1000)
-    asleep = engine._batch.bind("tree_asleep")
+    asleep = engine.running.batch.bind("tree_asleep")
     assert (asleep >= 0).all()
     engine.set_model_motion("box_0", (3.0, 0.0, 0.0), np.zeros(3))
     engine.step(300)

@@ -68,7 +68,7 @@ def test_a_cone_is_used_where_things_lie_loose_or_where_it_is_asked_for():
         world = scenes.world(scenes.ground(), *models, step=step)
         world = with_profile(world, replace(world.profile, **profile))
         engine = make_engine("mujoco", world)
-        return engine._batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+        return engine.running.batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
 
     assert cone(scenes.box())
     assert cone(scenes.box(), step=0.01)
@@ -86,7 +86,7 @@ def test_what_moves_only_when_told_to_asks_for_no_cone():
     engine = make_engine("mujoco", scenes.world(scenes.ground(), scenes.box(), scenes.burger()))
     engine.make_kinematic("box")
     engine.step()
-    assert engine._batch.model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
+    assert engine.running.batch.model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL
 
 
 @pytest.mark.parametrize("mu", [0.1, 0.5, 1.0])
@@ -133,7 +133,7 @@ def test_the_friction_of_one_world_stays_in_it_and_off_other_pairs():
     second = with_surface(scenes.box("second", pose=Pose(2.0, z=0.1)), Surface(Friction(0.5, 0.1)))
     engine = make_engine("mujoco", scenes.world(scenes.ground(), first, second), nworld=2)
     engine.set_parameter("collision_friction", "first::link::c", [0.02], np.array([1]))
-    pairs = engine._batch.expand("pair_friction")
+    pairs = engine.running.batch.expand("pair_friction")
     assert np.allclose(pairs[0, :, :2], (0.5, 0.1))
     assert sorted(pairs[1, :, :2].tolist()) == [[0.02, 0.02], [0.02, 0.02], [0.5, 0.1]]
 

@@ -73,7 +73,7 @@ def test_a_cart_on_wheels_of_any_width_turns_in_place_as_kinematics_say(width, m
 
 def contacts_of(engine, part):
     """Places and depths of the contacts of shapes with a word in their names."""
-    model, data = engine._batch.model, engine._batch.get_data(0)
+    model, data = engine.running.batch.model, engine.running.batch.get_data(0)
     mujoco.mj_forward(model, data)
     names = [model.geom(geom).name for geom in range(model.ngeom)]
     touching = [c for c in data.contact if any(part in names[geom] for geom in c.geom)]
@@ -153,7 +153,7 @@ def test_only_what_is_askew_by_rounding_is_put_straight(size, turn, straight):
     link = Link("l", inertial=Inertial(1.0, inertia=Inertia(1, 1, 1)), collisions=(shape,))
     engine = make_engine("mujoco", scenes.world(Model("m", links=(link,))))
     axes = np.zeros(9)
-    mujoco.mju_quat2Mat(axes, engine._batch.model.geom_quat[0])
+    mujoco.mju_quat2Mat(axes, engine.running.batch.model.geom_quat[0])
     off = np.abs(axes - np.rint(axes)).max()
     assert (off < 1e-12) == straight
     if not straight:
@@ -169,8 +169,8 @@ def test_links_held_by_fixed_joints_are_straight_with_what_carries_them():
     joint = Joint("j", "fixed", "base", "arm")
     world = scenes.world(Model("m", links=(base, arm), joints=(joint,)))
     engine = make_engine("mujoco", world)
-    data = mujoco.MjData(engine._batch.model)
-    mujoco.mj_forward(engine._batch.model, data)
+    data = mujoco.MjData(engine.running.batch.model)
+    mujoco.mj_forward(engine.running.batch.model, data)
     axes = data.geom_xmat[0]
     np.testing.assert_allclose(axes, np.rint(axes), atol=1e-12)
     # The link itself is where the file has it.

@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 import gazelle
 from gazelle import formats
 from gazelle.description import Pose
-from gazelle.engines.mujoco import MujocoEngine
 from gazelle.errors import PluginWarning
 from gazelle.simulation import BasePlugin, JointArray, ModelPlugin, TwistInput, register
 
@@ -248,10 +247,10 @@ def test_odometry_of_all_is_looked_up_at_once(monkeypatch):
     with yard(KINDS["skid"], nworld=2) as sim:
         for each in moving(sim):
             each.outputs["odom"].subscribe(lambda odom: stamps.append(odom.stamp))
-        monkeypatch.setattr(MujocoEngine, "model_placement", None)
-        look = MujocoEngine.model_placements
+        monkeypatch.setattr(sim._engine, "model_placement", None)
+        look = sim._engine.model_placements
         monkeypatch.setattr(
-            MujocoEngine, "model_placements", lambda *a: looks.append(len(a[1])) or look(*a)
+            sim._engine, "model_placements", lambda *a: looks.append(len(a[0])) or look(*a)
         )
         sim.run(1.0)
     assert looks == [3] * 20
@@ -259,7 +258,7 @@ def test_odometry_of_all_is_looked_up_at_once(monkeypatch):
 
 
 def test_a_recorded_run_is_the_same_and_can_be_replayed(tmp_path):
-    hashes = []
+    hashes, after = [], []
     for record in (False, True):
         with yard(KINDS["skid"], nworld=2) as sim:
             if record:
@@ -271,7 +270,11 @@ def test_a_recorded_run_is_the_same_and_can_be_replayed(tmp_path):
             hashes.append(sim.state_hash())
             if record:
                 writer.close()
+            moving(sim)[0].inputs["cmd_vel"].send(-0.2)
+            sim.run(0.1)
+            after.append(sim.state_hash())
     assert hashes[0] == hashes[1]
+    assert after[0] == after[1] != hashes[0]
     with gazelle.simulation.Replay(tmp_path / "run.jsonl") as replay:
         replay.run()
         assert replay.simulation.state_hash() == hashes[0]

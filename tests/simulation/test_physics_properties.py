@@ -97,7 +97,7 @@ def test_contacts_are_chosen_by_name_before_and_during_a_run_and_survive(tmp_pat
     robot = scenes.burger()
 
     def cone(sim):
-        return sim.engine._batch.model.opt.cone == 1
+        return sim.engine.running.batch.model.opt.cone == 1
 
     with Simulation(scenes.world(scenes.ground(), robot)) as sim:
         assert sim.physics.contacts is None

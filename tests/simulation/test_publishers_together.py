@@ -5,7 +5,6 @@ import pytest
 
 import gazelle
 from gazelle import formats
-from gazelle.engines.mujoco import MujocoEngine
 from gazelle.errors import PluginWarning
 
 P3D = """<plugin name='p3d' filename='libgazebo_ros_p3d.so'><bodyName>{body}</bodyName><topicName>true</topicName>
@@ -99,10 +98,10 @@ def test_true_poses_of_all_are_looked_up_at_once(monkeypatch):
     with yard() as sim:
         for name in ("r0", "r1", "r2", "r4"):
             sim.robots[name].outputs["true"].subscribe(lambda each: stamps.append(each.stamp))
-        monkeypatch.setattr(MujocoEngine, "link_placement", None)
-        look = MujocoEngine.link_placements
+        monkeypatch.setattr(sim._engine, "link_placement", None)
+        look = sim._engine.link_placements
         monkeypatch.setattr(
-            MujocoEngine, "link_placements", lambda *a: looks.append(len(a[1])) or look(*a)
+            sim._engine, "link_placements", lambda *a: looks.append(len(a[0])) or look(*a)
         )
         sim.run(1.0)
     assert looks == [4] * 20
@@ -114,10 +113,10 @@ def test_imus_of_all_feel_one_coming_step(monkeypatch):
     with yard() as sim:
         for name in ("r3", "r4"):
             sim.robots[name].outputs["imu"].subscribe(lambda each: stamps.append(each.stamp))
-        monkeypatch.setattr(MujocoEngine, "link_acceleration", None)
-        look = MujocoEngine.link_accelerations
+        monkeypatch.setattr(sim._engine, "link_acceleration", None)
+        look = sim._engine.link_accelerations
         monkeypatch.setattr(
-            MujocoEngine, "link_accelerations", lambda *a: looks.append(len(a[1])) or look(*a)
+            sim._engine, "link_accelerations", lambda *a: looks.append(len(a[0])) or look(*a)
         )
         sim.run(1.0)
     assert looks == [2] * 20
@@ -129,10 +128,10 @@ def test_joints_of_all_are_looked_up_at_once(monkeypatch):
     with yard() as sim:
         for name in ("r0", "r2", "r4"):
             sim.robots[name].outputs["joint_states"].subscribe(heard.append)
-        monkeypatch.setattr(MujocoEngine, "joint_position", None)
-        look = MujocoEngine.joint_positions
+        monkeypatch.setattr(sim._engine, "joint_position", None)
+        look = sim._engine.joint_positions
         monkeypatch.setattr(
-            MujocoEngine, "joint_positions", lambda *a: looks.append(len(a[1])) or look(*a)
+            sim._engine, "joint_positions", lambda *a: looks.append(len(a[0])) or look(*a)
         )
         sim.run(1.0)
     assert looks == [4] * 20

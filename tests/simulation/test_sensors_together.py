@@ -6,7 +6,6 @@ import pytest
 import gazelle
 from gazelle import formats
 from gazelle.description import Pose
-from gazelle.engines.mujoco import MujocoEngine
 
 NOISE = "<noise><type>gaussian</type><stddev>{stddev}</stddev><mean>{mean}</mean></noise>"
 LIDAR = """<sensor name='eyes' type='ray'><update_rate>{rate}</update_rate><pose>.05 0 .2 0 .1 {turn}</pose>
@@ -177,12 +176,17 @@ def test_lidars_of_a_kind_are_cast_in_one_call_whoever_listens(monkeypatch):
             eyes.subscribe(lambda each: heard.append(each.read().stamp))
         sim.run(0.3)
         before, count = told(sim), len(heard)
-        for name in ("cast_rays", "cast_ranges_together"):
-            cast = getattr(MujocoEngine, name)
-            monkeypatch.setattr(
-                MujocoEngine, name,
-                lambda *args, cast=cast: calls.append(len(args[2])) or cast(*args),
-            )  # fmt: skip
+        one, many = sim._engine.cast_ranges, sim._engine.cast_ranges_together
+        monkeypatch.setattr(
+            sim._engine,
+            "cast_ranges",
+            lambda rays, *rest: calls.append(len(rays.origins)) or one(rays, *rest),
+        )
+        monkeypatch.setattr(
+            sim._engine,
+            "cast_ranges_together",
+            lambda *args: calls.append(len(args[1])) or many(*args),
+        )
         sim.run(1.0)
         after = told(sim)
     assert all(old != new for old, new in zip(before[1], after[1], strict=True))
@@ -198,10 +202,10 @@ def test_imus_of_a_kind_feel_the_coming_step_in_one_call_whoever_listens(monkeyp
         sim.robots["r1"].sensors["imu"].subscribe(lambda each: heard.append(each.read().stamp))
         sim.run(0.3)
         for name in ("link_acceleration", "link_accelerations"):
-            look = getattr(MujocoEngine, name)
+            look = getattr(sim._engine, name)
             monkeypatch.setattr(
-                MujocoEngine, name,
-                lambda *args, look=look: steps.append(args[1]) or look(*args),
+                sim._engine, name,
+                lambda *args, look=look: steps.append(args[0]) or look(*args),
             )  # fmt: skip
         sim.run(1.0)
     # as the lidars: 17 looks at the two that are alone, and 17 at the six others
@@ -217,9 +221,9 @@ def test_contacts_of_all_are_found_in_one_step_whoever_listens(monkeypatch):
             lambda each: touching.append(each.read().contacts.others)
         )
         sim.run(0.3)
-        probe = MujocoEngine._probe
+        probe = sim._engine.reactions.probe
         monkeypatch.setattr(
-            MujocoEngine, "_probe", lambda *args: probes.append(args[1]) or probe(*args)
+            sim._engine.reactions, "probe", lambda world: probes.append(world) or probe(world)
         )
         sim.run(1.0)
         both = [sim.robots["r6"].sensors[name].read().contacts for name in ("touch", "again")]

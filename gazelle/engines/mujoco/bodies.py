@@ -3,37 +3,33 @@
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.motion import Placement
-from gazelle.engines.mujoco.access import rows_of, unit
 from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.layout import LinkSlot, MujocoLayout
-from gazelle.engines.mujoco.many_models import ManyModels
+from gazelle.engines.mujoco.layout import LinkSlot
+from gazelle.engines.mujoco.links import LinkAccess
+from gazelle.engines.mujoco.models import ModelAccess
+from gazelle.engines.mujoco.rows import rows_of, unit
+from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate
 
 
-class BodyAccess(ManyModels):
-    """The part of ``gazelle.engines.engine.Engine`` that handles single links."""
+class LinkHandling:
+    """The part of ``gazelle.engines.engine.Engine`` that handles single links.
 
-    @abstractmethod
-    def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
-        """A physical parameter."""
+    Args:
+        run: What runs.
+        links: Where links are.
+        models: Puts their roots somewhere.
+    """
 
-    @abstractmethod
-    def set_parameter(
-        self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Change a physical parameter."""
-
-    @abstractmethod
-    def _prepare(self, pair: Attachment) -> MujocoLayout:
-        """The layout of what runs, in which two links can be held together."""
+    def __init__(self, run: RunningWorlds, links: LinkAccess, models: ModelAccess) -> None:
+        self._run, self._links, self._models = run, links, models
 
     # -- placing -----------------------------------------------------------------------
 
@@ -41,29 +37,32 @@ class BodyAccess(ManyModels):
         self, link: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Move the links that hang together with a link so that it is there, joints as they are."""
-        slot = self._now().link(link)
+        slot = self._run.now().link(link)
         if slot.root == "static":
-            self.make_kinematic(link.partition("::")[0])
-            slot = self._now().link(link)
-        here = self.link_placement(link, worlds)
+            self._run.make_kinematic(link.partition("::")[0])
+            slot = self._run.now().link(link)
+        here = self._links.link_placement(link, worlds)
         goal_p = np.broadcast_to(np.asarray(position, np.float64), here.position.shape)
         goal_q = unit(np.broadcast_to(np.asarray(quaternion, np.float64), here.quaternion.shape))
         carrier = self._loose_carrier(link, slot)
-        root = self.link_placement(slot.carrier, worlds)
+        root = self._links.link_placement(slot.carrier, worlds)
         turn = multiply(goal_q, conjugate(here.quaternion))
         moved = goal_p + rotate(turn, root.position - here.position)
-        self._put(carrier, moved, multiply(turn, root.quaternion), worlds)
-        self._stale = True
+        self._models.put(carrier, moved, multiply(turn, root.quaternion), worlds)
+        self._run.stale = True
 
     def set_link_motion(
         self, link: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Give a link a velocity; those that hang together with it keep their joints' speeds."""
-        slot = self._now().link(link)
+        slot = self._run.now().link(link)
         carrier = self._loose_carrier(link, slot)
         if carrier.free is None:
             raise EngineError(f"link '{link}' moves only when it is placed; it has no velocity")
-        here, motion = self.link_placement(link, worlds), self.link_motion(link, worlds)
+        here, motion = (
+            self._links.link_placement(link, worlds),
+            self._links.link_motion(link, worlds),
+        )
         root, carried = self._of_carrier(slot, worlds)
         spin = np.broadcast_to(np.asarray(angular, np.float64), motion.angular.shape)
         more_spin = spin - motion.angular
@@ -72,18 +71,18 @@ class BodyAccess(ManyModels):
         velocity = carried[0] + more + cross(more_spin, arm)
         local = rotate(conjugate(root.quaternion), carried[1] + more_spin)
         both = np.concatenate((velocity, local), axis=1)
-        self._state.qvel[rows_of(worlds), carrier.free.velocity] = both
-        self._stale = True
+        self._run.state.qvel[rows_of(worlds), carrier.free.velocity] = both
+        self._run.stale = True
 
     def _of_carrier(
         self, slot: LinkSlot, worlds: Worlds | None
     ) -> tuple[Placement, tuple[Floats, Floats]]:
-        motion = self.link_motion(slot.carrier, worlds)
-        return self.link_placement(slot.carrier, worlds), (motion.linear, motion.angular)
+        motion = self._links.link_motion(slot.carrier, worlds)
+        return self._links.link_placement(slot.carrier, worlds), (motion.linear, motion.angular)
 
     def _loose_carrier(self, link: str, slot: LinkSlot) -> LinkSlot:
         """The root of the tree that a link is in, which can be put somewhere."""
-        carrier = self._layout.link(slot.carrier)
+        carrier = self._run.layout.link(slot.carrier)
         if carrier.free is None and carrier.mocap is None:
             raise EngineError(
                 f"link '{link}' is fixed to the world by a joint and cannot be moved",
@@ -95,29 +94,23 @@ class BodyAccess(ManyModels):
 
     def link_centre(self, link: str, worlds: Worlds | None = None) -> Floats:
         """Where a link's centre of mass is [m], in the world frame, shape (n, 3)."""
-        place = self.link_placement(link, worlds)
-        slot = self._layout.link(link)
+        place = self._links.link_placement(link, worlds)
+        slot = self._run.layout.link(link)
         if slot.body == 0 or slot.mocap is not None:
             return place.position
-        offset = self.parameter("link_centre", link, worlds)
+        offset = self._run.parameter("link_centre", link, worlds)
         return place.position + rotate(place.quaternion, offset)
 
     def set_link_wrench(
         self, link: str, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None
     ) -> None:
         """Push a link at its centre of mass until told otherwise, in the world frame."""
-        slot = self._now().link(link)
+        slot = self._run.now().link(link)
         if slot.body == 0 or slot.mocap is not None:
             raise EngineError(f"link '{link}' does not move; nothing can push it")
         rows = rows_of(worlds)
-        self._state.xfrc_applied[rows, slot.body, :3] = force
-        self._state.xfrc_applied[rows, slot.body, 3:] = torque
-
-    def joint_effort(self, joint: str, worlds: Worlds | None = None) -> Floats:
-        """The effort that ``set_joint_effort`` applies now [N or N m], shape (n, axes)."""
-        slots = self._now().joint(joint)
-        rows = rows_of(worlds)
-        return np.concatenate([self._state.qfrc_applied[rows, s.velocity] for s in slots], axis=1)
+        self._run.state.xfrc_applied[rows, slot.body, :3] = force
+        self._run.state.xfrc_applied[rows, slot.body, 3:] = torque
 
     # -- holding -----------------------------------------------------------------------
 
@@ -132,21 +125,21 @@ class BodyAccess(ManyModels):
         if settling is not None and not (math.isfinite(settling) and settling > 0.0):
             raise EngineError(f"links cannot come together within {settling} s", hint="above 0")
         pair = Attachment(parent, child, settling)
-        ends = [self._now().link(link).body for link in (parent, child)]
+        ends = [self._run.now().link(link).body for link in (parent, child)]
         if ends[0] == ends[1]:
             raise EngineError(f"'{parent}' and '{child}' cannot move against each other anyway")
-        layout = self._prepare(pair)
+        layout = self._run.prepare(pair)
         base, held = self._body_placement(parent, worlds), self._body_placement(child, worlds)
         back = conjugate(base.quaternion)
         position = rotate(back, held.position - base.position)
         pose = np.concatenate((position, multiply(back, held.quaternion)), axis=1)
-        self.set_parameter("attachment", pair.name, pose, worlds)
-        self._batch.eq_active[rows_of(worlds), layout.attachments[pair.name]] = 1.0
+        self._run.set_parameter("attachment", pair.name, pose, worlds)
+        self._run.batch.eq_active[rows_of(worlds), layout.attachments[pair.name]] = 1.0
 
     def _body_placement(self, link: str, worlds: Worlds | None) -> Placement:
         """Where MuJoCo's body of a link is: the world's at the origin."""
-        place = self.link_placement(link, worlds)
-        if self._layout.link(link).body != 0:
+        place = self._links.link_placement(link, worlds)
+        if self._run.layout.link(link).body != 0:
             return place
         upright = np.zeros_like(place.quaternion)
         upright[:, 3] = 1.0
@@ -155,7 +148,7 @@ class BodyAccess(ManyModels):
     def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
         """Let go two links that ``attach`` holds together."""
         name = Attachment(parent, child).name
-        layout = self._now()
+        layout = self._run.now()
         if name not in layout.attachments:
             raise EngineError(f"'{child}' was never attached to '{parent}'")
-        self._batch.eq_active[rows_of(worlds), layout.attachments[name]] = 0.0
+        self._run.batch.eq_active[rows_of(worlds), layout.attachments[name]] = 0.0

@@ -8,72 +8,67 @@ nearly always, nothing is different.
 from __future__ import annotations
 
 import warnings
-from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 
-import mujoco
 import numpy as np
-from mujoco.batch import Batch, SimulationError
+from mujoco.batch import SimulationError
 
-from gazelle.array_types import Floats
-from gazelle.description import World
+from gazelle.array_types import Floats, Worlds
+from gazelle.engines.motion import Motion
 from gazelle.engines.mujoco.laws import spun
+from gazelle.engines.mujoco.links import LinkAccess
+from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.mujoco.suspects import suspect
-from gazelle.engines.mujoco.touching import TouchAccess
 from gazelle.engines.mujoco.wind import wind_strength
 from gazelle.errors import EngineWarning
 
 
-class ForcedSteps(TouchAccess):
-    """The part of ``gazelle.engines.engine.Engine`` that steps."""
+class ForcedSteps:
+    """The part of ``gazelle.engines.engine.Engine`` that steps.
 
-    _spun = False
-    """Whether it was said that something turns too fast."""
-    _holds_back = False
-    """Whether efforts are held back within steps."""
-    _threads: int
-    """Native threads."""
+    Args:
+        run: What runs.
+        links: How links move, for the wind.
 
-    @property
-    @abstractmethod
-    def world(self) -> World:
-        """The world that runs."""
+    Attributes:
+        holds_back: Whether efforts are held back within steps.
+    """
 
-    def _batch_of(self, model: mujoco.MjModel, _: World) -> Batch:
-        """The worlds of a compiled model."""
-        sleepy = bool(model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP)
-        return Batch(model, self._nworld, self._threads, persistent=sleepy)
+    def __init__(self, run: RunningWorlds, links: LinkAccess) -> None:
+        self._run, self._links = run, links
+        self.holds_back = False
+        self._spun = False  # whether it was said that something turns too fast
 
-    def _advance(self, count: int) -> set[int]:
+    def advance(self, count: int) -> set[int]:
         """Step all worlds; returns those in which MuJoCo gave up."""
-        tyres = self._layout.tyres
+        tyres = self._run.layout.tyres
         if not tyres and not self._is_forced():
             return self._step_batch(count)
         failed: set[int] = set()
         for _ in range(count):
             for tyre in tyres.values():
-                self._state.qpos[:, tyre.positions] = 0.0
-            with self._forced():
+                self._run.state.qpos[:, tyre.positions] = 0.0
+            with self.forced():
                 failed |= self._step_batch(1)
-            self._stale = True
+            self._run.stale = True
         return failed
 
     def _is_forced(self) -> bool:
         return self._is_governed() or self._is_windy()
 
     def _is_governed(self) -> bool:
-        return not self._holds_back and self._layout.limits.govern(self._state)
+        return not self.holds_back and self._run.layout.limits.govern(self._run.state)
 
     def _step_batch(self, count: int) -> set[int]:
         failed: set[int] = set()
         try:
-            self._batch.step(nstep=count)
+            self._run.batch.step(nstep=count)
         except SimulationError as error:
             failed = {int(world) for world in error.ids}
         if spun[0]:
             spun[0] = 0.0
-            if not failed and not np.count_nonzero(self._state.faults):
+            if not failed and not np.count_nonzero(self._run.state.faults):
                 self._warn_of_spin()
         return failed
 
@@ -82,32 +77,51 @@ class ForcedSteps(TouchAccess):
         if self._spun:
             return
         self._spun = True
-        world = int(np.abs(self._state.qvel).max(axis=1).argmax())
-        states = self._batch.state
-        who = suspect(self._layout, self._state, states, states[world])
+        world = int(np.abs(self._run.state.qvel).max(axis=1).argmax())
+        states = self._run.batch.state
+        who = suspect(self._run.layout, self._run.state, states, states[world])
         warnings.warn(
             EngineWarning(
                 f"something turns more than a quarter of a radian in a physics step of "
-                f"{self.time_step:g} s (fastest: {who}); it precesses more than 1 % too slowly. "
+                f"{self._run.time_step:g} s (fastest: {who}); it precesses more than 1 % too slowly. "
                 "Take a smaller step"
             ),
             stacklevel=5,
         )
 
     @contextmanager
-    def _forced(self) -> Iterator[None]:
+    def forced(self) -> Iterator[None]:
         """Let the forces of this moment act while it lasts; the state keeps what was commanded."""
         if not self._is_forced():
             yield
             return
         with ExitStack() as stack:
             if self._is_governed():
-                stack.enter_context(self._layout.limits.held_back(self._state))
+                stack.enter_context(self._run.layout.limits.held_back(self._run.state))
             stack.enter_context(self._blown())
             yield
 
+    def link_acceleration(self, link: str, worlds: Worlds | None = None) -> Motion:
+        """How a link's motion changes in the next physics step [m/s², rad/s²]."""
+        return self.change_in_step(lambda: self._links.link_motion(link, worlds), worlds)
+
+    def change_in_step(self, motion: Callable[[], Motion], worlds: Worlds | None) -> Motion:
+        """How a motion changes in the next physics step of some worlds; nothing moves."""
+        before = motion()
+        state, warnings = self._run.batch.state.copy(), self._run.batch.warning.copy()
+        with self.forced():
+            self._run.batch.step(ids=worlds)
+        self._run.stale = True
+        after = motion()
+        self._run.batch.state[:], self._run.batch.warning[:] = state, warnings
+        self._run.stale = True
+        rate = 1.0 / self._run.time_step
+        return Motion(
+            (after.linear - before.linear) * rate, (after.angular - before.angular) * rate
+        )
+
     def _is_windy(self) -> bool:
-        return bool(self._layout.windy) and any(self.world.wind)
+        return bool(self._run.layout.windy) and any(self._run.world.wind)
 
     @contextmanager
     def _blown(self) -> Iterator[None]:
@@ -115,9 +129,9 @@ class ForcedSteps(TouchAccess):
         if not self._is_windy():
             yield
             return
-        pushed = self._state.xfrc_applied
+        pushed = self._run.state.xfrc_applied
         commanded = pushed.copy()
-        for link, body in self._layout.windy.items():
+        for link, body in self._run.layout.windy.items():
             pushed[:, body, :3] += self._drag(link, body)
         try:
             yield
@@ -125,7 +139,7 @@ class ForcedSteps(TouchAccess):
             pushed[:] = commanded
 
     def _drag(self, link: str, body: int) -> Floats:
-        strength = wind_strength(self.world) * self._of_worlds("body_mass")[:, body, None]
-        past = np.asarray(self.world.wind) - self.link_motion(link).linear
+        strength = wind_strength(self._run.world) * self._run.of_worlds("body_mass")[:, body, None]
+        past = np.asarray(self._run.world.wind) - self._links.link_motion(link).linear
         drag: Floats = strength * past
         return drag

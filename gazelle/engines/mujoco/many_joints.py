@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Bools, Floats, Indices
 from gazelle.engines.mujoco.layout import MujocoLayout
-from gazelle.engines.mujoco.many_links import ManyLinks
+from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.errors import EngineError
 
 T = TypeVar("T")
@@ -55,47 +55,53 @@ def motor_columns(layout: MujocoLayout, joints: Sequence[str]) -> Indices:
     return np.array([layout.motor(name).targets.start for name in joints], np.intp)
 
 
-class ManyJoints(ManyLinks):
+class Lookups:
+    """What was found of names, once for a layout."""
+
+    def __init__(self) -> None:
+        self._known: tuple[MujocoLayout, dict[tuple[str, tuple[str, ...]], Any]] | None = None
+
+    def find(self, layout: MujocoLayout, names: Sequence[str], make: Callable[..., T]) -> T:
+        """What ``make`` makes of names, once for a layout."""
+        if self._known is None or self._known[0] is not layout:
+            self._known = layout, {}
+        tables = self._known[1]
+        key = make.__qualname__, tuple(names)
+        known: T | None = tables.get(key)
+        if known is None:
+            if len(tables) >= _MOST:
+                tables.clear()
+            known = tables[key] = make(layout, key[1])
+        return known
+
+
+class ManyJoints:
     """The part of ``gazelle.engines.table_engine.TableEngine`` for joints.
 
-    Attributes:
-        own_changes: Methods that change it beside those of every engine.
+    Args:
+        run: What runs.
     """
 
-    own_changes: tuple[str, ...] = ("drive_joints",)
-
-    _looked_up: tuple[MujocoLayout, dict[tuple[str, tuple[str, ...]], Any]] | None = None
+    def __init__(self, run: RunningWorlds) -> None:
+        self._run, self._found = run, Lookups()
 
     def joint_positions(self, joints: Sequence[str]) -> Floats:
         """Positions of many joints' first axes [m or rad], shape (nworld, joints)."""
-        places = self._look_up(self._known(), joints, JointColumns.find).places
-        return self._state.qpos.take(places, axis=1)
+        places = self._found.find(self._run.known(), joints, JointColumns.find).places
+        return self._run.state.qpos.take(places, axis=1)
 
     def joint_velocities(self, joints: Sequence[str]) -> Floats:
         """Velocities of many joints' first axes [m/s or rad/s], shape (nworld, joints)."""
-        dofs = self._look_up(self._known(), joints, JointColumns.find).dofs
-        return self._state.qvel.take(dofs, axis=1)
+        dofs = self._found.find(self._run.known(), joints, JointColumns.find).dofs
+        return self._run.state.qvel.take(dofs, axis=1)
 
     def drive_joints(
         self, joints: Sequence[str], velocity: ArrayLike, chosen: Bools | None = None
     ) -> None:
         """Set the velocities that the motors of many joints hold; see the protocol."""
-        columns = self._look_up(self._now(), joints, motor_columns)
+        columns = self._found.find(self._run.now(), joints, motor_columns)
         given = np.asarray(velocity, np.float64)
         if chosen is None:
-            self._state.userdata[:, columns] = given
+            self._run.state.userdata[:, columns] = given
         else:
-            self._state.userdata[:, columns[chosen]] = given[..., chosen]
-
-    def _look_up(self, layout: MujocoLayout, names: Sequence[str], find: Callable[..., T]) -> T:
-        """What ``find`` makes of names, once for a layout."""
-        if self._looked_up is None or self._looked_up[0] is not layout:
-            self._looked_up = layout, {}
-        tables = self._looked_up[1]
-        key = find.__qualname__, tuple(names)
-        known: T | None = tables.get(key)
-        if known is None:
-            if len(tables) >= _MOST:
-                tables.clear()
-            known = tables[key] = find(layout, key[1])
-        return known
+            self._run.state.userdata[:, columns[chosen]] = given[..., chosen]

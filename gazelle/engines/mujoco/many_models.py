@@ -11,7 +11,9 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats, Indices
 from gazelle.engines.motion import Placement
 from gazelle.engines.mujoco.layout import MujocoLayout
-from gazelle.engines.mujoco.many_joints import ManyJoints
+from gazelle.engines.mujoco.many_joints import Lookups
+from gazelle.engines.mujoco.many_links import ManyLinks
+from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, yaw_of
 
 
@@ -89,15 +91,21 @@ class ModelRoots:
         )
 
 
-class ManyModels(ManyJoints):
-    """The part of ``gazelle.engines.table_engine.TableEngine`` for models."""
+class ManyModels:
+    """The part of ``gazelle.engines.table_engine.TableEngine`` for models.
 
-    own_changes = (*ManyJoints.own_changes, "place_joints", "set_ground_motions")
+    Args:
+        run: What runs.
+        links: Where links are.
+    """
+
+    def __init__(self, run: RunningWorlds, links: ManyLinks) -> None:
+        self._run, self._links, self._found = run, links, Lookups()
 
     def model_placements(self, models: Sequence[str]) -> Placement:
         """Where models' frames are: shapes (nworld, models, 3) and (nworld, models, 4)."""
-        frames = self._look_up(self._known(), models, FramePlaces.find)
-        place = self.link_placements(frames.links)
+        frames = self._found.find(self._run.known(), models, FramePlaces.find)
+        place = self._links.link_placements(frames.links)
         if len(frames.moved):
             quaternion = place.quaternion[:, frames.moved]
             place.position[:, frames.moved] += rotate(quaternion, frames.at[None])
@@ -106,15 +114,15 @@ class ManyModels(ManyJoints):
 
     def set_ground_motions(self, models: Sequence[str], twist: ArrayLike) -> None:
         """Give many models level velocities along and across their headings; see the protocol."""
-        roots = self._look_up(self._now(), models, ModelRoots.find)
+        roots = self._found.find(self._run.now(), models, ModelRoots.find)
         origin = self.model_placements(models)
         wanted = np.broadcast_to(np.asarray(twist, np.float64), origin.position.shape)
         heading = from_yaw(yaw_of(origin.quaternion))
         v = rotate(heading, wanted * (1.0, 1.0, 0.0))[:, roots.owners]
         w = (wanted * (0.0, 0.0, 1.0))[:, roots.owners]
-        link = self.link_placements(roots.links)
+        link = self._links.link_placements(roots.links)
         at_link = v + cross(w, link.position - origin.position[:, roots.owners])
         local = rotate(conjugate(link.quaternion), w)
-        self._state.qvel[:, roots.rates] = np.concatenate((at_link, local), axis=-1)
-        self._state.qvel[:, roots.dofs] = 0.0
-        self._stale = True
+        self._run.state.qvel[:, roots.rates] = np.concatenate((at_link, local), axis=-1)
+        self._run.state.qvel[:, roots.dofs] = 0.0
+        self._run.stale = True

@@ -9,14 +9,14 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 from mujoco.batch import Batch
-from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.mujoco.access import rows_of
-from gazelle.engines.mujoco.bodies import BodyAccess
+from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import LoopSlot, look_up
 from gazelle.engines.mujoco.options import SENSORS_OFF
 from gazelle.engines.mujoco.order import xyzw_from_wxyz
+from gazelle.engines.mujoco.rows import rows_of
+from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.reactions import Wrench
 from gazelle.rotations import cross, rotate
 
@@ -24,18 +24,24 @@ _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
 _FIELDS = ("cfrc_int", "subtree_com", "xipos", "xpos", "xmat")
 
 
-class ForceAccess(BodyAccess):
-    """The part of ``gazelle.engines.engine.Engine`` that measures forces."""
+class JointReactions:
+    """The part of ``gazelle.engines.engine.Engine`` that measures what joints carry.
 
-    _carried: tuple[Batch, Floats] | None = None
-    """The batch and its states for which the forces between bodies were computed last."""
+    Args:
+        run: What runs.
+        stepper: Lets the forces of a moment act.
+    """
 
-    _probed: tuple[Batch, mujoco.MjModel, mujoco.MjData] | None = None
-    """A world apart from the batch, for what only a single world of MuJoCo has."""
+    def __init__(self, run: RunningWorlds, stepper: ForcedSteps) -> None:
+        self._run, self._stepper = run, stepper
+        # The batch, its states and how often they had been computed when forces between bodies were.
+        self._carried: tuple[Batch, Floats, int] | None = None
+        # A world apart from the batch, for what only a single world of MuJoCo has.
+        self._probed: tuple[Batch, mujoco.MjModel, mujoco.MjData] | None = None
 
     def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
         """What the child of a joint exerts on the parent; see the protocol."""
-        layout = self._now()
+        layout = self._run.now()
         if joint in layout.loops:
             return self._loop_wrench(layout.loops[joint], worlds)
         slot = look_up("joint between moving links", joint, layout.reactions)
@@ -53,36 +59,37 @@ class ForceAccess(BodyAccess):
 
     def _compute_forces(self) -> Batch:
         """Know the forces between bodies of the state as it is now."""
-        batch = self._batch
-        self._refresh()
+        batch = self._run.batch
+        self._run.refresh()
         known = self._carried
-        if known is None or known[0] is not batch or not np.array_equal(known[1], batch.state):
+        count = self._run.computed
+        if (
+            known is None
+            or known[0] is not batch
+            or known[2] != count
+            or not np.array_equal(known[1], batch.state)
+        ):
             for field in _FIELDS:
                 batch.bind(field)
             flags = batch.expand("opt.disableflags")
             state = batch.state.copy()
             flags &= ~SENSORS_OFF
             try:
-                with self._forced():
+                with self._stepper.forced():
                     batch.forward()
             finally:
                 flags |= SENSORS_OFF
                 batch.state[:] = state
-            self._carried = (batch, state)
+            self._carried = (batch, state, count)
         return batch
-
-    def _refresh(self) -> None:
-        if self._stale:
-            self._carried = None
-        super()._refresh()
 
     def _weightless(self, body: int) -> list[int]:
         """Bodies on a joint that gravity does not pull in some world.
 
         MuJoCo takes their weight off at the joints, and forgets it in the forces it reports.
         """
-        model = self._batch.model
-        shares = self._of_worlds("body_gravcomp")
+        model = self._run.batch.model
+        shares = self._run.of_worlds("body_gravcomp")
         found = []
         for part in np.flatnonzero(shares.any(axis=0)):
             above = int(part)
@@ -94,42 +101,33 @@ class ForceAccess(BodyAccess):
 
     def _lifted(self, body: int, rows: slice | Worlds) -> Floats:
         """The part of a body's weight that does not pull it, shape (n, 3)."""
-        nworld = self._nworld
-        share = np.broadcast_to(self._of_worlds("body_gravcomp")[:, body], nworld)
-        mass = np.broadcast_to(self._of_worlds("body_mass")[:, body], nworld)
-        lifted: Floats = (share * mass)[:, None] * self._of_worlds("opt.gravity")
+        nworld = self._run.nworld
+        share = np.broadcast_to(self._run.of_worlds("body_gravcomp")[:, body], nworld)
+        mass = np.broadcast_to(self._run.of_worlds("body_mass")[:, body], nworld)
+        lifted: Floats = (share * mass)[:, None] * self._run.of_worlds("opt.gravity")
         return np.broadcast_to(lifted, (nworld, 3))[rows]
-
-    def _of_worlds(self, field: str) -> NDArray[np.float64]:
-        """A field of the model, shape (nworld, ...), or (1, ...) where worlds share it."""
-        own = self._batch.expanded(field)
-        if own is not None:
-            return np.asarray(own)
-        model = self._batch.model
-        shared = model.opt.gravity if field == "opt.gravity" else getattr(model, field)
-        return np.asarray(shared)[None]
 
     def _loop_wrench(self, slot: LoopSlot, worlds: Worlds | None) -> Wrench:
         """The same of a joint that closes a loop, which constraints hold.
 
         MuJoCo keeps the forces of constraints for one world at a time.
         """
-        chosen = np.arange(self._nworld) if worlds is None else np.asarray(worlds)
+        chosen = np.arange(self._run.nworld) if worlds is None else np.asarray(worlds)
         pulls = np.zeros((len(chosen), len(slot.equalities), 6))
-        with self._forced():
+        with self._stepper.forced():
             for pull, world in zip(pulls, chosen.tolist(), strict=True):
-                _read_pulls(slot, self._probe(world)[1], pull)
+                _read_pulls(slot, self.probe(world)[1], pull)
         return self._tied(slot, pulls, chosen)
 
     def _tied(self, slot: LoopSlot, pulls: Floats, worlds: Worlds) -> Wrench:
         """What the child exerts by the pulls of its constraints, shape (n, constraints, 6)."""
-        self._refresh()
-        given, model = self._of_worlds("eq_data"), self._batch.model
+        self._run.refresh()
+        given, model = self._run.of_worlds("eq_data"), self._run.batch.model
         here, turn = self._frame(slot.body, worlds)
         origin = here + rotate(turn, np.broadcast_to(slot.anchor, here.shape))
         force, torque = np.zeros_like(here), np.zeros_like(here)
         for pull, equality in zip(pulls.swapaxes(0, 1), slot.equalities, strict=True):
-            terms = np.broadcast_to(given, (self._nworld, *given.shape[1:]))[worlds, equality]
+            terms = np.broadcast_to(given, (self._run.nworld, *given.shape[1:]))[worlds, equality]
             base = here, turn
             if model.eq_type[equality] == mujoco.mjtEq.mjEQ_WELD:
                 base = self._frame(int(model.eq_obj2id[equality]), worlds)
@@ -142,11 +140,13 @@ class ForceAccess(BodyAccess):
 
     def _frame(self, body: int, worlds: Worlds) -> tuple[Floats, Floats]:
         """Where a body of MuJoCo's is, and how it is turned (x, y, z, w), as ``_refresh`` left it."""
-        return self._batch.xpos[worlds, body], xyzw_from_wxyz(self._batch.xquat[worlds, body])
+        return self._run.batch.xpos[worlds, body], xyzw_from_wxyz(
+            self._run.batch.xquat[worlds, body]
+        )
 
-    def _probe(self, world: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    def probe(self, world: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
         """One world with all its forces computed, apart from the batch."""
-        batch, known = self._batch, self._probed
+        batch, known = self._run.batch, self._probed
         if known is None or known[0] is not batch:
             model = batch.get_model(world)
             data = mujoco.MjData(model)

@@ -11,8 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices, Worlds
+from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import MujocoLayout, look_up
-from gazelle.engines.mujoco.reactions import ForceAccess
+from gazelle.engines.mujoco.reactions import JointReactions
+from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.reactions import Contacts, TouchTable
 
 # What ``_read_contacts`` says of a world where nothing touches.
@@ -118,11 +120,19 @@ class _GeomList:
         return known
 
 
-class TouchAccess(ForceAccess):
-    """The part of ``gazelle.engines.engine.Engine`` that knows what touches."""
+class ContactAccess:
+    """The part of ``gazelle.engines.engine.Engine`` that knows what touches.
 
-    _listed: tuple[MujocoLayout, _GeomList] | None = None
-    """The layout for which geoms were listed last, and the list."""
+    Args:
+        run: What runs.
+        stepper: Lets the forces of a moment act.
+        reactions: Has single worlds with all their forces.
+    """
+
+    def __init__(self, run: RunningWorlds, stepper: ForcedSteps, reactions: JointReactions) -> None:
+        self._run, self._stepper, self._reactions = run, stepper, reactions
+        # The layout for which geoms were listed last, and the list.
+        self._listed: tuple[MujocoLayout, _GeomList] | None = None
 
     def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
         """The points where some collisions touch others in one world; see the protocol."""
@@ -132,10 +142,10 @@ class TouchAccess(ForceAccess):
         self, collisions: Sequence[str], worlds: Worlds | None = None
     ) -> tuple[Worlds, Contacts]:
         """The same in many worlds; see the protocol."""
-        layout = self._now()
+        layout = self._run.now()
         listed = self._list_of(layout)
         ranks = listed.ranks(layout, tuple(collisions))
-        found = self._all_contacts(np.arange(self._nworld) if worlds is None else worlds)
+        found = self._all_contacts(np.arange(self._run.nworld) if worlds is None else worlds)
         acts = ranks[found.geoms].min(axis=1, initial=ranks[-1]) < ranks[-1]
         chosen = np.flatnonzero(acts & (found.address >= 0))
         pairs = found.geoms[chosen]
@@ -153,9 +163,9 @@ class TouchAccess(ForceAccess):
 
     def touching_each(self, sets: Sequence[tuple[str, ...]]) -> TouchTable:
         """What touches each of some sets of collisions, in all worlds; see the protocol."""
-        layout = self._now()
+        layout = self._run.now()
         listed = self._list_of(layout)
-        found = self._all_contacts(np.arange(self._nworld))
+        found = self._all_contacts(np.arange(self._run.nworld))
         acting = np.flatnonzero(found.address >= 0)
         parts = [
             _touches_of(layer, found.geoms[acting]) for layer in listed.layers(layout, tuple(sets))
@@ -178,8 +188,8 @@ class TouchAccess(ForceAccess):
     def _all_contacts(self, worlds: Worlds) -> _ContactRows:
         """All contacts of some worlds, in this order."""
         chosen = np.asarray(worlds)
-        with self._forced():
-            found = [_read_contacts(self._probe(world)[1]) for world in chosen.tolist()]
+        with self._stepper.forced():
+            found = [_read_contacts(self._reactions.probe(world)[1]) for world in chosen.tolist()]
         every = [np.concatenate(part) for part in zip(*(found or [_NOTHING]), strict=True)]
         counts = np.array([(len(each[0]), len(each[-1])) for each in found], np.intp).reshape(-1, 2)
         starts = np.repeat(counts[:, 1].cumsum() - counts[:, 1], counts[:, 0])
@@ -188,7 +198,7 @@ class TouchAccess(ForceAccess):
     def _terms(self, found: _ContactRows, rows: Indices, mine: Indices) -> Floats:
         """What acts in some contacts on one of their two geoms, as ``TouchTable.terms``."""
         axes = found.axes[rows].reshape(-1, 3, 3)
-        cone = self._batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+        cone = self._run.batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
         rubs = None if cone else found.rubs[rows]
         address = found.address[rows] + found.starts[rows]
         wrench = _contact_forces(found.forces, address, found.dims[rows], rubs)
@@ -201,7 +211,7 @@ class TouchAccess(ForceAccess):
 
     def _list_of(self, layout: MujocoLayout) -> _GeomList:
         if self._listed is None or self._listed[0] is not layout:
-            self._listed = (layout, _GeomList(layout, int(self._batch.model.ngeom)))
+            self._listed = (layout, _GeomList(layout, int(self._run.batch.model.ngeom)))
         return self._listed[1]
 
 

@@ -55,16 +55,17 @@ class WarpEngine(MujocoEngine):
             raise EngineError(
                 f"there is no '{kind}' on the device", hint=did_you_mean(kind, _ON_DEVICE)
             )
-        slots = self._now().joint(joint)
+        slots = self.running.now().joint(joint)
         columns = [slot.position if kind == "joint_position" else slot.velocity for slot in slots]
-        whole = self._batch.on_device(_ON_DEVICE[kind])
+        whole = self.running.batch.on_device(_ON_DEVICE[kind])
         return whole[:, columns[0].start : columns[-1].stop]
 
-    def _batch_of(self, model: mujoco.MjModel, world: World) -> WarpBatch:
+    @staticmethod
+    def _batch_of(nworld: int, threads: int, model: mujoco.MjModel, world: World) -> WarpBatch:
         """The worlds of a compiled model; nothing sleeps in them, and contacts are not foreseen."""
         _say_if_slow()
         if model.opt.enableflags & _SPECULATIVE:
-            self._miss_foresight(world)
+            _miss_foresight(world)
         model.opt.enableflags &= ~(int(_SLEEP) | int(_SPECULATIVE))
         model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_AUTO_NEVER)
         profile = world.profile
@@ -77,27 +78,7 @@ class WarpEngine(MujocoEngine):
                 stacklevel=5,
             )
         soften(model)
-        return WarpBatch(model, self._nworld, self._threads)
-
-    def _miss_foresight(self, world: World) -> None:
-        """Say that contacts are not sought on the way of a step.
-
-        Raises:
-            EngineError: The world asks for it.
-        """
-        if world.profile.speculative_contacts:
-            raise EngineError(
-                "the engine 'mujoco-warp' seeks no contacts on the way of a step "
-                "('speculative_contacts')",
-                hint="gazelle.Simulation(..., engine='mujoco') does",
-            )
-        warnings.warn(
-            EngineWarning(
-                "the engine 'mujoco-warp' seeks no contacts on the way of a step: a small body that is "
-                "faster than 20 m/s may pass through something. Take a smaller step, or engine='mujoco'"
-            ),
-            stacklevel=5,
-        )
+        return WarpBatch(model, nworld, threads)
 
 
 @functools.cache
@@ -111,3 +92,24 @@ def _say_if_slow() -> None:
             ),
             stacklevel=5,
         )
+
+
+def _miss_foresight(world: World) -> None:
+    """Say that contacts are not sought on the way of a step.
+
+    Raises:
+        EngineError: The world asks for it.
+    """
+    if world.profile.speculative_contacts:
+        raise EngineError(
+            "the engine 'mujoco-warp' seeks no contacts on the way of a step "
+            "('speculative_contacts')",
+            hint="gazelle.Simulation(..., engine='mujoco') does",
+        )
+    warnings.warn(
+        EngineWarning(
+            "the engine 'mujoco-warp' seeks no contacts on the way of a step: a small body that is "
+            "faster than 20 m/s may pass through something. Take a smaller step, or engine='mujoco'"
+        ),
+        stacklevel=5,
+    )
