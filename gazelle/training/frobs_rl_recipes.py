@@ -53,8 +53,9 @@ FROBS_RL: dict[str, Recipe] = {
     "UR5Reach": _FROM_ANYWHERE,
     "ABBIRB140VelocityReach": dataclasses.replace(
         _REACH,
+        steps=400_000,
         gamma=0.97,
-        goal_reward=GoalReward(goal=0.0, collision=0.0, progress=4.0, own=0.005),
+        goal_reward=GoalReward(goal=0.0, collision=0.0, progress=4.0, own=0.0005),
         angles=tuple(range(6)),
         settings=dataclasses.replace(_REACH_SETTINGS, initial_std=0.1),
     ),
