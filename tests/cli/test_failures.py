@@ -60,7 +60,7 @@ def test_nothing_failed_is_an_empty_table(tmp_path):
 
 def record(outcome, **info):
     ends = tuple(int(outcome == name) for name in ("collision", "time-out", "other"))
-    return EpisodeRecord(outcome, 0, 7, -1.0, {"start_x": 0.0, "start_y": 0.0}, info, ends)
+    return EpisodeRecord(outcome, 0, 7, -1.0, {"start_x": 0.0, "start_y": 0.0}, info, ends, 0, True)
 
 
 def evaluation(records, plan=None):
@@ -91,7 +91,7 @@ def test_the_picture_shows_where_they_ended(tmp_path):
 
 
 def test_a_task_without_places_cannot_be_drawn():
-    blind = EpisodeRecord("collision", 0, 7, -1.0, {}, {}, (1, 0, 0))
+    blind = EpisodeRecord("collision", 0, 7, -1.0, {}, {}, (1, 0, 0), 0, True)
     with pytest.raises(TaskError, match="neither position nor goal"):
         draw_failures(evaluation((blind,)))
 
