@@ -27,6 +27,7 @@ from gazelle.description import (
 from gazelle.engines import make_engine
 from gazelle.engines.mujoco import contacts, world_geoms
 from gazelle.engines.mujoco.compiler import CompilerInput, compile_world
+from gazelle.engines.mujoco.geom_names import geom_ids, geom_names
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 
 FIELDS = ("geom_pos", "geom_quat", "geom_size", "geom_type", "geom_friction", "geom_group")
@@ -160,3 +161,10 @@ def test_a_mesh_of_many_pieces_is_told_from_springs_piece_by_piece_no_more(
     compiled = compile_world(CompilerInput(scenes.world(ball, *still), 0.001))
     assert compiled.model.ngeom >= count
     assert 0 < len(asked) <= count // 5 + 1
+
+
+def test_names_of_all_geoms_are_those_that_mujoco_gives(tmp_path):
+    model = compile_world(CompilerInput(town(tmp_path), 0.001)).model
+    names = [model.geom(number).name for number in range(model.ngeom)]
+    assert geom_names(model) == names
+    assert geom_ids(model) == {name: model.geom(name).id for name in names}

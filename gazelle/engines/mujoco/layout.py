@@ -12,6 +12,7 @@ import mujoco
 from gazelle.description import Pose, Vector3
 from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.efforts import EffortLimits, effort_limits
+from gazelle.engines.mujoco.geom_names import geom_ids
 from gazelle.engines.mujoco.motors import MotorSlot, motor_slots
 from gazelle.engines.mujoco.tree import Closure, RootKind, TreeLink
 from gazelle.engines.mujoco.tyres import TyreSlot, tyre_slot
@@ -201,7 +202,8 @@ def layout_of(compiled: Compiled, attachments: Iterable[str] = ()) -> MujocoLayo
         if bodies:  # a model may have no links, only plugins
             models[name] = _model_slot(bodies, joints)
     motors = motor_slots(compiled.motors)
-    collisions = {n: [model.geom(g).id for g in geoms] for n, geoms in compiled.geoms.items()}
+    ids = geom_ids(model)
+    collisions = {n: [ids[geom] for geom in geoms] for n, geoms in compiled.geoms.items()}
     held = {name: model.equality(name).id for name in attachments}
     columns = {name: tuple(slot.velocity for slot in slots) for name, slots in joints.items()}
     every = list(itertools.chain.from_iterable(compiled.bodies.values()))

@@ -21,6 +21,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Contact, World
 from gazelle.engines.mujoco.calming import Calming
 from gazelle.engines.mujoco.compiler import Compiled
+from gazelle.engines.mujoco.geom_names import geom_ids, geom_names
 from gazelle.engines.mujoco.options import DEEPEST, SENSORS_OFF
 from gazelle.engines.mujoco.surfaces import TOUCHING
 from gazelle.engines.mujoco.views import StateViews
@@ -60,7 +61,7 @@ class Overlaps:
         pairs = zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)
         self._pairs = {(min(pair), max(pair)): i for i, pair in enumerate(pairs)}
         self._springs = frozenset(compiled.springs)
-        self._names = [model.geom(geom).name for geom in range(model.ngeom)]
+        self._names = geom_names(model)
         self._names += ["|".join(sorted(self._names[g] for g in pair)) for pair in self._pairs]
         # A column for every geom, then one for every pair.
         self._rates = np.zeros(model.ngeom + model.npair)
@@ -262,8 +263,9 @@ def _shown(margins: Floats, usual: float, other: float) -> Floats:
 
 def _contacts_of(compiled: Compiled) -> Iterator[tuple[int, Contact]]:
     """Every geom of the description, and its terms of contact."""
+    ids = geom_ids(compiled.model)
     for parts in compiled.bodies.values():
         for body in parts:
             for collision in body.link.collisions:
                 for name in compiled.geoms.get(f"{body.name}::{collision.name}", ()):
-                    yield compiled.model.geom(name).id, collision.surface.contact
+                    yield ids[name], collision.surface.contact

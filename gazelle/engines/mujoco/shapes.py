@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.description import (
     Box,
     Capsule,
@@ -32,6 +33,8 @@ from gazelle.description import (
     Sphere,
     Vector3,
 )
+from gazelle.engines.mujoco.cones import cone_mesh
+from gazelle.engines.mujoco.mesh_frames import SHELL, inertia_of
 from gazelle.errors import EngineWarning, located
 from gazelle.formats.ground import Ground
 
@@ -46,19 +49,13 @@ CLOSED_GROUP = 3
 OPEN_GROUP = 4
 """Of meshes that only rays meet, and that have none."""
 
-_SIDES = 24
 _GROUND = 1.0
 """Depth of the ground below the lowest point of a heightmap [m]."""
 _LARGE = 60_000
 """Triangles from which on ground is a height field, however rough it is."""
 _THIN = 1e-6
-_FLAT = 1e-3
-"""Thickness over length below which a mesh counts as a sheet."""
-_TINY = 2e-3
-"""Length below which MuJoCo finds the volume of a mesh too small [m]."""
 _FEWEST = 4
 """Vertices that MuJoCo wants a mesh to have."""
-_SHELL = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
 
 
 @dataclass(slots=True)
@@ -69,6 +66,7 @@ class ShapeBuilder:
         spec: What the geoms are for.
         name_mesh: Gives a mesh its name, at once or later.
         meshes: Names of what is stored already.
+        pieces: Of meshes in pieces, the names of those and their middles, shape (n, 3) [m].
         heightmaps: Likewise.
         grounds: What was found out on meshes that may be ground.
     """
@@ -76,6 +74,7 @@ class ShapeBuilder:
     spec: mujoco.MjSpec
     name_mesh: Callable[[Any, str], None] = lambda mesh, name: setattr(mesh, "name", name)
     meshes: dict[Any, str] = field(default_factory=dict)
+    pieces: dict[Any, tuple[list[str], Floats]] = field(default_factory=dict)
     heightmaps: dict[Heightmap, str] = field(default_factory=dict)
     grounds: dict[Any, Ground | None] = field(default_factory=dict)
 
@@ -118,19 +117,30 @@ class ShapeBuilder:
         """A geom of each piece, with its middle as origin: far from it MuJoCo's hull rounds."""
         if not pieces.solids:
             return []
-        kind = None if pieces.whole else _SHELL
+        if key not in self.pieces:
+            self.pieces[key] = self._store_pieces(key, pieces)
+        names, middles = self.pieces[key]
+        matrix, placed = pose.matrix(), _placed(pose)
+        places = (middles @ matrix[:3, :3].T + matrix[:3, 3]).tolist()
+        kind = mujoco.mjtGeom.mjGEOM_MESH
+        return [
+            {**placed, "type": kind, "meshname": name, "pos": place}
+            for name, place in zip(names, places, strict=True)
+        ]
+
+    def _store_pieces(self, key: Any, pieces: ConvexPieces) -> tuple[list[str], Floats]:
+        """Store the meshes of pieces around their middles; returns the names and those."""
+        kind = None if pieces.whole else SHELL
         sizes = [len(piece.vertices) for piece in pieces.solids]
         starts = np.cumsum([0, *sizes[:-1]])
         points = np.concatenate([piece.vertices for piece in pieces.solids])
         middles = np.add.reduceat(points, starts) / np.array(sizes)[:, None]
         local = np.split(points - np.repeat(middles, sizes, axis=0), starts[1:])
-        matrix = pose.matrix()
-        places = (middles @ matrix[:3, :3].T + matrix[:3, 3]).tolist()
-        geoms = []
-        for number, piece in enumerate(pieces.solids):
-            geom = self.mesh_geom((key, number), local[number], piece.faces, pose, kind)
-            geoms.append({**geom, "pos": places[number]})
-        return geoms
+        names = [
+            self._store((key, number), local[number], piece.faces, kind)
+            for number, piece in enumerate(pieces.solids)
+        ]
+        return names, middles
 
     def _ground(self, shape: Mesh) -> Ground | None:
         """The heights of a mesh that is ground, if they are near enough or it is too large."""
@@ -217,33 +227,30 @@ class ShapeBuilder:
         """A mesh geom that need not have a volume."""
         lacking = max(0, _FEWEST - len(vertices))
         padded = np.concatenate([vertices, vertices[:1].repeat(lacking, axis=0)])
-        return self.mesh_geom(key, padded, faces, pose, _SHELL)
+        return self.mesh_geom(key, padded, faces, pose, SHELL)
 
     def mesh_geom(
         self, key: Any, vertices: Any, faces: Any, pose: Pose, inertia: Any = None
     ) -> dict[str, Any]:
         """A mesh geom; its vertices are stored on first use of the key."""
+        return {
+            "type": mujoco.mjtGeom.mjGEOM_MESH,
+            "meshname": self._store(key, vertices, faces, inertia),
+            **_placed(pose),
+        }
+
+    def _store(self, key: Any, vertices: Any, faces: Any, inertia: Any) -> str:
+        """Store a mesh unless it is; returns its name."""
         if key not in self.meshes:
             name = f"mesh_{len(self.meshes)}"
             mesh = self.spec.add_mesh(
                 uservert=np.asarray(vertices, dtype=np.float64).ravel(),
                 userface=np.asarray(faces, dtype=np.int32).ravel(),
-                inertia=_inertia_of(np.asarray(vertices)) if inertia is None else inertia,
+                inertia=inertia_of(np.asarray(vertices)) if inertia is None else inertia,
             )
             self.name_mesh(mesh, name)
             self.meshes[key] = name
-        return {
-            "type": mujoco.mjtGeom.mjGEOM_MESH,
-            "meshname": self.meshes[key],
-            **_placed(pose),
-        }
-
-
-def _inertia_of(vertices: Any) -> mujoco.mjtMeshInertia:
-    """How MuJoCo may find the frame of a mesh: one as thin as a sheet has no volume to go by."""
-    spans = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
-    flat = spans[-1] < _FLAT * spans[0] or np.ptp(vertices, axis=0).max() < _TINY
-    return _SHELL if flat else mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
+        return self.meshes[key]
 
 
 def _warn_of_gap(shape: Mesh, gap: float, source: Source | None) -> None:
@@ -298,21 +305,7 @@ def _plane(_: ShapeBuilder, shape: Plane, pose: Pose, __: Source | None) -> list
 
 
 def _cone(builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None) -> list[dict[str, Any]]:
-    angles = np.arange(_SIDES) * (2.0 * np.pi / _SIDES)
-    rim = np.stack(
-        (
-            shape.radius * np.cos(angles),
-            shape.radius * np.sin(angles),
-            np.full(_SIDES, -shape.length / 2),
-        ),
-        axis=1,
-    )
-    vertices = np.vstack((rim, (0.0, 0.0, shape.length / 2), (0.0, 0.0, -shape.length / 2)))
-    after = np.roll(np.arange(_SIDES), -1)
-    here = np.arange(_SIDES)
-    apex, centre = np.full(_SIDES, _SIDES), np.full(_SIDES, _SIDES + 1)
-    faces = np.vstack((np.stack((here, after, apex), 1), np.stack((after, here, centre), 1)))
-    return [builder.mesh_geom(shape, vertices, faces, pose)]
+    return [builder.mesh_geom(shape, *cone_mesh(shape), pose)]
 
 
 def _polyline(

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 
 from gazelle.engines.mujoco.balance import unbalanced_dofs
+from gazelle.engines.mujoco.geom_names import geom_names
 from gazelle.engines.mujoco.laws.numbers import (
     BIAS_HEAD,
     BY_THE_NORMAL,
@@ -149,8 +150,8 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
         local = rotate(conjugate(np.array([x, y, z, w])), along)
         kind = BY_THE_NORMAL if rub.along is None else ITS_OWN
         model.geom_user[geom, :TREAD] = kind, *local, rub.coefficient
-    for name, speed in extras.exits.items():
-        model.geom_user[model.geom(name).id, EXIT] = speed
+    if extras.exits:
+        model.geom_user[:, EXIT] = [extras.exits.get(name, 0.0) for name in geom_names(model)]
     install(vital=extras.vital)
 
 

@@ -1,0 +1,30 @@
+"""Cones, which MuJoCo does not know, as meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats
+from gazelle.description import Cone
+
+_SIDES = 24
+
+
+def cone_mesh(shape: Cone) -> tuple[Floats, NDArray[np.int64]]:
+    """Vertices, shape (n, 3) [m], and faces, shape (m, 3), of a cone along z about its middle."""
+    angles = np.arange(_SIDES) * (2.0 * np.pi / _SIDES)
+    rim = np.stack(
+        (
+            shape.radius * np.cos(angles),
+            shape.radius * np.sin(angles),
+            np.full(_SIDES, -shape.length / 2),
+        ),
+        axis=1,
+    )
+    vertices = np.vstack((rim, (0.0, 0.0, shape.length / 2), (0.0, 0.0, -shape.length / 2)))
+    after = np.roll(np.arange(_SIDES), -1)
+    here = np.arange(_SIDES)
+    apex, centre = np.full(_SIDES, _SIDES), np.full(_SIDES, _SIDES + 1)
+    faces = np.vstack((np.stack((here, after, apex), 1), np.stack((after, here, centre), 1)))
+    return vertices, faces
