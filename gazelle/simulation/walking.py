@@ -34,15 +34,20 @@ if TYPE_CHECKING:
 
 CLOSED = "the simulation is closed"
 
-# For how long the physics is stepped at once, at most, while others may wait [s].
-_PIECE = 0.003
+# For how long the physics is stepped at once, at most, while others ask for something, and while
+# nobody does: what is done between pieces finds its memory cold, and slows the physics down [s].
+_PIECE, _LONG_PIECE = 0.003, 0.02
+
+# Who asked for something so lately asks again [s].
+_LATELY = 1.0
 
 
 class StepLoop:
     """Steps a simulation from one thing that is due to the next.
 
     The physics is never stepped for longer than some milliseconds at once, or for one step, so
-    that other threads get their answers soon. Results do not depend on where it is cut.
+    that other threads get their answers soon; within 3 ms where somebody asked lately. Results do
+    not depend on where it is cut.
 
     Args:
         simulation: Whose.
@@ -70,6 +75,7 @@ class StepLoop:
         self.carried = CarriedPlugins()
         self._schedules: list[Schedule] = []
         self._most = 1
+        self._asked = -math.inf  # when others asked for something last, by the wall clock [s]
         self.cut = False
         self.followers: list[Callable[[], None]] = []
         self._listeners: list[Callable[[], None]] = []
@@ -113,6 +119,7 @@ class StepLoop:
         while True:
             if requests.waiting:
                 self.cut = False
+                self._shorten()
                 requests.drain()
                 if requests.closed:
                     raise SimulationError(CLOSED)
@@ -265,16 +272,25 @@ class StepLoop:
 
     def _step_piece(self, wanted: int) -> int:
         """Make as many steps at once as are not too long; returns how many."""
-        steps, begin = self._most, time.perf_counter()
+        steps, begin, worked = self._most, time.perf_counter(), time.process_time()
         self._step(steps)
-        took = time.perf_counter() - begin
+        # Less where other programs have the processor: they do not wait for the end of a piece.
+        took = min(time.perf_counter() - begin, time.process_time() - worked)
+        longest = _PIECE if begin - self._asked < _LATELY else _LONG_PIECE
         # A slow piece may be chance, a fast one may be rest: double at most, halve at least.
-        if took * 2.0 < _PIECE:
+        if took * 2.0 < longest:
             self._most *= 2
-        elif took > _PIECE:
+        elif took > longest:
             self._most = max(1, self._most // 2)
         self.cut = steps < wanted
         return steps
+
+    def _shorten(self) -> None:
+        """Make shorter pieces for a while: somebody asks for something."""
+        now = time.perf_counter()
+        if now - self._asked >= _LATELY:
+            self._most = max(1, int(self._most * _PIECE / _LONG_PIECE))
+        self._asked = now
 
     def _give_up(self, error: DivergenceError, wanted: int) -> None:
         """Start worlds over that broke down, as ``on_fault`` says, when the others are there.

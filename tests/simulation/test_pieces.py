@@ -1,0 +1,61 @@
+"""For how long the physics is stepped at once: longer while nobody asks for anything."""
+
+from __future__ import annotations
+
+from concurrent.futures import Future
+from types import SimpleNamespace
+
+import pytest
+
+import gazelle
+from gazelle.description import World
+from gazelle.simulation import walking
+
+STEP_S = 0.0004  # what a step takes, by a clock of the test
+
+
+@pytest.fixture
+def sim(monkeypatch):
+    """A simulation, and how many steps it makes at once."""
+    sim, clock = gazelle.Simulation(World("w")), SimpleNamespace(now=100.0)
+    ticking = SimpleNamespace(perf_counter=lambda: clock.now, process_time=lambda: clock.now)
+    monkeypatch.setattr(walking, "time", ticking)
+    before, pieces = sim.engine.step, []
+
+    def step(count=1):
+        clock.now += count * STEP_S
+        pieces.append(count)
+        before(count)
+
+    monkeypatch.setattr(sim.engine, "step", step)
+    sim.pieces, sim.wall = pieces, clock
+    return sim
+
+
+def ask(sim):
+    sim.requests.waiting.append((lambda: None, Future()))
+
+
+def test_pieces_grow_while_nobody_asks_for_anything(sim):
+    sim.step(1000)
+    assert 0.005 < max(sim.pieces) * STEP_S <= 0.02
+
+
+def test_who_asked_lately_waits_three_milliseconds_at_most(sim):
+    sim.step(1000)
+    sim.pieces.clear()
+    ask(sim)
+    sim.step(1000)
+    assert max(sim.pieces) * STEP_S <= 0.003
+    sim.wall.now += 2.0
+    sim.step(1000)
+    assert max(sim.pieces) * STEP_S > 0.005
+
+
+def test_what_other_programs_take_makes_pieces_no_shorter(sim, monkeypatch):
+    ticking = SimpleNamespace(
+        perf_counter=lambda: 20.0 * sim.wall.now, process_time=lambda: sim.wall.now
+    )
+    monkeypatch.setattr(walking, "time", ticking)
+    sim.step(1000)
+    assert max(sim.pieces) * STEP_S > 0.005
