@@ -16,7 +16,7 @@ cdef class ControlCycle(JointSystem):
     cpdef begin(self, long long updated, long long written)
     @cython.locals(w=Py_ssize_t, updated="long long", written="long long")
     cpdef tuple times(self)
-    @cython.locals(w=Py_ssize_t, passed="long long", since="long long")
-    cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
+    @cython.locals(before="long long", written="long long", passed="long long", since="long long")
+    cdef void advance(self, Py_ssize_t world, double* measured, double* rates, long long time) noexcept nogil
     @cython.locals(index=Py_ssize_t, place="void*")
     cdef void control(self, Py_ssize_t world, long long time, double period) noexcept nogil

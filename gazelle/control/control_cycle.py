@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import cython
 import numpy as np
@@ -60,17 +61,17 @@ class ControlCycle(JointSystem):
             updated, written = max(updated, self.updated[w]), max(written, self.written[w])
         return updated, written
 
-    def update(self, first: int, last: int, time: int) -> None:
-        """Bring worlds to a time: controllers once a period, limits always."""
-        for w in range(first, last):
-            passed = self.period if self.updated[w] < 0 else time - self.updated[w]
-            if self.updated[w] < 0 or passed >= self.period:
-                self.updated[w] = time
-                self.hardware.read(w)
-                self.control(w, time, passed / 1e9)
-            since = self.step if self.written[w] < 0 else time - self.written[w]
-            self.written[w] = time
-            self.hardware.write(w, since / 1e9)
+    def advance(self, world: int, measured: Any, rates: Any, time: int) -> None:
+        """Bring a world to a time: controllers once a period, limits always."""
+        before, written = self.updated[world], self.written[world]
+        passed = self.period if before < 0 else time - before
+        if before < 0 or passed >= self.period:
+            self.updated[world] = time
+            self.hardware.read(world, measured, rates)
+            self.control(world, time, passed / 1e9)
+        since = self.step if written < 0 else time - written
+        self.written[world] = time
+        self.hardware.write(world, since / 1e9)
 
     def control(self, world: int, time: int, period: float) -> None:
         """Update controllers."""

@@ -87,6 +87,7 @@ class JointLaw:
         self.measured_rate_at = start(self.measured_rate)
         self.position_at, self.velocity_at = start(self.position), start(self.velocity)
         self.effort_at, self.turning_at = start(self.effort), column(self.turning)
+        self.pushed_at = start(self.pushed)
         self.wanted_at, self.command_at = start(self.wanted), start(self.effort_command)
         self.width = self.effort_command.shape[1]
 
@@ -105,10 +106,16 @@ class JointLaw:
         self.placing = BY_PLACE in kinds
         self.by_effort = self.first >= 0 and all(each == BY_EFFORT for each in kinds)
 
-    def read(self, world: int) -> None:
-        """Measure; joints that turn are followed round and round, and never jump."""
+    def read(self, world: int, measured: Floats, rates: Floats) -> None:
+        """Measure; joints that turn are followed round and round, and never jump.
+
+        Args:
+            world: Which.
+            measured: Positions, in order.
+            rates: Velocities.
+        """
         count, first = self.count, world * self.count
-        at, measured = offset(self.position_at, first), offset(self.measured_at, first)
+        at = offset(self.position_at, first)
         if not follow(count, at, measured, self.turning_at):
             for i in range(count):
                 if self.turning[i] != 0.0:
@@ -116,7 +123,7 @@ class JointLaw:
                 else:
                     at[i] = measured[i]
         copy(count, offset(self.applied_at, first), offset(self.effort_at, first))
-        copy(count, offset(self.measured_rate_at, first), offset(self.velocity_at, first))
+        copy(count, rates, offset(self.velocity_at, first))
         if self.placing:
             for i in range(count):
                 if self.kinds[i] == BY_PLACE:  # what a step adds to it the next one takes away
@@ -143,15 +150,19 @@ class JointLaw:
         """``write`` of joints that are all commanded by efforts."""
         first, stopped = world * self.count, self.stopped[world]
         command = offset(self.command_at, world * self.width + self.first)
-        self.limits.hold_effort_row(
-            command, offset(self.position_at, first), offset(self.velocity_at, first)
-        )
+        at, rate = offset(self.position_at, first), offset(self.velocity_at, first)
         wanted, applied = offset(self.wanted_at, first), offset(self.applied_at, first)
+        if self.limits.hard:
+            write_within(
+                self.count, stopped, command, at, rate, wanted, applied, offset(self.pushed_at, first),
+                self.limits.lower_at, self.limits.upper_at, self.limits.velocity_at,
+                self.limits.effort_at,
+            )  # fmt: skip
+            return
         for i in range(self.count):
+            command[i] = self.limits.hold_effort(i, command[i], at[i], rate[i])
             wanted[i] = 0.0 if stopped else command[i]
-            safe = wanted[i] if isfinite(wanted[i]) else 0.0
-            if safe != applied[i]:
-                applied[i], self.pushed[world, i] = safe, 1
+            self.push(world, i, wanted[i])
 
     def hold(self, world: int, i: int, period: float) -> float:
         """A command within limits, and what the emergency stop makes of it."""
@@ -188,7 +199,7 @@ class JointLaw:
         """Let an effort act; what acts already, whoever makes it, stays."""
         safe = effort if isfinite(effort) else 0.0  # what is no number would end the world
         if safe != self.applied[world, i]:
-            self.applied[world, i], self.pushed[world, i] = safe, 1
+            self.applied[world, i], self.pushed[world, i] = safe, 1.0
 
     def drive(self, world: int, i: int, speed: float) -> None:
         """Let a motor hold a velocity."""
@@ -199,7 +210,12 @@ class JointLaw:
         """``read`` in all worlds, for callers in Python."""
         with cython.nogil:
             for w in range(self.position.shape[0]):
-                self.read(w)
+                first = w * self.count
+                measured, rates = (
+                    offset(self.measured_at, first),
+                    offset(self.measured_rate_at, first),
+                )
+                self.read(w, measured, rates)
 
     def write_all(self, period: float) -> None:
         """``write`` in all worlds, for callers in Python."""
@@ -221,3 +237,22 @@ def follow(count: int, position: Floats, measured: Floats, turning: Floats) -> b
         turn = position[i] + shorter(measured[i] - position[i])
         position[i] = turn if turning[i] != 0.0 else measured[i]
     return True
+
+
+def write_within(
+    count: int, stopped: bool, command: Floats, position: Floats, velocity: Floats, wanted: Floats,  # noqa: FBT001
+    applied: Floats, pushed: Floats, lower: Floats, upper: Floats, fastest: Floats, strongest: Floats,
+) -> None:  # fmt: skip
+    """Hold efforts within hard limits (``LimitLaw.hold_effort``) and push, for several joints at a time."""
+    for i in range(count):
+        low = 0.0 if velocity[i] < -fastest[i] else -strongest[i]
+        low = 0.0 if position[i] < lower[i] else low
+        high = 0.0 if velocity[i] > fastest[i] else strongest[i]
+        high = 0.0 if position[i] > upper[i] else high
+        held = min(max(command[i], low), high)
+        command[i] = held
+        held = 0.0 if stopped else held
+        wanted[i] = held
+        held = held if isfinite(held) else 0.0
+        pushed[i] = 1.0 if held != applied[i] else pushed[i]
+        applied[i] = held

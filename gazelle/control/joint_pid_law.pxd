@@ -12,7 +12,7 @@ cdef class JointPidLaw(ControlLaw):
     cdef double *turning_at, *lower_at, *upper_at
     cdef double[::1] turning, lower, upper
     cdef bint by_velocity
-    @cython.locals(i=Py_ssize_t, first=Py_ssize_t, at="double*", out="double*", error="double*", targets="double*")
+    @cython.locals(i=Py_ssize_t, first=Py_ssize_t, at="double*", out="double*", error="double*", targets="double*", near=bint)
     cdef void control(self, Py_ssize_t world, long long now, double period) noexcept nogil
     @cython.locals(i=Py_ssize_t, at="double*", values="double*")
     cdef double* measured(self, Py_ssize_t world) noexcept nogil
@@ -21,4 +21,4 @@ cdef class JointPidLaw(ControlLaw):
 cdef void velocities_lacking(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error) noexcept nogil
 
 @cython.locals(i=Py_ssize_t, lack=double, wanted=double, far=Py_ssize_t)
-cdef void positions_lacking(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error, double* restrict lower, double* restrict upper, double* restrict turning) noexcept nogil
+cdef bint positions_lacking(Py_ssize_t count, double* restrict at, double* restrict targets, double* restrict error, double* restrict lower, double* restrict upper, double* restrict turning) noexcept nogil

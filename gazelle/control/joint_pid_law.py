@@ -54,8 +54,7 @@ class JointPidLaw(ControlLaw):
             turning: Which joints turn, shape (joints,).
         """
         self.by_velocity, self.measured_at = False, start(self.position)
-        self.lower, self.upper = (np.array(each, np.float64) for each in limits)
-        self.turning = np.array(turning, np.float64)
+        self.lower, self.upper, self.turning = np.array([*limits, turning], np.float64)
         self.turning_at = column(self.turning)
         self.lower_at, self.upper_at = column(self.lower), column(self.upper)
 
@@ -63,18 +62,18 @@ class JointPidLaw(ControlLaw):
         """Push towards the targets; positions the way round that limits allow."""
         count, first = self.count, world * self.count
         at, targets = self.measured(world), offset(self.targets_at, first)
-        error = offset(self.error_at, first)
+        error, near = offset(self.error_at, first), False
         if self.by_velocity:
             velocities_lacking(count, at, targets, error)
         else:
             lower, upper = self.lower_at, self.upper_at
-            positions_lacking(count, at, targets, error, lower, upper, self.turning_at)
+            near = positions_lacking(count, at, targets, error, lower, upper, self.turning_at)
         if self.first_column >= 0:
             out = offset(self.command_at, world * self.command_width + self.first_column)
-            self.pid.push_row(world, error, period, False, error, out)
+            self.pid.push_row(world, error, period, near, False, error, out)
             return
         out = offset(start(self.push_row), first)
-        self.pid.push_row(world, error, period, False, error, out)
+        self.pid.push_row(world, error, period, near, False, error, out)
         for i in range(count):
             self.command[world, self.columns[i]] = out[i]
 
@@ -98,8 +97,11 @@ def velocities_lacking(count: int, at: Floats, targets: Floats, error: Floats) -
 def positions_lacking(
     count: int, at: Floats, targets: Floats, error: Floats, lower: Floats, upper: Floats,
     turning: Floats,
-) -> None:  # fmt: skip
-    """What positions lack, of joints that turn the way round that limits allow."""
+) -> bool:  # fmt: skip
+    """What positions lack, of joints that turn the way round that limits allow; whether that is little.
+
+    Then all errors are finite.
+    """
     far = 0
     for i in range(count):
         targets[i] = min(max(targets[i], lower[i]), upper[i])
@@ -107,7 +109,8 @@ def positions_lacking(
         far += 0 if -_TURN < lack < _TURN else 1
         error[i] = within(at[i], shorter(lack), lower[i], upper[i]) if turning[i] != 0.0 else lack
     if far == 0:
-        return
+        return True
     for i in range(count):  # more than a whole turn, or not finite
         if turning[i] != 0.0:
             error[i] = within(at[i], shortest(at[i], targets[i]), lower[i], upper[i])
+    return False

@@ -10,8 +10,6 @@ cdef class LimitLaw:
     cdef double soft_bound(self, Py_ssize_t i, double position, bint high) noexcept nogil
     @cython.locals(low=double, high=double, least=double, most=double)
     cdef double hold_effort(self, Py_ssize_t i, double command, double position, double velocity) noexcept nogil
-    @cython.locals(i=Py_ssize_t)
-    cdef void hold_effort_row(self, double* command, double* position, double* velocity) noexcept nogil
     @cython.locals(low=double, high=double)
     cdef double hold_position(self, Py_ssize_t i, double command, double before, double dt) noexcept nogil
     @cython.locals(low=double, high=double, change=double, start=double)
@@ -24,6 +22,3 @@ cdef class LimitLaw:
     cpdef hold_velocities(self, command, position, velocity, previous, double dt)
 
 cdef double clamp(double value, double low, double high) noexcept nogil
-
-@cython.locals(i=Py_ssize_t, low=double, high=double)
-cdef void hold_efforts_hard(Py_ssize_t count, double* restrict command, double* restrict position, double* restrict velocity, double* restrict lower, double* restrict upper, double* restrict fastest, double* restrict strongest) noexcept nogil

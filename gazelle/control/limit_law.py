@@ -34,7 +34,9 @@ class LimitLaw:
     """
 
     def __init__(self, columns: Mapping[str, Any]) -> None:
-        numbers = {k: np.array(v, np.float64) for k, v in columns.items()}
+        # Side by side: so they take few lines of a processor's cache.
+        table = np.array([*columns.values()], np.float64)
+        numbers = dict(zip(columns, table, strict=True))
         self.lower, self.upper = numbers["lower"], numbers["upper"]
         self.velocity, self.effort = numbers["velocity"], numbers["effort"]
         self.acceleration = numbers["acceleration"]
@@ -68,23 +70,6 @@ class LimitLaw:
             if position > self.upper[i] or velocity > self.velocity[i]:
                 high = 0.0
         return clamp(command, low, high)
-
-    def hold_effort_row(self, command: Floats, position: Floats, velocity: Floats) -> None:
-        """``hold_effort`` of every joint, in place."""
-        if self.hard:
-            hold_efforts_hard(
-                self.count,
-                command,
-                position,
-                velocity,
-                self.lower_at,
-                self.upper_at,
-                self.velocity_at,
-                self.effort_at,
-            )
-            return
-        for i in range(self.count):
-            command[i] = self.hold_effort(i, command[i], position[i], velocity[i])
 
     def hold_position(self, i: int, command: float, before: float, dt: float) -> float:
         """What position is commanded after one before."""
@@ -139,16 +124,3 @@ class LimitLaw:
                 for i in range(a.shape[1]):
                     out[w, i] = self.hold_velocity(i, a[w, i], b[w, i], c[w, i], out[w, i], period)
         return held
-
-
-def hold_efforts_hard(
-    count: int, command: Floats, position: Floats, velocity: Floats, lower: Floats, upper: Floats,
-    fastest: Floats, strongest: Floats,
-) -> None:  # fmt: skip
-    """What ``LimitLaw.hold_effort`` does without soft limits, for several joints at a time."""
-    for i in range(count):
-        low = 0.0 if velocity[i] < -fastest[i] else -strongest[i]
-        low = 0.0 if position[i] < lower[i] else low
-        high = 0.0 if velocity[i] > fastest[i] else strongest[i]
-        high = 0.0 if position[i] > upper[i] else high
-        command[i] = min(max(command[i], low), high)

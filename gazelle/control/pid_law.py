@@ -4,13 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import cython
-from cython.cimports.gazelle.native.rows import column, offset, start
+from cython.cimports.gazelle.native.rows import block_start, column, offset, start
 from cython.cimports.libc.math import isfinite
 
 from gazelle.array_types import Floats
+
+# What is remembered of a world, row by row.
+if not cython.compiled:  # else what pid_law.pxd says
+    LAST, P_ERROR, I_ERROR, D_ERROR, OUTPUT, ROWS = 0, 1, 2, 3, 4, 5
 
 
 @cython.cclass
@@ -19,21 +21,19 @@ class PidLaw:
 
     Args:
         memory: The last error as ``push`` takes rates from, the last error, its integral, its rate,
-            and the output, each of shape (nworld, loops); used in place.
+            and the output, shape (nworld, 5, loops); used in place.
     """
 
-    def __init__(self, memory: Sequence[Floats]) -> None:
-        self.last, self.p_error, self.i_error, self.d_error, self.output = memory
-        self.count = self.last.shape[1]
-        self.last_at, self.p_error_at = start(self.last), start(self.p_error)
-        self.i_error_at, self.d_error_at = start(self.i_error), start(self.d_error)
-        self.output_at = start(self.output)
+    def __init__(self, memory: Floats) -> None:
+        self.memory, self.count = memory, memory.shape[2]
+        self.memory_at = block_start(self.memory)
 
-    def tune(self, columns: Sequence[Floats]) -> None:
-        """Go on with other gains, shape (loops,) each.
+    def tune(self, columns: Floats) -> None:
+        """Go on with other gains.
 
         Args:
-            columns: p, i, d, and least and greatest values of the integral and of its term.
+            columns: p, i, d, and least and greatest values of the integral and of its term, shape
+                (7, loops).
         """
         self.p, self.i, self.d = columns[:3]
         self.sum_least, self.sum_most, self.term_least, self.term_most = columns[3:]
@@ -65,14 +65,14 @@ class PidLaw:
         if rated:
             rate = given
         else:
-            rate = (error - self.last[world, loop]) / dt
-            self.last[world, loop] = error
-        whole = self.i_error[world, loop] + dt * error
+            rate = (error - self.memory[world, LAST, loop]) / dt
+            self.memory[world, LAST, loop] = error
+        whole = self.memory[world, I_ERROR, loop] + dt * error
         whole = min(max(whole, self.sum_least[loop]), self.sum_most[loop])
         term = min(max(self.i[loop] * whole, self.term_least[loop]), self.term_most[loop])
         out = self.p[loop] * error + term + self.d[loop] * rate
-        self.p_error[world, loop], self.i_error[world, loop] = error, whole
-        self.d_error[world, loop], self.output[world, loop] = rate, out
+        self.memory[world, P_ERROR, loop], self.memory[world, I_ERROR, loop] = error, whole
+        self.memory[world, D_ERROR, loop], self.memory[world, OUTPUT, loop] = rate, out
         return out
 
     def push_row(
@@ -80,7 +80,8 @@ class PidLaw:
         world: int,
         errors: Floats,
         dt: float,
-        rated: bool,  # noqa: FBT001  native code
+        near: bool,  # noqa: FBT001  native code
+        rated: bool,  # noqa: FBT001
         rates: Floats,
         out: Floats,
     ) -> None:
@@ -90,29 +91,31 @@ class PidLaw:
             world: Which.
             errors: Of each loop.
             dt: Since the last time [s].
+            near: Whether all errors are known to be finite.
             rated: Whether rates of errors are given.
             rates: Those.
             out: What comes out.
         """
-        count, first = self.count, world * self.count
-        if dt <= 0.0 or not are_finite(count, errors):
+        count = self.count
+        if dt <= 0.0 or not (near or are_finite(count, errors)):
             for k in range(count):
                 out[k] = self.push(world, k, errors[k], dt, rated, rates[k] if rated else 0.0)
             return
-        known = offset(self.d_error_at, first)
+        own = offset(self.memory_at, ROWS * count * world)
+        known = offset(own, D_ERROR * count)
         if rated:
             for k in range(count):
                 known[k] = rates[k]
         else:
-            differentiate(count, dt, errors, offset(self.last_at, first), known)
+            differentiate(count, dt, errors, offset(own, LAST * count), known)
         push_loops(
             count,
             dt,
             errors,
             known,
-            offset(self.p_error_at, first),
-            offset(self.i_error_at, first),
-            offset(self.output_at, first),
+            offset(own, P_ERROR * count),
+            offset(own, I_ERROR * count),
+            offset(own, OUTPUT * count),
             out,
             self.p_at,
             self.i_at,
@@ -136,6 +139,7 @@ class PidLaw:
                     w,
                     offset(start(errors), first),
                     period,
+                    False,
                     rated,
                     offset(start(rates), first),
                     offset(start(out), first),

@@ -30,18 +30,19 @@ _KNOWN: dict[int, Any] = {}
 class JointSystem(System):
     """Is told where joints are at the beginning of a step, and says what acts on them in it.
 
-    An engine that takes it into its steps (``bind``) calls ``exchange``; else somebody fills
-    ``position_in`` and ``velocity_in``, calls ``bring``, and acts on what came out. A row is a world.
+    An engine that takes it into its steps (``bind``) calls ``exchange``, which lets it see joints where
+    the engine has them; else somebody fills ``position_in`` and ``velocity_in``, calls ``bring``, and
+    acts on what came out. A row is a world. Subclasses override ``advance``.
 
     Args:
         nworld: Number of worlds.
         joints: Number of joints, each with one axis.
 
     Attributes:
-        position_in: Of joints [m or rad], shape (nworld, joints).
+        position_in: Of joints [m or rad], shape (nworld, joints); not filled by ``exchange``.
         velocity_in: [m/s or rad/s], likewise.
         effort_out: What acts on joints [N or N m], likewise.
-        pushed_out: Where that changed, likewise.
+        pushed_out: 1 where that changed, else 0, likewise.
         speed_out: What motors hold [m/s or rad/s], likewise.
         driven_out: Where that changed, likewise.
     """
@@ -50,15 +51,15 @@ class JointSystem(System):
         System.__init__(self, 1)
         shape = (nworld, joints)
         self.position_in, self.velocity_in = np.zeros((2, *shape))
-        self.effort_out, self.speed_out = np.zeros((2, *shape))
-        self.pushed_out, self.driven_out = np.zeros((2, *shape), np.uint8)
+        self.effort_out, self.pushed_out, self.speed_out = np.zeros((3, *shape))
+        self.driven_out = np.zeros(shape, np.uint8)
         self.position, self.velocity = self.position_in, self.velocity_in
         self.effort, self.speed = self.effort_out, self.speed_out
         self.pushed, self.driven = self.pushed_out, self.driven_out
         self.count = joints
         self.position_at, self.velocity_at = start(self.position), start(self.velocity)
-        self.effort_at = start(self.effort)
-        self.pushed_at, self.driven_at = bytes_start(self.pushed), bytes_start(self.driven)
+        self.effort_at, self.pushed_at = start(self.effort), start(self.pushed)
+        self.driven_at = bytes_start(self.driven)
         nowhere = np.zeros(joints, np.intp)
         self.bind(nowhere, nowhere, np.zeros(joints), nowhere - 1)
 
@@ -80,6 +81,7 @@ class JointSystem(System):
         self.places, self.dofs, self.most, self.motors = places, dofs, most, motors
         self.most_at, self.dofs_at = column(self.most), places_column(self.dofs)
         self.first_place, self.first_dof = first_of_run(places), first_of_run(dofs)
+        self.moves = bool((motors >= 0).any())
 
     def read(self, qpos: NDArray[np.float64], qvel: NDArray[np.float64]) -> None:
         """Read the joints of all worlds, from arrays as of ``exchange`` of each."""
@@ -92,19 +94,33 @@ class JointSystem(System):
             most, rows = np.asarray(self.most), np.nonzero(self.pushed_out)
             held = np.clip(self.effort_out[rows], -most[rows[1]], most[rows[1]])
             applied[rows[0], np.asarray(self.dofs)[rows[1]]] = held
-            self.pushed_out[:] = 0
+            self.pushed_out[:] = 0.0
         if self.driven_out.any():
             rows = np.nonzero(self.driven_out & (np.asarray(self.motors) >= 0))
             user[rows[0], np.asarray(self.motors)[rows[1]]] = self.speed_out[rows]
             self.driven_out[:] = 0
 
     def update(self, first: int, last: int, time: int) -> None:
-        """Say what acts now; subclasses do."""
+        """``advance`` worlds, of joints as ``position_in`` and ``velocity_in`` have them."""
+        for w in range(first, last):
+            measured = offset(self.position_at, w * self.count)
+            rates = offset(self.velocity_at, w * self.count)
+            self.advance(w, measured, rates, time)
+
+    def advance(self, world: int, measured: Any, rates: Any, time: int) -> None:
+        """Say what acts now in a world; subclasses do.
+
+        Args:
+            world: Which.
+            measured: Positions of the joints, in order.
+            rates: Their velocities.
+            time: Simulated time [ns].
+        """
 
     def exchange(
         self, world: int, qpos: Any, qvel: Any, applied: Any, user: Any, time: int
     ) -> None:
-        """Read the joints of a world, update, and let act what changed.
+        """Look at the joints of a world, advance, and let act what changed.
 
         Args:
             world: Which.
@@ -115,22 +131,36 @@ class JointSystem(System):
             time: Simulated time [ns].
         """
         count, first = self.count, world * self.count
-        position, velocity = offset(self.position_at, first), offset(self.velocity_at, first)
-        if self.first_place >= 0 and self.first_dof >= 0:
-            copy(count, offset(qpos, self.first_place), position)
-            copy(count, offset(qvel, self.first_dof), velocity)
+        if self.first_place >= 0:
+            measured = offset(qpos, self.first_place)
+        else:
+            measured = offset(self.position_at, first)
+            for i in range(count):
+                measured[i] = qpos[self.places[i]]
+        if self.first_dof >= 0:
+            rates = offset(qvel, self.first_dof)
+        else:
+            rates = offset(self.velocity_at, first)
+            for i in range(count):
+                rates[i] = qvel[self.dofs[i]]
+        self.advance(world, measured, rates, time)
+        effort, pushed = offset(self.effort_at, first), offset(self.pushed_at, first)
+        if self.first_dof >= 0:
+            act_in_row(count, effort, pushed, self.most_at, offset(applied, self.first_dof))
         else:
             for i in range(count):
-                position[i] = qpos[self.places[i]]
-                velocity[i] = qvel[self.dofs[i]]
-        self.update(world, world + 1, time)
-        effort = offset(self.effort_at, first)
-        pushed, driven = bytes_offset(self.pushed_at, first), bytes_offset(self.driven_at, first)
+                if pushed[i] != 0.0:
+                    pushed[i] = 0.0
+                    most, value = self.most_at[i], effort[i]
+                    applied[self.dofs_at[i]] = min(max(value, -most), most)
+        if self.moves:
+            self.drive(world, user)
+
+    def drive(self, world: int, user: Any) -> None:
+        """Let motors hold what changed."""
+        count = self.count
+        driven = bytes_offset(self.driven_at, world * count)
         for i in range(count):
-            if pushed[i]:
-                pushed[i] = 0
-                most, value = self.most_at[i], effort[i]
-                applied[self.dofs_at[i]] = min(max(value, -most), most)
             if driven[i]:
                 driven[i] = 0
                 if self.motors[i] >= 0:
@@ -141,6 +171,14 @@ def copy(count: int, start: Any, end: Any) -> None:
     """Copy numbers, several at a time: what is read so again was not written one by one."""
     for i in range(count):
         end[i] = start[i]
+
+
+def act_in_row(count: int, effort: Any, pushed: Any, most: Any, applied: Any) -> None:
+    """Let efforts act that changed, of joints side by side, for several at a time."""
+    for i in range(count):
+        held = min(max(effort[i], -most[i]), most[i])
+        applied[i] = held if pushed[i] != 0.0 else applied[i]
+        pushed[i] = 0.0
 
 
 def bring_systems(

@@ -4,6 +4,10 @@ cdef inline double* start(double[:, ::1] array) noexcept nogil:
     return &array[0, 0] if array.shape[0] and array.shape[1] else NULL
 
 
+cdef inline double* block_start(double[:, :, ::1] array) noexcept nogil:
+    return &array[0, 0, 0] if array.shape[0] and array.shape[1] and array.shape[2] else NULL
+
+
 cdef inline double* column(double[::1] array) noexcept nogil:
     return &array[0] if array.shape[0] else NULL
 

@@ -21,6 +21,10 @@ def start(array: Floats) -> Any:
     return array.reshape(-1)
 
 
+block_start = start
+"""The same of an array with three axes."""
+
+
 def column(array: Floats) -> Any:
     """The numbers of an array with one axis."""
     return array

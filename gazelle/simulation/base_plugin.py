@@ -19,13 +19,13 @@ class Carried:
     """What does a plugin's work within steps.
 
     Attributes:
-        system: Brought by each of them.
+        system: Brought by each of them; None while there is nothing to do.
         until_ns: When the plugin has to be updated from Python [ns]; infinite for never.
         lasting: Whether this holds, and ``catch_up`` may wait, until the plugin says otherwise
             (``CarriedPlugins.stir``). Else the plugin is asked again after some steps.
     """
 
-    system: JointSystem
+    system: JointSystem | None
     until_ns: float
     lasting: bool = False
 

@@ -90,13 +90,13 @@ class CarriedPlugins:
             return
         pairs = zip(self._entries, self._found, strict=True)
         known = [(entry, found) for entry, found in pairs if found is not None]
-        self.systems = [found.system for _, found in known]
+        self.systems = [found.system for _, found in known if found.system is not None]
         self.soonest_ns = min((found.until_ns for _, found in known), default=math.inf)
         self._brief = [entry for entry, found in known if not found.lasting]
 
     def release(self) -> None:
         """Carry none: there is no engine that does."""
-        if self.systems:
+        if any(found is not None for found in self._found):
             self.plan(self._entries)
 
     def catch_up(self) -> None:

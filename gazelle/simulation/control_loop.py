@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Mapping
 from threading import get_ident
@@ -76,7 +77,7 @@ class ControlLoop(ModelPlugin):
         self._updated_ns: int | None = None
         self._written_ns: int | None = None
         self._carrying: tuple[ControlCycle, JointLaw, list[ControlLaw], int, int] | None = None
-        self._handed = False
+        self._handed = self._resting = False
 
     def change_hardware(self, hardware: SimulatedHardware) -> None:
         """Control through other hardware; nothing is loaded yet."""
@@ -99,9 +100,11 @@ class ControlLoop(ModelPlugin):
 
     def _stir(self) -> None:
         """Python takes over what native code has in hand."""
+        if self._handed or self._resting:
+            self._robot.simulation.loop.carried.stir(self)
+        self._resting = False
         if self._handed:
             self._handed = False
-            self._robot.simulation.loop.carried.stir(self)
             self._catch_up()
 
     def _settle(self) -> None:
@@ -187,8 +190,12 @@ class ControlLoop(ModelPlugin):
         if not isinstance(hardware, JointHardware) or self._restarts:
             return None
         laws = self.manager.laws()
-        if laws is None or not (laws or self.active):
+        if laws is None:
             return None
+        if not (laws or self.active):
+            # A class of a user's own may have more to do than it lets see when it is asked.
+            self._resting = type(hardware) is JointHardware
+            return Carried(None, math.inf, lasting=True) if self._resting else None
         cycle = hardware.carried
         if cycle is None:
             return None

@@ -278,7 +278,7 @@ class JointHardware(SimulatedHardware):
         for index in np.flatnonzero(cycle.driven_out.any(axis=0)).tolist():
             rows = np.flatnonzero(cycle.driven_out[:, index])
             self._handles[index].drive(cycle.speed_out[rows, index], rows)
-        cycle.pushed_out[:] = cycle.driven_out[:] = 0
+        cycle.pushed_out[:], cycle.driven_out[:] = 0.0, 0
 
     def _place(self, period: float) -> None:
         """Put joints where they have to be after the step, as fast as their commands move."""
@@ -311,7 +311,7 @@ class JointHardware(SimulatedHardware):
         states.position[rows] = states.effort[rows] = 1.0
         states.velocity[rows] = memory.placed_speed[rows] = 0.0
         cycle.effort_out[rows], cycle.speed_out[rows] = 0.0, math.nan
-        cycle.pushed_out[rows] = cycle.driven_out[rows] = 0
+        cycle.pushed_out[rows], cycle.driven_out[rows] = 0.0, 0
         memory.stopped[rows] = False
         memory.held[rows] = memory.previous[rows] = self._placed[rows] = math.nan
         self._pid.reset(worlds)
@@ -347,5 +347,5 @@ class JointHardware(SimulatedHardware):
         memory.placed_speed[:], memory.previous[:] = state["speeds"], state["previous"]
         self._placed[:], self.cycle.effort_out[:] = state["placed"], state["applied"]
         self.cycle.speed_out[:] = math.nan
-        self.cycle.pushed_out[:] = self.cycle.driven_out[:] = 0
+        self.cycle.pushed_out[:], self.cycle.driven_out[:] = 0.0, 0
         self._pid.restore({name: state[f"pid.{name}"] for name in ("p", "i", "last")})

@@ -72,6 +72,37 @@ def test_robots_to_which_nothing_is_done_are_not_asked(asked):
     assert len(asked) == 2
 
 
+def test_robots_in_which_nothing_runs_are_not_asked_until_something_is_done_to_them(asked):
+    sim, robots = arms(3, PID)
+    for robot in robots:
+        robot.controllers.stop("arm")
+    for loop in {id(each): each for each in asked}.values():
+        loop.reset(None)  # else the efforts of the stopped controllers act on
+    sim.step()
+    asked.clear()
+    for _ in range(20):
+        sim.step()
+    sim.step(100)
+    assert not asked
+    before = robots[1].joints["shoulder"].positions().copy()
+    robots[1].controllers.start("arm")
+    robots[1].controllers["arm"].inputs["command"].send(JointTargets((0.5, 0.1)))
+    sim.step(200)
+    assert len(asked) <= 2
+    assert np.abs(robots[1].joints["shoulder"].positions() - before).max() > 0.1
+
+
+def test_efforts_that_a_stopped_controller_left_act_on_within_limits(asked):
+    sim, (robot,) = arms(1, PID)
+    robot.controllers["arm"].inputs["command"].send(JointTargets((1.5, 0.0)))
+    sim.step(5)
+    robot.controllers.stop("arm")
+    asked.clear()
+    for _ in range(5):
+        sim.step()
+    assert len(asked) == 5
+
+
 def test_the_time_of_the_last_update_is_known_at_once_and_asks_nobody(asked):
     sim, (robot,) = arms(1, PID)
     asked.clear()

@@ -9,6 +9,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.engines.mujoco.efforts import EffortLimits
 from gazelle.native.joint_system import JointSystem, addresses
+from gazelle.native.rows import first_of_run
 
 
 class Hooks:
@@ -16,7 +17,7 @@ class Hooks:
 
     They are: how many systems act, where their addresses are, a step [ns], where the times of
     worlds are; how many velocities of joints are limited, which ones, how, and where efforts are kept
-    that do not act now, a row a world.
+    that do not act now, a row a world; and the first of those velocities, if they are side by side.
 
     Args:
         nworld: Number of worlds.
@@ -27,7 +28,7 @@ class Hooks:
     """
 
     def __init__(self, nworld: int) -> None:
-        self._numbers = np.zeros(8, np.int64)
+        self._numbers = np.zeros(9, np.int64)
         self._times = np.zeros(nworld, np.int64)
         self._numbers[3] = self._times.ctypes.data
         self.address = int(self._numbers.ctypes.data)
@@ -43,19 +44,23 @@ class Hooks:
         self._speeds = np.ascontiguousarray(limits.speed, np.float64)
         self.kept = np.zeros((len(self._times), len(self._dofs)))
         self._numbers[4] = len(self._dofs)
-        self._numbers[5:] = [each.ctypes.data for each in (self._dofs, self._speeds, self.kept)]
+        self._numbers[5:8] = [each.ctypes.data for each in (self._dofs, self._speeds, self.kept)]
+        self._numbers[8] = first_of_run(self._dofs)
 
     def begin(self, systems: Sequence[JointSystem], now_ns: int, step_ns: int) -> None:
         """Let systems act in the steps that follow."""
+        numbers = self._numbers
         if self._systems != systems:
             self._systems, self._table = list(systems), addresses(systems)
+            numbers[1] = self._table.ctypes.data
         self._times.fill(now_ns)
-        self._numbers[:3] = len(systems), self._table.ctypes.data, step_ns
+        numbers[0] = len(systems)
+        numbers[2] = step_ns
 
     def end(self, applied: Floats) -> None:
         """Let none act any more, and put back what was kept, shape (nworld, velocities)."""
         self._numbers[0] = 0
-        if self.kept.any():
+        if np.count_nonzero(self.kept):
             rows = np.nonzero(self.kept)
             applied[rows[0], self._dofs[rows[1]]] = self.kept[rows]
             self.kept[:] = 0.0

@@ -52,7 +52,29 @@ def take_commands(
         floats(word(data + AT.userdata)),
         time,
     )
+    if hook[8] >= 0 and not are_fast(hook[4], hook[8], applied, velocity, speeds):
+        return
     for index in range(hook[4]):
         effort = applied[dofs[index]]
         if effort * velocity[dofs[index]] > 0.0 and abs(velocity[dofs[index]]) > speeds[index]:
             kept[index], applied[dofs[index]] = effort, 0.0
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def are_fast(
+    count: cython.longlong,
+    first: cython.longlong,
+    applied: cython.p_double,
+    velocity: cython.p_double,
+    speeds: cython.p_double,
+) -> cython.bint:
+    """Whether an effort speeds up what is too fast, of velocities side by side, several at a time."""
+    found: cython.Py_ssize_t = 0
+    index: cython.Py_ssize_t
+    for index in range(count):
+        rate: cython.double = velocity[first + index]
+        onward: cython.bint = applied[first + index] * rate > 0.0
+        found += 1 if onward and abs(rate) > speeds[index] else 0
+    return found > 0
