@@ -6,7 +6,7 @@ import operator
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
+from typing import Any, ClassVar, TypedDict, TypeVar
 
 from gazelle.description import Model, World
 from gazelle.engines import engine_names
@@ -53,11 +53,13 @@ class TaskSettings:
         render_mode: ``rgb_array``, or None.
         threads: Native threads of the engine; None for all processors.
         time_step: Physics step [s]; None for the task's own.
+        needs_forces: Whether what moves is pushed, so that the plane's engine cannot move it.
 
     Raises:
         TaskError: A value cannot be.
     """
 
+    needs_forces: ClassVar[bool] = False
     engine: str = "mujoco"
     seed: int | None = None
     max_episode_steps: int | None = None
@@ -71,6 +73,9 @@ class TaskSettings:
                 f"there is no engine '{self.engine}'",
                 hint=did_you_mean(str(self.engine), engine_names()),
             )
+        if self.needs_forces and self.engine == "planar":
+            hint = "leave the engine out, or ask for mujoco"
+            raise TaskError("the engine planar knows no forces, which this task needs", hint=hint)
         if self.render_mode is not None:
             check_name("render mode", self.render_mode, RENDER_MODES)
         for name, least in (("seed", 0), ("max_episode_steps", 1), ("threads", 1)):

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from enum import Enum
+from types import MappingProxyType
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -325,6 +326,11 @@ class PortTable(dict[str, T]):
         if isinstance(port, StatePart):
             port.bind(self._requests)
         super().__setitem__(name, port)
+
+    def update(self, ports: Mapping[str, T] = MappingProxyType({}), /, **more: T) -> None:  # type: ignore[override]
+        """Add ports; a dict's own would not tell them which simulation they belong to."""
+        for name, port in {**ports, **more}.items():
+            self[name] = port
 
 
 class Ports:

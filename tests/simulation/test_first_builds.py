@@ -8,7 +8,7 @@ import scenes
 
 from gazelle import EngineError, Pose, Simulation
 from gazelle.engines import make_engine
-from gazelle.engines.mujoco import engine as mujoco_engine
+from gazelle.engines.mujoco import running
 from gazelle.formats import load_string
 
 DRIVE = (scenes.drive_plugin(),)
@@ -18,13 +18,13 @@ DRIVE = (scenes.drive_plugin(),)
 def compiled(monkeypatch):
     """How often a world has been compiled."""
     calls = []
-    compile_world = mujoco_engine.compile_world
+    compile_world = running.compile_world
 
     def counting(recipe):
         calls.append(recipe)
         return compile_world(recipe)
 
-    monkeypatch.setattr(mujoco_engine, "compile_world", counting)
+    monkeypatch.setattr(running, "compile_world", counting)
     return calls
 
 

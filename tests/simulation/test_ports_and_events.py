@@ -14,6 +14,8 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
+from gazelle.simulation.ports import Ports
+from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.scheduled_plugin import make_scheduled
 
 
@@ -128,3 +130,18 @@ def test_an_output_that_nobody_wants_is_never_computed():
     output.publish()
     end()
     assert len(computed) == 1
+
+
+def test_ports_added_all_at_once_belong_to_the_simulation_too():
+    requests = RequestQueue()
+    ports = Ports(requests)
+    ports.outputs["a"] = Output("/a", int, lambda: 1)
+    ports.outputs.update({"a": Output("/b", int, lambda: 2)}, c=Output("/c", int, lambda: 3))
+    assert {name: port.topic for name, port in ports.outputs.items()} == {
+        "a": "/b",
+        "a 2": "/a",
+        "c": "/c",
+    }
+    before = requests.changes
+    ports.outputs["c"].subscribe(lambda _: None)
+    assert requests.changes == before + 1

@@ -117,7 +117,17 @@ def test_all_networks_of_a_learner_scale_alike_and_so_does_its_numpy_actor(algo)
 
 # Bounds of openai_ros and frobs_rl are far from where their robots are, those of Fetch infinite;
 # pictures are not scaled so.
-OTHERS = ("CartPole", "Camera", "Fetch", "Hopper", "Husarion", "KobukiMaze", "MovingCube")
+OTHERS = (
+    "CartPole",
+    "Camera",
+    "Fetch",
+    "Hopper",
+    "Husarion",
+    "KobukiMaze",
+    "MovingCube",
+    "ParrotDrone",
+    "Wamv",
+)
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import gymnasium as gym
 import numpy as np
@@ -49,6 +50,7 @@ class ParrotDroneSettings(TaskSettings):
             two are not the same.
     """
 
+    needs_forces: ClassVar[bool] = True
     starts: str = "published"
 
     def __post_init__(self) -> None:

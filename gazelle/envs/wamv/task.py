@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import gymnasium as gym
 import numpy as np
@@ -41,6 +42,7 @@ class WamvSettings(TaskSettings):
             are not the same.
     """
 
+    needs_forces: ClassVar[bool] = True
     starts: str = "published"
 
     def __post_init__(self) -> None:
