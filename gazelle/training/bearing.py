@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import torch
 
 from gazelle.array_types import Floats32
 from gazelle.errors import TaskError, did_you_mean
+
+if TYPE_CHECKING:
+    import torch  # policies act without it
 
 COUNT = 3
 """How many numbers are added: distance, ahead, left."""
@@ -62,15 +64,16 @@ class Bearing:
 
     def of_tensor(self, obs: torch.Tensor) -> torch.Tensor:
         """As `of`, in torch."""
+        import torch
+
         dx, dy = self.goal[0] - obs[:, self.x], self.goal[1] - obs[:, self.y]
         away = (dx * dx + dy * dy).sqrt()
         yaw = torch.zeros_like(dx) if self.yaw is None else obs[:, self.yaw]
         cos, sin = yaw.cos(), yaw.sin()
         length = away.clamp(min=SHORTEST)
         distance = ((away + NEAR).log() - CENTRE) / HALF
-        return torch.stack(
-            (distance, (dx * cos + dy * sin) / length, (dy * cos - dx * sin) / length), dim=1
-        )
+        ahead, left = (dx * cos + dy * sin) / length, (dy * cos - dx * sin) / length
+        return torch.stack((distance, ahead, left), dim=1)
 
 
 def bearing_of(value: Mapping[str, Any] | Bearing) -> Bearing:

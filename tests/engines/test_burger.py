@@ -47,7 +47,7 @@ def test_ten_metres_straight(step, short, model):
 
 @pytest.mark.long
 @pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize(("step", "short"), [(0.001, 0.0005), (0.005, 0.003), (0.02, 0.011)])
+@pytest.mark.parametrize(("step", "short"), [(0.001, 0.0006), (0.005, 0.003), (0.02, 0.011)])
 def test_ten_turns_on_the_spot(step, short, model):
     rate = 1.0
     ramp = (rate * 0.08) ** 2 / 2 / 0.08

@@ -22,7 +22,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "physics.md"
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.name)
 def test_two_engines_move_a_scene_alike(scene):
     for measure, outcome in zip(scene.measures, compare(scene, 0.001), strict=True):
-        assert outcome.moved > 1e-3, measure.name
+        assert outcome.moved > 1e-4, measure.name  # a block sinks by less than a micrometre
         assert outcome.difference < measure.tolerance, measure.name
 
 
