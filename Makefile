@@ -29,7 +29,7 @@ ON_KERNELS = $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile -m "n
 
 help:
 	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
-	@echo "make test       set up and run every quick test (5 minutes on two processors)"
+	@echo "make test       set up and run every quick test (6 minutes on two processors)"
 	@echo "make test-slow  the longer ones too, those that CI runs and all others"
 	@echo "make ros-suites ROS 1's own test suites against Gazelle (Debian 12, 20 minutes)"
 	@echo "make setup      .venv with everything, nothing run"
