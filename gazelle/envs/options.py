@@ -87,6 +87,23 @@ class TaskSettings:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class StartSettings(TaskSettings):
+    """Options of a task in space that can begin at many places, checked.
+
+    Attributes:
+        starts: ``published``, or ``training`` or ``held-out``: anywhere; places of the two are not the same.
+    """
+
+    needs_forces: ClassVar[bool] = True
+    starts: str = "published"
+
+    def __post_init__(self) -> None:
+        # A zero-argument super() does not work in a dataclass with slots.
+        TaskSettings.__post_init__(self)
+        check_name("kind of starts", str(self.starts), SPLITS)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class NavigationSettings(TaskSettings):
     """Options of a task in which a robot with a lidar drives to goals, checked.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
@@ -11,7 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
+from gazelle.description import World
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
+from gazelle.envs.options import TaskSettings
 from gazelle.errors import TaskError
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
@@ -168,6 +171,27 @@ class SimulationTask(BatchedTask):
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["draws"]
         for name, array in self.memory.items():
             array[:] = state[f"memory/{name}"]
+
+
+def simulation_of(
+    world: World | str | Path, nworld: int, settings: TaskSettings, time_step: float | None
+) -> Simulation:
+    """What a task happens in, as the user asks for it.
+
+    Args:
+        world: What stands there.
+        nworld: Number of worlds.
+        settings: What the user asks for.
+        time_step: The task's own physics step [s]; None for the world's.
+    """
+    return Simulation(
+        world,
+        settings.engine,
+        nworld=nworld,
+        seed=settings.seed or 0,
+        time_step=settings.time_step or time_step,
+        threads=settings.threads,
+    )
 
 
 def checked_actions(actions: ArrayLike, space: gym.Space[Any], nworld: int) -> NDArray[Any]:

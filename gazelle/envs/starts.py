@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -98,3 +98,22 @@ class RandomStarts:
         """Go on from what ``get_state`` returned, after ``seed``."""
         self._stream.counters[:] = state["start_draws"]
         self.poses[:], self.phases[:] = state["start_poses"], state["start_phases"]
+
+
+def held_out_starts(trained: Mapping[str, Any]) -> dict[str, Any]:
+    """The ``evaluation_options`` of tasks with ``starts``: from those that are new to the policy."""
+    del trained
+    return {"starts": "held-out"}
+
+
+def chessboard(columns: int, rows: int, *, held_out: bool) -> Floats:
+    """Column and row of the squares of one colour, shape (n, 2).
+
+    Args:
+        columns: Of the board.
+        rows: Likewise.
+        held_out: Those of the other colour, which trainings do not see.
+    """
+    column, row = np.meshgrid(np.arange(columns), np.arange(rows), indexing="ij")
+    colour = (column + row) % 2 == int(held_out)
+    return np.asarray(np.stack((column, row), axis=-1)[colour], np.float64)

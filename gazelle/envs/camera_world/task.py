@@ -10,9 +10,8 @@ from gazelle import assets, formats
 from gazelle.array_types import Bools, Bytes, Floats, Worlds
 from gazelle.envs.cameras import CameraObservation, fit_camera
 from gazelle.envs.options import TaskSettings
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.sensors import View, look_at
-from gazelle.simulation import Simulation
 
 SIDE = 84  # pixels of the picture
 PERIOD = 0.25  # [s]
@@ -47,15 +46,8 @@ class CameraWorldTask(SimulationTask):
     view = View(look_at((-2.6, -2.6, 3.4), (0.0, 0.0, 0.1)), width=480, height=400, samples=1)
 
     def __init__(self, nworld: int, settings: TaskSettings) -> None:
-        step = settings.time_step or _TIME_STEPS.get(settings.engine)
-        simulation = Simulation(
-            assets.world("turtlebot3_camera"),
-            settings.engine,
-            nworld=nworld,
-            seed=settings.seed or 0,
-            time_step=step,
-            threads=settings.threads,
-        )
+        step = _TIME_STEPS.get(settings.engine)
+        simulation = simulation_of(assets.world("turtlebot3_camera"), nworld, settings, step)
         model = fit_camera(formats.load_model(assets.robot(_ROBOT)), SIDE, SIDE)
         self._robot = simulation.spawn(model, name=_ROBOT)
         self._posts = [simulation.robots[name] for name in _POSTS]

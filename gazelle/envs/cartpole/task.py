@@ -10,9 +10,8 @@ from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import World
 from gazelle.envs.options import TaskSettings
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.sensors import View, look_at
-from gazelle.simulation import Simulation
 
 RUNNING_STEP = 0.04  # [s]
 POSITION_STEP = 1.0  # that an action adds to the commanded velocity [m/s]
@@ -36,14 +35,7 @@ class CartPoleTask(SimulationTask):
     view = View(look_at((3.2, 0.0, 1.4), (0.0, 0.0, 0.8)), width=480, height=320, samples=1)
 
     def __init__(self, nworld: int, settings: TaskSettings) -> None:
-        world = Simulation(
-            World(name="cartpole"),
-            settings.engine,
-            nworld=nworld,
-            seed=settings.seed or 0,
-            time_step=settings.time_step or _TIME_STEP,
-            threads=settings.threads,
-        )
+        world = simulation_of(World(name="cartpole"), nworld, settings, _TIME_STEP)
         robot = world.spawn(assets.robot("cartpole"), name="cartpole")
         self._foot, self._pole = robot.joints["foot_joint"], robot.joints["pole_joint"]
         self._foot.add_motor(_MOTOR)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from gazelle.envs.discrete_drive.rules import (
     HUSARION,
@@ -16,26 +15,21 @@ from gazelle.envs.discrete_drive.rules import (
 from gazelle.envs.discrete_drive.task import DriveSettings, drive_task
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
-
-
-def _held_out(trained: Mapping[str, Any]) -> dict[str, Any]:
-    """Policies are evaluated from starts that are new to them."""
-    del trained
-    return {"starts": "held-out"}
+from gazelle.envs.starts import held_out_starts
 
 
 class DriveEnv(SettingsEnv):
     """A base with a laser drives by one of a few velocities; the subclasses are tasks."""
 
     settings_class: ClassVar[type[TaskSettings]] = DriveSettings
-    evaluation_options = staticmethod(_held_out)
+    evaluation_options = staticmethod(held_out_starts)
 
 
 class DriveVectorEnv(SettingsVectorEnv):
     """`DriveEnv` in many worlds at once."""
 
     settings_class: ClassVar[type[TaskSettings]] = DriveSettings
-    evaluation_options = staticmethod(_held_out)
+    evaluation_options = staticmethod(held_out_starts)
 
 
 class TurtleBot2MazeEnv(DriveEnv):

@@ -12,17 +12,18 @@ from numpy.typing import NDArray
 
 import gazelle
 from gazelle import assets, formats
-from gazelle.array_types import Bools, Floats, Floats32, Worlds
+from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import Pose
 from gazelle.envs.batched_task import BatchedTask, Info
 from gazelle.envs.course import CourseTask
 from gazelle.envs.decimals import rounded
+from gazelle.envs.destination_task import DestinationTask
 from gazelle.envs.discrete_drive.rules import CONTROL_PERIOD, DriveRules
 from gazelle.envs.discrete_drive.scoring import ends_of, reward_of
 from gazelle.envs.free_space import FreeSpace, floor_plan_of
 from gazelle.envs.lidars import FittedLidar, every_nth_ray
 from gazelle.envs.options import SPLITS, TaskSettings, check_name
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.simulation_task import StepOutcome
 from gazelle.errors import TaskError
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Robot, Simulation
@@ -75,7 +76,7 @@ def drive_task(rules: DriveRules, nworld: int, settings: DriveSettings) -> Batch
     return CourseTask(task, first, first + 1, settings.course)
 
 
-class DriveTask(SimulationTask):
+class DriveTask(DestinationTask):
     """A base drives by one of a few velocities, in ``nworld`` worlds.
 
     Args:
@@ -151,19 +152,14 @@ class DriveTask(SimulationTask):
         """Reward and end of openai_ros' task, see `scoring`."""
         place, distance = self._place(observation)
         ends = ends_of(self.rules, self._nearest(), place, self._goal)
-        closer = distance < self.memory["distance"]
-        self.memory["distance"][:] = distance
+        closer = self.comes_closer(distance)
         reward = reward_of(self.rules, ends, forward=self._forward, closer=closer)
         success = ends.reached if self._goal is not None else self.lasting & ~ends.crashed
         info = {"is_success": success, "is_collision": ends.crashed & ~ends.reached}
-        return StepOutcome(reward, ends.over, {**info, **self._whereabouts(None)})
+        return StepOutcome(reward, ends.over, {**info, **self.whereabouts(None)})
 
-    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
-        no: Bools = np.zeros(len(worlds), np.bool_)
-        info = {"is_success": no, "is_collision": no.copy(), **self._whereabouts(worlds)}
-        return super()._look(worlds)[0], info
-
-    def _whereabouts(self, worlds: Worlds | None) -> Info:
+    def whereabouts(self, worlds: Worlds | None) -> Info:
+        """See `DestinationTask`."""
         place = self.robot.planar_pose(worlds)[:, :2]
         if self._goal is None:
             return {"position": place}

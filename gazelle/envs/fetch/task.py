@@ -27,6 +27,7 @@ from gazelle.envs.fetch.gripper import CarriedGripper, FlyingGripper
 from gazelle.envs.fetch.options import FetchSettings
 from gazelle.envs.fetch.welded import WELDED_STEP, WeldedArm
 from gazelle.envs.goal_task import GoalSimulationTask
+from gazelle.envs.simulation_task import simulation_of
 from gazelle.errors import EngineWarning
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
@@ -52,13 +53,8 @@ class FetchTask(GoalSimulationTask):
     def __init__(self, task: str, nworld: int, settings: FetchSettings) -> None:
         self.figures = figures = figures_of(task)
         welded = settings.control == "original"
-        simulation = Simulation(
-            assets.world(figures.world),
-            settings.engine,
-            nworld=nworld,
-            seed=settings.seed or 0,
-            time_step=settings.time_step or (WELDED_STEP if welded else None),
-            threads=settings.threads,
+        simulation = simulation_of(
+            assets.world(figures.world), nworld, settings, WELDED_STEP if welded else None
         )
         self._gripper = _gripper_of(settings.control, simulation, figures)
         # A weld is told the whole way, of which it gets as far in a step as there.

@@ -12,10 +12,9 @@ from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import Pose
 from gazelle.envs.decimals import rounded
 from gazelle.envs.options import TaskSettings
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
-from gazelle.simulation import Simulation
 
 CONTROL_PERIOD = 0.05  # [s]: openai_ros looks at the joints 20 times a second until they are there
 STEP = 0.05  # of one joint [rad]
@@ -46,13 +45,8 @@ class HopperTask(SimulationTask):
     view = View(look_at((2.4, -1.6, 1.2), (0.0, 0.0, 0.6)), width=480, height=400, samples=1)
 
     def __init__(self, nworld: int, settings: TaskSettings) -> None:
-        simulation = Simulation(
-            gazelle.load(assets.world("empty")),
-            settings.engine,
-            nworld=nworld,
-            seed=settings.seed or 0,
-            time_step=settings.time_step or _TIME_STEP,
-            threads=settings.threads,
+        simulation = simulation_of(
+            gazelle.load(assets.world("empty")), nworld, settings, _TIME_STEP
         )
         self.robot = simulation.spawn(assets.robot("monoped"), pose=Pose(z=HEIGHT))
         self._joints = [self.robot.joints[name] for name in JOINTS]

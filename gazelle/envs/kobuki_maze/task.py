@@ -18,9 +18,8 @@ from gazelle.envs.kobuki_maze.rules import CONTROL_PERIOD, LASER_MAX, KobukiRule
 from gazelle.envs.lidars import every_nth_ray
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.polar import distance_to, heading_to
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.sensors import View, look_at
-from gazelle.simulation import Simulation
 
 _PLANAR_STEP, _SPACE_STEP = 0.02, 0.004  # [s]; in space a light base's wheels slip at longer ones
 
@@ -39,14 +38,7 @@ class KobukiTask(SimulationTask):
 
     def __init__(self, rules: KobukiRules, nworld: int, settings: TaskSettings) -> None:
         step = _PLANAR_STEP if settings.engine == "planar" else _SPACE_STEP
-        simulation = Simulation(
-            gazelle.load(assets.world(rules.world)),
-            settings.engine,
-            nworld=nworld,
-            seed=settings.seed or 0,
-            time_step=settings.time_step or step,
-            threads=settings.threads,
-        )
+        simulation = simulation_of(gazelle.load(assets.world(rules.world)), nworld, settings, step)
         file = assets.root() / "kobuki_maze_rl" / "urdf" / f"{rules.robot}.urdf.xacro"
         start = Pose(*rules.starts[0])
         fitted = every_nth_ray(formats.load_model(file), 1)

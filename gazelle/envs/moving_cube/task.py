@@ -15,11 +15,10 @@ from gazelle.description import Pose
 from gazelle.envs.batched_task import Info
 from gazelle.envs.decimals import rounded
 from gazelle.envs.options import TaskSettings
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.errors import TaskError
 from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
-from gazelle.simulation import Simulation
 
 CONTROL_PERIOD = 0.04  # [s]; openai_ros waits until the wheel has its speed, some hundredths
 SPEED = 50.0  # of the wheel, that an action asks for [rad/s]
@@ -69,13 +68,8 @@ class MovingCubeTask(SimulationTask):
     view = View(look_at((2.6, 0.6, 1.3), (0.0, 0.6, 0.0)), width=480, height=320, samples=1)
 
     def __init__(self, nworld: int, settings: MovingCubeSettings) -> None:
-        simulation = Simulation(
-            gazelle.load(assets.world("empty")),
-            settings.engine,
-            nworld=nworld,
-            seed=settings.seed or 0,
-            time_step=settings.time_step or _TIME_STEP,
-            threads=settings.threads,
+        simulation = simulation_of(
+            gazelle.load(assets.world("empty")), nworld, settings, _TIME_STEP
         )
         self._cube = simulation.spawn(assets.robot("moving_cube"), pose=Pose(z=HALF_SIDE))
         self._wheel = self._cube.joints["inertia_wheel_roll_joint"]

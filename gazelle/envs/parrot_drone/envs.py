@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.parrot_drone.task import ParrotDroneSettings, ParrotDroneTask
 from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
-
-
-def _held_out(trained: Mapping[str, Any]) -> dict[str, Any]:
-    """Policies are evaluated from starts that are new to them."""
-    del trained
-    return {"starts": "held-out"}
+from gazelle.envs.starts import held_out_starts
 
 
 class ParrotDroneGotoEnv(SettingsEnv):
@@ -82,7 +76,7 @@ class ParrotDroneGotoEnv(SettingsEnv):
 
     task_class = ParrotDroneTask
     settings_class: ClassVar[type[TaskSettings]] = ParrotDroneSettings
-    evaluation_options = staticmethod(_held_out)
+    evaluation_options = staticmethod(held_out_starts)
 
 
 class ParrotDroneGotoVectorEnv(SettingsVectorEnv):
@@ -90,4 +84,4 @@ class ParrotDroneGotoVectorEnv(SettingsVectorEnv):
 
     task_class = ParrotDroneTask
     settings_class: ClassVar[type[TaskSettings]] = ParrotDroneSettings
-    evaluation_options = staticmethod(_held_out)
+    evaluation_options = staticmethod(held_out_starts)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.envs.starts import chessboard
 
 # x and y of what stands in the work space [m]: a barrier, and the stairs with the platform.
 _STANDING = ((5.6, 6.4, -1.0, 1.04), (8.4, 9.6, 2.5, 4.6))
@@ -20,9 +21,7 @@ def squares(*, held_out: bool) -> Floats:
     Args:
         held_out: Those of the other colour, which trainings do not see.
     """
-    column, row = np.meshgrid(np.arange(20), np.arange(10), indexing="ij")
-    colour = (column + row) % 2 == int(held_out)
-    middle = np.stack((column, row), axis=-1)[colour] * _SIDE
+    middle = chessboard(20, 10, held_out=held_out) * _SIDE
     x, y = middle.T
     free = ~((x > 8.0) & (y > 3.0))  # that would be the goal
     for x0, x1, y0, y1 in _STANDING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import gymnasium as gym
 import numpy as np
@@ -15,7 +14,8 @@ from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import Pose
 from gazelle.envs.batched_task import Info
 from gazelle.envs.decimals import rounded
-from gazelle.envs.options import SPLITS, TaskSettings, check_name
+from gazelle.envs.destination_task import DestinationTask
+from gazelle.envs.options import StartSettings
 from gazelle.envs.parrot_drone.places import JITTER, squares
 from gazelle.envs.parrot_drone.rules import (
     FARTHEST,
@@ -26,11 +26,10 @@ from gazelle.envs.parrot_drone.rules import (
     ends_of,
     reward_of,
 )
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.simulation_task import StepOutcome, simulation_of
 from gazelle.plugins.drone import Drone
 from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
-from gazelle.simulation import Simulation
 
 CONTROL_PERIOD = 1.0  # [s]: openai_ros sleeps so long after each command
 SPEED = 0.5  # of an action [m/s]
@@ -42,24 +41,11 @@ _DIRECTIONS = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ParrotDroneSettings(TaskSettings):
-    """Options of the task, checked.
-
-    Attributes:
-        starts: ``published``, or ``training`` or ``held-out``: anywhere over the field; places of the
-            two are not the same.
-    """
-
-    needs_forces: ClassVar[bool] = True
-    starts: str = "published"
-
-    def __post_init__(self) -> None:
-        # A zero-argument super() does not work in a dataclass with slots.
-        TaskSettings.__post_init__(self)
-        check_name("kind of starts", str(self.starts), SPLITS)
+class ParrotDroneSettings(StartSettings):
+    """Options of the task, checked; starts are anywhere over the field."""
 
 
-class ParrotDroneTask(SimulationTask):
+class ParrotDroneTask(DestinationTask):
     """A quadrotor flies to a place, in ``nworld`` worlds; see `ParrotDroneGotoEnv`.
 
     Args:
@@ -71,13 +57,8 @@ class ParrotDroneTask(SimulationTask):
     view = View(look_at((-3.0, -5.0, 5.0), (4.5, 2.0, 0.5)), width=480, height=320, samples=1)
 
     def __init__(self, nworld: int, settings: ParrotDroneSettings) -> None:
-        simulation = Simulation(
-            gazelle.load(assets.world("drone_field")),
-            settings.engine,
-            nworld=nworld,
-            seed=settings.seed or 0,
-            time_step=settings.time_step or _TIME_STEP,
-            threads=settings.threads,
+        simulation = simulation_of(
+            gazelle.load(assets.world("drone_field")), nworld, settings, _TIME_STEP
         )
         self.robot = simulation.spawn(assets.robot("parrot_ardrone"), pose=Pose(z=HEIGHT))
         plugins = (entry.plugin for entry in simulation.plugins)
@@ -137,17 +118,12 @@ class ParrotDroneTask(SimulationTask):
         seen = rounded(observation, 1)
         ends = ends_of(seen)
         distance = distance_of(seen[:, :3])
-        closer = distance < self.memory["distance"]
-        self.memory["distance"][:] = distance
+        closer = self.comes_closer(distance)
         info = {"is_success": ends.succeeded, "is_collision": ends.crashed & ~ends.succeeded}
-        return StepOutcome(reward_of(ends, closer), ends.over, {**info, **self._whereabouts(None)})
+        return StepOutcome(reward_of(ends, closer), ends.over, {**info, **self.whereabouts(None)})
 
-    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
-        no = np.zeros(len(worlds), np.bool_)
-        info = {"is_success": no, "is_collision": no.copy(), **self._whereabouts(worlds)}
-        return super()._look(worlds)[0], info
-
-    def _whereabouts(self, worlds: Worlds | None) -> Info:
+    def whereabouts(self, worlds: Worlds | None) -> Info:
+        """See `DestinationTask`."""
         place = self.robot.placement(worlds).position
         goal = np.tile(GOAL, (len(place), 1))
         return {"position": place, "goal": goal, "distance": distance_of(place)}

@@ -14,7 +14,7 @@ from gazelle.description import Model, World
 from gazelle.envs.batched_task import Info
 from gazelle.envs.options import SPLITS, TaskSettings, check_name
 from gazelle.envs.reacher.rules import ReachRules, ReachView
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.rotations import rotate
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Robot, Simulation
@@ -56,7 +56,7 @@ class ReachTask(SimulationTask):
 
     def __init__(self, rules: ReachRules, nworld: int, settings: ReachSettings) -> None:
         self.rules = rules
-        simulation, self.robot = _cell(rules, settings, nworld, settings.seed or 0)
+        simulation, self.robot = _cell(rules, settings, nworld)
         self._link, tool = self.robot.frame("tool0")
         self._tool = np.array(tool.position)
         moving = [joint for joint in self.robot.description.joints if joint.type != "fixed"]
@@ -159,7 +159,7 @@ class ReachTask(SimulationTask):
 
     def _reachable(self, settings: ReachSettings) -> Floats:
         """Places that the tool has in postures drawn at random, within the goals' box, shape (n, 3)."""
-        simulation, robot = _cell(self.rules, settings, _BATCH, 0)
+        simulation, robot = _cell(self.rules, replace(settings, seed=0), _BATCH)
         link, tool = robot.frame("tool0")
         joints = [robot.joints[name] for name in self._names]
         stream = Stream(int(settings.goals == "held-out"), "reacher/goals", _BATCH)
@@ -197,18 +197,9 @@ class ReachTask(SimulationTask):
         )
 
 
-def _cell(
-    rules: ReachRules, settings: TaskSettings, nworld: int, seed: int
-) -> tuple[Simulation, Robot]:
+def _cell(rules: ReachRules, settings: TaskSettings, nworld: int) -> tuple[Simulation, Robot]:
     """The arm alone; MoveIt, which moves it for frobs_rl, knows of no floor either."""
-    simulation = Simulation(
-        World(name="cell"),
-        settings.engine,
-        nworld=nworld,
-        seed=seed,
-        time_step=settings.time_step or _TIME_STEP,
-        threads=settings.threads,
-    )
+    simulation = simulation_of(World(name="cell"), nworld, settings, _TIME_STEP)
     model = _limited(formats.load_model(assets.robot(rules.robot)), rules)
     return simulation, simulation.spawn(model, name=rules.robot)
 

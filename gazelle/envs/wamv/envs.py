@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.starts import held_out_starts
 from gazelle.envs.wamv.task import WamvSettings, WamvTask
-
-
-def _held_out(trained: Mapping[str, Any]) -> dict[str, Any]:
-    """Policies are evaluated from starts that are new to them."""
-    del trained
-    return {"starts": "held-out"}
 
 
 class WamvBuoysEnv(SettingsEnv):
@@ -76,7 +70,7 @@ class WamvBuoysEnv(SettingsEnv):
 
     task_class = WamvTask
     settings_class: ClassVar[type[TaskSettings]] = WamvSettings
-    evaluation_options = staticmethod(_held_out)
+    evaluation_options = staticmethod(held_out_starts)
 
 
 class WamvBuoysVectorEnv(SettingsVectorEnv):
@@ -84,4 +78,4 @@ class WamvBuoysVectorEnv(SettingsVectorEnv):
 
     task_class = WamvTask
     settings_class: ClassVar[type[TaskSettings]] = WamvSettings
-    evaluation_options = staticmethod(_held_out)
+    evaluation_options = staticmethod(held_out_starts)

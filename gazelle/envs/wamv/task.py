@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
 
 import gymnasium as gym
 import numpy as np
@@ -15,12 +14,13 @@ from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import Pose
 from gazelle.envs.batched_task import Info
 from gazelle.envs.decimals import rounded
-from gazelle.envs.options import SPLITS, TaskSettings, check_name
-from gazelle.envs.simulation_task import SimulationTask, StepOutcome
+from gazelle.envs.destination_task import DestinationTask
+from gazelle.envs.options import StartSettings
+from gazelle.envs.simulation_task import StepOutcome, simulation_of
+from gazelle.envs.starts import chessboard
 from gazelle.envs.wamv.rules import GOAL, distance_of, outside, reached, reward_of
 from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
-from gazelle.simulation import Simulation
 from gazelle.simulation.values import DriveCommand
 
 CONTROL_PERIOD = 1.0  # [s]: openai_ros sleeps so long after each command
@@ -34,24 +34,11 @@ _FASTEST, _FASTEST_TURN = 4.0, 3.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WamvSettings(TaskSettings):
-    """Options of the task, checked.
-
-    Attributes:
-        starts: ``published``, or ``training`` or ``held-out``: anywhere in the channel; places of the two
-            are not the same.
-    """
-
-    needs_forces: ClassVar[bool] = True
-    starts: str = "published"
-
-    def __post_init__(self) -> None:
-        # A zero-argument super() does not work in a dataclass with slots.
-        TaskSettings.__post_init__(self)
-        check_name("kind of starts", str(self.starts), SPLITS)
+class WamvSettings(StartSettings):
+    """Options of the task, checked; starts are anywhere in the channel."""
 
 
-class WamvTask(SimulationTask):
+class WamvTask(DestinationTask):
     """A catamaran goes to a place between buoys, in ``nworld`` worlds; see `WamvBuoysEnv`.
 
     Args:
@@ -63,13 +50,8 @@ class WamvTask(SimulationTask):
     view = View(look_at((-10.0, -12.0, 9.0), (12.0, 0.0, 0.0)), width=480, height=320, samples=1)
 
     def __init__(self, nworld: int, settings: WamvSettings) -> None:
-        simulation = Simulation(
-            gazelle.load(assets.world("wamv_channel")),
-            settings.engine,
-            nworld=nworld,
-            seed=settings.seed or 0,
-            time_step=settings.time_step or _TIME_STEP,
-            threads=settings.threads,
+        simulation = simulation_of(
+            gazelle.load(assets.world("wamv_channel")), nworld, settings, _TIME_STEP
         )
         self.robot = simulation.spawn(assets.robot("wamv"), pose=Pose(z=DRAUGHT))
         self._squares = None
@@ -129,19 +111,14 @@ class WamvTask(SimulationTask):
         success = reached(place)
         over = success | outside(place)
         distance = distance_of(place)
-        closer = distance < self.memory["distance"]
-        self.memory["distance"][:] = distance
+        closer = self.comes_closer(distance)
         info = {"is_success": success, "is_collision": np.zeros(self.nworld, np.bool_)}
         return StepOutcome(
-            reward_of(over, success, closer), over, {**info, **self._whereabouts(None)}
+            reward_of(over, success, closer), over, {**info, **self.whereabouts(None)}
         )
 
-    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
-        no = np.zeros(len(worlds), np.bool_)
-        info = {"is_success": no, "is_collision": no.copy(), **self._whereabouts(worlds)}
-        return super()._look(worlds)[0], info
-
-    def _whereabouts(self, worlds: Worlds | None) -> Info:
+    def whereabouts(self, worlds: Worlds | None) -> Info:
+        """See `DestinationTask`."""
         place = self.robot.placement(worlds).position[:, :2]
         goal = np.tile(GOAL[:2], (len(place), 1))
         return {"position": place, "goal": goal, "distance": np.hypot(*(place - goal).T)}
@@ -153,6 +130,4 @@ def squares(*, held_out: bool) -> Floats:
     Args:
         held_out: Those of the other colour, which trainings do not see.
     """
-    column, row = np.meshgrid(np.arange(_COLUMNS), np.arange(_ROWS), indexing="ij")
-    colour = (column + row) % 2 == int(held_out)
-    return np.asarray(np.stack((column, row), axis=-1)[colour] + np.array(_FIRST), np.float64)
+    return np.asarray(chessboard(_COLUMNS, _ROWS, held_out=held_out) + np.array(_FIRST))

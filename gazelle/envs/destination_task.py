@@ -1,0 +1,35 @@
+"""Tasks in which a robot goes somewhere: what is told of the way, and when it comes nearer."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+
+import numpy as np
+
+from gazelle.array_types import Bools, Floats, Floats32, Worlds
+from gazelle.envs.batched_task import Info
+from gazelle.envs.simulation_task import SimulationTask
+
+
+class DestinationTask(SimulationTask):
+    """A `SimulationTask` whose info says from the start where the robot is, and that nothing came yet."""
+
+    @abstractmethod
+    def whereabouts(self, worlds: Worlds | None) -> Info:
+        """Where the robot and its goal are in these worlds; all if None."""
+
+    def comes_closer(self, distance: Floats) -> Bools:
+        """Whether it is nearer to its goal than in the step before, which is forgotten.
+
+        Args:
+            distance: From the goal [m], shape (nworld,); ``memory["distance"]`` is the last one.
+        """
+        before = self.memory["distance"]
+        closer: Bools = distance < before
+        before[:] = distance
+        return closer
+
+    def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
+        no = np.zeros(len(worlds), np.bool_)
+        info = {"is_success": no, "is_collision": no.copy(), **self.whereabouts(worlds)}
+        return super()._look(worlds)[0], info
