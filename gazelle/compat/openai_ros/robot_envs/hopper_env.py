@@ -6,8 +6,6 @@ import math
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
-import numpy as np
-
 from gazelle.compat.openai_ros.gazebo_connection import WORLD
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
 from gazelle.ros import load_message
@@ -85,12 +83,3 @@ class HopperEnv(TopicRobotEnv):
             if self.check_array_similar(joints_array, states.position[:3], epsilon):
                 return
             self.simulated_time.wait(1.0 / update_rate)
-
-    def check_array_similar(
-        self,
-        ref_value_array: Sequence[float],
-        check_value_array: Sequence[float],
-        epsilon: float,
-    ) -> bool:
-        """Whether numbers are as near to each other as they shall be."""
-        return bool(np.allclose(ref_value_array, check_value_array, atol=epsilon))

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Any, ClassVar
-
-import numpy as np
 
 from gazelle.compat.openai_ros.gazebo_connection import WORLD
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
@@ -116,12 +113,3 @@ class ParrotDroneEnv(TopicRobotEnv):
     def wait_time_for_execute_movement(self) -> None:
         """Wait while a velocity acts."""
         self.simulated_time.wait(_HOLD_S)
-
-    def check_array_similar(
-        self,
-        ref_value_array: Sequence[float],
-        check_value_array: Sequence[float],
-        epsilon: float,
-    ) -> bool:
-        """Whether numbers are as near to each other as they shall be."""
-        return bool(np.allclose(ref_value_array, check_value_array, atol=epsilon))

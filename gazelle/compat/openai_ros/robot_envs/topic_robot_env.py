@@ -7,6 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from gazelle.compat.openai_ros.gazebo_connection import SIMULATION
 from gazelle.compat.openai_ros.openai_ros_common import ROSLauncher
 from gazelle.compat.openai_ros.robot_gazebo_env import RobotGazeboEnv
@@ -190,6 +192,15 @@ class TopicRobotEnv(RobotGazeboEnv):
         """Wait until the launch file has started the controllers that will be reset."""
         if self.reset_controls:
             self.controllers_object.wait_running(PATIENCE_S)
+
+    def check_array_similar(
+        self,
+        ref_value_array: Sequence[float],
+        check_value_array: Sequence[float],
+        epsilon: float,
+    ) -> bool:
+        """Whether numbers are as near to each other as they shall be."""
+        return bool(np.allclose(ref_value_array, check_value_array, atol=epsilon))
 
 
 def _getter(name: str) -> Callable[[TopicRobotEnv], Any]:

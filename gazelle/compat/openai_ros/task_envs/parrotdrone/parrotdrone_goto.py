@@ -8,7 +8,8 @@ import numpy as np
 
 from gazelle.compat.gym.spaces import Box, Discrete
 from gazelle.compat.openai_ros.robot_envs.parrotdrone_env import ParrotDroneEnv
-from gazelle.compat.openai_ros.task_envs.geometry import distance, euler_of, is_at, point
+from gazelle.compat.openai_ros.task_envs.geometry import euler_of, point
+from gazelle.compat.openai_ros.task_envs.places import DesiredPoint
 from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.ros import load_message
@@ -23,7 +24,7 @@ _AT_GOAL = 0.5
 """How near to the goal earns the reward, along x and along y [m]."""
 
 
-class ParrotDroneGotoEnv(ParrotDroneEnv):
+class ParrotDroneGotoEnv(DesiredPoint, ParrotDroneEnv):
     """Fly to ``desired_pose``; parameters under ``/drone``.
 
     Observation: x, y, z cut to whole metres; roll, pitch, yaw [rad] and the sonar [m] with one decimal. Actions:
@@ -49,7 +50,6 @@ class ParrotDroneGotoEnv(ParrotDroneEnv):
         )
         self.last_action = ""
         self.cumulated_reward = self.cumulated_steps = 0.0
-        self.previous_distance_from_des_point = 0.0
         super().__init__(workspace)
 
     def _read_parameters(self) -> None:
@@ -127,9 +127,7 @@ class ParrotDroneGotoEnv(ParrotDroneEnv):
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
         place = point(*observations[:3])
-        left = self.get_distance_from_desired_point(place)
-        nearer = left < self.previous_distance_from_des_point
-        self.previous_distance_from_des_point = left
+        nearer = self._comes_nearer(place)
         if done:
             there = self.is_in_desired_position(place, _AT_GOAL)
             reward = self.end_episode_points if there else -self.end_episode_points
@@ -138,10 +136,6 @@ class ParrotDroneGotoEnv(ParrotDroneEnv):
         self.cumulated_reward += reward
         self.cumulated_steps += 1
         return reward
-
-    def is_in_desired_position(self, current_position: Any, epsilon: float = 0.05) -> bool:
-        """Whether a place is above or below the goal."""
-        return is_at(current_position, self.desired_point, epsilon)
 
     def is_inside_workspace(self, current_position: Any) -> bool:
         """Whether a place is in the work space; its upper edges belong to it."""
@@ -161,14 +155,6 @@ class ParrotDroneGotoEnv(ParrotDroneEnv):
             -self.max_roll < current_orientation.x <= self.max_roll
             and -self.max_pitch < current_orientation.y <= self.max_pitch
         )
-
-    def get_distance_from_desired_point(self, current_position: Any) -> float:
-        """From a place to the goal [m]."""
-        return distance(current_position, self.desired_point)
-
-    def get_orientation_euler(self, quaternion_vector: Any) -> tuple[float, float, float]:
-        """Roll, pitch and yaw [rad]."""
-        return euler_of(quaternion_vector)
 
 
 def _vector(x: float, y: float, z: float) -> Any:

@@ -8,7 +8,8 @@ import numpy as np
 
 from gazelle.compat.gym.spaces import Box, Discrete
 from gazelle.compat.openai_ros.robot_envs.wamv_env import WamvEnv
-from gazelle.compat.openai_ros.task_envs.geometry import distance, euler_of, is_at, point
+from gazelle.compat.openai_ros.task_envs.geometry import euler_of, point
+from gazelle.compat.openai_ros.task_envs.places import DesiredPoint
 from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.ros.compat import rospy
@@ -21,7 +22,7 @@ _EDGES = ("x_min", "x_max", "y_min", "y_max")
 _ACTIONS = ((1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0))
 
 
-class WamvNavTwoSetsBuoysEnv(WamvEnv):
+class WamvNavTwoSetsBuoysEnv(DesiredPoint, WamvEnv):
     """Go to ``desired_point``; parameters under ``/wamv``.
 
     Observation, rounded to ``number_decimals_precision_obs``: x, y [m]; roll, pitch, yaw [rad]; velocity along x and
@@ -47,7 +48,6 @@ class WamvNavTwoSetsBuoysEnv(WamvEnv):
             np.array([*high, self.max_distance_from_des_point], np.float32),
         )
         self.cumulated_reward = self.cumulated_steps = 0.0
-        self.previous_distance_from_des_point = 0.0
         super().__init__(workspace)
 
     def _read_parameters(self) -> None:
@@ -115,9 +115,7 @@ class WamvNavTwoSetsBuoysEnv(WamvEnv):
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
         place = point(*observations[:2])
-        left = self.get_distance_from_desired_point(place)
-        nearer = left < self.previous_distance_from_des_point
-        self.previous_distance_from_des_point = left
+        nearer = self._comes_nearer(place)
         if done:
             good = self.is_in_desired_position(place, self.desired_point_epsilon)
             reward = self.done_reward if good else -self.done_reward
@@ -127,21 +125,9 @@ class WamvNavTwoSetsBuoysEnv(WamvEnv):
         self.cumulated_steps += 1
         return reward
 
-    def is_in_desired_position(self, current_position: Any, epsilon: float = 0.05) -> bool:
-        """Whether a place is the goal."""
-        return is_at(current_position, self.desired_point, epsilon)
-
     def is_inside_workspace(self, current_position: Any) -> bool:
         """Whether a place is in the work space; its upper edges belong to it."""
         return bool(
             self.work_space_x_min < current_position.x <= self.work_space_x_max
             and self.work_space_y_min < current_position.y <= self.work_space_y_max
         )
-
-    def get_distance_from_desired_point(self, current_position: Any) -> float:
-        """From a place to the goal [m]."""
-        return distance(current_position, self.desired_point)
-
-    def get_orientation_euler(self, quaternion_vector: Any) -> tuple[float, float, float]:
-        """Roll, pitch and yaw [rad]."""
-        return euler_of(quaternion_vector)
