@@ -10,19 +10,15 @@ before the first update is imitated, see `gazelle.training.demonstrations`.
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 import torch
 from stable_baselines3 import DDPG, TD3
-from torch import nn
 
+from gazelle.training.critic_update import CriticUpdate, follow, frozen
 from gazelle.training.demonstrations import Demonstrator, shown_actions
-from gazelle.training.recipe import OffPolicySettings
-from gazelle.training.scaling import ObservationScale
 
 _SHOWN = 4  # of a minibatch one in so many is what was shown, besides
 _STEADY = 0.5  # of the noise that a demonstrator's actions get
@@ -35,19 +31,15 @@ class _Imitated(NamedTuple):
     actions: torch.Tensor
 
 
-class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
+class _Deterministic(CriticUpdate, TD3):  # type: ignore[misc]  # untyped base
     """What `FastDDPG` and `FastTD3` have in common.
 
     Attributes:
-        scale: Of observations.
-        ways: How it learns, beyond what Stable-Baselines3 knows.
         demonstrator: Acts before the first update, if set.
         least_reward: The least that was learnt from so far, 0 at most.
         greatest_reward: The greatest, 0 at least.
     """
 
-    scale: ObservationScale
-    ways: OffPolicySettings = OffPolicySettings()
     demonstrator: Demonstrator | None = None
     least_reward: float = 0.0
     greatest_reward: float = 0.0
@@ -71,17 +63,6 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
         self.logger.record("train/actor_loss", actor_loss.item())
         self.logger.record("train/critic_loss", critic_loss.item())
 
-    def _improve_critic(self, features: torch.Tensor, batch: Any) -> torch.Tensor:
-        """One step of the critics' optimiser; their loss."""
-        target = self._target(batch)
-        known = torch.cat((features, batch.actions), dim=1)
-        errors = [self._outputs(net, known) - target for net in self.critic.q_networks]
-        loss = torch.stack([error.square().mean() for error in errors]).sum()
-        self.critic.optimizer.zero_grad()
-        torch.autograd.backward(loss)
-        self.critic.optimizer.step()
-        return loss.detach()
-
     @torch.no_grad()
     def _target(self, batch: Any) -> torch.Tensor:
         """What the critics should say, shape (n, 1)."""
@@ -91,9 +72,7 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
             noise = torch.randn_like(actions) * self.target_policy_noise
             noise = noise.clamp(-self.target_noise_clip, self.target_noise_clip)
             actions = (actions + noise).clamp(-1.0, 1.0)
-        known = torch.cat((following, actions), dim=1)
-        values = [self._outputs(net, known) for net in self.critic_target.q_networks]
-        value = torch.stack(values).amin(dim=0)
+        value = self._least_value(self.critic_target, following, actions)
         target: torch.Tensor = batch.rewards + (1.0 - batch.dones) * self.gamma * value
         if not self.ways.bound_values or self.gamma >= 1.0:
             return target
@@ -139,13 +118,8 @@ class _Deterministic(TD3):  # type: ignore[misc]  # untyped base
     @torch.no_grad()
     def _follow(self) -> None:
         """Let the targets come nearer."""
-        pairs = (self.critic, self.critic_target), (self.actor, self.actor_target)
-        for learnt, target in pairs:
-            old, new = list(target.parameters()), list(learnt.parameters())
-            torch._foreach_lerp_(old, new, self.tau)
-
-    def _outputs(self, net: nn.Sequential, inputs: torch.Tensor) -> torch.Tensor:
-        return outputs_of(net, inputs, bfloat16=self.ways.bfloat16)
+        follow(self.critic_target, self.critic, self.tau)
+        follow(self.actor_target, self.actor, self.tau)
 
     def _sample_action(
         self, learning_starts: int, action_noise: Any = None, n_envs: int = 1
@@ -172,25 +146,3 @@ class FastDDPG(_Deterministic, DDPG):  # type: ignore[misc]  # untyped base
 
 class FastTD3(_Deterministic):
     """TD3; likewise."""
-
-
-def outputs_of(net: nn.Sequential, inputs: torch.Tensor, *, bfloat16: bool) -> torch.Tensor:
-    """Of a network whose hidden layers may multiply in bfloat16; the last one never does."""
-    last = max(i for i, layer in enumerate(net) if isinstance(layer, nn.Linear))
-    with torch.autocast("cpu", torch.bfloat16, enabled=bfloat16):
-        hidden = net[:last](inputs)
-    outputs: torch.Tensor = net[last:](hidden.float())
-    return outputs
-
-
-@contextlib.contextmanager
-def frozen(parameters: Iterable[nn.Parameter]) -> Any:
-    """Ask for no gradients of these meanwhile."""
-    held = list(parameters)
-    for each in held:
-        each.requires_grad_(False)
-    try:
-        yield
-    finally:
-        for each in held:
-            each.requires_grad_(True)

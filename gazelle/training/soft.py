@@ -9,30 +9,22 @@ from fewer minibatches than the critics.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import torch
 from stable_baselines3 import SAC
 from torch import nn
 
-from gazelle.training.deterministic import frozen, outputs_of
+from gazelle.training.critic_update import CriticUpdate, follow, frozen
 from gazelle.training.ppo_update import HALF_LOG_2_PI
-from gazelle.training.recipe import OffPolicySettings
-from gazelle.training.scaling import ObservationScale
 
 _LOG_STD = -20.0, 2.0  # bounds of the logarithm of an action's deviation
 
 
-class FastSAC(SAC):  # type: ignore[misc]  # untyped base
-    """SAC; see the module's text for what differs.
+class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
+    """SAC; see the module's text for what differs."""
 
-    Attributes:
-        scale: Of observations.
-        ways: How it learns, beyond what Stable-Baselines3 knows.
-    """
-
-    scale: ObservationScale
-    ways: OffPolicySettings = OffPolicySettings()
+    critic_weight: ClassVar[float] = 0.5
 
     def train(self, gradient_steps: int, batch_size: int = 64) -> None:
         """Learn from so many minibatches."""
@@ -57,25 +49,13 @@ class FastSAC(SAC):  # type: ignore[misc]  # untyped base
         self.logger.record("train/actor_loss", actor_loss.item())
         self.logger.record("train/critic_loss", critic_loss.item())
 
-    def _improve_critic(self, features: torch.Tensor, batch: Any) -> torch.Tensor:
-        """One step of the critics' optimiser; their loss."""
-        target = self._target(batch)
-        known = torch.cat((features, batch.actions), dim=1)
-        errors = [self._outputs(net, known) - target for net in self.critic.q_networks]
-        loss = 0.5 * torch.stack([error.square().mean() for error in errors]).sum()
-        self.critic.optimizer.zero_grad()
-        torch.autograd.backward(loss)
-        self.critic.optimizer.step()
-        return loss.detach()
-
     @torch.no_grad()
     def _target(self, batch: Any) -> torch.Tensor:
         """What the critics should say, shape (n, 1)."""
         following = self.actor.features_extractor(batch.next_observations)
         actions, logs = self._drawn(following)
-        known = torch.cat((following, actions), dim=1)
-        values = [self._outputs(net, known) for net in self.critic_target.q_networks]
-        value = torch.stack(values).amin(dim=0) - self.log_ent_coef.exp() * logs
+        least = self._least_value(self.critic_target, following, actions)
+        value = least - self.log_ent_coef.exp() * logs
         target: torch.Tensor = batch.rewards + (1.0 - batch.dones) * self.gamma * value
         return target
 
@@ -91,9 +71,8 @@ class FastSAC(SAC):  # type: ignore[misc]  # untyped base
         """
         price = self.log_ent_coef.detach().exp()
         with frozen(self.critic.parameters()):
-            known = torch.cat((features, actions), dim=1)
-            values = [self._outputs(net, known) for net in self.critic.q_networks]
-        loss: torch.Tensor = (price * logs - torch.stack(values).amin(dim=0)).mean()
+            values = self._least_value(self.critic, features, actions)
+        loss: torch.Tensor = (price * logs - values).mean()
         self.actor.optimizer.zero_grad()
         torch.autograd.backward(loss)
         self.actor.optimizer.step()
@@ -117,8 +96,4 @@ class FastSAC(SAC):  # type: ignore[misc]  # untyped base
     @torch.no_grad()
     def _follow(self) -> None:
         """Let the targets come nearer."""
-        old, new = (list(net.parameters()) for net in (self.critic_target, self.critic))
-        torch._foreach_lerp_(old, new, self.tau)
-
-    def _outputs(self, net: nn.Sequential, inputs: torch.Tensor) -> torch.Tensor:
-        return outputs_of(net, inputs, bfloat16=self.ways.bfloat16)
+        follow(self.critic_target, self.critic, self.tau)
