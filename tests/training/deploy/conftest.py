@@ -8,6 +8,14 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parent))
 
 
+@pytest.fixture
+def master():
+    from gazelle.ros import Master
+
+    with Master(port=0, rosout=False) as running:
+        yield running
+
+
 @pytest.fixture(scope="session")
 def straight_on(tmp_path_factory):
     """A policy file that always drives straight on, with the contract of stage 1."""

@@ -13,15 +13,9 @@ import numpy as np
 import pytest
 from fake_robot import Deployed, wait_for
 
-from gazelle.ros import Master, Node
+from gazelle.ros import Node
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
-
-
-@pytest.fixture
-def master():
-    with Master(port=0, rosout=False) as running:
-        yield running
 
 
 @pytest.fixture

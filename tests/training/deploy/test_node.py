@@ -20,12 +20,6 @@ STAND, AHEAD = (0.0, 0.0), (0.15, 0.0)
 
 
 @pytest.fixture
-def master():
-    with Master(port=0, rosout=False) as running:
-        yield running
-
-
-@pytest.fixture
 def robot(master):
     made = FakeRobot(master.uri)
     yield made

@@ -9,16 +9,10 @@ import sys
 import pytest
 from fake_robot import wait_for
 
-from gazelle.ros import Master, Node, load_message
+from gazelle.ros import Node, load_message
 from gazelle.ros.builtin import bundled
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
-
-
-@pytest.fixture
-def master():
-    with Master(port=0, rosout=False) as running:
-        yield running
 
 
 @pytest.fixture
