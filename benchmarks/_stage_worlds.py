@@ -199,7 +199,6 @@ def graph(goals: Goals) -> None:
         factor = sim.time_step / seconds_a_step(sim, [0])
     print(f"\n{FLEET} AGVs with 640 rays, no window:{factor:>10,.0f} times real time")
     goals.least(f"{FLEET} AGVs, no window: times real time", factor, 70.0)
-    sys.path.insert(0, str(HERE))
     import ros
 
     python = ros.DEBIAN if ros.has_rospy(ros.DEBIAN) else sys.executable

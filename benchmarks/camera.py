@@ -14,7 +14,6 @@ and depth, are measured in a hall made here, all robots in one call.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -162,7 +161,6 @@ def stage(robots: int, width: int, height: int, seconds: float) -> float:
 
 def classic(seconds: float) -> None:
     """Print the classic renderer's figures beside ours, with shadows and without."""
-    sys.path.insert(0, str(Path(__file__).resolve().parent))
     import _classic_renderer
 
     lack = _classic_renderer.missing()

@@ -13,7 +13,6 @@ import argparse
 import contextlib
 import io
 import os
-import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -60,7 +59,6 @@ def main() -> None:
     parser.add_argument("--windows", type=int, default=5, help="of which the best (default 5)")
     parser.add_argument("--engine", action="append", help="mujoco or planar (default both)")
     args = parser.parse_args()
-    sys.path.insert(0, str(Path(__file__).resolve().parent))
     from _goals import Goals
 
     goals = Goals()

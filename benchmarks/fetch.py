@@ -11,7 +11,6 @@ import argparse
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -52,7 +51,6 @@ def main() -> None:
         "--peer", metavar="PYTHON", help="a Python with gymnasium-robotics (default this one)"
     )
     args = parser.parse_args()
-    sys.path.insert(0, str(Path(__file__).resolve().parent))
     from _goals import Goals
 
     goals = Goals()

@@ -50,7 +50,7 @@ def measure(robot: RobotModel, group: JointModelGroup, count: int, limit: float)
 
 def main() -> None:
     """Measure all arms."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(prog="gazelle bench ik", description=__doc__)
     parser.add_argument("--poses", type=int, default=10_000, help="of each arm")
     parser.add_argument("--limit", type=float, default=0.005, help="seconds a pose")
     args = parser.parse_args()

@@ -235,7 +235,7 @@ def is_free(grid: OccupancyMap, x: float, y: float) -> bool:
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(prog="gazelle bench navigation", description=__doc__)
     parser.add_argument("--stages", action="store_true", help="the stages, too (minutes)")
     parser.add_argument("--goals", type=int, default=20, help="in each stage")
     parser.add_argument("--robots", type=int, default=20)

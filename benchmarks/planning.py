@@ -85,7 +85,7 @@ def measure(count: int, *, use_ompl: bool) -> str:
 
 def main() -> None:
     """Measure with each planner."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(prog="gazelle bench planning", description=__doc__)
     parser.add_argument("--queries", type=int, default=100)
     args = parser.parse_args()
     print(f"{args.queries} queries; ms of processor time to plan, shorten and time")

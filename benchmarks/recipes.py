@@ -92,7 +92,9 @@ def share(rates: list[SuccessRate | None]) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+        prog="gazelle bench recipes",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
         "--tasks", nargs="+", default=_STAGES, metavar="TASK", help="or all that have a figure"

@@ -29,7 +29,7 @@ _RANGES = np.linspace(0.1, 9.0, 720).astype(np.float32)
 
 def main(argv: list[str] | None = None) -> None:
     """Measure and print a table."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(prog="gazelle bench ros_messages", description=__doc__)
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--seconds", type=float, default=0.02, help="length of a round")
     options = parser.parse_args(argv)

@@ -12,7 +12,6 @@ from __future__ import annotations
 import argparse
 import math
 import os
-import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -57,7 +56,6 @@ def main() -> None:
     parser.add_argument("--stage", type=Path, help="the program of Stage, else the one on PATH")
     parser.add_argument("--only", choices=PARTS, help="a part of it alone")
     args = parser.parse_args()
-    sys.path.insert(0, str(Path(__file__).resolve().parent))
     from _goals import Goals
 
     goals = Goals()

@@ -96,7 +96,7 @@ def machine_room(rate: float, megabytes: float, packing: float, update: float) -
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(prog="gazelle bench workers", description=__doc__)
     parser.add_argument("--ray", action="store_true", help="actors of Ray's, beside processes")
     parser.add_argument("--windows", type=int, default=10, help="rollouts timed, the best counts")
     args = parser.parse_args()

@@ -34,12 +34,13 @@ def run(args: argparse.Namespace) -> int:
         hint = did_you_mean(args.name, known)
         raise ResolveError(f"there is no benchmark '{args.name}'", hint=hint)
     path = known[args.name]
-    saved = sys.argv
-    sys.argv = [str(path), *args.arguments]
+    saved = sys.argv, sys.path
+    sys.argv = [f"gazelle bench {args.name}", *args.arguments]
+    sys.path = [str(path.parent), *sys.path]  # they import what lies beside them
     try:
         runpy.run_path(str(path), run_name="__main__")
     finally:
-        sys.argv = saved
+        sys.argv, sys.path = saved
     return 0
 
 
@@ -55,7 +56,12 @@ def benchmarks() -> dict[str, Path]:
             "the benchmarks come with the source code only",
             hint="get a checkout of Gazelle and install it with: pip install -e .",
         )
-    return {path.stem: path for path in sorted(folder.glob("*.py")) if path.stem[0] != "_"}
+    return {path.stem: path for path in sorted(folder.glob("*.py")) if _is_run(path)}
+
+
+def _is_run(path: Path) -> bool:
+    """Whether a file is a benchmark, and not there to be imported by one."""
+    return path.stem[0] != "_" and '__name__ == "__main__"' in path.read_text(encoding="utf-8")
 
 
 def _purpose(path: Path) -> str:

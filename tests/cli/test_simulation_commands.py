@@ -11,6 +11,8 @@ import time
 
 import pytest
 
+from gazelle.cli.bench import benchmarks
+
 
 def test_run_simulates_for_a_time(cli):
     code, out, err = cli("run", "turtlebot3_stage_1", "--for", 0.5, "--rate", "max")
@@ -134,6 +136,14 @@ def test_unknown_benchmark_is_an_error(cli):
     code, _, err = cli("bench", "no_such_benchmark")
     assert code == 1
     assert "there is no benchmark 'no_such_benchmark'" in err
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", benchmarks())
+def test_every_benchmark_says_what_it_measures(name):
+    command = [sys.executable, "-m", "gazelle", "bench", name, "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.stdout.startswith(f"usage: gazelle bench {name} "), done.stderr
 
 
 STAGE = """# two robots in a yard
