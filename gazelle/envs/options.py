@@ -87,14 +87,20 @@ class TaskSettings:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StartSettings(TaskSettings):
-    """Options of a task in space that can begin at many places, checked.
+class DynamicsSettings(TaskSettings):
+    """Options of a task whose robot is moved by forces, checked: the plane's engine is refused."""
+
+    needs_forces: ClassVar[bool] = True
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StartSettings(DynamicsSettings):
+    """Options of a task moved by forces that can begin at many places, checked.
 
     Attributes:
         starts: ``published``, or ``training`` or ``held-out``: anywhere; places of the two are not the same.
     """
 
-    needs_forces: ClassVar[bool] = True
     starts: str = "published"
 
     def __post_init__(self) -> None:

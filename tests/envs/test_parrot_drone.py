@@ -140,8 +140,3 @@ def test_the_state_can_be_put_back():
     task.set_state(kept)
     again = [task.advance(np.array([2, 0])).observation for _ in range(2)]
     np.testing.assert_array_equal(ahead, again)
-
-
-def test_the_plane_s_engine_is_refused():
-    with pytest.raises(TaskError, match="knows no forces"):
-        ParrotDroneSettings(engine="planar")

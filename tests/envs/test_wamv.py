@@ -154,8 +154,3 @@ def test_actions_on_a_graph_are_those_of_the_native_task(env):
     for action in range(4):
         env._set_action(action)
     assert env.commands == [(1, 1, 1), (-1, -1, 1), (1, -1, 1), (-1, 1, 1)]
-
-
-def test_the_plane_s_engine_is_refused():
-    with pytest.raises(TaskError, match="knows no forces"):
-        WamvSettings(engine="planar")

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from gazelle.envs.cartpole.task import CartPoleTask
+from gazelle.envs.options import DynamicsSettings, TaskSettings
 from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
 
 
@@ -57,6 +60,7 @@ class CartPoleStayUpEnv(SettingsEnv):
 
     task: CartPoleTask
     task_class = CartPoleTask
+    settings_class: ClassVar[type[TaskSettings]] = DynamicsSettings
 
 
 class CartPoleStayUpVectorEnv(SettingsVectorEnv):
@@ -70,3 +74,4 @@ class CartPoleStayUpVectorEnv(SettingsVectorEnv):
 
     task: CartPoleTask
     task_class = CartPoleTask
+    settings_class: ClassVar[type[TaskSettings]] = DynamicsSettings

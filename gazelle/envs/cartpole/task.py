@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import World
-from gazelle.envs.options import TaskSettings
+from gazelle.envs.options import DynamicsSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.sensors import View, look_at
 
@@ -34,7 +34,7 @@ class CartPoleTask(SimulationTask):
     scenario_names = ("pole_angle",)
     view = View(look_at((3.2, 0.0, 1.4), (0.0, 0.0, 0.8)), width=480, height=320, samples=1)
 
-    def __init__(self, nworld: int, settings: TaskSettings) -> None:
+    def __init__(self, nworld: int, settings: DynamicsSettings) -> None:
         world = simulation_of(World(name="cartpole"), nworld, settings, _TIME_STEP)
         robot = world.spawn(assets.robot("cartpole"), name="cartpole")
         self._foot, self._pole = robot.joints["foot_joint"], robot.joints["pole_joint"]

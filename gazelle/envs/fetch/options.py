@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gazelle.envs.options import TaskOptions, TaskSettings, check_name
+from gazelle.envs.options import DynamicsSettings, TaskOptions, check_name
 
 REWARDS = ("sparse", "dense")
 CONTROLS = ("gripper", "joint", "original")
@@ -18,7 +18,7 @@ class FetchOptions(TaskOptions, total=False):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FetchSettings(TaskSettings):
+class FetchSettings(DynamicsSettings):
     """Options of a Fetch task, checked.
 
     Attributes:
@@ -35,6 +35,6 @@ class FetchSettings(TaskSettings):
 
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
-        TaskSettings.__post_init__(self)
+        DynamicsSettings.__post_init__(self)
         check_name("reward_type", str(self.reward_type), REWARDS)
         check_name("control", str(self.control), CONTROLS)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from gazelle.envs.hopper.task import HopperTask
+from gazelle.envs.options import DynamicsSettings, TaskSettings
 from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
 
 
@@ -66,9 +69,11 @@ class HopperStayUpEnv(SettingsEnv):
     """
 
     task_class = HopperTask
+    settings_class: ClassVar[type[TaskSettings]] = DynamicsSettings
 
 
 class HopperStayUpVectorEnv(SettingsVectorEnv):
     """`HopperStayUpEnv` in many worlds at once; that page is the data sheet."""
 
     task_class = HopperTask
+    settings_class: ClassVar[type[TaskSettings]] = DynamicsSettings

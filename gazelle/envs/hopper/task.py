@@ -11,7 +11,7 @@ from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import Pose
 from gazelle.envs.decimals import rounded
-from gazelle.envs.options import TaskSettings
+from gazelle.envs.options import DynamicsSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
@@ -44,7 +44,7 @@ class HopperTask(SimulationTask):
     scenario_names = ("start_roll", "start_pitch")
     view = View(look_at((2.4, -1.6, 1.2), (0.0, 0.0, 0.6)), width=480, height=400, samples=1)
 
-    def __init__(self, nworld: int, settings: TaskSettings) -> None:
+    def __init__(self, nworld: int, settings: DynamicsSettings) -> None:
         simulation = simulation_of(
             gazelle.load(assets.world("empty")), nworld, settings, _TIME_STEP
         )

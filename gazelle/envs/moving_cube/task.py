@@ -14,7 +14,7 @@ from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import Pose
 from gazelle.envs.batched_task import Info
 from gazelle.envs.decimals import rounded
-from gazelle.envs.options import TaskSettings
+from gazelle.envs.options import DynamicsSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.errors import TaskError
 from gazelle.rotations import roll_pitch_yaw
@@ -36,7 +36,7 @@ _ACTIONS = (3, 5)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MovingCubeSettings(TaskSettings):
+class MovingCubeSettings(DynamicsSettings):
     """Options of the task, checked.
 
     Attributes:
@@ -49,7 +49,7 @@ class MovingCubeSettings(TaskSettings):
 
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
-        TaskSettings.__post_init__(self)
+        DynamicsSettings.__post_init__(self)
         if self.n_actions not in _ACTIONS:
             raise TaskError(f"n_actions must be 3 or 5, not {self.n_actions!r}")
         if not np.isfinite(self.failure_reward):

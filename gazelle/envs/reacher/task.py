@@ -12,7 +12,7 @@ from gazelle import assets, formats
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import Model, World
 from gazelle.envs.batched_task import Info
-from gazelle.envs.options import SPLITS, TaskSettings, check_name
+from gazelle.envs.options import SPLITS, DynamicsSettings, check_name
 from gazelle.envs.reacher.rules import ReachRules, ReachView
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.rotations import rotate
@@ -28,7 +28,7 @@ _GIVE = 0.05  # [rad]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ReachSettings(TaskSettings):
+class ReachSettings(DynamicsSettings):
     """Options of the reaching tasks, checked.
 
     Attributes:
@@ -39,7 +39,7 @@ class ReachSettings(TaskSettings):
 
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
-        TaskSettings.__post_init__(self)
+        DynamicsSettings.__post_init__(self)
         check_name("kind of goals", str(self.goals), SPLITS)
 
 
@@ -197,7 +197,7 @@ class ReachTask(SimulationTask):
         )
 
 
-def _cell(rules: ReachRules, settings: TaskSettings, nworld: int) -> tuple[Simulation, Robot]:
+def _cell(rules: ReachRules, settings: ReachSettings, nworld: int) -> tuple[Simulation, Robot]:
     """The arm alone; MoveIt, which moves it for frobs_rl, knows of no floor either."""
     simulation = simulation_of(World(name="cell"), nworld, settings, _TIME_STEP)
     model = _limited(formats.load_model(assets.robot(rules.robot)), rules)
