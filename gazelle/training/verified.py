@@ -84,24 +84,28 @@ VERIFIED: dict[str, Verified] = {
     "FetchReachDense": Verified(success={"mujoco": SuccessRate(100, 100)}, seeds=1, seconds=16),
     "FetchSlide": Verified(success={"mujoco": SuccessRate(296, 300)}, seeds=3, seconds=186),
     "TurtleBot3Stage1": Verified(
-        success={"planar": SuccessRate(2000, 2000), "mujoco": SuccessRate(300, 300)},
-        seeds=2,
-        seconds=10,
+        success={"planar": SuccessRate(3000, 3000), "mujoco": SuccessRate(3000, 3000)},
+        seeds=3,
+        seconds=7,
+        wall=WallTime(seconds=6, processors=2, others=0.0),
     ),
     "TurtleBot3Stage2": Verified(
-        success={"planar": SuccessRate(1998, 2000), "mujoco": SuccessRate(299, 300)},
-        seeds=2,
-        seconds=18,
+        success={"planar": SuccessRate(2999, 3000), "mujoco": SuccessRate(3000, 3000)},
+        seeds=3,
+        seconds=11,
+        wall=WallTime(seconds=10, processors=2, others=0.0),
     ),
     "TurtleBot3Stage3": Verified(
-        success={"planar": SuccessRate(1970, 2000), "mujoco": SuccessRate(971, 1000)},
-        seeds=2,
-        seconds=18,
+        success={"planar": SuccessRate(2957, 3000), "mujoco": SuccessRate(2948, 3000)},
+        seeds=3,
+        seconds=11,
+        wall=WallTime(seconds=11, processors=2, others=0.0),
     ),
     "TurtleBot3Stage4": Verified(
-        success={"planar": SuccessRate(5724, 6000), "mujoco": SuccessRate(279, 300)},
+        success={"planar": SuccessRate(2812, 3000), "mujoco": SuccessRate(2805, 3000)},
         seeds=3,
         seconds=32,
+        wall=WallTime(seconds=30, processors=2, others=0.0),
     ),
     "TurtleBot3Stage1Continuous": Verified(
         success={"planar": SuccessRate(1000, 1000)}, seeds=1, seconds=11
