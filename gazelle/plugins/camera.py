@@ -20,6 +20,7 @@ from gazelle.plugins.sensor_kinds import model_of
 from gazelle.sensors import CameraImage, CameraModel
 from gazelle.simulation import Input, SensorOutput, SensorPlugin, SensorUnit
 from gazelle.simulation.clock import NANOSECONDS
+from gazelle.simulation.sensors import SampledSensor
 from gazelle.simulation.values import (
     CameraInfoValue,
     CompressedImageValue,
@@ -59,7 +60,7 @@ class CameraTopic(SensorOutput):
         )
         self._may_tell = may_tell
 
-    def _tell(self, sensor: SensorUnit) -> None:
+    def _tell(self, sensor: SampledSensor) -> None:
         if self._may_tell is None or self._may_tell():
             super()._tell(sensor)
 

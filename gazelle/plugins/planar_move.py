@@ -20,12 +20,12 @@ from gazelle.simulation import (
     ModelPlugin,
     Odometry,
     Robot,
-    Simulation,
     TwistInput,
     absolute,
     namespace_of,
 )
 from gazelle.simulation.clock import Schedule
+from gazelle.simulation.running_state import RunningState
 
 
 class PlanarMove(ModelPlugin):
@@ -147,7 +147,7 @@ class SlidingGroup(BasePlugin):
     """
 
     def __init__(
-        self, simulation: Simulation, models: Sequence[str], commands: CommandGroup
+        self, simulation: RunningState, models: Sequence[str], commands: CommandGroup
     ) -> None:
         self._simulation, self._models, self._commands = simulation, tuple(models), commands
 

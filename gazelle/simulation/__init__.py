@@ -21,8 +21,8 @@ from gazelle.simulation.ports import FramePrefix, Input, Output, Ports, Service,
 from gazelle.simulation.recording import Recorder
 from gazelle.simulation.registry import register
 from gazelle.simulation.replay import Replay
-from gazelle.simulation.robot import Robot
-from gazelle.simulation.sensors import SensorOutput, SensorUnit
+from gazelle.simulation.robot import Robot, SensorUnit
+from gazelle.simulation.sensors import SensorOutput
 from gazelle.simulation.settings import Setting, Tunable, Tuning
 from gazelle.simulation.simulation import Simulation
 from gazelle.simulation.topics import absolute, namespace_of

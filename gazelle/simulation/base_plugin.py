@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,10 +38,12 @@ class BasePlugin:
             step, None means never. Set it in the class or in ``load``.
         only_publishes: Whether ``active`` is true exactly while somebody listens to an output, so
             that it need not be asked at every step.
+        belongs_into: Tag of the element of a world that names plugins of this kind.
     """
 
     update_rate: float | None = None
     only_publishes: bool = False
+    belongs_into: ClassVar[str] = ""
 
     @property
     def active(self) -> bool:

@@ -9,13 +9,11 @@ from gazelle.array_types import Worlds
 from gazelle.description import Model
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.loading import adopt, is_plain, run_stage
-from gazelle.simulation.robot import Robot
+from gazelle.simulation.robot import Robot, RobotHost, SensorUnit
 from gazelle.simulation.robots import MadeOnDemand
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
-from gazelle.simulation.sensors import SensorUnit
 
 if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
     from gazelle.simulation.stage.fleet import StageFleet
 
 
@@ -31,7 +29,7 @@ class EntityManager:
         plugins: Of the world and of all models, in the order they were loaded.
     """
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: RobotHost) -> None:
         self._simulation = simulation
         self.robots: MadeOnDemand[Robot] = MadeOnDemand(self._make)
         self._awaited: dict[str, Model] = {}

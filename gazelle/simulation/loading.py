@@ -12,30 +12,16 @@ from gazelle.errors import SimulationWarning, located
 from gazelle.formats.stage.plugins import without_stage_plugins
 from gazelle.simulation import registry
 from gazelle.simulation.base_plugin import BasePlugin
-from gazelle.simulation.plugin import (
-    ModelPlugin,
-    SensorPlugin,
-    VisualPlugin,
-    WorldPlugin,
-)
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import Ports
-from gazelle.simulation.robot import Robot
+from gazelle.simulation.robot import Robot, RobotHost
 from gazelle.simulation.scheduled_plugin import make_scheduled, title
 
 if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
     from gazelle.simulation.stage.fleet import StageFleet
 
-_PLACES: dict[type[BasePlugin], str] = {
-    ModelPlugin: "model",
-    SensorPlugin: "sensor",
-    VisualPlugin: "visual",
-    WorldPlugin: "world",
-}
 
-
-def run_stage(simulation: Simulation) -> StageFleet | None:
+def run_stage(simulation: RobotHost) -> StageFleet | None:
     """Run the models of Stage files as Stage does; None if the engine moves them in another way."""
     from gazelle.engines.planar import PlanarEngine
     from gazelle.simulation.stage.controllers import make_controllers
@@ -68,7 +54,7 @@ def _plugins_on(link: Link) -> Iterator[description.Plugin]:
 
 
 def adopt(
-    simulation: Simulation, model: Model, robot: Robot, stage: StageFleet | None = None
+    simulation: RobotHost, model: Model, robot: Robot, stage: StageFleet | None = None
 ) -> None:
     """Start the plugins of a model that the engine has, in file order.
 
@@ -88,24 +74,24 @@ def adopt(
         model = without_stage_plugins(model)
     for placed in model.walk():
         for plugin in placed.model.plugins:
-            _start(simulation, ModelPlugin, robot, plugin, robot)
+            _start(simulation, "model", robot, plugin, robot)
         for visual in (visual for link in placed.model.links for visual in link.visuals):
             for plugin in visual.plugins:
-                _start(simulation, VisualPlugin, robot, plugin, robot)
+                _start(simulation, "visual", robot, plugin, robot)
     for unit in robot.sensors.values():
         for plugin in unit.description.plugins:
             if stage is None or not isinstance(plugin, StagePlugin):
-                _start(simulation, SensorPlugin, unit, plugin, robot)
+                _start(simulation, "sensor", unit, plugin, robot)
 
 
-def load_world_plugin(simulation: Simulation, plugin: description.Plugin) -> None:
+def load_world_plugin(simulation: RobotHost, plugin: description.Plugin) -> None:
     """Start a plugin of the world, or one that is given besides it."""
-    _start(simulation, WorldPlugin, simulation, plugin, None)
+    _start(simulation, "world", simulation, plugin, None)
 
 
 def _start(
-    simulation: Simulation,
-    kind: type[BasePlugin],
+    simulation: RobotHost,
+    element: str,
     entity: object,
     plugin: description.Plugin,
     robot: Robot | None,
@@ -117,7 +103,7 @@ def _start(
     opened = ports.mark()
     try:
         found = registry.find(plugin)
-        if found is None or not _fits(found, kind, name, plugin):
+        if found is None or not _fits(found, element, name, plugin):
             return
         loaded = cast("Any", found())
         loaded.load(entity, plugin.parameters)
@@ -128,14 +114,13 @@ def _start(
     simulation.plugins.append(make_scheduled(loaded, plugin.name, owner, simulation.requests))
 
 
-def _fits(
-    found: type[BasePlugin], kind: type[BasePlugin], name: str, plugin: description.Plugin
-) -> bool:
+def _fits(found: type[BasePlugin], element: str, name: str, plugin: description.Plugin) -> bool:
     """Whether a plugin is in an element of its kind; says so if it is not."""
-    if issubclass(found, kind):
+    kinds = [vars(each).get("belongs_into", "") for each in found.__mro__]
+    if element in kinds:
         return True
-    wanted = " or ".join(f"a <{tag}>" for of, tag in _PLACES.items() if issubclass(found, of))
-    text = f"{name} ({plugin.filename}) belongs into {wanted}, not into a <{_PLACES[kind]}>"
+    wanted = " or ".join(f"a <{tag}>" for tag in kinds if tag)
+    text = f"{name} ({plugin.filename}) belongs into {wanted}, not into a <{element}>"
     said = located(f"{text}, and is left out", plugin.source)
     warnings.warn(SimulationWarning(said), stacklevel=5)
     return False

@@ -130,7 +130,7 @@ class PhysicsProperties:
 
         As in Gazebo classic it is the update rate times the time step, whatever
         ``real_time_factor`` says, and an update rate of 0 does not hold anything back. A door
-        that runs in real time gives it to ``RunningState.run`` as ``rate``; Python's own
+        that runs in real time gives it to ``Simulation.run`` as ``rate``; Python's own
         default is as fast as possible.
         """
         profile = self.profile
@@ -138,7 +138,7 @@ class PhysicsProperties:
 
     @property
     def gravity(self) -> Vector3:
-        """Gravity of all worlds [m/s²]; ``RunningState.parameters`` has that of each."""
+        """Gravity of all worlds [m/s²]; ``Simulation.parameters`` has that of each."""
         return self._simulation.world.gravity
 
     @gravity.setter

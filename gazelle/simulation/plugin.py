@@ -13,13 +13,14 @@ from gazelle.description import Parameters
 from gazelle.simulation.base_plugin import BasePlugin
 
 if TYPE_CHECKING:
-    from gazelle.simulation.robot import Robot
-    from gazelle.simulation.sensors import SensorUnit
+    from gazelle.simulation.robot import Robot, SensorUnit
     from gazelle.simulation.simulation import Simulation
 
 
 class WorldPlugin(BasePlugin):
     """A plugin of the world."""
+
+    belongs_into = "world"
 
     def load(self, simulation: Simulation, parameters: Parameters) -> None:
         """Start: read the parameters, keep what is needed."""
@@ -35,6 +36,8 @@ class SystemPlugin(WorldPlugin):
 class ModelPlugin(BasePlugin):
     """A plugin of a model."""
 
+    belongs_into = "model"
+
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Start: read the parameters, open ports on the robot."""
 
@@ -42,12 +45,16 @@ class ModelPlugin(BasePlugin):
 class VisualPlugin(BasePlugin):
     """A plugin of a visual, such as one that shows a video on it."""
 
+    belongs_into = "visual"
+
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Start, on the robot that has the visual."""
 
 
 class SensorPlugin(BasePlugin):
     """A plugin of a sensor."""
+
+    belongs_into = "sensor"
 
     def load(self, sensor: SensorUnit, parameters: Parameters) -> None:
         """Start: read the parameters, open ports on ``sensor.robot``."""

@@ -2,70 +2,125 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.control import ControllerManager
-from gazelle.description import Joint, Model, Pose
+from gazelle.description import Joint, Model, Pose, Sensor
 from gazelle.engines import Motion, Placement, Wrench
 from gazelle.errors import SimulationError, did_you_mean
+from gazelle.rendering import LiveScene
+from gazelle.sensors import SensorModel
+from gazelle.simulation.events import Events
 from gazelle.simulation.inputs import chosen, finite, motion, placement, size_of
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.links import LinkHandle, orientation_of
+from gazelle.simulation.model_handles import joint_handles, link_handles, name_within
 from gazelle.simulation.models import mounts, sensor_model
+from gazelle.simulation.named import Named
+from gazelle.simulation.parameters import WorldParameters
+from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.requests import between_steps
-from gazelle.simulation.sensors import SensorUnit
+from gazelle.simulation.running_state import RunningState, StepMaker
+from gazelle.simulation.scheduled_plugin import ScheduledPlugin
+from gazelle.simulation.sensors import SampledSensor
 
 if TYPE_CHECKING:
     from gazelle.simulation.navigation_control import NavigationControl
-    from gazelle.simulation.simulation import Simulation
     from gazelle.simulation.stage.fleet import StageFleet
 
-T = TypeVar("T")
 
+class RobotHost(RunningState, Protocol):
+    """The simulation that a robot is in, as it and plugins see it; see ``Simulation``.
 
-class Named(Mapping[str, T]):
-    """A mapping whose misses say what there is.
-
-    Args:
-        kind: What the items are.
-        items: By name.
-        scope: May stand before the names, with ``::`` between them, as in Gazebo.
+    Attributes:
+        paused: Whether ``run`` refuses to run.
+        physics: Time step, gravity, solver and the like.
+        parameters: Masses, friction and the like of each world.
+        ports: Of the plugins of the world.
+        events: Tell of what is spawned, deleted and reset.
+        live_scene: What cameras see.
     """
 
-    def __init__(self, kind: str, items: Mapping[str, T], scope: str = "") -> None:
-        self._kind = kind
-        self._items = items
-        self._scope = f"{scope}::" if scope else ""
+    paused: bool
+    physics: PhysicsProperties
+    parameters: WorldParameters
+    ports: Ports
+    events: Events
+    live_scene: LiveScene
 
-    def __getitem__(self, name: str) -> T:
-        try:
-            return self._items[self._own(name)]
-        except KeyError:
-            raise SimulationError(
-                f"there is no {self._kind} '{name}'", hint=did_you_mean(name, self._items)
-            ) from None
+    @property
+    def loop(self) -> StepMaker:
+        """Makes the steps."""
 
-    def get(self, name: str, default: Any = None) -> Any:
-        """The item of a name; the default if there is none."""
-        return self._items.get(self._own(name), default)
+    @property
+    def robots(self) -> Mapping[str, Robot]:
+        """All models by name."""
 
-    def __contains__(self, name: object) -> bool:
-        return isinstance(name, str) and self._own(name) in self._items
+    @property
+    def plugins(self) -> list[ScheduledPlugin]:
+        """Of the world and of all models."""
 
-    def _own(self, name: str) -> str:
-        return name if name in self._items else name.removeprefix(self._scope)
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
 
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._items)
+    def step(self, count: int = 1) -> None:
+        """Advance by physics steps; not for plugins, which act in one."""
 
-    def __len__(self) -> int:
-        return len(self._items)
+    def run(self, seconds: float, *, rate: float | None = None) -> None:
+        """Advance by simulated time [s]; likewise."""
+
+    def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
+        """Have something called after every step; returns what ends it."""
+
+    def pause(self) -> None:
+        """Let ``run`` refuse to run."""
+
+    def unpause(self) -> None:
+        """Let ``run`` run again."""
+
+    def spawn(
+        self,
+        model: Model | str | Path,
+        name: str | None = None,
+        pose: Pose | None = None,
+        namespace: str = "",
+    ) -> Robot:
+        """Add a model to every world."""
+
+    def delete(self, name: str) -> None:
+        """Take a model out of every world."""
+
+    def reset(
+        self, worlds: ArrayLike | None = None, *, seed: int | None = None, time: bool = True
+    ) -> None:
+        """Put worlds back to their initial state."""
+
+    def attach(
+        self,
+        parent: LinkHandle,
+        child: LinkHandle,
+        worlds: Worlds | None = None,
+        *,
+        settling: float | None = None,
+    ) -> None:
+        """Hold two links together."""
+
+    def detach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
+        """Let go two links that ``attach`` holds together."""
+
+    def set_light(self, name: str, **changes: Any) -> None:
+        """Change a light of the world."""
+
+    def load_plugin(self, filename: str) -> None:
+        """Start a plugin that no file names."""
 
 
 class Robot(Ports):
@@ -83,7 +138,7 @@ class Robot(Ports):
 
     def __init__(
         self,
-        simulation: Simulation,
+        simulation: RobotHost,
         model: Model,
         namespace: str = "",
         stage: StageFleet | None = None,
@@ -95,11 +150,11 @@ class Robot(Ports):
         self.namespace = namespace
         self.description = model
         self.managers: dict[str, ControllerManager] = {}
-        self._links = _link_handles(simulation, model)
+        self._links = link_handles(simulation, model)
         own = f"in '{self.name}'"
         self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links, self.name)
         self.joints: Mapping[str, JointHandle] = Named(
-            f"moving joint {own}", _joint_handles(simulation, model), self.name
+            f"moving joint {own}", joint_handles(simulation, model), self.name
         )
         self.sensors: Mapping[str, SensorUnit] = Named(
             f"sensor {own}", _sensor_units(self, model, stage), self.name
@@ -292,7 +347,7 @@ class Robot(Ports):
             SimulationError: There is no joint of that name.
         """
         found = {
-            _inner(placed.scope, self.name, joint.name): joint
+            name_within(placed.scope, self.name, joint.name): joint
             for placed in self.description.walk()
             for joint in placed.model.joints
         }
@@ -319,26 +374,18 @@ class Robot(Ports):
         )
 
 
-def _link_handles(simulation: Simulation, model: Model) -> dict[str, LinkHandle]:
-    return {
-        _inner(placed.scope, model.name, link.name): LinkHandle(
-            simulation, f"{placed.scope}::{link.name}", link
-        )
-        for placed in model.walk()
-        for link in placed.model.links
-    }
+class SensorUnit(SampledSensor):
+    """One sensor of one robot.
 
+    It sleeps until somebody reads or subscribes; then it measures at its ``update_rate``.
 
-def _joint_handles(simulation: Simulation, model: Model) -> dict[str, JointHandle]:
-    moving = set(simulation.engine.joint_names)
-    return {
-        _inner(placed.scope, model.name, joint.name): JointHandle(
-            simulation, f"{placed.scope}::{joint.name}"
-        )
-        for placed in model.walk()
-        for joint in placed.model.joints
-        if f"{placed.scope}::{joint.name}" in moving
-    }
+    Attributes:
+        robot: The robot that it is on.
+    """
+
+    def __init__(self, robot: Robot, sensor: Sensor, name: str, model: SensorModel) -> None:
+        super().__init__(robot.simulation, sensor, name, model)
+        self.robot = robot
 
 
 def _sensor_units(robot: Robot, model: Model, stage: StageFleet | None) -> dict[str, SensorUnit]:
@@ -357,8 +404,3 @@ def _sensor_units(robot: Robot, model: Model, stage: StageFleet | None) -> dict[
         if made is not None:
             units[mount.sensor.name] = SensorUnit(robot, mount.sensor, mount.name, made)
     return units
-
-
-def _inner(scope: str, top: str, name: str) -> str:
-    prefix = scope.removeprefix(top).removeprefix("::")
-    return f"{prefix}::{name}" if prefix else name

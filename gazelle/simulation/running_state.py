@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol
 
 from gazelle.description import World
 from gazelle.engines import CarryingEngine, Engine, SystemEngine, TableEngine
+from gazelle.simulation.carried_plugins import CarriedPlugins
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.requests import RequestQueue
@@ -47,3 +49,18 @@ class RunningState(Protocol):
     @property
     def loads(self) -> Loads:
         """Forces that act for a time."""
+
+
+class StepMaker(Protocol):
+    """What makes the steps of a simulation; see ``StepLoop``.
+
+    Attributes:
+        followers: Called after every step, before sensors measure.
+        carried: The plugins whose work steps do.
+    """
+
+    followers: list[Callable[[], None]]
+    carried: CarriedPlugins
+
+    def release(self) -> None:
+        """Let everything be updated by itself, until a new plan is made."""

@@ -8,7 +8,7 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +17,7 @@ from gazelle.description import World
 from gazelle.errors import Error, SimulationError
 from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.ports import TwistInput
-
-if TYPE_CHECKING:
-    from gazelle.simulation.robot import Robot
-    from gazelle.simulation.simulation import Simulation
+from gazelle.simulation.robot import Robot, RobotHost
 
 _FORMAT = 2
 
@@ -38,7 +35,7 @@ _BROKEN = (
 _HINT = "restore into a simulation with the same world, models, engine and number of worlds"
 
 
-def snapshot(simulation: Simulation) -> bytes:
+def snapshot(simulation: RobotHost) -> bytes:
     """The state of physics, clock, commands, plugins, sensors and noise."""
     buffer = io.BytesIO()
     arrays = {_escape(name): value for name, value in _gather(simulation).items()}
@@ -46,7 +43,7 @@ def snapshot(simulation: Simulation) -> bytes:
     return buffer.getvalue()
 
 
-def _gather(simulation: Simulation) -> dict[str, NDArray[Any]]:
+def _gather(simulation: RobotHost) -> dict[str, NDArray[Any]]:
     """All that a snapshot holds, by key."""
     arrays: dict[str, NDArray[np.generic]] = {"engine": simulation.engine.snapshot()}
     for key, part in _parts(simulation).items():
@@ -72,7 +69,7 @@ def _gather(simulation: Simulation) -> dict[str, NDArray[Any]]:
     return arrays
 
 
-def restore(simulation: Simulation, data: bytes) -> None:
+def restore(simulation: RobotHost, data: bytes) -> None:
     """Put back what ``snapshot`` gave.
 
     Raises:
@@ -91,7 +88,7 @@ def restore(simulation: Simulation, data: bytes) -> None:
         ) from error
 
 
-def _header_of(arrays: Mapping[str, NDArray[Any]], simulation: Simulation) -> dict[str, Any]:
+def _header_of(arrays: Mapping[str, NDArray[Any]], simulation: RobotHost) -> dict[str, Any]:
     """The header of a snapshot of this simulation.
 
     Raises:
@@ -117,7 +114,7 @@ def _header_of(arrays: Mapping[str, NDArray[Any]], simulation: Simulation) -> di
 
 
 def _put_back(
-    simulation: Simulation, header: dict[str, Any], saved: Mapping[str, NDArray[Any]]
+    simulation: RobotHost, header: dict[str, Any], saved: Mapping[str, NDArray[Any]]
 ) -> None:
     arrays = {key: value for key, value in saved.items() if key not in ("header", "engine")}
     _restore_engine(simulation, header, saved["engine"])
@@ -146,7 +143,7 @@ def _held(robot: Robot) -> dict[str, TwistInput]:
     return {name: port for name, port in robot.inputs.items() if isinstance(port, TwistInput)}
 
 
-def _restore_engine(simulation: Simulation, header: dict[str, Any], state: Any) -> None:
+def _restore_engine(simulation: RobotHost, header: dict[str, Any], state: Any) -> None:
     """Bring laws, motors, attachments and parameters back, then the state."""
     engine = simulation.engine
     laws = decode(header["laws"])
@@ -159,7 +156,7 @@ def _restore_engine(simulation: Simulation, header: dict[str, Any], state: Any) 
     engine.restore(state)
 
 
-def _parts(simulation: Simulation) -> Mapping[str, Any]:
+def _parts(simulation: RobotHost) -> Mapping[str, Any]:
     """Everything besides the engine that has a state, by a unique key."""
     parts: dict[str, Any] = {}
     for entry in simulation.plugins:
@@ -172,7 +169,7 @@ def _parts(simulation: Simulation) -> Mapping[str, Any]:
     return parts
 
 
-def _names(simulation: Simulation) -> list[str]:
+def _names(simulation: RobotHost) -> list[str]:
     return [*simulation.engine.link_names, *sorted(_parts(simulation))]
 
 

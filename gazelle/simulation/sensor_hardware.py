@@ -7,8 +7,7 @@ from collections.abc import Callable
 from gazelle.control import FORCE_TORQUE, IMU, SensorInterface
 from gazelle.control.values import ImuSample, StampedWrench
 from gazelle.sensors import ForceTorqueModel, ImuModel
-from gazelle.simulation.robot import Robot
-from gazelle.simulation.sensors import SensorUnit
+from gazelle.simulation.robot import Robot, SensorUnit
 
 
 def sensor_interfaces(robot: Robot) -> list[SensorInterface]:

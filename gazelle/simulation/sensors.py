@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from threading import get_ident
-from typing import TYPE_CHECKING, Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,40 +16,38 @@ from gazelle.simulation.clock import NANOSECONDS, Schedule
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import FramePrefix, Output
 from gazelle.simulation.requests import between_steps
+from gazelle.simulation.running_state import RunningState
 from gazelle.simulation.sensor_groups import SensorGroup
 from gazelle.simulation.sharing import shared
-
-if TYPE_CHECKING:
-    from gazelle.simulation.robot import Robot
-
 
 _NO_WORLDS = np.zeros(0, np.intp)
 
 
-class SensorUnit:
-    """One sensor of one robot.
+class SampledSensor:
+    """What measures at its own rate; with its robot it is a ``SensorUnit``.
 
     It sleeps until somebody reads or subscribes; then it measures at its ``update_rate``.
 
     Attributes:
         description: What the file says.
-        robot: The robot that it is on.
     """
 
-    def __init__(self, robot: Robot, sensor: Sensor, name: str, model: SensorModel) -> None:
+    def __init__(
+        self, simulation: RunningState, sensor: Sensor, name: str, model: SensorModel
+    ) -> None:
         self.description = sensor
-        self.robot = robot
+        self._simulation = simulation
         self.name = name
         self._model = model
-        self._requests = robot.simulation.requests
+        self._requests = simulation.requests
         self._shared_model = shared(model, self._requests)
         self.schedule = Schedule(sensor.update_rate)
-        self.schedule.done(robot.simulation.clock.now_ns)
+        self.schedule.done(simulation.clock.now_ns)
         self._values: NDArray[Any] | None = None
         self._stale = _NO_WORLDS
         self._stamp = 0
         self._awake = False
-        self._listeners: list[Callable[[SensorUnit], None]] = []
+        self._listeners: list[Callable[[Self], None]] = []
         self._group: SensorGroup | None = None
         self._part = self._seen = 0
 
@@ -98,7 +96,7 @@ class SensorUnit:
             return self.measure()
         self._catch_up()
         if self._values is None:
-            return self.update(self.robot.simulation.clock.now_ns)
+            return self.update(self._simulation.clock.now_ns)
         if len(self._stale):
             self._values = self._values.copy()
             self._values[self._stale] = self.measure(self._stale)
@@ -112,14 +110,14 @@ class SensorUnit:
         return self._model.reading(values, self._stamp)
 
     @between_steps
-    def subscribe(self, listener: Callable[[SensorUnit], None]) -> Callable[[], None]:
+    def subscribe(self, listener: Callable[[Self], None]) -> Callable[[], None]:
         """Call a function after every measurement; returns what ends it."""
         self._listeners.append(listener)
         self._requests.changes += 1
         return lambda: self._end(listener)
 
     @between_steps
-    def _end(self, listener: Callable[[SensorUnit], None]) -> None:
+    def _end(self, listener: Callable[[Self], None]) -> None:
         if listener in self._listeners:
             self._listeners.remove(listener)
             self._requests.changes += 1
@@ -140,7 +138,7 @@ class SensorUnit:
         self.tell()
         return values
 
-    def tell(self) -> None:
+    def tell(self: Self) -> None:
         """Call all who subscribed."""
         for listener in tuple(self._listeners):
             listener(self)
@@ -164,7 +162,7 @@ class SensorUnit:
             return
         self._requests.changes += 1
         self._values, self._stale, self._stamp, self._awake = None, _NO_WORLDS, 0, False
-        self.schedule.done(self.robot.simulation.clock.now_ns)
+        self.schedule.done(self._simulation.clock.now_ns)
 
     @between_steps
     def state(self) -> dict[str, NDArray[np.generic]]:
@@ -185,7 +183,7 @@ class SensorUnit:
         stamp = own.pop("stamp")
         values: Any = own.pop("values", None)
         stale = np.asarray(own.pop("stale"), np.intp)
-        if stale.size and not 0 <= stale.min() <= stale.max() < self.robot.simulation.nworld:
+        if stale.size and not 0 <= stale.min() <= stale.max() < self._simulation.nworld:
             raise IndexError("a reading belongs to a world that is not there")
         self._stale = stale
         self._model.restore(own)
@@ -239,7 +237,7 @@ class SensorUnit:
         """Time between two measurements in turn [s]."""
         if self.schedule.rate > 0.0:
             return 1.0 / self.schedule.rate
-        return self.robot.simulation.clock.step_ns / NANOSECONDS
+        return self._simulation.clock.step_ns / NANOSECONDS
 
 
 class SensorOutput(Output[Any]):
@@ -257,7 +255,7 @@ class SensorOutput(Output[Any]):
 
     def __init__(
         self,
-        sensor: SensorUnit,
+        sensor: SampledSensor,
         topic: str,
         kind: type[Any],
         *,
@@ -293,7 +291,7 @@ class SensorOutput(Output[Any]):
 
         return finish
 
-    def _tell(self, _sensor: SensorUnit) -> None:
+    def _tell(self, _sensor: SampledSensor) -> None:
         """Publish a new reading; a plugin that cannot read it is asked no more."""
         if self._failed or not self.wanted:
             return

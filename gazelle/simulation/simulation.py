@@ -28,12 +28,13 @@ from gazelle.simulation.lights import with_light
 from gazelle.simulation.links import LinkHandle
 from gazelle.simulation.loading import load_world_plugin
 from gazelle.simulation.loads import Loads
+from gazelle.simulation.named import Named
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.recording import Recorder, state_hash
 from gazelle.simulation.requests import RequestQueue
-from gazelle.simulation.robot import Named, Robot
+from gazelle.simulation.robot import Robot
 from gazelle.simulation.scene_renderer import SceneRenderer
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.sharing import shared
@@ -113,7 +114,7 @@ class Simulation(Closeable):
         self.entities = EntityManager(self)
         self._renderer, self.live_scene = SceneRenderer(), LiveScene(self._engine)
         self._faults = FaultLog(on_fault, fault_dump)
-        self.loop = StepLoop(self, self._engine, self._loads, self._faults)
+        self.loop = StepLoop(self, self._engine, self._loads, self.entities, self._faults)
         with self.requests:
             for plugin in loaded.plugins:
                 load_world_plugin(self, plugin)

@@ -15,7 +15,7 @@ from gazelle.simulation.plugin_groups import with_groups
 from gazelle.simulation.publisher_groups import group_publishers
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.sensor_groups import PythonGroup, group_sensors
-from gazelle.simulation.sensors import SensorUnit
+from gazelle.simulation.sensors import SampledSensor
 
 
 class StepPlan:
@@ -41,7 +41,7 @@ class StepPlan:
     def __init__(
         self,
         plugins: Iterable[ScheduledPlugin],
-        sensors: Iterable[SensorUnit],
+        sensors: Iterable[SampledSensor],
         nworld: int,
         *,
         native: bool = False,
@@ -129,7 +129,7 @@ def update_plugins(plugins: Iterable[ScheduledPlugin], clock: Clock) -> None:
         schedule.done(now_ns)
 
 
-def update_sensors(sensors: Iterable[SensorUnit | PythonGroup], now_ns: int) -> None:
+def update_sensors(sensors: Iterable[SampledSensor | PythonGroup], now_ns: int) -> None:
     """Measure with all sensors that are awake and due."""
     for sensor in tuple(sensors):
         if now_ns >= sensor.schedule.due_ns and sensor.awake:
@@ -138,7 +138,7 @@ def update_sensors(sensors: Iterable[SensorUnit | PythonGroup], now_ns: int) -> 
 
 def steps_to_next(
     plugins: Iterable[ScheduledPlugin],
-    sensors: Iterable[SensorUnit | PythonGroup],
+    sensors: Iterable[SampledSensor | PythonGroup],
     clock: Clock,
     most: int,
 ) -> int:

@@ -7,7 +7,6 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Hashable, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,9 +15,11 @@ from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
 from gazelle.simulation.carried_plugins import CarriedPlugins
 from gazelle.simulation.clock import Schedule
+from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.plugin_groups import PluginGroup
+from gazelle.simulation.robot import RobotHost
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.stepping import (
     StepPlan,
@@ -28,9 +29,6 @@ from gazelle.simulation.stepping import (
     update_sensors,
     with_systems,
 )
-
-if TYPE_CHECKING:
-    from gazelle.simulation.simulation import Simulation
 
 CLOSED = "the simulation is closed"
 
@@ -53,6 +51,7 @@ class StepLoop:
         simulation: Whose.
         engine: Steps the physics.
         loads: Of the simulation.
+        entities: Likewise.
         faults: Told of worlds that break down.
 
     Attributes:
@@ -62,12 +61,17 @@ class StepLoop:
     """
 
     def __init__(
-        self, simulation: Simulation, engine: Engine, loads: Loads, faults: FaultLog
+        self,
+        simulation: RobotHost,
+        engine: Engine,
+        loads: Loads,
+        entities: EntityManager,
+        faults: FaultLog,
     ) -> None:
         self._simulation = simulation
         self._engine = engine
         self._loads = loads
-        self._entities = simulation.entities
+        self._entities = entities
         self._faults = faults
         self._plan = StepPlan((), (), 1)
         self._planned: tuple[int, bool, int, int] | None = None

@@ -1,0 +1,49 @@
+"""Mappings by name whose misses say what there is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeVar
+
+from gazelle.errors import SimulationError, did_you_mean
+
+T = TypeVar("T")
+
+
+class Named(Mapping[str, T]):
+    """A mapping whose misses say what there is.
+
+    Args:
+        kind: What the items are.
+        items: By name.
+        scope: May stand before the names, with ``::`` between them, as in Gazebo.
+    """
+
+    def __init__(self, kind: str, items: Mapping[str, T], scope: str = "") -> None:
+        self._kind = kind
+        self._items = items
+        self._scope = f"{scope}::" if scope else ""
+
+    def __getitem__(self, name: str) -> T:
+        try:
+            return self._items[self._own(name)]
+        except KeyError:
+            raise SimulationError(
+                f"there is no {self._kind} '{name}'", hint=did_you_mean(name, self._items)
+            ) from None
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """The item of a name; the default if there is none."""
+        return self._items.get(self._own(name), default)
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and self._own(name) in self._items
+
+    def _own(self, name: str) -> str:
+        return name if name in self._items else name.removeprefix(self._scope)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
