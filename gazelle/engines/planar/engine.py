@@ -15,14 +15,15 @@ from gazelle.engines.history import Call
 from gazelle.engines.laws import with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.access import PlanarAccess, rows_of
-from gazelle.engines.planar.build import FleetInput, PlanarLayout, build, rolling_bases
-from gazelle.engines.planar.cuts import LEVEL
+from gazelle.engines.planar import refusals
+from gazelle.engines.planar.build import FleetInput, PlanarLayout
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.joints import PlanarJoints
+from gazelle.engines.planar.links import PlanarLinks
+from gazelle.engines.planar.models import PlanarModels
 from gazelle.engines.planar.paths import PathFollower
-from gazelle.engines.planar.refusals import Refusals
-from gazelle.engines.planar.rolling import Joints
-from gazelle.engines.planar.system_steps import SystemSteps
+from gazelle.engines.planar.ray_casting import PlanarRays
+from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.system import System
 
@@ -31,7 +32,7 @@ from gazelle.native.system import System
 _BODY = c.BODY + 7
 
 
-class PlanarEngine(Refusals, PlanarAccess):
+class PlanarEngine:
     """Many copies of one world in a plane; see ``gazelle.engines.engine.Engine``.
 
     Bases are kinematic: they go as their wheels roll, or as they were told to, and stop at
@@ -69,103 +70,103 @@ class PlanarEngine(Refusals, PlanarAccess):
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))
         check_world(world)
-        self._threads = threads
-        recipe = FleetInput(world, step, {})
-        self._run(recipe, *build(recipe, nworld, threads))
+        self._run = RunningPlane(FleetInput(world, step, {}), nworld, threads)
+        self._take_over()
 
-    def _run(self, recipe: FleetInput, fleet: Fleet, layout: PlanarLayout) -> None:
-        """Go on with a fleet, from its initial state."""
-        self._recipe, self._fleet, self._layout = recipe, fleet, layout
-        self._revision = getattr(self, "_revision", 0) + 1
-        shape = (fleet.nworld, layout.axes)
-        self._angles, self._rates = np.zeros(shape), np.zeros(shape)
-        self._targets = np.full(shape, math.nan)
-        for joint in recipe.motors:
-            self._targets[:, layout.joints[joint][0]] = 0.0
-        self._casters, self._recent, self._tables, self._model_tables = {}, {}, {}, {}
-        self._steps = SystemSteps(fleet, self._joints, layout.axes)
+    def _take_over(self) -> None:
+        """Make the parts, and take over what they offer."""
+        run = self._run
+        self.make_kinematic = run.make_kinematic
+        models, rays = PlanarModels(run, self._kinematic), PlanarRays(run, self._kinematic)
+        links, joints = PlanarLinks(run, models), PlanarJoints(run)
+        self.model_placement, self.planar_pose = models.model_placement, models.planar_pose
+        self.set_model_placement = models.set_model_placement
+        self.set_model_motion = models.set_model_motion
+        self.set_ground_motion = models.set_ground_motion
+        self.model_table = models.model_table
+        self.link_placement, self.link_placements = links.link_placement, links.link_placements
+        self.link_motion, self.link_acceleration = links.link_motion, links.link_acceleration
+        self.set_link_placement = links.set_link_placement
+        self.set_link_motion, self.link_centre = links.set_link_motion, links.link_centre
+        self.joint_position, self.joint_velocity = joints.joint_position, joints.joint_velocity
+        self.set_joint_position = joints.set_joint_position
+        self.set_joint_velocity = joints.set_joint_velocity
+        self.joint_effort = joints.joint_effort
+        self.add_motor, self.motor_targets = joints.add_motor, joints.motor_targets
+        self.set_motor_velocity = joints.set_motor_velocity
+        self.cast_rays, self.cast_ranges = rays.cast_rays, rays.cast_ranges
+        self.caster = rays.caster
+        self.ranges_kind, self.ranges_of = rays.ranges_kind, rays.ranges_of
+        self._refuse_forces()
 
-    def _joints(self) -> Joints:
-        """Joints and rolling bases as kernels see them."""
-        layout = self._layout
-        bases = rolling_bases(layout, self._recipe.motors)
-        return Joints(
-            angles=self._angles,
-            rates=self._rates,
-            targets=self._targets,
-            limits=layout.limits,
-            base=np.array([each.body for each in bases], np.intp),
-            first=np.cumsum([0, *(len(each.columns) for each in bases)], dtype=np.intp),
-            column=np.concatenate([np.zeros(0, np.intp), *(each.columns for each in bases)]),
-            matrix=np.vstack([np.zeros((0, 3)), *(each.matrix.T for each in bases)]),
-        )
+    def _kinematic(self, model: str) -> None:
+        """Make a model kinematic by the engine's own call, which a recorder listens to."""
+        self.make_kinematic(model)
+
+    def _refuse_forces(self) -> None:
+        """Take over what says that a plane cannot do it."""
+        self.set_link_wrench = refusals.set_link_wrench
+        self.set_joint_effort = refusals.set_joint_effort
+        self.joint_wrench = refusals.joint_wrench
+        self.contacts, self.touching = refusals.contacts, refusals.touching
+        self.attach, self.detach = refusals.attach, refusals.detach
+        self.set_parameter = refusals.set_parameter
 
     @property
     def nworld(self) -> int:
         """Number of worlds."""
-        return self._fleet.nworld
+        return self._run.fleet.nworld
 
     @property
     def time_step(self) -> float:
         """Physics step [s]."""
-        return self._recipe.time_step
+        return self._run.recipe.time_step
 
     @property
     def world(self) -> World:
         """The world that runs, with what was spawned and without what was deleted."""
-        return self._recipe.world
+        return self._run.recipe.world
 
     @property
     def link_names(self) -> tuple[str, ...]:
         """Scoped names, ``model::link``."""
-        return tuple(self._layout.owners)
+        return tuple(self._run.layout.owners)
 
     @property
     def joint_names(self) -> tuple[str, ...]:
         """Scoped names, ``model::joint``, of joints that can move."""
-        return tuple(self._layout.joints)
+        return tuple(self._run.layout.joints)
 
     @property
     def fleet(self) -> Fleet:
         """What moves the bodies; it is replaced when models come or go."""
-        return self._fleet
+        return self._run.fleet
 
     @property
     def layout(self) -> PlanarLayout:
         """Where models, joints and links are among the bodies; to be read."""
-        return self._layout
+        return self._run.layout
 
     @property
     def revision(self) -> int:
         """Counts changes of models: systems then have to be bound to the state anew."""
-        return self._revision
-
-    def motor_targets(self, joint: str) -> tuple[Floats, int]:
-        """Velocities that motors hold, shape (nworld, axes), to be written, and a joint's column.
-
-        Raises:
-            EngineError: There is no motor on the joint.
-        """
-        column = self._axes(joint).start
-        if np.isnan(self._targets[:, column]).any():
-            raise EngineError(f"there is no motor on joint '{joint}'", hint="give it one first")
-        return self._targets, column
+        return self._run.revision
 
     def follow(self, model: str, path: PathFollower) -> None:
         """Let a path carry a model, which has to be kinematic."""
-        path.carry(self._fleet.bodies, self._layout.bodies[model])
+        path.carry(self._run.fleet.bodies, self._run.layout.bodies[model])
 
     def surround(self, before: Sequence[System], after: Sequence[System]) -> None:
         """Have systems updated at the beginning and the end of every step, until models change.
 
         Those that are given to ``run`` come before them.
         """
-        self._steps.surround(before, after)
+        self._run.steps.surround(before, after)
 
     @property
     def bodies(self) -> dict[str, int]:
         """Index in the fleet of each model that can move."""
-        return dict(self._layout.bodies)
+        return dict(self._run.layout.bodies)
 
     # -- time --------------------------------------------------------------------------
 
@@ -181,27 +182,27 @@ class PlanarEngine(Refusals, PlanarAccess):
             count: Of steps.
             now_ns: Time [ns].
         """
-        self._steps.make(systems, whole_number("the number of steps", count, 0), now_ns)
+        self._run.steps.make(systems, whole_number("the number of steps", count, 0), now_ns)
 
     def update(self, system: System) -> None:
         """Update a system now, whatever its rate, on all threads."""
-        fleet = self._fleet
+        fleet = self._run.fleet
         rows = fleet.nworld * system.rows
         fleet.pool.share(lambda first, last, _: system.bring(first, last, 0), rows, system.least)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no commands."""
-        self._fleet.reset(worlds)
-        if not self._layout.axes:
+        self._run.fleet.reset(worlds)
+        if not self._run.layout.axes:
             return
         rows = rows_of(worlds)
-        self._angles[rows], self._rates[rows] = 0.0, 0.0
+        self._run.angles[rows], self._run.rates[rows] = 0.0, 0.0
         # Where there is no motor there is no number, and that in all worlds.
-        self._targets[rows] = np.where(np.isnan(self._targets[0]), math.nan, 0.0)
+        self._run.targets[rows] = np.where(np.isnan(self._run.targets[0]), math.nan, 0.0)
 
     def command(self, wanted: ArrayLike) -> None:
         """Set what drives of all bodies are told, shape (nworld, nbody, 3); see ``Drive``."""
-        self._fleet.command[:] = np.asarray(wanted, np.float64)
+        self._run.fleet.command[:] = np.asarray(wanted, np.float64)
 
     def place_body(
         self,
@@ -219,10 +220,10 @@ class PlanarEngine(Refusals, PlanarAccess):
             worlds: Which worlds.
             height: Of its frame [m], shape () or (n,); as it was if None.
         """
-        self._fleet.place(body, pose, worlds)
-        self._fleet.stalled[rows_of(worlds), body] = False
+        self._run.fleet.place(body, pose, worlds)
+        self._run.fleet.stalled[rows_of(worlds), body] = False
         if height is not None:
-            self._fleet.heights[rows_of(worlds), body] = height
+            self._run.fleet.heights[rows_of(worlds), body] = height
 
     def place_bodies(self, which: Worlds, poses: ArrayLike) -> None:
         """Put some bodies somewhere, at rest; they keep their heights.
@@ -231,7 +232,7 @@ class PlanarEngine(Refusals, PlanarAccess):
             which: Bodies, counted through all worlds, shape (n,).
             poses: x, y [m] and heading [rad], shape (n, 3).
         """
-        fleet = self._fleet
+        fleet = self._run.fleet
         for values in (fleet.command, fleet.velocity):
             values.reshape(-1, 3)[which] = 0.0
         fleet.stalled.reshape(-1)[which] = False
@@ -242,107 +243,56 @@ class PlanarEngine(Refusals, PlanarAccess):
     def spawn(self, model: Model) -> None:
         """Add a model to every world, at rest at its ``pose``; all else stays as it is."""
         world = self.world
-        if model.name in self._layout.models:
+        if model.name in self._run.layout.models:
             raise EngineError(f"there is a model '{model.name}' already", source=model.source)
-        self._change(replace(self._recipe, world=replace(world, models=(*world.models, model))))
+        self._run.change(
+            replace(self._run.recipe, world=replace(world, models=(*world.models, model)))
+        )
 
     def delete(self, model: str) -> None:
         """Take a model out of every world; all else stays as it is."""
-        world, known = self.world, self._layout.models
+        world, known = self.world, self._run.layout.models
         if model not in known:
             raise EngineError(f"there is no model '{model}'", hint=did_you_mean(model, known))
         kept = tuple(each for each in world.models if each.name != model)
         gone = known[model].skeleton.hinges
-        motors = {name: most for name, most in self._recipe.motors.items() if name not in gone}
-        self._change(
+        motors = {name: most for name, most in self._run.recipe.motors.items() if name not in gone}
+        self._run.change(
             replace(
-                self._recipe,
+                self._run.recipe,
                 world=replace(world, models=kept),
                 motors=motors,
-                kinematic=self._recipe.kinematic - {model},
+                kinematic=self._run.recipe.kinematic - {model},
             )
         )
 
-    def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
-        """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
-        axes = self._axes(joint)
-        if axes.stop - axes.start != 1:
-            raise EngineError(f"a motor needs a joint of one axis; '{joint}' has more")
-        most = float(np.asarray(max_effort, np.float64).reshape(-1)[0])
-        if not most > 0.0:
-            raise EngineError(f"the largest effort of a motor must be positive, not {most:g}")
-        self._recipe = replace(self._recipe, motors={**self._recipe.motors, joint: most})
-        held = self._targets[:, axes.start]
-        held[np.isnan(held)] = 0.0
-        self._steps.forget()
-
-    def make_kinematic(self, model: str) -> None:
-        """Let a model move only by ``set_model_placement``."""
-        self._model(model)
-        if model not in self._recipe.kinematic:
-            kinematic = self._recipe.kinematic | {model}
-            self._change(replace(self._recipe, kinematic=kinematic))
-
     def update_world(self, world: World) -> None:
         """Take over all of a world but its models: physics, gravity, air, lights, scene."""
-        step = world.profile.max_step_size
-        if not step > 0.0:
-            raise EngineError(f"the physics step must be positive, not {step:g} s")
-        models = self.world.models
-        self._recipe = replace(self._recipe, world=replace(world, models=models), time_step=step)
-        if step != self._fleet.time_step:
-            self._revision += 1
-        self._fleet.time_step = step
-        self._fleet.sweep = bool(world.profile.speculative_contacts)
-        self._steps.forget()
-
-    def _cut_at(self, height: float) -> None:
-        """Cut shapes at one more height [m], for rays."""
-        known = [*self._recipe.rays, *self._layout.levels.rays]
-        if all(abs(level - height) > LEVEL / 2.0 for level in known):
-            self._change(replace(self._recipe, rays=self._recipe.rays | {round(height, 4)}))
-
-    def _change(self, recipe: FleetInput) -> None:
-        """Go on with other models, with all states that both have."""
-        fleet, layout = self._fleet, self._layout
-        angles, rates, targets = self._angles, self._rates, self._targets
-        made = build(recipe, fleet.nworld, self._threads)
-        self._run(recipe, *made)
-        for name, body in self._layout.bodies.items():
-            if name in layout.bodies:
-                self._fleet.take_over(body, fleet, layout.bodies[name])
-        for name, (first, count) in self._layout.joints.items():
-            if name in layout.joints:
-                here, there = slice(first, first + count), layout.joints[name][0]
-                old = slice(there, there + count)
-                self._angles[:, here], self._rates[:, here] = angles[:, old], rates[:, old]
-                held = ~np.isnan(targets[:, old]) & ~np.isnan(self._targets[:, here])
-                np.copyto(self._targets[:, here], targets[:, old], where=held)
-        fleet.close()
+        self._run.update_world(world)
 
     # -- saving ------------------------------------------------------------------------
 
     def history(self) -> list[Call]:
         """Calls that make a new engine of this ``world`` one like this, but for the state."""
-        calls = [Call("make_kinematic", (name,)) for name in sorted(self._recipe.kinematic)]
-        return calls + [Call("add_motor", pair) for pair in self._recipe.motors.items()]
+        calls = [Call("make_kinematic", (name,)) for name in sorted(self._run.recipe.kinematic)]
+        return calls + [Call("add_motor", pair) for pair in self._run.recipe.motors.items()]
 
     def adopt(self, history: Sequence[Call]) -> None:
         """Become what the calls of a ``history`` make of this world; ``restore`` fits then."""
         kinematic = [call.arguments[0] for call in history if call.method == "make_kinematic"]
         motors = dict(call.arguments for call in history if call.method == "add_motor")
-        self._change(replace(self._recipe, kinematic=frozenset(kinematic), motors=motors))
+        self._run.change(replace(self._run.recipe, kinematic=frozenset(kinematic), motors=motors))
 
     def snapshot(self) -> Floats:
         """The whole dynamic state, shape (nworld, size)."""
-        fleet = self._fleet
+        fleet = self._run.fleet
         rows = np.zeros((fleet.nworld, fleet.nbody, _BODY))
         rows[:, :, : c.BODY] = fleet.rows.reshape(fleet.nworld, fleet.nbody, c.BODY)
         rows[:, :, c.BODY : -1] = np.concatenate((fleet.command, fleet.velocity), axis=2)
         rows[:, :, -1] = fleet.stalled
-        targets = np.nan_to_num(self._targets, nan=0.0)
+        targets = np.nan_to_num(self._run.targets, nan=0.0)
         flat = rows.reshape(fleet.nworld, -1)
-        return np.concatenate((flat, self._angles, self._rates, targets), axis=1)
+        return np.concatenate((flat, self._run.angles, self._run.rates, targets), axis=1)
 
     def peek(self) -> Floats:
         """The same as ``snapshot``."""
@@ -350,7 +300,7 @@ class PlanarEngine(Refusals, PlanarAccess):
 
     def restore(self, state: Floats) -> None:
         """Put back what ``snapshot`` gave; the models must be the same."""
-        fleet, axes = self._fleet, self._layout.axes
+        fleet, axes = self._run.fleet, self._run.layout.axes
         size = fleet.nbody * _BODY
         shape = (fleet.nworld, size + 3 * axes)
         if state.shape != shape:
@@ -364,21 +314,21 @@ class PlanarEngine(Refusals, PlanarAccess):
         fleet.velocity[:] = rows[:, :, c.BODY + 3 : -1]
         fleet.stalled[:] = rows[:, :, -1] != 0.0
         joints = state[:, size:].reshape(fleet.nworld, 3, axes)
-        self._angles[:], self._rates[:] = joints[:, 0], joints[:, 1]
-        self._targets[:] = np.where(np.isnan(self._targets), math.nan, joints[:, 2])
+        self._run.angles[:], self._run.rates[:] = joints[:, 0], joints[:, 1]
+        self._run.targets[:] = np.where(np.isnan(self._run.targets), math.nan, joints[:, 2])
 
     # -- parameters --------------------------------------------------------------------
 
     def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
         """Gravity, as the world has it, shape (n, 3); the plane knows no other parameter."""
         if kind != "gravity" or name:
-            raise self.refuse(f"the parameter {kind}")
+            raise refusals.refuse(f"the parameter {kind}")
         count = self.nworld if worlds is None else len(worlds)
         return np.tile(self.world.gravity, (count, 1))
 
     def close(self) -> None:
         """Free threads."""
-        self._fleet.close()
+        self._run.fleet.close()
 
 
 def _at_pace(world: World) -> World:

@@ -1,6 +1,6 @@
-"""What a plane without forces cannot do."""
+"""What a plane without forces cannot do: the part of ``Engine`` that needs them."""
 
-# ruff: noqa: ARG002  # whatever is asked for is refused
+# ruff: noqa: ARG001  # whatever is asked for is refused
 
 from __future__ import annotations
 
@@ -13,56 +13,55 @@ from gazelle.engines.reactions import Contacts, Wrench
 from gazelle.errors import EngineError
 
 
-class Refusals:
-    """The part of ``gazelle.engines.engine.Engine`` that needs forces."""
+def refuse(what: str) -> EngineError:
+    """The error for something that the plane has not."""
+    return EngineError(
+        f"the planar engine knows no forces, so it has not {what}", hint="use the engine mujoco"
+    )
 
-    @staticmethod
-    def refuse(what: str) -> EngineError:
-        """The error for something that the plane has not."""
-        return EngineError(
-            f"the planar engine knows no forces, so it has not {what}", hint="use the engine mujoco"
-        )
 
-    def set_link_wrench(
-        self, link: str, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Refused."""
-        raise self.refuse(f"a push on '{link}'")
+def set_link_wrench(
+    link: str, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None
+) -> None:
+    """Refused."""
+    raise refuse(f"a push on '{link}'")
 
-    def set_joint_effort(self, joint: str, effort: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Refused."""
-        raise self.refuse(f"an effort on '{joint}'")
 
-    def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
-        """Refused."""
-        raise self.refuse(f"what '{joint}' carries")
+def set_joint_effort(joint: str, effort: ArrayLike, worlds: Worlds | None = None) -> None:
+    """Refused."""
+    raise refuse(f"an effort on '{joint}'")
 
-    def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
-        """Refused."""
-        raise self.refuse("contact points")
 
-    def touching(
-        self, collisions: Sequence[str], worlds: Worlds | None = None
-    ) -> tuple[Worlds, Contacts]:
-        """Refused."""
-        raise self.refuse("contact points")
+def joint_wrench(joint: str, worlds: Worlds | None = None) -> Wrench:
+    """Refused."""
+    raise refuse(f"what '{joint}' carries")
 
-    def attach(
-        self,
-        parent: str,
-        child: str,
-        worlds: Worlds | None = None,
-        settling: float | None = None,
-    ) -> None:
-        """Refused."""
-        raise self.refuse(f"a joint between '{parent}' and '{child}'")
 
-    def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
-        """Refused."""
-        raise self.refuse(f"a joint between '{parent}' and '{child}'")
+def contacts(collisions: Sequence[str], world: int = 0) -> Contacts:
+    """Refused."""
+    raise refuse("contact points")
 
-    def set_parameter(
-        self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Refused."""
-        raise self.refuse(f"the parameter {kind}")
+
+def touching(collisions: Sequence[str], worlds: Worlds | None = None) -> tuple[Worlds, Contacts]:
+    """Refused."""
+    raise refuse("contact points")
+
+
+def attach(
+    parent: str,
+    child: str,
+    worlds: Worlds | None = None,
+    settling: float | None = None,
+) -> None:
+    """Refused."""
+    raise refuse(f"a joint between '{parent}' and '{child}'")
+
+
+def detach(parent: str, child: str, worlds: Worlds | None = None) -> None:
+    """Refused."""
+    raise refuse(f"a joint between '{parent}' and '{child}'")
+
+
+def set_parameter(kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None) -> None:
+    """Refused."""
+    raise refuse(f"the parameter {kind}")

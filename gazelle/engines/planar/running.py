@@ -1,0 +1,170 @@
+"""The planar worlds that run: what they were made of, their state, and when they are made anew."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.description import World
+from gazelle.engines.planar.anatomy import Anatomy
+from gazelle.engines.planar.build import FleetInput, PlanarLayout, build, rolling_bases
+from gazelle.engines.planar.cuts import LEVEL
+from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.rolling import Joints
+from gazelle.engines.planar.system_steps import SystemSteps
+from gazelle.errors import EngineError, did_you_mean
+
+T = TypeVar("T")
+
+
+class RunningPlane:
+    """Many copies of a world seen from above, which the parts of the engine share.
+
+    Args:
+        recipe: What to make.
+        nworld: Number of copies.
+        threads: Native threads; all processors if None.
+
+    Attributes:
+        recipe: What was made.
+        fleet: Moves the bodies.
+        layout: Where models, joints and links are among them.
+        angles: Of all joints [m or rad], shape (nworld, axes).
+        rates: Their velocities, likewise.
+        targets: Velocities that motors hold, likewise; not a number where there is no motor.
+        steps: Makes steps.
+        revision: Counts changes of models and of the step.
+        on_change: Called when other models run: who keeps what is made of them forgets it.
+    """
+
+    recipe: FleetInput
+    fleet: Fleet
+    layout: PlanarLayout
+    angles: Floats
+    rates: Floats
+    targets: Floats
+    steps: SystemSteps
+
+    def __init__(self, recipe: FleetInput, nworld: int, threads: int | None) -> None:
+        self._threads = threads
+        self.revision = 0
+        self.on_change: list[Callable[[], None]] = []
+        self._start(recipe, *build(recipe, nworld, threads))
+
+    def _start(self, recipe: FleetInput, fleet: Fleet, layout: PlanarLayout) -> None:
+        """Go on with a fleet, from its initial state."""
+        self.recipe, self.fleet, self.layout = recipe, fleet, layout
+        self.revision += 1
+        shape = (fleet.nworld, layout.axes)
+        self.angles, self.rates = np.zeros(shape), np.zeros(shape)
+        self.targets = np.full(shape, math.nan)
+        for joint in recipe.motors:
+            self.targets[:, layout.joints[joint][0]] = 0.0
+        self.steps = SystemSteps(fleet, self._joints, layout.axes)
+        for forget in self.on_change:
+            forget()
+
+    def _joints(self) -> Joints:
+        """Joints and rolling bases as kernels see them."""
+        layout = self.layout
+        bases = rolling_bases(layout, self.recipe.motors)
+        return Joints(
+            angles=self.angles,
+            rates=self.rates,
+            targets=self.targets,
+            limits=layout.limits,
+            base=np.array([each.body for each in bases], np.intp),
+            first=np.cumsum([0, *(len(each.columns) for each in bases)], dtype=np.intp),
+            column=np.concatenate([np.zeros(0, np.intp), *(each.columns for each in bases)]),
+            matrix=np.vstack([np.zeros((0, 3)), *(each.matrix.T for each in bases)]),
+        )
+
+    # -- change ------------------------------------------------------------------------
+
+    def change(self, recipe: FleetInput) -> None:
+        """Go on with other models, with all states that both have."""
+        fleet, layout = self.fleet, self.layout
+        angles, rates, targets = self.angles, self.rates, self.targets
+        self._start(recipe, *build(recipe, fleet.nworld, self._threads))
+        for name, body in self.layout.bodies.items():
+            if name in layout.bodies:
+                self.fleet.take_over(body, fleet, layout.bodies[name])
+        for name, (first, count) in self.layout.joints.items():
+            if name in layout.joints:
+                here, there = slice(first, first + count), layout.joints[name][0]
+                old = slice(there, there + count)
+                self.angles[:, here], self.rates[:, here] = angles[:, old], rates[:, old]
+                held = ~np.isnan(targets[:, old]) & ~np.isnan(self.targets[:, here])
+                np.copyto(self.targets[:, here], targets[:, old], where=held)
+        fleet.close()
+
+    def make_kinematic(self, model: str) -> None:
+        """Let a model move only by ``set_model_placement``."""
+        self.model(model)
+        if model not in self.recipe.kinematic:
+            kinematic = self.recipe.kinematic | {model}
+            self.change(replace(self.recipe, kinematic=kinematic))
+
+    def cut_at(self, height: float) -> None:
+        """Cut shapes at one more height [m], for rays."""
+        known = [*self.recipe.rays, *self.layout.levels.rays]
+        if all(abs(level - height) > LEVEL / 2.0 for level in known):
+            self.change(replace(self.recipe, rays=self.recipe.rays | {round(height, 4)}))
+
+    def update_world(self, world: World) -> None:
+        """Take over all of a world but its models: physics, gravity, air, lights, scene."""
+        step = world.profile.max_step_size
+        if not step > 0.0:
+            raise EngineError(f"the physics step must be positive, not {step:g} s")
+        models = self.recipe.world.models
+        self.recipe = replace(self.recipe, world=replace(world, models=models), time_step=step)
+        if step != self.fleet.time_step:
+            self.revision += 1
+        self.fleet.time_step = step
+        self.fleet.sweep = bool(world.profile.speculative_contacts)
+        self.steps.forget()
+
+    # -- finding -----------------------------------------------------------------------
+
+    def own(self, model: str, worlds: Worlds | None) -> tuple[Floats, Floats]:
+        """Positions and velocities of a model's joints, shapes (n, axes)."""
+        first = self.layout.columns[model]
+        columns = slice(first, first + self.layout.models[model].skeleton.width)
+        rows = rows_of(worlds)
+        return self.angles[rows, columns], self.rates[rows, columns]
+
+    def model(self, name: str) -> Anatomy:
+        """The model of a name."""
+        return _look_up("model", name, self.layout.models)
+
+    def owner(self, link: str) -> str:
+        """The model of a link."""
+        return _look_up("link", link, self.layout.owners)
+
+    def axes(self, joint: str) -> slice:
+        """The columns of a joint."""
+        first, count = _look_up("joint", joint, self.layout.joints)
+        return slice(first, first + count)
+
+    def rows(self, body: int, worlds: Worlds | None) -> slice | NDArray[np.intp]:
+        """Rows of a body in the fleet's tables."""
+        nbody = self.fleet.nbody
+        return slice(body, None, nbody) if worlds is None else worlds * nbody + body
+
+
+def rows_of(worlds: Worlds | None) -> slice | Worlds:
+    """An index for these worlds, all if None."""
+    return slice(None) if worlds is None else worlds
+
+
+def _look_up(kind: str, name: str, known: Mapping[str, T]) -> T:
+    try:
+        return known[name]
+    except KeyError:
+        raise EngineError(f"there is no {kind} '{name}'", hint=did_you_mean(name, known)) from None
