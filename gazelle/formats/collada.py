@@ -11,6 +11,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from typing import Any
+from xml.etree import ElementTree as ET
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,9 +32,7 @@ def parse(data: bytes) -> list[Piece]:
         FormatError: The file is no valid COLLADA, or holds no scene.
     """
     xml.parse(data, name="mesh")  # refuses entities and broken XML before another parser sees it
-    import collada
-
-    document = collada.Collada(io.BytesIO(data), ignore=[collada.common.DaeError])
+    document = _document(data)
     if document.scene is None:
         raise FormatError("the COLLADA file has no scene")
     metre = float(document.assetInfo.unitmeter or 1.0)
@@ -46,6 +45,26 @@ def parse(data: bytes) -> list[Piece]:
                 look = looks.get(primitive.material, PLAIN)
                 pieces.extend(_piece(name, primitive, look, matrix, metre))
     return pieces
+
+
+def _document(data: bytes) -> Any:
+    """The file as pycollada has it; what wears a material that is broken wears none.
+
+    Gazebo shows such geometries, and pycollada leaves them out.
+    """
+    import collada
+
+    ignored = [collada.common.DaeError]
+    document = collada.Collada(io.BytesIO(data), ignore=ignored)
+    if not document.errors:
+        return document
+    known = {f"#{material.id}" for material in document.materials}
+    root = ET.fromstring(data)  # noqa: S314  # what is dangerous was refused
+    for bindings in root.iterfind(".//{*}technique_common"):
+        for binding in bindings.findall("{*}instance_material"):
+            if binding.get("target") not in known:
+                bindings.remove(binding)
+    return collada.Collada(io.BytesIO(ET.tostring(root)), ignore=ignored)
 
 
 def _instances(

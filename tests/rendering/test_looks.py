@@ -21,6 +21,7 @@ from gazelle.description import (
     World,
 )
 from gazelle.errors import EngineWarning
+from gazelle.formats import collada
 from gazelle.formats.mesh import load_mesh, load_mesh_parts
 from gazelle.formats.mesh_looks import texture_file
 from gazelle.rendering import PinholeLens, Renderer
@@ -124,6 +125,21 @@ def test_pieces_of_a_mesh_have_the_colours_and_pictures_of_its_file(tmp_path):
         (lower, right, (1, 1, 0)),
     ):
         assert list(color[row, column] > share / 2.0) == [bool(each) for each in wanted]
+
+
+@pytest.mark.parametrize(
+    ("whole", "broken"),
+    [
+        ("<init_from>{image}</init_from>", "<!-- none -->"),
+        ('url="#worn"', 'url="#lost"'),
+        ('target="#m2"', 'target="#lost"'),
+    ],
+)
+def test_what_wears_a_broken_material_is_there_without_it(whole, broken):
+    plain, bare = collada.parse(DAE.replace(whole, broken).encode())
+    assert (len(plain[2]), len(bare[2])) == (2, 2)
+    assert plain[3].color == (0.2, 0.4, 0.6)
+    assert (bare[3].color, bare[3].texture) == (None, "")
 
 
 def test_a_lamp_beside_lights_a_picture_as_the_sun_does(tmp_path):
