@@ -16,6 +16,7 @@ import numpy as np
 
 from gazelle.array_types import Floats, Floats32, Ints32
 from gazelle.formats.block_cuts import BlockCutter
+from gazelle.formats.hull import spread_directions
 from gazelle.formats.surface import WeldedSurface
 from gazelle.formats.voxels import voxels_of
 
@@ -24,6 +25,8 @@ MOST_BLOCKS = 128
 _DIRECTIONS = 162
 _FACES = 32
 """Normals of the largest faces that are directions too."""
+_ROUND = 50
+"""Steps of a component by which normals are told apart."""
 _TRIED = 300
 """Points by which a cut is judged."""
 _FEWER = 5
@@ -177,20 +180,25 @@ def _thinned(points: Floats32) -> Floats32:
 
 def _directions(surface: WeldedSurface) -> Floats:
     """Unit vectors all around, the axes and the normals of the largest faces, shape (n, 3)."""
-    turn = math.pi * (3.0 - math.sqrt(5.0)) * np.arange(_DIRECTIONS)
-    z = 1.0 - (2.0 * np.arange(_DIRECTIONS) + 1.0) / _DIRECTIONS
-    ring = np.sqrt(1.0 - z * z)
-    around = np.stack([ring * np.cos(turn), ring * np.sin(turn), z], axis=1)
-    near, inverse = np.unique(np.round(surface.normals * 50.0), axis=0, return_inverse=True)
-    weight = np.bincount(inverse.ravel(), surface.areas)
+    places = np.round(surface.normals * _ROUND).astype(np.int64) + _ROUND
+    key = (places[:, 0] << 20) | (places[:, 1] << 10) | places[:, 2]
+    near, inverse = np.unique(key, return_inverse=True)
+    weight = np.bincount(inverse, surface.areas)
     largest = near[np.argsort(-weight, kind="stable")[:_FACES]]
-    largest /= np.linalg.norm(largest, axis=1)[:, None]
-    return np.concatenate([np.eye(3), -np.eye(3), largest, around])
+    facing = np.stack([largest >> 20, largest >> 10, largest], axis=1) % 1024 - _ROUND
+    facing = facing / np.linalg.norm(facing, axis=1)[:, None]
+    return np.concatenate([np.eye(3), -np.eye(3), facing, spread_directions(_DIRECTIONS)])
 
 
 def _thickened(points: Floats, side: float) -> Floats:
     """Points, and if they lie in a plane or on a line, so many that they have a hull."""
-    _, _, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=len(points) < 3)
+    arms = points - points.mean(axis=0)
+    if (
+        len(points) > 2
+        and math.sqrt(max(np.linalg.eigvalsh(arms.T @ arms)[0], 0.0) / len(points)) > _SHEET
+    ):
+        return points  # no spread is more than half of the width
+    _, _, axes = np.linalg.svd(arms, full_matrices=len(points) < 3)
     for axis in axes[1:]:
         if np.ptp(points @ axis) < _SHEET:
             shift = axis * min(_SHEET, 0.5 * side) / 2.0

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.formats import piece_cache
 from gazelle.formats.blocks import Blocks, blocks_of
-from gazelle.formats.hull import Solid, convex_hull, hulls_of
+from gazelle.formats.hull import Hull, Solid, convex_hull, hulls_of, spread_directions
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.patches import joined_flat, thick_patches
 from gazelle.formats.surface import WeldedSurface, clean, components
@@ -57,6 +57,8 @@ _MOST_CORNERS = 20_000
 _FIRST_LOOK = 256
 """Places that are looked at first."""
 _MAX_PAIRS = 2_000_000
+_LOOKS = spread_directions(48)
+"""Directions whose outermost corners are looked at first."""
 
 _MEMORY: dict[str, ConvexPieces] = {}
 _SPENT = {"seconds": 0.0}
@@ -242,13 +244,24 @@ def _is_convex(surface: WeldedSurface, tolerance: float) -> bool:
     """Whether nothing of the surface lies deeper in its hull than this; too much to tell: no."""
     if len(surface.vertices) > _MOST_CORNERS:
         return False
-    hull = convex_hull(surface.vertices)
-    if hull is None:
-        return False
     points = np.concatenate([surface.vertices[surface.faces].mean(axis=1), surface.vertices])
+    # what is deep in the hull of a few corners is deeper in that of all, which takes long
+    few = surface.vertices[np.unique((_LOOKS @ surface.vertices.T).argmax(axis=1))]
+    for corners in (few, surface.vertices):
+        hull = convex_hull(corners)
+        if hull is None:
+            if corners is surface.vertices:
+                return False
+        elif _is_deep(hull, points, tolerance):
+            return False
+    return True
+
+
+def _is_deep(hull: Hull, points: Floats, tolerance: float) -> bool:
+    """Whether a point lies deeper in a hull than this."""
     start, rows = 0, _FIRST_LOOK
     while start < len(points):
         if float(hull.depth(points[start : start + rows]).max()) > tolerance:
-            return False
+            return True
         start, rows = start + rows, max(_FIRST_LOOK, _MAX_PAIRS // len(hull.offsets))
-    return True
+    return False

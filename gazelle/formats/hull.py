@@ -5,6 +5,7 @@ The hull in the plane is Andrew's monotone chain (1979).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -65,6 +66,17 @@ def hulls_of(clouds: Sequence[Floats]) -> list[Solid]:
 def _used(points: Floats, faces: Indices) -> Solid:
     rows, inverse = np.unique(faces, return_inverse=True)
     return points[rows], inverse.reshape(-1, 3).astype(np.int32)
+
+
+def spread_directions(count: int) -> Floats:
+    """Unit vectors spread evenly over the sphere, along a spiral, shape (count, 3).
+
+    After Vogel, "A better way to construct the sunflower head", Mathematical Biosciences 44, 1979.
+    """
+    turn = math.pi * (3.0 - math.sqrt(5.0)) * np.arange(count)
+    z = 1.0 - (2.0 * np.arange(count) + 1.0) / count
+    ring = np.sqrt(1.0 - z * z)
+    return np.stack([ring * np.cos(turn), ring * np.sin(turn), z], axis=1)
 
 
 def planar_hull(points: Floats) -> Indices:
