@@ -16,6 +16,8 @@ RENDER_MODES = ("rgb_array",)
 SPLITS = ("published", "training", "held-out")
 """Where starts and goals may come from: as published, or free space for one of two purposes."""
 
+_WIDEST_MARGIN = 0.15  # [m]; some 0.3 m are free where episodes begin
+
 Settings = TypeVar("Settings", bound="TaskSettings")
 
 
@@ -40,6 +42,7 @@ class NavigationOptions(TaskOptions, total=False):
     seen_goals: Sequence[tuple[float, float]] | None
     starts: str
     respawn: bool
+    margin: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -122,6 +125,8 @@ class NavigationSettings(TaskSettings):
         seen_goals: Places [m] that ``held-out`` goals keep away from, as from the task's own.
         starts: One of `SPLITS`: how the robot and what moves stand when an episode begins.
         respawn: Whether the episode goes on to another goal when one is reached.
+        margin: By how much sooner than published a range is a collision [m], so that what is
+            learnt keeps its distance.
     """
 
     lidar_samples: int = 24
@@ -131,6 +136,7 @@ class NavigationSettings(TaskSettings):
     seen_goals: Sequence[tuple[float, float]] | None = None
     starts: str = "published"
     respawn: bool = True
+    margin: float = 0.0
 
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
@@ -141,6 +147,7 @@ class NavigationSettings(TaskSettings):
         check_name("kind of starts", str(self.starts), SPLITS)
         if isinstance(self.goals, str):
             check_name("kind of goals", self.goals, SPLITS)
+        check_up_to("margin", self.margin, _WIDEST_MARGIN, "metres")
         _check_kind("world", self.world, World)
         _check_kind("robot", self.robot, Model)
 
@@ -152,10 +159,12 @@ def held_out_options(trained: Mapping[str, Any]) -> dict[str, Any]:
         trained: The options that it was trained with.
 
     Returns:
-        Those that differ. One goal an episode, so that each counts alike.
+        Those that differ. One goal an episode, so that each counts alike, and no margin.
     """
     seen = trained.get("goals")
-    options = {"starts": "held-out", "goals": "held-out", "respawn": False}
+    options: dict[str, Any] = {"starts": "held-out", "goals": "held-out", "respawn": False}
+    if trained.get("margin"):
+        options["margin"] = 0.0
     return options if seen is None or isinstance(seen, str) else {**options, "seen_goals": seen}
 
 
@@ -187,6 +196,13 @@ def check_whole(name: str, value: object, least: int) -> None:
         number = least - 1
     if isinstance(value, bool) or number < least:
         raise TaskError(f"{name} must be an int, {least} or more, not {value!r}")
+
+
+def check_up_to(name: str, value: object, most: float, unit: str) -> None:
+    """Raise TaskError unless the value is a number from 0 on and not too large."""
+    good = isinstance(value, int | float) and not isinstance(value, bool)
+    if not good or not 0.0 <= float(value) <= most:  # type: ignore[arg-type]  # it is a number
+        raise TaskError(f"{name} must be from 0 to {most} {unit}, not {value!r}")
 
 
 def _check_time_step(value: object) -> None:

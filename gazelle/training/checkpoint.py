@@ -45,7 +45,7 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
 
     Args:
         folder: An existing folder.
-        learner: Between two rollouts.
+        learner: Between two rollouts; an update that runs ahead is waited for.
         extra: More to remember; see `portable.pack` for what it may hold.
     """
     torch.save(_torch_state(learner), folder / "learner.pt")
@@ -58,6 +58,9 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
     }
     if getattr(learner, "_last_lstm_states", None) is not None:
         state["recurrent"] = [_plain(part) for part in learner._last_lstm_states]  # noqa: SLF001
+    ahead = getattr(learner, "ahead", None)
+    if ahead is not None:
+        state["ahead"] = ahead.get_state()
     memory = getattr(learner, "replay_buffer", None)
     if memory is not None:
         state["memory"] = memory.get_state()
@@ -84,6 +87,8 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
         if "recurrent" in state:
             kind = type(learner._last_lstm_states)  # noqa: SLF001
             learner._last_lstm_states = kind(*map(_tensors, state["recurrent"]))  # noqa: SLF001
+        if "ahead" in state:
+            learner.go_on_ahead(state["ahead"])
         if "memory" in state:
             learner.replay_buffer.set_state(state["memory"])
         _restore_environment(learner, state)

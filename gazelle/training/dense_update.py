@@ -10,7 +10,7 @@ PyTorch's Adam compute the same; tests compare them.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import gymnasium as gym
@@ -53,6 +53,7 @@ class DenseUpdate:
 
     def __init__(self, policy: Any, max_grad_norm: float, *, bfloat16: bool = False) -> None:
         self._policy = policy
+        self.bfloat16 = bfloat16
         self._max_grad_norm = max_grad_norm
         self._adam = _FlatAdam(policy.optimizer)
         self._gradients = torch.zeros_like(self._adam.weights)
@@ -106,6 +107,14 @@ class DenseUpdate:
     def finish(self) -> None:
         """Give weights and moments back to the policy and its optimiser."""
         self._adam.give_back()
+
+    def get_state(self) -> dict[str, Any]:
+        """Weights and moments, as they are and not given back yet, for `set_state`."""
+        return self._adam.get_state()
+
+    def set_state(self, state: Mapping[str, Any]) -> None:
+        """Go on from what `get_state` returned."""
+        self._adam.set_state(state)
 
     def _judge_choices(self, outputs: torch.Tensor, batch: Transitions, ent_coef: float) -> Any:
         """Logarithms of ratios, mean entropy, and what leads from the loss of the first to outputs."""
@@ -209,6 +218,18 @@ class _FlatAdam:
         self._second.mul_(second).addcmul_(gradients, gradients, value=1.0 - second)
         size = self._second.sqrt().div_((1.0 - second**self._count) ** 0.5).add_(self._eps)
         self.weights.addcdiv_(self._first, size, value=-self._rate / (1.0 - first**self._count))
+
+    def get_state(self) -> dict[str, Any]:
+        """Weights, moments and how many steps led to them."""
+        flat = {name: getattr(self, f"_{name}").numpy() for name in ("first", "second")}
+        return {**flat, "weights": self.weights.numpy(), "count": self._count}
+
+    def set_state(self, state: Mapping[str, Any]) -> None:
+        """Go on from what `get_state` returned."""
+        for flat, name in ((self._first, "first"), (self._second, "second")):
+            flat.copy_(torch.as_tensor(state[name]))
+        self.weights.copy_(torch.as_tensor(state["weights"]))
+        self._count = int(state["count"])
 
     def give_back(self) -> None:
         """Write all into the optimiser and its tensors."""

@@ -95,6 +95,7 @@ def _build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
         **common,
     )
     learner.bfloat16 = settings.bfloat16
+    learner.overlap = settings.overlap
     return learner
 
 

@@ -2,13 +2,15 @@
 
 Acting is done by a numpy copy of the actor, values are computed for the whole
 rollout at once, no Python object is made for each copy of the environment, and
-updates work on whole tensors (`ppo_update`, or `dense_update` where the networks allow it). Steps that an environment spends on
-its reset are left out of the update.
+updates work on whole tensors (`ppo_update`, or `dense_update` where the networks allow it, then if wanted
+beside the next rollout, see `update_ahead`). Steps that an environment spends on its reset are left out of the update.
 """
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+from collections.abc import Mapping
 from typing import Any
 
 import gymnasium as gym
@@ -26,9 +28,11 @@ from gazelle.training.export import export_actor
 from gazelle.training.ppo_update import NAMES, Transitions, Weights, learns_features, loss_of
 from gazelle.training.rollout import CutOff, Rollout
 from gazelle.training.scaling import ObservationScale
-from gazelle.training.threads import multiplies_bfloat16, products
+from gazelle.training.threads import multiplies_bfloat16, products, short_turns
+from gazelle.training.update_ahead import UpdateAhead
 from gazelle.training.vecenv import VectorEnvAdapter
 
+_MORE_NAMES = ("explained_variance", "clip_range")
 _TOGETHER = 4096  # observations that are valued at once: pictures of a whole rollout are large
 
 
@@ -76,6 +80,8 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     env: VectorEnvAdapter
     scale: ObservationScale
     bfloat16: bool = False
+    overlap: bool = False
+    ahead: UpdateAhead | None = None
     _last_obs: Floats32
     _last_episode_starts: npt.NDArray[np.bool_]
 
@@ -113,6 +119,8 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         met = env.collect(actor, n_rollout_steps, rng=self.action_rng, on_step=counted)
         if met is None:
             return False
+        # What was played with the old weights is valued and learnt from with the new ones.
+        self._hand_over()
         self._last_obs, self._last_episode_starts = met.last_obs, met.last_starts
         outputs = met.outputs
         if not self.scale.decided and self.scale.refresh():
@@ -135,32 +143,74 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         buffer.episode_starts[:] = met.starts
         buffer.valid = met.valid
 
+    def learn(self, *arguments: Any, **options: Any) -> FastPPO:
+        """As Stable-Baselines3's; no update is under way when it returns or raises."""
+        try:
+            with short_turns(wanted=self.overlap):
+                super().learn(*arguments, **options)
+        except BaseException:
+            if self.ahead is not None:
+                with contextlib.suppress(Exception):  # one error is told, the first one
+                    self.ahead.wait()
+            raise
+        self._hand_over()
+        return self
+
     def train(self) -> None:
-        """Learn from the rollout, then scale observations by all that were seen so far."""
+        """Learn from the rollout, or begin to if updates run ahead; see `UpdateAhead`."""
         self.policy.set_training_mode(True)
         self._update_learning_rate(self.policy.optimizer)
         weights = Weights(
             self.clip_range(self._current_progress_remaining), self.ent_coef, self.vf_coef
         )
         data = self.rollout_buffer.transitions(self.policy)
-        dense = None
-        if fits_dense_update(self.policy):
-            rounded = self.bfloat16 and multiplies_bfloat16()
-            dense = DenseUpdate(self.policy, self.max_grad_norm, bfloat16=rounded)
-            if rounded:
-                data = dataclasses.replace(data, features=data.features.bfloat16())
-        learn = self._learn_from if dense is None else dense.learn_from
-        told: list[torch.Tensor] = []
-        with products(bfloat16=self.bfloat16 and dense is None):
-            for _ in range(self.n_epochs):
-                order = self.rollout_buffer.new_order(len(data.returns))
-                told += [
-                    learn(batch, weights) for batch in data.minibatches(order, self.batch_size)
-                ]
-        if dense is not None:
-            dense.finish()
+        orders = [self.rollout_buffer.new_order(len(data.returns)) for _ in range(self.n_epochs)]
+        explained = explained_variance(
+            self.rollout_buffer.values.flatten(), self.rollout_buffer.returns.flatten()
+        )
+        dense = self._dense_update() if fits_dense_update(self.policy) else None
+        if dense is not None and dense.bfloat16:
+            data = dataclasses.replace(data, features=data.features.bfloat16())
+        step = self._learn_from if dense is None else dense.learn_from
+
+        def learn() -> list[float]:
+            told = [
+                step(batch, weights)
+                for order in orders
+                for batch in data.minibatches(order, self.batch_size)
+            ]
+            means: list[float] = torch.stack(told).mean(dim=0).tolist()
+            return [*means, explained, weights.clip_range]
+
+        if dense is None:
+            with products(bfloat16=self.bfloat16):
+                self._learned(learn())
+            return
+        self.ahead = UpdateAhead(dense, learn)
+        self.ahead.start()
+        if not self.overlap:
+            self._hand_over()
+
+    def _dense_update(self) -> DenseUpdate:
+        """An update of the policy's weights as they are now."""
+        rounded = self.bfloat16 and multiplies_bfloat16()
+        return DenseUpdate(self.policy, self.max_grad_norm, bfloat16=rounded)
+
+    def go_on_ahead(self, state: Mapping[str, Any]) -> None:
+        """Have an update to hand over, of which `UpdateAhead.get_state` told, as in a checkpoint."""
+        self.ahead = UpdateAhead.from_state(self._dense_update(), state)
+
+    def _hand_over(self) -> None:
+        """Let the policy have what the update that is under way makes of it, if there is one."""
+        if self.ahead is not None:
+            told = self.ahead.hand_over()
+            self.ahead = None
+            self._learned(told)
+
+    def _learned(self, told: list[float]) -> None:
+        """Take note of an update, then scale observations by all that were seen so far."""
         self._n_updates += self.n_epochs
-        self._record(torch.stack(told).mean(dim=0).tolist(), weights)
+        self._record(told)
         self.scale.refresh()
 
     def _learn_from(self, batch: Transitions, weights: Weights) -> torch.Tensor:
@@ -172,17 +222,13 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         self.policy.optimizer.step()
         return told
 
-    def _record(self, means: list[float], weights: Weights) -> None:
+    def _record(self, told: list[float]) -> None:
         """Tell the curves, under Stable-Baselines3's names."""
-        buffer = self.rollout_buffer
-        explained = explained_variance(buffer.values.flatten(), buffer.returns.flatten())
-        for name, value in zip(NAMES, means, strict=True):
+        for name, value in zip((*NAMES, *_MORE_NAMES), told, strict=True):
             self.logger.record(f"train/{name}", value)
-        self.logger.record("train/explained_variance", explained)
         if hasattr(self.policy, "log_std"):
             self.logger.record("train/std", self.policy.log_std.exp().mean().item())
         self.logger.record("train/n_updates", self._n_updates, exclude="tensorboard")
-        self.logger.record("train/clip_range", weights.clip_range)
 
     def _finish(self, buffer: MaskedRolloutBuffer, cut_off: CutOff) -> None:
         """Values, bootstrapped rewards of cut-off episodes (Pardo et al. 2018), advantages."""

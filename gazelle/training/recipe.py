@@ -55,6 +55,8 @@ class PPOSettings:
     in the noise where it is many times what actions should be."""
     bfloat16: bool = False
     """Whether updates multiply in bfloat16 where the processor can, which is faster."""
+    overlap: bool = False
+    """Whether updates run beside the next rollout, on another processor."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -64,6 +64,8 @@ def curves(result):
 
 CASES = [
     ("ppo", "SameStep", False),
+    ("ahead", "SameStep", False),
+    ("ahead", "NextStep", True),
     ("ppo", "NextStep", True),
     ("ppo", "Disabled", False),
     pytest.param("dqn", "SameStep", False, marks=pytest.mark.long),
@@ -78,7 +80,8 @@ CASES = [
 def test_an_interrupted_and_resumed_run_equals_an_uninterrupted_one(
     tmp_path, tiny, algo, mode, continuous, bound
 ):
-    recipe = tiny if algo == "ppo" else off_policy(algo)
+    ahead = dataclasses.replace(tiny, settings=dataclasses.replace(tiny.settings, overlap=True))
+    recipe = {"ppo": tiny, "ahead": ahead}.get(algo) or off_policy(algo)
     given = {"recipe": recipe, "seed": 5, "mode": mode, "continuous": continuous, "bound": bound}
     whole = train("test/Corridor-v0", out=tmp_path / "whole", **given)
     stop = StopAt(recipe.steps // 2)

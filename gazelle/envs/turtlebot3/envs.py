@@ -136,6 +136,7 @@ class TurtleBot3Env(TaskEnv):
     ``starts``             "published"  or "training" or "held-out", see below
     ``seen_goals``         None         list of (x, y) [m] that "held-out" goals keep away from
     ``respawn``            True         whether the episode goes on at a goal
+    ``margin``             0.0          ranges are collisions so much sooner [m], up to 0.15
     ``threads``            all          native threads; results do not depend on it
     ``time_step``          0.02         physics step [s]; must divide 0.2
     =====================  ===========  =========================================================

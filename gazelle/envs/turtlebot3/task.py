@@ -8,7 +8,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.array_types import Bools, Floats32, Worlds
+from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.decimals import round2
@@ -17,6 +17,7 @@ from gazelle.envs.goals import GoalTable
 from gazelle.envs.options import NavigationSettings, check_name
 from gazelle.envs.pictures import mark_square, take
 from gazelle.envs.polar import distance_to
+from gazelle.envs.scans import clean_ranges, nearest_obstacle
 from gazelle.envs.turtlebot3.actions import (
     ACTIONS,
     continuous_command,
@@ -60,6 +61,7 @@ class TurtleBot3Task(BatchedTask):
         check_name("stage", str(stage), [str(known) for known in STAGES])
         self.rules = STAGES[stage]
         self.respawn = settings.respawn
+        self._margin = settings.margin
         self.continuous = continuous
         self.control_period = self.rules.control_period
         self.scene = TaskScene(self.rules, settings, nworld)
@@ -115,7 +117,7 @@ class TurtleBot3Task(BatchedTask):
         """Let robot and obstacles stand elsewhere than their files put them, if asked for."""
         if self._starts is not None:
             goals = self.goals.points[self._goal[worlds]]
-            self._starts.begin(worlds, goals, lambda some: self._see(some).nearest)
+            self._starts.begin(worlds, goals, self._nearest)
 
     @property
     def contract(self) -> PolicyContract:
@@ -187,7 +189,7 @@ class TurtleBot3Task(BatchedTask):
             self.scene.robot.inputs[COMMAND].send(linear, angular)
             self.scene.simulation.run(self.control_period)
             seen = self._see(None)
-        crashed = collided(self.rules, seen.nearest)
+        crashed = collided(self.rules, seen.nearest, self._margin)
         arrived = reached(self.rules, seen.distance)
         reward = travelling_reward(
             self.rules,
@@ -214,6 +216,13 @@ class TurtleBot3Task(BatchedTask):
         if self.continuous:
             return continuous_command(actions, self.nworld)
         return discrete_command(actions, self.nworld)
+
+    def _nearest(self, worlds: Worlds) -> Floats:
+        """The shortest range in some worlds [m], as `_see` has it, without the rest."""
+        lidar = self.scene.lidar
+        ranges = self.scene.robot.sensors[lidar.sensor].measure(worlds)
+        seen = clean_ranges(ranges, nearest=lidar.lidar.range_min, farthest=self.rules.range_max)
+        return nearest_obstacle(seen)[0].astype(np.float64)
 
     def _see(self, worlds: Worlds | None) -> RobotViews:
         scene = self.scene

@@ -6,12 +6,12 @@ from gazelle.array_types import Bools, Floats
 from gazelle.envs.turtlebot3.rules import Rules
 
 
-def collided(rules: Rules, nearest: Floats) -> Bools:
-    """Whether the shortest range (not rounded) [m], shape (n,), is below the limit.
+def collided(rules: Rules, nearest: Floats, margin: float = 0.0) -> Bools:
+    """Whether the shortest range (not rounded) [m], shape (n,), is below the limit and a margin [m].
 
     A range of 0 is a failed ray, and no collision.
     """
-    hit: Bools = (nearest > 0.0) & (nearest < rules.collision_range)
+    hit: Bools = (nearest > 0.0) & (nearest < rules.collision_range + margin)
     return hit
 
 

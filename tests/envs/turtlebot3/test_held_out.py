@@ -235,3 +235,32 @@ def test_goals_in_free_space_are_drawn_anew_for_each_episode(starts):
     goals += [env.step(np.full(16, 2))[4]["goal"] for _ in range(8)]
     assert len(np.unique(np.vstack(goals), axis=0)) > 50
     env.close()
+
+
+@pytest.mark.parametrize("margin", [0.0, 0.1])
+def test_a_margin_makes_ranges_collisions_sooner(margin):
+    env = many(4, 32, "planar", respawn=False, margin=margin, **HELD_OUT)
+    env.reset(seed=2)
+    nearest = []
+    for _ in range(60):
+        _, _, _, _, info = env.step(np.full(32, 2))  # straight on
+        if "final_obs" in info:
+            crashed = np.flatnonzero(info["final_info"]["is_collision"])
+            nearest += [info["final_obs"][world][:24].min() for world in crashed]
+    assert len(nearest) > 20
+    # A step drives 0.03 m, and obstacles come as far or more.
+    assert 0.13 + margin - 0.08 < min(nearest)
+    assert max(nearest) < 0.13 + margin
+    assert max(nearest) > 0.13 + margin - 0.02
+    env.close()
+
+
+def test_evaluations_know_no_margin():
+    assert held_out_options({"margin": 0.04})["margin"] == 0.0
+    assert "margin" not in held_out_options({})
+
+
+@pytest.mark.parametrize("margin", [-0.01, 0.2, "wide", True, float("nan")])
+def test_a_margin_that_cannot_be_is_refused(margin):
+    with pytest.raises(TaskError, match=r"margin must be from 0 to 0\.15 metres"):
+        NavigationSettings(margin=margin)

@@ -1,0 +1,75 @@
+"""An update that runs in a thread of its own while the next rollout is played.
+
+The policy that plays keeps its weights meanwhile: an update works on a copy of them, and hands the
+result over when the rollout is there. So what comes out does not depend on which of the two takes
+longer, and nobody who looks at the policy sees it half done. Each rollout is played by weights that are one
+update old, as in A3C's pipelines (Babaeizadeh et al. 2017, arXiv 1611.06256), but by exactly one; PPO's
+ratios account for that.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import torch
+
+from gazelle.training.dense_update import DenseUpdate
+
+
+class UpdateAhead:
+    """An update under way, or done and not handed over yet.
+
+    Args:
+        update: Of which policy; it must have no other user.
+        learn: The work: what the curves show of it.
+    """
+
+    def __init__(self, update: DenseUpdate, learn: Callable[[], list[float]]) -> None:
+        self._update = update
+        self._learn = learn
+        self._told: list[float] = []
+        self._error: BaseException | None = None
+        self._thread: threading.Thread | None = None
+
+    def start(self) -> None:
+        """Begin."""
+        # Who interrupts the process twice does not want to wait for it.
+        self._thread = threading.Thread(target=self._run, name="ppo_update", daemon=True)
+        self._thread.start()
+
+    def wait(self) -> None:
+        """Return when it is done; what went wrong in it is raised here, once."""
+        if self._thread is not None:
+            self._thread.join()
+            self._thread = None
+        if self._error is not None:
+            error, self._error = self._error, None
+            raise error
+
+    def hand_over(self) -> list[float]:
+        """Wait, and give the policy its new weights; what the curves show of the update."""
+        self.wait()
+        self._update.finish()
+        return self._told
+
+    def get_state(self) -> dict[str, Any]:
+        """Wait; what `from_state` goes on with."""
+        self.wait()
+        return {**self._update.get_state(), "told": self._told}
+
+    @classmethod
+    def from_state(cls, update: DenseUpdate, state: Mapping[str, Any]) -> UpdateAhead:
+        """One that is done, from what `get_state` returned."""
+        update.set_state(state)
+        found = cls(update, list)
+        found._told = [float(value) for value in state["told"]]
+        return found
+
+    def _run(self) -> None:
+        try:
+            with torch.no_grad():
+                self._told = self._learn()
+        except BaseException as error:  # noqa: BLE001  who waits for it gets it
+            self._error = error
