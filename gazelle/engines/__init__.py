@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from gazelle.description import World
-from gazelle.engines.carrying import CarryingEngine
+from gazelle.engines.carrying import CarryingEngine, as_carrying_engine
 from gazelle.engines.changes import changes_of
 from gazelle.engines.engine import PARAMETERS, DivergenceError, Engine
 from gazelle.engines.history import CHANGES, Call
+from gazelle.engines.late_engine import LateEngine
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.reactions import Contacts, TouchTable, Wrench
@@ -26,6 +27,7 @@ __all__ = [
     "Engine",
     "EngineFactory",
     "Hits",
+    "LateEngine",
     "Motion",
     "Placement",
     "RangeRays",
@@ -33,6 +35,7 @@ __all__ = [
     "TableEngine",
     "TouchTable",
     "Wrench",
+    "as_carrying_engine",
     "as_table_engine",
     "changes_of",
     "engine_names",
@@ -48,6 +51,7 @@ def make_engine(
     *,
     time_step: float | None = None,
     threads: int | None = None,
+    late: bool = False,
 ) -> Engine:
     """An engine by name.
 
@@ -57,8 +61,12 @@ def make_engine(
         nworld: Number of copies.
         time_step: Physics step [s]; the world's own if None.
         threads: Native threads; all processors if None.
+        late: Leave it to the caller to ``prepare`` an engine that can wait for that.
 
     Raises:
         EngineError: There is no such engine, or it cannot simulate the world.
     """
-    return find(name)(world, nworld, time_step=time_step, threads=threads)
+    engine = find(name)(world, nworld, time_step=time_step, threads=threads)
+    if isinstance(engine, LateEngine) and not late:
+        engine.prepare()
+    return engine

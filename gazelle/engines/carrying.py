@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol, runtime_checkable
+from inspect import getattr_static
+from typing import Protocol, cast, runtime_checkable
 
 from gazelle.array_types import Bools, Floats
+from gazelle.engines.engine import Engine
 from gazelle.native.joint_system import JointSystem
 
 
@@ -61,3 +63,14 @@ class CarryingEngine(Protocol):
         Raises:
             DivergenceError: As ``Engine.step``.
         """
+
+
+def as_carrying_engine(engine: Engine) -> CarryingEngine | None:
+    """An engine that is one of these; None for another.
+
+    ``isinstance`` asks for all properties, and so would have a world compiled before its plugins
+    have been loaded.
+    """
+    names = [name for name in vars(CarryingEngine) if not name.startswith("_")]
+    has_all = all(getattr_static(engine, name, None) is not None for name in names)
+    return cast("CarryingEngine", engine) if has_all else None

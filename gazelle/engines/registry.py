@@ -65,7 +65,7 @@ def find(name: str) -> EngineFactory:
 def _mujoco(world: World, nworld: int, *, time_step: float | None, threads: int | None) -> Engine:
     from gazelle.engines.mujoco import MujocoEngine
 
-    return MujocoEngine(world, nworld, time_step=time_step, threads=threads)
+    return MujocoEngine(world, nworld, time_step=time_step, threads=threads, late=True)
 
 
 def _planar(world: World, nworld: int, *, time_step: float | None, threads: int | None) -> Engine:
@@ -79,7 +79,7 @@ def _mujoco_warp(
 ) -> Engine:
     from gazelle.engines.mujoco.warp import WarpEngine
 
-    return WarpEngine(world, nworld, time_step=time_step, threads=threads)
+    return WarpEngine(world, nworld, time_step=time_step, threads=threads, late=True)
 
 
 _BUILT_IN: dict[str, EngineFactory] = {

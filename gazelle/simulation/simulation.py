@@ -15,7 +15,15 @@ from gazelle import formats
 from gazelle.array_types import Worlds
 from gazelle.closing import Closeable
 from gazelle.description import Model, Plugin, Pose, World
-from gazelle.engines import CarryingEngine, Engine, SystemEngine, TableEngine, make_engine
+from gazelle.engines import (
+    CarryingEngine,
+    Engine,
+    LateEngine,
+    SystemEngine,
+    TableEngine,
+    as_carrying_engine,
+    make_engine,
+)
 from gazelle.errors import SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.sensors import View
@@ -97,15 +105,16 @@ class Simulation(Closeable):
     ) -> None:
         loaded = world if isinstance(world, World) else formats.load(world)
         self.requests = RequestQueue()
-        self._engine = make_engine(engine, loaded, nworld, time_step=time_step, threads=threads)
+        self._engine = make_engine(
+            engine, loaded, nworld, time_step=time_step, threads=threads, late=True
+        )
         self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
         moved: object = self._engine
         self.native: SystemEngine | None = moved if isinstance(moved, SystemEngine) else None
-        self.carrier: CarryingEngine | None = moved if isinstance(moved, CarryingEngine) else None
+        self.carrier: CarryingEngine | None = as_carrying_engine(self._engine)
         self.tables: TableEngine | None = moved if isinstance(moved, TableEngine) else None
-        self.seed = seed_of(seed)
-        self.clock = Clock(self._engine.time_step)
+        self.seed, self.clock = seed_of(seed), Clock(self._engine.time_step)
         self.paused = False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
         self._loads = Loads(self._engine, self.clock)
@@ -119,6 +128,8 @@ class Simulation(Closeable):
             for plugin in loaded.plugins:
                 load_world_plugin(self, plugin)
             self.entities.adopt_all(loaded.models)
+        if isinstance(self._engine, LateEngine):
+            self._engine.prepare()
 
     # -- what there is -----------------------------------------------------------------
 

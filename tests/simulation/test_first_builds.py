@@ -1,4 +1,4 @@
-"""What plugins ask of the engine when a world starts is compiled all together."""
+"""What plugins ask of the engine when a world starts is compiled with it, once."""
 
 from dataclasses import replace
 
@@ -7,7 +7,7 @@ import pytest
 import scenes
 
 from gazelle import EngineError, Pose, Simulation
-from gazelle.engines import make_engine
+from gazelle.engines import LateEngine, make_engine
 from gazelle.engines.mujoco import running
 from gazelle.formats import load_string
 
@@ -45,22 +45,22 @@ def world_of(*models):
 
 
 @pytest.mark.parametrize("count", [1, 6])
-def test_many_models_that_plugins_move_are_compiled_once_more(compiled, count):
+def test_many_models_that_plugins_move_are_compiled_with_the_world(compiled, count):
     with Simulation(world_of(*(walker(f"w{i}", float(i)) for i in range(count)))) as sim:
         sim.run(0.5)
         for i in range(count):
             assert sim.robots[f"w{i}"].pose.is_close(Pose(0.5, i, 0.1), position=0.11)
-    assert len(compiled) == 2
+    assert len(compiled) == 1
 
 
-def test_many_robots_that_drive_are_compiled_once_more(compiled):
+def test_many_robots_that_drive_are_compiled_with_the_world(compiled):
     robots = [replace(scenes.burger(f"r{i}", Pose(y=float(i))), plugins=DRIVE) for i in range(5)]
     with Simulation(scenes.world(scenes.ground(), *robots)) as sim:
         for robot in robots:
             sim.robots[robot.name].inputs["cmd_vel"].send(linear=0.2)
         sim.run(0.5)
         assert all(sim.robots[robot.name].pose.x > 0.05 for robot in robots)
-    assert len(compiled) == 2
+    assert len(compiled) == 1
 
 
 def test_robots_and_walkers_start_as_they_did_one_by_one():
@@ -89,3 +89,47 @@ def test_a_model_that_is_to_be_placed_has_no_motors_from_then_on():
     other.add_motor("r::wheel_left_joint", 1.0)
     with pytest.raises(EngineError, match="has motors"):
         other.make_kinematic("r")
+
+
+def test_the_first_step_of_a_simulation_compiles_nothing(compiled):
+    with Simulation(world_of(walker("w", 0.0))) as sim:
+        assert len(compiled) == 1
+        sim.step()
+    assert len(compiled) == 1
+
+
+def test_names_are_known_before_a_world_is_compiled(compiled):
+    engine = make_engine("mujoco", scenes.world(scenes.ground(), scenes.burger("r")), late=True)
+    names = engine.link_names, engine.joint_names
+    with pytest.raises(EngineError, match="there is no model 's'"):
+        engine.make_kinematic("s")
+    with pytest.raises(EngineError, match="there is no joint 'r::wheel'"):
+        engine.add_motor("r::wheel", 1.0)
+    engine.add_motor("r::wheel_left_joint", 1.0)
+    assert not compiled
+    assert isinstance(engine, LateEngine)
+    engine.prepare()
+    assert names == (engine.link_names, engine.joint_names)
+    assert len(compiled) == 1
+    assert list(compiled[0].motors) == ["r::wheel_left_joint"]
+
+
+def test_a_late_engine_that_is_closed_compiles_nothing(compiled):
+    make_engine("mujoco", scenes.world(scenes.burger("r")), late=True).close()
+    assert not compiled
+
+
+def test_a_world_that_cannot_be_simulated_is_refused_when_it_is_made():
+    massless = "<model name='m'><link name='l'><inertial><mass>{}</mass></inertial></link></model>"
+    good, bad = world_of(massless.format(1.0)), replace_mass(world_of(massless.format(1.0)))
+    make_engine("mujoco", good)
+    for make in (Simulation, lambda world: make_engine("mujoco", world)):
+        with pytest.raises(EngineError, match="mass"):
+            make(bad)
+
+
+def replace_mass(world):
+    """The world with a link that weighs nothing."""
+    model = world.models[0]
+    link = replace(model.links[0], inertial=replace(model.links[0].inertial, mass=0.0))
+    return replace(world, models=(replace(model, links=(link,)),))

@@ -43,9 +43,9 @@ class CarriedSystems:
 
     def expect_systems(self) -> None:
         """Be ready to carry systems: what has to be compiled for that is."""
-        self._run.now()
-        if not self._run.recipe.hooks:
-            self._run.change(replace(self._run.recipe, hooks=self._run.hooks.address))
+        recipe = self._run.latest
+        if not recipe.hooks:
+            self._run.change(replace(recipe, hooks=self._run.hooks.address))
 
     def bind_joints(self, system: JointSystem, joints: Sequence[str]) -> None:
         """Say where joints are, good for one ``revision``."""

@@ -28,7 +28,7 @@ from gazelle.engines.mujoco.inertia import give_inertias, inertia_of, possible
 from gazelle.engines.mujoco.joints import add_joint
 from gazelle.engines.mujoco.laws import Extras, finish, prepare
 from gazelle.engines.mujoco.linkless import with_link
-from gazelle.engines.mujoco.loose import swings, tumbling
+from gazelle.engines.mujoco.loose import look_no_farther, swings, tumbling
 from gazelle.engines.mujoco.motors import Motor, add_motors, motor_count, stiffen
 from gazelle.engines.mujoco.options import (
     add_probes,
@@ -46,7 +46,7 @@ from gazelle.engines.mujoco.surfaces import (
     surface_options,
 )
 from gazelle.engines.mujoco.treads import possible_treads
-from gazelle.engines.mujoco.tree import Closure, TreeLink, tree_of
+from gazelle.engines.mujoco.tree import Closure, KinematicTree, TreeLink, tree_of
 from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tune_slips, tyre_name
 from gazelle.engines.mujoco.world_geoms import WorldGeoms
 from gazelle.errors import EngineError
@@ -169,10 +169,23 @@ def compile_world(recipe: CompilerInput) -> Compiled:
     springs = [spring.pair for spring in draft.springs]
     model = draft.compile()
     tighten_hierarchies(model)
+    look_no_farther(model, recipe.world)
     if not recipe.damped:
         skip_idle_forces(model)
     finish(model, draft.extras)
     return Compiled(model, draft.bodies, draft.geoms, springs, draft.closures, recipe.motors)
+
+
+def trees_of(recipe: CompilerInput) -> dict[str, KinematicTree]:
+    """The models of a world taken apart, by name.
+
+    Raises:
+        EngineError: A joint names a link that is not there.
+    """
+    return {
+        model.name: tree_of(with_link(model), kinematic=model.name in recipe.kinematic)
+        for model in recipe.world.models
+    }
 
 
 def draft_world(recipe: CompilerInput) -> Draft:
@@ -183,15 +196,12 @@ def draft_world(recipe: CompilerInput) -> Draft:
     """
     spec = mujoco.MjSpec()
     set_options(spec, recipe.world, recipe.time_step, recipe.kinematic)
-    models = list(map(with_link, recipe.world.models))
-    trees = {
-        model.name: tree_of(model, kinematic=model.name in recipe.kinematic) for model in models
-    }
+    trees = trees_of(recipe)
     bodies = {name: tree.bodies for name, tree in trees.items()}
     held = {body.name for parts in bodies.values() for body in parts if body.root is not None}
     slips = slipping(described_slips(bodies.values()), recipe.tyres - held)
     builder = _SpecBuilder(spec, recipe, bodies, slips)
-    for model in models:
+    for model in recipe.world.models:
         builder.add_model(model)
     builder.world.finish()
     for tree in trees.values():

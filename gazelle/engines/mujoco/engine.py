@@ -53,6 +53,8 @@ class MujocoEngine:
         nworld: Number of copies.
         time_step: Physics step [s]; the world's ``max_step_size`` if None.
         threads: Native threads; all processors if None. The results do not depend on it.
+        late: Compile the world only when ``prepare`` says so, or when something is asked for that
+            only a compiled world has: after motors and kinematic models have been asked for.
 
     Attributes:
         running: What runs.
@@ -72,6 +74,7 @@ class MujocoEngine:
         *,
         time_step: float | None = None,
         threads: int | None = None,
+        late: bool = False,
     ) -> None:
         settle()
         step = physics_step(world.profile.max_step_size if time_step is None else time_step)
@@ -83,6 +86,8 @@ class MujocoEngine:
         make_batch = partial(self._batch_of, nworld, min(threads or processors(), nworld))
         self.running = RunningWorlds(CompilerInput(world, step), nworld, make_batch)
         self._put_together(self.running)
+        if not late:
+            self.prepare()
 
     def _put_together(self, run: RunningWorlds) -> None:
         """Make the parts, and take over what they offer."""
@@ -98,10 +103,8 @@ class MujocoEngine:
         self.joint_wrench, self.contacts = self.reactions.joint_wrench, touches.contacts
         self.touching, self.touching_each = touches.touching, touches.touching_each
         self._systems = CarriedSystems(run, self._steps)
-        self.expect_systems, self.bind_joints = (
-            self._systems.expect_systems,
-            self._systems.bind_joints,
-        )
+        self.expect_systems = self._systems.expect_systems
+        self.bind_joints = self._systems.bind_joints
         self.read_joints, self.push_joints = self._systems.read_joints, self._systems.push_joints
         self.place_joints = self._systems.place_joints
 
@@ -112,42 +115,30 @@ class MujocoEngine:
         self.link_placement, self.link_motion = links.link_placement, links.link_motion
         self.link_acceleration = self._steps.link_acceleration
         self.cast_rays, self.cast_ranges = links.cast_rays, links.cast_ranges
-        self.set_link_placement, self.set_link_motion = (
-            handling.set_link_placement,
-            handling.set_link_motion,
-        )
+        self.set_link_placement = handling.set_link_placement
+        self.set_link_motion = handling.set_link_motion
         self.link_centre, self.set_link_wrench = handling.link_centre, handling.set_link_wrench
         self.attach, self.detach = handling.attach, handling.detach
         self.model_placement, self.planar_pose = models.model_placement, models.planar_pose
-        self.set_model_placement, self.set_model_motion = (
-            models.set_model_placement,
-            models.set_model_motion,
-        )
+        self.set_model_placement = models.set_model_placement
+        self.set_model_motion = models.set_model_motion
         self.set_ground_motion = models.set_ground_motion
         self.joint_position, self.joint_velocity = joints.joint_position, joints.joint_velocity
         self.joint_effort = joints.joint_effort
-        self.set_joint_position, self.set_joint_velocity = (
-            joints.set_joint_position,
-            joints.set_joint_velocity,
-        )
-        self.set_joint_effort, self.set_motor_velocity = (
-            joints.set_joint_effort,
-            joints.set_motor_velocity,
-        )
+        self.set_joint_position = joints.set_joint_position
+        self.set_joint_velocity = joints.set_joint_velocity
+        self.set_joint_effort = joints.set_joint_effort
+        self.set_motor_velocity = joints.set_motor_velocity
 
     def _take_over_tables(self, links: ManyLinks) -> None:
         models, joints = ManyModels(self._run, links), ManyJoints(self._run)
         self.link_placements, self.link_motions = links.link_placements, links.link_motions
         self.link_accelerations = links.link_accelerations
         self.cast_ranges_together = links.cast_ranges_together
-        self.model_placements, self.set_ground_motions = (
-            models.model_placements,
-            models.set_ground_motions,
-        )
-        self.joint_positions, self.joint_velocities = (
-            joints.joint_positions,
-            joints.joint_velocities,
-        )
+        self.model_placements = models.model_placements
+        self.set_ground_motions = models.set_ground_motions
+        self.joint_positions = joints.joint_positions
+        self.joint_velocities = joints.joint_velocities
         self.drive_joints = joints.drive_joints
 
     @staticmethod
@@ -176,12 +167,20 @@ class MujocoEngine:
     @property
     def link_names(self) -> tuple[str, ...]:
         """Scoped names, ``model::link``."""
-        return tuple(self._run.layout.links)  # what is pending, motors, changes no names
+        return self._run.link_names()
 
     @property
     def joint_names(self) -> tuple[str, ...]:
         """Scoped names, ``model::joint``, of joints that can move."""
-        return tuple(self._run.known().joints)
+        return self._run.joint_names()
+
+    def prepare(self) -> None:
+        """Compile the world with all that was asked for, so that the next step is one like others.
+
+        Raises:
+            EngineError: The world cannot be simulated.
+        """
+        self._run.now()
 
     # -- time --------------------------------------------------------------------------
 
@@ -309,7 +308,8 @@ class MujocoEngine:
     @property
     def revision(self) -> int:
         """Counts changes of models: systems then have to be bound to joints anew."""
-        self._run.now()
+        if self._run.revision:  # before the first nothing can be bound, and nothing is changed
+            self._run.now()
         return self._run.revision
 
     @property
@@ -388,5 +388,4 @@ class MujocoEngine:
 
     def close(self) -> None:
         """Free threads and memory; the engine must not be used any more."""
-        self._run.pending = None
-        del self._run.batch, self._run.state
+        self._run.end()

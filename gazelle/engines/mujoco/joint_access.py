@@ -25,6 +25,8 @@ class JointAccess:
 
     def joint_position(self, joint: str, worlds: Worlds | None = None) -> Floats:
         """Position [m or rad], shape (n, axes)."""
+        if axes := self._run.axes_at_zero(joint):
+            return np.zeros((self._run.nworld if worlds is None else len(worlds), axes))
         slots = self._run.known().joint(joint)
         return joint_from_mujoco(_read(self._run.state.qpos, [s.position for s in slots], worlds))
 

@@ -23,7 +23,7 @@ from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineError
 
 # How many axes of a joint can have a motor. The second of a screw follows from the first.
-_AXES = {
+AXES = {
     "continuous": 1,
     "planar": 3,
     "prismatic": 1,
@@ -87,11 +87,11 @@ def motor_of(
         EngineError: The joint cannot have a motor, or an effort cannot be.
     """
     moving = (bodies for model, bodies in parts.items() if model not in kinematic)
-    axes = _AXES.get(_type_of(joint, moving), 0)
+    axes = AXES.get(_type_of(joint, moving), 0)
     if not axes:
         raise EngineError(
             f"joint '{joint}' has no axis that a motor could turn",
-            hint=f"joints that can have one are {', '.join(sorted(_AXES))}",
+            hint=f"joints that can have one are {', '.join(sorted(AXES))}",
         )
     try:
         given = np.asarray(max_effort, np.float64)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import mujoco
 import numpy as np
@@ -14,17 +15,18 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import World
 from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.compiler import Compiled, CompilerInput, compile_world
+from gazelle.engines.mujoco.compiler import Compiled, CompilerInput, compile_world, trees_of
 from gazelle.engines.mujoco.editing import with_inertial
 from gazelle.engines.mujoco.hooks import Hooks
 from gazelle.engines.mujoco.laws.numbers import WORLD
-from gazelle.engines.mujoco.layout import MujocoLayout, layout_of
+from gazelle.engines.mujoco.layout import MujocoLayout, layout_of, look_up
 from gazelle.engines.mujoco.loose import keep_awake
-from gazelle.engines.mujoco.motors import motor_of, refuse_motors
+from gazelle.engines.mujoco.motors import AXES, motor_of, refuse_motors
 from gazelle.engines.mujoco.overlaps import Overlaps
 from gazelle.engines.mujoco.parameters import ParameterStore, as_rows, check
 from gazelle.engines.mujoco.rows import rows_of
 from gazelle.engines.mujoco.transfer import carry_over
+from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.errors import EngineError
 
@@ -34,8 +36,29 @@ VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
 _OFF_AXIS = frozenset({"link_centre", "link_inertia"})
 
 
+# What there is of worlds once they are compiled.
+_COMPILED = frozenset(
+    {
+        "compiled",
+        "batch",
+        "layout",
+        "state",
+        "overlaps",
+        "initial",
+        "before",
+        "sleepy",
+        "stale",
+        "placed",
+        "dropped",
+    }
+)
+
+
 class RunningWorlds:
     """Many copies of a compiled world, which the parts of the engine share.
+
+    They are compiled when somebody asks for what only a compiled world has. Motors and kinematic
+    models that are asked for before that, as plugins do, are compiled with it.
 
     Args:
         recipe: What to compile.
@@ -59,7 +82,7 @@ class RunningWorlds:
         computed: How often it was.
         placed: Whether something was put elsewhere since the last step.
         dropped: MuJoCo's loose bodies that were put elsewhere since the last step, and in which worlds.
-        revision: Counts compiled models.
+        revision: Counts compiled models; 0 before the first.
     """
 
     recipe: CompilerInput
@@ -83,9 +106,19 @@ class RunningWorlds:
     ) -> None:
         self.nworld, self._make_batch = nworld, make_batch
         self.parameters = ParameterStore(nworld)
+        self.recipe = recipe
         self.pending: CompilerInput | None = None
         self.revision = self.computed = 0
-        self._start(recipe, compile_world(recipe))
+        self._drafted: tuple[int, frozenset[str], dict[str, list[TreeLink]]] | None = None
+
+    if not TYPE_CHECKING:  # what is compiled is had by attributes that the class names
+
+        def __getattr__(self, name: str) -> Any:
+            """What runs, which is compiled when it is first asked for."""
+            if self.revision or name not in _COMPILED:
+                raise AttributeError(name)
+            self._start(self.latest, compile_world(self.latest))
+            return getattr(self, name)
 
     def _start(self, recipe: CompilerInput, compiled: Compiled) -> None:
         """Go on with a compiled model, from its initial state."""
@@ -137,14 +170,53 @@ class RunningWorlds:
             self.change(self.pending)
         return self.layout
 
+    def bodies(self) -> Mapping[str, list[TreeLink]]:
+        """Of the models that run, or will, by name."""
+        if self.revision:
+            return self.compiled.bodies
+        latest, drafted = self.latest, self._drafted
+        if drafted is None or (drafted[0], drafted[1]) != (id(latest.world), latest.kinematic):
+            trees = trees_of(latest)
+            bodies = {name: tree.bodies for name, tree in trees.items()}
+            drafted = self._drafted = id(latest.world), latest.kinematic, bodies
+        return drafted[2]
+
+    def link_names(self) -> tuple[str, ...]:
+        """Scoped names; what is pending changes none."""
+        return tuple(body.name for parts in self.bodies().values() for body in parts)
+
+    def axes_at_zero(self, joint: str) -> int:
+        """How many axes a joint has whose world is not compiled: they are at zero; 0 if it is."""
+        if self.revision:
+            return 0
+        every = (body for parts in self.bodies().values() for body in parts)
+        kinds = (b.joint.type for b in every if b.joint is not None and b.joint_name == joint)
+        return AXES.get(next(kinds, ""), 0)
+
+    def joint_names(self) -> tuple[str, ...]:
+        """Scoped names of joints that can move."""
+        if self.revision:
+            return tuple(self.known().joints)
+        every = (body for parts in self.bodies().values() for body in parts)
+        return tuple(b.joint_name for b in every if b.joint is not None and b.joint.type != "fixed")
+
     def change(self, recipe: CompilerInput) -> None:
         """Go on with another model, with all states that both have."""
         self.pending = None
         compiled = compile_world(recipe)
+        if not self.revision:
+            self._start(recipe, compiled)
+            return
         batch, layout, overlaps = self.batch, self.layout, self.overlaps
         self._start(recipe, compiled)
         carry_over(batch, layout, self.batch, self.layout)
         self.overlaps.carry(self.batch, overlaps)
+
+    def end(self) -> None:
+        """Free threads and memory."""
+        self.pending, self.revision = None, max(1, self.revision)
+        for name in ("batch", "state"):
+            self.__dict__.pop(name, None)
 
     def prepare(self, pair: Attachment) -> MujocoLayout:
         """The layout of what runs, in which two links can be held together."""
@@ -169,10 +241,13 @@ class RunningWorlds:
 
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
         """Give a joint a motor that holds a velocity with limited effort; see the protocol."""
-        self.layout.joint(joint)  # motors do not change the layout of joints
         recipe = self.latest
-        motor = motor_of(joint, max_effort, self.compiled.bodies, recipe.kinematic)
-        if joint in self.recipe.motors:
+        if self.revision:
+            self.layout.joint(joint)  # motors do not change the layout of joints
+        else:
+            look_up("joint", joint, dict.fromkeys(self.joint_names()))
+        motor = motor_of(joint, max_effort, self.bodies(), recipe.kinematic)
+        if joint in self.recipe.motors and self.revision:
             self.set_parameter("motor_effort", joint, motor.max_effort)
             return
         self.pending = replace(recipe, motors={**recipe.motors, joint: motor})
@@ -180,7 +255,7 @@ class RunningWorlds:
     def make_kinematic(self, model: str) -> None:
         """Let a model move only by ``set_model_placement``; it pushes, nothing pushes it."""
         recipe = self.latest
-        self.layout.model(model)
+        look_up("model", model, {name: parts for name, parts in self.bodies().items() if parts})
         refuse_motors(model, recipe.motors)
         self.pending = replace(recipe, kinematic=recipe.kinematic | {model})
 
