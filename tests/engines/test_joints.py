@@ -18,7 +18,7 @@ from gazelle.description import (
     Source,
 )
 from gazelle.engines import make_engine
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, EngineWarning
 
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
@@ -146,6 +146,21 @@ def test_a_gearbox_turns_its_driven_wheel_the_other_way():
     driving, driven = engine.joint_position("m::in")[0, 0], engine.joint_position("m::out")[0, 0]
     assert abs(driving) > 0.5
     assert driven == pytest.approx(-3.0 * driving, rel=1e-3)
+
+
+@pytest.mark.parametrize(("parent", "child", "missing"), [("d", "c", "d"), ("b", "d", "d")])
+def test_a_gearbox_on_a_link_without_a_hinge_is_left_out_and_told(parent, child, missing):
+    with pytest.warns(EngineWarning, match=f"gearbox 'm::gear' needs .* turns 'm::{missing}'"):
+        engine = engine_of(
+            joint("in", "revolute", "a", "b", X),
+            joint("out", "revolute", "a", "c", X),
+            joint("gear", "gearbox", parent, child, X, X, gearbox_reference_body="a"),
+            links=("a", "b", "c", "d"),
+        )
+    engine.set_joint_effort("m::in", 0.05)
+    engine.step(100)
+    assert abs(engine.joint_position("m::in")[0, 0]) > 1e-4
+    assert engine.joint_position("m::out")[0, 0] == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_mimic_follows_its_leader():

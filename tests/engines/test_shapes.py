@@ -1,5 +1,7 @@
 """Shapes collide as they look: hollows stay hollow, ground follows its picture."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scenes
@@ -7,9 +9,9 @@ import trimesh
 from PIL import Image as Picture
 
 from gazelle import formats
-from gazelle.description import Heightmap, Image, Mesh, Polyline, Pose
+from gazelle.description import Heightmap, Image, Joint, JointAxis, Mesh, Plane, Polyline, Pose
 from gazelle.engines import make_engine
-from gazelle.errors import FormatError
+from gazelle.errors import EngineWarning, FormatError
 
 
 @pytest.fixture(autouse=True)
@@ -23,6 +25,22 @@ def rest(*models, seconds=1.5, name="ball", step=0.002):
     for _ in range(round(seconds / step)):
         engine.step()
     return engine.model_placement(name).position[0]
+
+
+@pytest.mark.parametrize("spin", [0.0, 2.0])
+def test_the_plane_of_a_body_that_moves_stays_where_it_begins(spin):
+    lying = Joint("j", "revolute", "world", "link", axes=(JointAxis((0.0, 0.0, 1.0)),))
+    plane = scenes.solid("tilted", Plane(), pose=Pose(z=0.5, roll=0.2))
+    plane = replace(plane, joints=(lying,))
+    with pytest.warns(EngineWarning, match="'c' of the link 'tilted::link' stays where it is"):
+        engine = make_engine("mujoco", scenes.world(plane, scenes.ball(pose=Pose(z=0.7))))
+    engine.set_joint_velocity("tilted::j", spin)
+    engine.step(300)
+    x, y, z = engine.model_placement("ball").position[0]
+    across = (z - 0.5) * np.cos(0.2) - y * np.sin(0.2)  # of the plane
+    assert across == pytest.approx(0.1, abs=1e-3)
+    assert y < -0.04  # rolls down
+    assert engine.contacts(("tilted::link::c",)).others[0].startswith("ball")
 
 
 def saved_mesh(folder, mesh):

@@ -5,12 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import mujoco
 
-from gazelle.description import Collision, Inertial, Model, Pose, World
+from gazelle.description import Collision, Inertial, Model, Plane, Pose, World
 from gazelle.engines.mujoco.askew import straight_pose
 from gazelle.engines.mujoco.attachments import Attachment, add_attachments
 from gazelle.engines.mujoco.contacts import (
@@ -22,7 +22,7 @@ from gazelle.engines.mujoco.contacts import (
     may_slide,
     tune_springs,
 )
-from gazelle.engines.mujoco.couplings import add_closure, add_couplings
+from gazelle.engines.mujoco.couplings import add_closure, add_couplings, at_rest
 from gazelle.engines.mujoco.hierarchies import tighten_hierarchies
 from gazelle.engines.mujoco.inertia import give_inertias, inertia_of, possible
 from gazelle.engines.mujoco.joints import add_joint
@@ -36,7 +36,7 @@ from gazelle.engines.mujoco.options import (
     set_options,
     skip_idle_forces,
 )
-from gazelle.engines.mujoco.remarks import warn_of_links
+from gazelle.engines.mujoco.remarks import warn_of_links, warn_of_plane
 from gazelle.engines.mujoco.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.slips import Slip, described_slips, slipping, warn_of_losses
 from gazelle.engines.mujoco.stops import tune_stops
@@ -307,6 +307,9 @@ class _SpecBuilder:
     def _add_shapes(self, add_geom: Callable[..., str], body: TreeLink, pose: Pose) -> None:
         """Add a link's collision shapes to a MuJoCo body, in whose frame the link is at a pose."""
         for collision in body.link.collisions:
+            if isinstance(collision.geometry, Plane) and body.root not in ("static", "kinematic"):
+                self._add_still_plane(body, collision)
+                continue
             surface = surface_options(collision, self._time_step, self._ranks)
             placed = pose * straight_pose(collision, body, self._by_name)
             names = self.geoms.setdefault(f"{body.name}::{collision.name}", [])
@@ -320,6 +323,13 @@ class _SpecBuilder:
             if seen is not None:
                 name = f"{body.name}::{collision.name}#{len(names)}"
                 names.append(add_geom(name=name, mass=0.0, **seen))
+
+    def _add_still_plane(self, body: TreeLink, collision: Collision) -> None:
+        """Add the plane of a link that moves to the world: ODE's planes stay where they begin."""
+        warn_of_plane(body, collision)
+        link = replace(body.link, collisions=(collision,))
+        still = replace(body, link=link, parent=None, joint=None, root="static")
+        self._add_shapes(self.world.add_geom, still, at_rest(body, self._by_name))
 
     def _solid(self, name: str, body: TreeLink, collision: Collision, placed: Pose) -> ContactGeom:
         model = body.name.partition("::")[0]

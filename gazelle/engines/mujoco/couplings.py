@@ -142,10 +142,10 @@ def _through_a_link(
         return  # it holds nothing
     by_name = {body.name: body for body in bodies}
     child = by_name[joint.child]
-    place, above = _at_rest(child, by_name), spec.worldbody
+    place, above = at_rest(child, by_name), spec.worldbody
     if joint.parent != "world":
         above = spec.body(joint.parent)
-        place = _at_rest(by_name[joint.parent], by_name).inverse() * place
+        place = at_rest(by_name[joint.parent], by_name).inverse() * place
     x, y, z, w = place.quaternion
     name = f"{closure.name}#link"
     handle = above.add_body(name=name, pos=list(place.position), quat=[w, x, y, z])
@@ -164,7 +164,7 @@ def _through_a_link(
     equality.solimp = _RIGID
 
 
-def _at_rest(body: TreeLink, by_name: Mapping[str, TreeLink]) -> Pose:
+def at_rest(body: TreeLink, by_name: Mapping[str, TreeLink]) -> Pose:
     """The pose of a body in the world with all joints at zero."""
     pose = body.pose
     while body.parent is not None:
@@ -180,11 +180,20 @@ def _gearbox(
     joint = closure.joint
     driving = _turning(closure, joint.parent, bodies, 0)
     driven = _turning(closure, joint.child, bodies, 1)
+    if driving is None or driven is None:
+        link = joint.parent if driving is None else joint.child
+        text = (
+            f"gearbox '{closure.name}' needs a revolute joint that turns '{link}', and was left out"
+        )
+        warnings.warn(EngineWarning(located(text, joint.source)), stacklevel=3)
+        return
     ratio = -joint.gearbox_ratio * driving[1] * driven[1]
     _tie(spec, driven[0], driving[0], (0.0, ratio), time_step)
 
 
-def _turning(closure: Closure, link: str, bodies: list[TreeLink], axis: int) -> tuple[str, float]:
+def _turning(
+    closure: Closure, link: str, bodies: list[TreeLink], axis: int
+) -> tuple[str, float] | None:
     """The hinge that a link turns on, and whether it turns with or against the gear's axis."""
     joint = closure.joint
     for body in bodies:
@@ -192,10 +201,7 @@ def _turning(closure: Closure, link: str, bodies: list[TreeLink], axis: int) -> 
             own = body.joint.pose.rotate(body.joint.axes[0].xyz)
             gear = joint.axes[min(axis, len(joint.axes) - 1)].xyz if joint.axes else own
             return body.joint_name, 1.0 if float(np.dot(own, gear)) >= 0.0 else -1.0
-    raise EngineError(
-        f"gearbox '{closure.name}' needs a revolute joint that turns '{link}'",
-        source=joint.source,
-    )
+    return None
 
 
 _CLOSERS: dict[str, Callable[[mujoco.MjSpec, Closure, list[TreeLink], float], None]] = {

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from gazelle.description import Collision
 from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineWarning, located
 
@@ -31,6 +32,12 @@ def warn_of_links(models: Iterable[Sequence[TreeLink]]) -> None:
         [body for body in moving if body.link.kinematic and body.root != "kinematic"],
         "<kinematic>, which has no effect: forces move it; say <static> of a model that stands",
     )
+
+
+def warn_of_plane(body: TreeLink, collision: Collision) -> None:
+    """Say that the plane of a link that moves does not move with it."""
+    text = f"the plane '{collision.name}' of the link '{body.name}' stays where it is, as ODE's do"
+    warnings.warn(EngineWarning(located(text, collision.source)), stacklevel=2)
 
 
 def _is_tiny(body: TreeLink) -> bool:
