@@ -36,7 +36,7 @@ def test_the_plane_of_a_body_that_moves_stays_where_it_begins(spin):
         engine = make_engine("mujoco", scenes.world(plane, scenes.ball(pose=Pose(z=0.7))))
     engine.set_joint_velocity("tilted::j", spin)
     engine.step(300)
-    x, y, z = engine.model_placement("ball").position[0]
+    _, y, z = engine.model_placement("ball").position[0]
     across = (z - 0.5) * np.cos(0.2) - y * np.sin(0.2)  # of the plane
     assert across == pytest.approx(0.1, abs=1e-3)
     assert y < -0.04  # rolls down

@@ -131,6 +131,16 @@ def test_the_step_limit_truncates():
     env.close()
 
 
+def test_a_time_out_comes_in_the_step_after_the_five_hundredth():
+    # As in the published loop; in a circle of 0.1 m about the start nothing else ends an episode.
+    env = gym.make(STAGE1)
+    env.reset(seed=0)
+    ends = [env.step(0)[2:4] for _ in range(501)]
+    assert ends[:-1] == [(False, False)] * 500
+    assert ends[-1] == (False, True)
+    env.close()
+
+
 def test_a_robot_file_with_more_rays_is_fitted_with_a_notice():
     file = assets.robot("turtlebot3_burger")
     with pytest.warns(GazelleWarning, match="360 rays and the task reads 12"):
