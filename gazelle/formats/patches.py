@@ -25,7 +25,7 @@ FINE = 7e-3
 MOST_PATCHES = 20_000
 """Solids from which on they are coarser than that."""
 
-_FEW = 4000
+_FEW = 1000
 """Solids up to which they follow the surface exactly."""
 _ROUNDING = 1e-6
 """What counts as flat, as a share of the size."""
