@@ -21,6 +21,9 @@ PathLike = str | os.PathLike[str]
 _told: set[tuple[str, Path]] = set()
 """Models of the environment that have been told not to be taken."""
 
+_own_worlds: dict[tuple[Path, int], World] = {}
+"""What came with Gazelle and was read, by the file and when that was written."""
+
 _WORLD_SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
 _EXPANDED = {"robot", "sdf", "gazebo"}
@@ -54,7 +57,7 @@ def load(
         ResolveError: There is no such file; or, if ``strict``, one it refers to.
     """
     reading = _reading(paths, xacro_args)
-    world = read_path(find_file(path, reading), reading)
+    world = _read_once(find_file(path, reading), reading)
     reading.report(strict=strict)
     return world
 
@@ -72,7 +75,7 @@ def load_model(
         FormatError: The file holds no model, or several.
     """
     reading = _reading(paths, xacro_args)
-    world = read_path(find_file(path, reading, model=True), reading)
+    world = _read_once(find_file(path, reading, model=True), reading)
     reading.report(strict=strict)
     return _only_model(world, str(path))
 
@@ -249,6 +252,22 @@ def _bundled_files(assets: Path) -> dict[str, Path]:
             for file in sorted(assets.glob(pattern + suffix)):
                 files.setdefault(file.name.removesuffix(suffix), file)
     return files
+
+
+def _read_once(file: Path, reading: Reading) -> World:
+    """The world in a file; one of Gazelle's own that gave no remark is read once in a process.
+
+    What such a file names is Gazelle's own, too, and descriptions do not change.
+    """
+    if not file.is_relative_to(reading.resolver.assets) or not reading.is_plain:
+        return read_path(file, reading)
+    key = file, file.stat().st_mtime_ns
+    world = _own_worlds.get(key)
+    if world is None:
+        world = read_path(file, reading)
+        if not reading.notes and not reading.misses:
+            _own_worlds[key] = world
+    return world
 
 
 def read_path(file: Path, reading: Reading) -> World:

@@ -74,6 +74,11 @@ class Reading:
     notes: dict[Note, None] = field(default_factory=dict)
     including: list[Path] = field(default_factory=list)
 
+    @property
+    def is_plain(self) -> bool:
+        """Whether neither folders to search nor arguments of xacro files were given."""
+        return not self.resolver.paths and not self.xacro_args
+
     def find(self, uri: str, node: Parameters, *, required: bool = True) -> Path | None:
         """The file behind a URI; a miss is recorded when it is required."""
         path = self.resolver.find(uri, self.folder)
