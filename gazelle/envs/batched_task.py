@@ -316,9 +316,10 @@ def _put(info: Info, start: Info, worlds: Worlds) -> Info:
     nworld = len(next(iter(info.values()))) if info else 0
     for name, values in start.items():
         # What only a first moment tells, such as the scenario, is zero elsewhere.
-        blank = np.zeros((nworld, *values.shape[1:]), values.dtype)
-        merged[name] = info[name].copy() if name in info else blank
-        merged[name][worlds] = values
+        known = name in info
+        whole = info[name].copy() if known else np.zeros((nworld, *values.shape[1:]), values.dtype)
+        whole[worlds] = values
+        merged[name] = whole
     return merged
 
 

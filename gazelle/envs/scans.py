@@ -47,5 +47,19 @@ def clean_all(ranges: Floats, cleaned: Floats32, nearest: float, farthest: float
 
 def nearest_obstacle(ranges: Floats32) -> tuple[Floats32, NDArray[np.intp]]:
     """The shortest range [m] of each scan and the index of its ray, each of shape (n,)."""
-    ray = ranges.argmin(axis=1)
-    return ranges[np.arange(len(ranges)), ray], ray
+    shortest, ray = np.empty(len(ranges), np.float32), np.empty(len(ranges), np.intp)
+    find_nearest(np.ascontiguousarray(ranges, np.float32), shortest, ray)
+    return shortest, ray
+
+
+def find_nearest(ranges: Floats32, shortest: Floats32, ray: NDArray[np.intp]) -> None:
+    """The first of the shortest ranges of each scan, shape (n, samples)."""
+    samples = ranges.shape[1]
+    for i in range(ranges.shape[0]):
+        best, at = ranges[i, 0], 0
+        for j in range(1, samples):
+            closer = ranges[i, j] < best
+            best = ranges[i, j] if closer else best
+            at = j if closer else at
+        shortest[i] = best
+        ray[i] = at

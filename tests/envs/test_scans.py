@@ -3,7 +3,7 @@
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
+from hypothesis.extra.numpy import array_shapes, arrays
 
 from gazelle.envs.scans import clean_ranges, nearest_obstacle
 
@@ -42,3 +42,12 @@ def test_nearest_is_the_first_of_equals():
     nearest, ray = nearest_obstacle(np.array([[2.0, 1.0, 1.0], [0.5, 3.0, 3.0]]))
     assert nearest.tolist() == [1.0, 0.5]
     assert ray.tolist() == [1, 0]
+
+
+@given(
+    arrays(np.float32, array_shapes(min_dims=2, max_dims=2), elements=st.floats(0.0, 4.0, width=32))
+)
+def test_the_nearest_obstacle_is_the_first_of_the_shortest(ranges):
+    nearest, ray = nearest_obstacle(ranges)
+    assert np.array_equal(nearest, ranges.min(axis=1))
+    assert np.array_equal(ray, ranges.argmin(axis=1))

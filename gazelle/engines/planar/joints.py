@@ -56,7 +56,7 @@ class PlanarJoints:
             EngineError: There is no motor on the joint.
         """
         column = self._run.axes(joint).start
-        if np.isnan(self._run.targets[:, column]).any():
+        if joint not in self._run.recipe.motors:
             raise EngineError(f"there is no motor on joint '{joint}'", hint="give it one first")
         return self._run.targets, column
 

@@ -62,8 +62,8 @@ def sight(
     shortest, ray = nearest_obstacle(cleaned)
     nearest = shortest.astype(np.float64)
     heading = heading_to(pose, pose[:, 2], goal)
-    rounded, distance, heading = round2(np.stack((nearest, distance_to(pose, goal), heading)))
-    return RobotViews(cleaned, nearest, rounded, ray, distance, heading, pose[:, :2])
+    rounded, distance = round2(nearest), round2(distance_to(pose, goal))
+    return RobotViews(cleaned, nearest, rounded, ray, distance, round2(heading), pose[:, :2])
 
 
 def observation(rules: Rules, seen: RobotViews) -> Floats32:
