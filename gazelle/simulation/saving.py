@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -19,7 +20,7 @@ from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.ports import TwistInput
 from gazelle.simulation.robot import Robot, RobotHost
 
-_FORMAT = 2
+_FORMAT = 3
 
 # What reading an archive may raise that is none, or broken.
 _BROKEN = (
@@ -28,6 +29,7 @@ _BROKEN = (
     LookupError,
     NotImplementedError,
     OSError,
+    TypeError,
     ValueError,
     zipfile.BadZipFile,
     zlib.error,
@@ -37,9 +39,17 @@ _HINT = "restore into a simulation with the same world, models, engine and numbe
 
 def snapshot(simulation: RobotHost) -> bytes:
     """The state of physics, clock, commands, plugins, sensors and noise."""
+    arrays = _gather(simulation)
+    index = [(name, value.dtype.str, value.shape) for name, value in arrays.items()]
+    # Each array of an archive costs 0.1 ms to write and to read, and there are a hundred.
+    data = b"".join(value.tobytes() for value in arrays.values())
     buffer = io.BytesIO()
-    arrays = {_escape(name): value for name, value in _gather(simulation).items()}
-    np.savez(buffer, allow_pickle=False, **arrays)
+    np.savez(
+        buffer,
+        allow_pickle=False,
+        index=np.frombuffer(json.dumps(index).encode(), np.uint8),
+        data=np.frombuffer(data, np.uint8),
+    )
     return buffer.getvalue()
 
 
@@ -188,14 +198,23 @@ def _read(data: bytes) -> dict[str, NDArray[Any]]:
         raise SimulationError(f"a snapshot is bytes, not {type(data).__name__}")
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
-            return {_unescape(name): archive[name] for name in archive.files}
+            index = json.loads(archive["index"].tobytes())
+            return _arrays_of(archive["data"].tobytes(), index)
     except _BROKEN:
         raise SimulationError("these bytes are no snapshot, or a damaged one") from None
 
 
-def _escape(name: str) -> str:
-    return name.replace("%", "%25").replace("/", "%2F")
+def _arrays_of(data: bytes, index: list[tuple[str, str, list[int]]]) -> dict[str, NDArray[Any]]:
+    """Arrays that lie one after the other, by name.
 
-
-def _unescape(name: str) -> str:
-    return name.replace("%2F", "/").replace("%25", "%")
+    Raises:
+        ValueError: They have another size.
+    """
+    arrays, at = {}, 0
+    for name, kind, shape in index:
+        dtype, count = np.dtype(kind), math.prod(shape)
+        arrays[name] = np.frombuffer(data, dtype, count, at).reshape(shape).copy()
+        at += count * dtype.itemsize
+    if at != len(data):
+        raise ValueError(f"{at} bytes of {len(data)} are known")
+    return arrays

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import json
+import math
 
 import numpy as np
 import pytest
@@ -31,16 +33,32 @@ def test_bytes_that_are_no_snapshot_are_refused():
         sim.restore(good)
 
 
+def parts(data):
+    """The arrays of a snapshot by name: they lie one after the other, as an index says."""
+    with np.load(io.BytesIO(data)) as archive:
+        index, whole = json.loads(archive["index"].tobytes()), archive["data"].tobytes()
+    arrays, at = {}, 0
+    for name, kind, shape in index:
+        size = np.dtype(kind).itemsize * math.prod(shape)
+        arrays[name] = np.frombuffer(whole[at : at + size], kind).reshape(shape)
+        at += size
+    return arrays
+
+
+def archive_of(index, data):
+    buffer = io.BytesIO()
+    np.savez(buffer, index=header(json.dumps(index)), data=np.frombuffer(data, np.uint8))
+    return buffer.getvalue()
+
+
 def with_member(data, name, value):
     """A snapshot with one of its arrays replaced, or left out."""
-    with np.load(io.BytesIO(data)) as archive:
-        arrays = {each: archive[each] for each in archive.files}
+    arrays = parts(data)
     del arrays[name]
     if value is not None:
         arrays[name] = value
-    buffer = io.BytesIO()
-    np.savez(buffer, **arrays)
-    return buffer.getvalue()
+    index = [(each, array.dtype.str, array.shape) for each, array in arrays.items()]
+    return archive_of(index, b"".join(array.tobytes() for array in arrays.values()))
 
 
 def header(text):
@@ -63,8 +81,7 @@ def test_a_snapshot_with_any_part_damaged_is_refused_and_nothing_changes(running
     good = running.snapshot()
     running.run(0.1)
     now = running.snapshot()
-    with np.load(io.BytesIO(good)) as archive:
-        names = [name for name in archive.files if not name.startswith("plugin")]
+    names = [name for name in parts(good) if not name.startswith("plugin")]
     refused = 0
     for name in names:
         try:
@@ -79,11 +96,31 @@ def test_a_snapshot_with_any_part_damaged_is_refused_and_nothing_changes(running
     assert running.snapshot() == good
 
 
-@pytest.mark.parametrize("text", ["5", "[1]", "{}", "nonsense", '{"format": 2, "names": []}'])
+@pytest.mark.parametrize("text", ["5", "[1]", "{}", "nonsense", '{"format": 3, "names": []}'])
 def test_a_snapshot_with_a_damaged_header_is_refused(running, text):
     now = running.snapshot()
     with pytest.raises(SimulationError, match="snapshot"):
         running.restore(with_member(now, "header", header(text)))
+    assert running.snapshot() == now
+
+
+@pytest.mark.parametrize(
+    ("index", "data"),
+    [
+        (5, b""),
+        ([5], b""),
+        ([["header", "|u1", [4]]], b"{}"),
+        ([["header", "|u1", [1]]], b"{}"),
+        ([["header", "|u1", [-1]]], b"{}"),
+        ([["header", "|O", [1]]], b"12345678"),
+        ([["header", "nonsense", [1]]], b"{}"),
+        ([["header", "|u1", "2"]], b"{}"),
+    ],
+)
+def test_an_index_that_does_not_fit_is_refused(running, index, data):
+    now = running.snapshot()
+    with pytest.raises(SimulationError, match="no snapshot"):
+        running.restore(archive_of(index, data))
     assert running.snapshot() == now
 
 

@@ -7,7 +7,7 @@ from gazelle.description import Model, Pose, World
 from gazelle.envs.lidars import FittedLidar, fit_lidar
 from gazelle.envs.options import NavigationSettings
 from gazelle.envs.turtlebot3.rules import Rules
-from gazelle.errors import TaskError
+from gazelle.errors import SimulationError, TaskError
 from gazelle.simulation import Robot, Simulation
 
 ROBOT = "turtlebot3_burger"
@@ -34,6 +34,7 @@ class TaskScene:
 
     simulation: Simulation
     robot: Robot
+    _beginning: bytes
 
     def __init__(self, rules: Rules, settings: NavigationSettings, nworld: int) -> None:
         self._settings = settings
@@ -47,11 +48,14 @@ class TaskScene:
 
     def restart(self, seed: int) -> None:
         """Start everything over, as if the scene had just been made with this seed."""
-        if seed == self.simulation.seed:
+        try:
             self.simulation.restore(self._beginning)
-            return
-        self.simulation.close()
-        self._run(seed)
+        except SimulationError:  # models came or went meanwhile
+            self.simulation.close()
+            self._run(seed)
+        if seed != self.simulation.seed:
+            self.simulation.reset(seed=seed)
+            self._beginning = self.simulation.snapshot()
 
     def _run(self, seed: int) -> None:
         settings = self._settings

@@ -78,11 +78,11 @@ class TurtleBot3Task(BatchedTask):
         self._goal = np.full(nworld, NO_GOAL, dtype=np.intp)
         self._start_distance = np.ones(nworld)
         self._goals_reached = np.zeros(nworld, dtype=np.int64)
-        self._seed(self.scene.simulation.seed)
+        self._start_over(self.scene.simulation.seed)
 
     @property
     def simulation(self) -> Simulation:
-        """What runs now; a new seed starts another one."""
+        """What runs now."""
         return self.scene.simulation
 
     def render(self, world: int) -> NDArray[np.uint8]:
@@ -103,6 +103,10 @@ class TurtleBot3Task(BatchedTask):
 
     def _seed(self, seed: int) -> None:
         self.scene.restart(seed)
+        self._start_over(seed)
+
+    def _start_over(self, seed: int) -> None:
+        """Draw from a seed anew, in a scene that has just begun."""
         self._stream = Stream(seed, "turtlebot3/goals", self.nworld)
         self._goal[:] = NO_GOAL
         if self._starts is not None:

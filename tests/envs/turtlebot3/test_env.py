@@ -7,6 +7,7 @@ import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env, data_equivalence
+from gymnasium.utils.passive_env_checker import env_render_passive_checker
 
 from gazelle import assets, formats
 from gazelle.envs import task_ids
@@ -33,7 +34,20 @@ def test_gymnasiums_checker_finds_nothing(task):
             if name in task:
                 warnings.filterwarnings("ignore", message)
         env = gym.make(task)
-        check_env(env.unwrapped)
+        check_env(env.unwrapped, skip_render_check=True)
+    env.close()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("task", task_ids())
+def test_gymnasiums_checker_finds_nothing_in_pictures(task):
+    env = gym.make(task, render_mode="rgb_array").unwrapped
+    env.reset(seed=0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        picture = env_render_passive_checker(env)
+    assert picture.dtype == np.uint8
+    assert np.ptp(picture) > 0
     env.close()
 
 
