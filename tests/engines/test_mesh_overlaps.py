@@ -24,7 +24,7 @@ def corner():
     return trimesh.util.concatenate([one, two])
 
 
-MESHES = {"corner": corner, "ring": lambda: trimesh.creation.torus(0.2, 0.06)}
+MESHES = {"corner": corner, "ring": lambda: trimesh.creation.torus(0.2, 0.06, 24, 12)}
 
 
 def thing(folder, kind, name, pose, max_vel, *, static=False):
