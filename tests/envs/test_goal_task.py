@@ -148,6 +148,7 @@ def test_what_does_not_fit_is_named(methods, words):
         broken(**methods)
 
 
+@pytest.mark.long
 def test_stable_baselines3s_own_hindsight_takes_it():
     stable = pytest.importorskip("stable_baselines3")
     learner = stable.DDPG(

@@ -79,6 +79,7 @@ def test_a_film_of_a_world_in_space(tmp_path):
             film(sim, tmp_path / "none" / "a.gif", 1.0)
 
 
+@pytest.mark.long
 def test_a_recording_is_filmed_in_steps_finer_than_it_was_made(tmp_path):
     with Simulation(assets.world("turtlebot3_stage_1"), threads=1) as sim:
         sim.spawn("turtlebot3_burger").inputs["cmd_vel"].send(0.2)
