@@ -63,6 +63,7 @@ def updated(task: str, copies: int) -> float:
     recipe = dataclasses.replace(recipe_for(task), num_envs=copies)
     env = VectorEnvAdapter(make_task(task, copies, **recipe.training_options))
     learner = build_learner(recipe, env, 0)
+    learner.overlap = False  # the whole update is timed, and nothing is played beside it
     learner.set_logger(Logger(None, []))
     _, callback = learner._setup_learn(10**9, None)  # noqa: SLF001  # as `learn` begins
     learner.collect_rollouts(env, callback, learner.rollout_buffer, learner.n_steps)
