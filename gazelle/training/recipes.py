@@ -183,8 +183,26 @@ RECIPES: dict[str, Recipe] = {
     "TurtleBot3Stage1": dataclasses.replace(_NAVIGATION, steps=500_000),
     "TurtleBot3Stage2": _NAVIGATION,
     "TurtleBot3Stage3": _NAVIGATION,
-    # Obstacles are as fast as the robot: see farther ahead, and update more often for each step.
+    # Obstacles are as fast as the robot: see farther ahead, and keep away from them.
     "TurtleBot3Stage4": dataclasses.replace(
+        _NAVIGATION,
+        steps=6_000_000,
+        num_envs=1024,
+        gamma=0.985,
+        reward_scale=0.2,
+        goal_reward=GoalReward(collision=10.0),
+        training_options={**_NAVIGATION.training_options, "margin": 0.04},
+        settings=PPOSettings(
+            n_steps=16,
+            batch_size=2048,
+            n_epochs=3,
+            gae_lambda=0.9,
+            ent_coef=0.01,
+            overlap=True,
+        ),
+    ),
+    # And update more often for each step. Other algorithms begin with this one's values, too.
+    "TurtleBot3Stage4Continuous": dataclasses.replace(
         _NAVIGATION,
         steps=2_000_000,
         learning_rate=2e-3,
@@ -199,9 +217,9 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
     """The recipe for a task, by default with the algorithm that suits it best.
 
     A task without a recipe of its own gets the defaults of the algorithm. A
-    continuous twin (``...Continuous``) uses the recipe of its task. Another algorithm than the
-    recipe's own gets those of its values that it takes notice of; a `TaskWarning` says so where
-    that costs it the demonstrator.
+    continuous twin (``...Continuous``) without one uses the recipe of its task. Another algorithm than the
+    recipe's own gets those of its values that it takes notice of, or of the twin's where there is
+    one; a `TaskWarning` says so where that costs it the demonstrator.
 
     Args:
         task: Name or id, such as ``TurtleBot3Stage1`` or ``gazelle/TurtleBot3Stage1-v0``.
@@ -210,15 +228,17 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
     Raises:
         TaskError: There is no such algorithm.
     """
-    own = RECIPES.get(task_name(task).removesuffix("Continuous"))
+    full = task_name(task)
+    name = full.removesuffix("Continuous")
+    own = RECIPES.get(full) or RECIPES.get(name)
     if algo is None or (own is not None and own.algo == algo):
         return own or _DEFAULT
+    own = RECIPES.get(f"{name}Continuous", own)
     _tell_of_demonstrator(own, algo)
     if algo == "ppo":
         return _DEFAULT
     if own is not None and isinstance(own.settings, OffPolicySettings):
         return _with_memory(own, own.settings, algo)
-    name = task_name(task).removesuffix("Continuous")
     base = plain_recipe(name, algo)
     if own is None:
         return base

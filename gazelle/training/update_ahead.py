@@ -3,8 +3,7 @@
 The policy that plays keeps its weights meanwhile: an update works on a copy of them, and hands the
 result over when the rollout is there. So what comes out does not depend on which of the two takes
 longer, and nobody who looks at the policy sees it half done. Each rollout is played by weights that are one
-update old, as in A3C's pipelines (Babaeizadeh et al. 2017, arXiv 1611.06256), but by exactly one; PPO's
-ratios account for that.
+update old, exactly one, and PPO's ratios account for that.
 """
 
 from __future__ import annotations

@@ -40,8 +40,19 @@ def test_names_lose_namespace_and_version(task, name):
     assert task_name(task) == name
 
 
-def test_continuous_twins_share_their_tasks_recipe():
-    assert recipe_for("gazelle/TurtleBot3Stage4Continuous-v0") == RECIPES["TurtleBot3Stage4"]
+def test_continuous_twins_share_their_tasks_recipe_unless_they_have_one():
+    assert recipe_for("gazelle/TurtleBot3Stage3Continuous-v0") == RECIPES["TurtleBot3Stage3"]
+    own = RECIPES["TurtleBot3Stage4Continuous"]
+    assert recipe_for("gazelle/TurtleBot3Stage4Continuous-v0") == own != RECIPES["TurtleBot3Stage4"]
+
+
+@pytest.mark.parametrize("algo", ["dqn", "sac", "td3"])
+def test_other_algorithms_begin_with_the_values_of_the_twin(algo):
+    for task in ("TurtleBot3Stage4", "TurtleBot3Stage4Continuous"):
+        recipe, twin = recipe_for(task, algo), RECIPES["TurtleBot3Stage4Continuous"]
+        assert recipe.algo == algo
+        assert recipe.gamma == twin.gamma != RECIPES["TurtleBot3Stage4"].gamma
+        assert "margin" not in recipe.training_options
 
 
 def test_unknown_algorithm_suggests_the_closest():
@@ -75,7 +86,7 @@ def test_the_fleets_recipe_learns_what_the_defaults_do_not(tmp_path):
 
 
 def test_learners_that_can_stand_still_pay_less_for_collisions_on_stage_4():
-    own = recipe_for("TurtleBot3Stage4").goal_reward
+    own = recipe_for("TurtleBot3Stage4Continuous").goal_reward
     for algo in ("sac", "td3", "ddpg"):
         assert recipe_for("TurtleBot3Stage4Continuous", algo).goal_reward.collision < own.collision
         assert recipe_for("TurtleBot3Stage1Continuous", algo).goal_reward == own
