@@ -139,16 +139,32 @@ def _shown_fetch(task: str, steps: int) -> Recipe:
 RECIPES: dict[str, Recipe] = {
     # A hall full of AGVs: what bumps is two that meet, so that is dear, and far goals draw gently. An
     # AGV of 0.5 m is never between two of 48 rays within 3.8 m, but was between two of 24 at 1.9 m.
+    # Who looks 10 s ahead (a discount of 0.98) waits in crowds until all wait for each other.
+    # Collisions are rare, so an update needs many transitions to learn of them.
     "AGVFleet": Recipe(
-        steps=1_500_000,
-        num_envs=576,
+        steps=3_200_000,
+        num_envs=1152,
+        net_arch=(128, 128),
         activation="relu",
-        learning_rate=2e-3,
-        gamma=0.98,
-        goal_reward=GoalReward(goal=1.0, collision=3.0, progress=0.2),
+        learning_rate=2.5e-3,
+        gamma=0.99,
+        goal_reward=GoalReward(goal=1.0, collision=4.0, progress=0.2),
         features=True,
-        training_options={"engine": "planar", "agents": 72, "lidar_samples": 48},
-        settings=PPOSettings(n_steps=16, n_epochs=3, ent_coef=0.0, bfloat16=True),
+        training_options={
+            "engine": "planar",
+            "agents": 72,
+            "lidar_samples": 48,
+            "max_episode_steps": 1000,
+        },
+        evaluation_options={"max_episode_steps": 500},
+        settings=PPOSettings(
+            n_steps=16,
+            batch_size=3072,
+            n_epochs=3,
+            ent_coef=0.0,
+            initial_std=0.7,
+            bfloat16=True,
+        ),
     ),
     "CartPole": Recipe(
         steps=250_000,

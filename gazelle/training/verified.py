@@ -50,7 +50,7 @@ VERIFIED: dict[str, Verified] = {
     ),
     "UR5Reach": Verified(success={"mujoco": SuccessRate(996, 1000)}, seeds=1, seconds=79),
     "AGVFleet": Verified(
-        success={"planar": SuccessRate(5316, 5814, effective=853)}, seeds=3, seconds=43
+        success={"planar": SuccessRate(5273, 5667, effective=1599)}, seeds=3, seconds=95
     ),
     "CartPoleStayUp": Verified(success={"mujoco": SuccessRate(256, 256)}, seeds=2, seconds=22),
     "TurtleBot3CameraWorld": Verified(

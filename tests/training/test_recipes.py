@@ -77,12 +77,12 @@ def test_impossible_recipes_are_refused(change):
 
 @pytest.mark.slow
 def test_the_fleets_recipe_learns_what_the_defaults_do_not(tmp_path):
-    """72 of them in a hall; seeds differ, of three the worst had 0.80."""
+    """72 of them in a hall; of three seeds the worst had 0.917, 0.86 at the low end of its interval."""
     from gazelle.training import evaluate, train
 
     result = train("AGVFleet", out=tmp_path)
     found = evaluate(result.run.folder, episodes=720, num_envs=720)
-    assert found.success.interval[0] > 0.8
+    assert found.success.interval[0] > 0.86
 
 
 def test_learners_that_can_stand_still_pay_less_for_collisions_on_stage_4():
