@@ -205,7 +205,6 @@ RECIPES: dict[str, Recipe] = {
         steps=6_000_000,
         num_envs=1024,
         gamma=0.985,
-        reward_scale=0.2,
         goal_reward=GoalReward(collision=10.0),
         training_options={**_NAVIGATION.training_options, "margin": 0.04},
         settings=PPOSettings(
@@ -213,8 +212,8 @@ RECIPES: dict[str, Recipe] = {
             batch_size=2048,
             n_epochs=3,
             gae_lambda=0.9,
-            ent_coef=0.01,
-            overlap=True,
+            ent_coef=0.005,
+            bfloat16=True,
         ),
     ),
     # And update more often for each step. Other algorithms begin with this one's values, too.

@@ -102,10 +102,10 @@ VERIFIED: dict[str, Verified] = {
         wall=WallTime(seconds=11, processors=2, others=0.0),
     ),
     "TurtleBot3Stage4": Verified(
-        success={"planar": SuccessRate(2870, 3000), "mujoco": SuccessRate(2880, 3000)},
+        success={"planar": SuccessRate(2897, 3000), "mujoco": SuccessRate(2875, 3000)},
         seeds=3,
-        seconds=93,
-        wall=WallTime(seconds=243, processors=2, others=1.6),
+        seconds=61,
+        wall=WallTime(seconds=58, processors=2, others=0.0),
     ),
     "TurtleBot3Stage1Continuous": Verified(
         success={"planar": SuccessRate(1000, 1000)}, seeds=1, seconds=11
