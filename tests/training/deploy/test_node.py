@@ -118,7 +118,7 @@ def test_goals_by_topic_take_the_place_of_others(robot, deploy):
     robot.alive(lambda: "armed, no goal" in robot.status, "it to be armed")
     assert robot.twists == []
     robot.send_goal(3.0, 0.0)
-    robot.alive(lambda: robot.last == AHEAD, "a command")
+    robot.alive(lambda: robot.last == AHEAD and robot.actions, "a command and what tells of it")
     action, score, reward = robot.actions[-1]
     assert (action, score, reward) == (2.0, 0.0, 0.0)
     robot.x = 2.9
