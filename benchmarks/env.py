@@ -17,15 +17,12 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import gymnasium
 import numpy as np
+from _goals import Goals
 
 import gazelle.envs  # noqa: F401  registers the environments
-
-if TYPE_CHECKING:
-    from _goals import Goals
 
 ENVIRONMENT = "gazelle/TurtleBot3Stage4-v0"
 USERS_RAYS = 24  # of the robot in user_task.py
@@ -59,8 +56,6 @@ def main() -> None:
     parser.add_argument("--windows", type=int, default=5, help="of which the best (default 5)")
     parser.add_argument("--engine", action="append", help="mujoco or planar (default both)")
     args = parser.parse_args()
-    from _goals import Goals
-
     goals = Goals()
     print(f"{ENVIRONMENT}, random actions, {os.cpu_count()} processors, best of {args.windows}")
     print(f"{'simulator':<34}{'rays':>6}{'worlds':>8}{'control steps/s':>18}{'CPU us each':>13}")

@@ -14,6 +14,7 @@ import time
 
 import gymnasium
 import numpy as np
+from _goals import Goals
 
 import gazelle.envs  # noqa: F401  registers the environments
 
@@ -51,8 +52,6 @@ def main() -> None:
         "--peer", metavar="PYTHON", help="a Python with gymnasium-robotics (default this one)"
     )
     args = parser.parse_args()
-    from _goals import Goals
-
     goals = Goals()
     print(f"control steps/s of one core, {args.worlds} worlds, random actions")
     print(f"{'task':<14}{'gripper':>10}{'joint':>10}{'Gymnasium-Robotics':>22}{'times':>8}")

@@ -15,15 +15,12 @@ import os
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from _goals import Goals
 
 from gazelle.engines.planar import Body, Drive, Fan, Fleet, Mount, PlanarPart, Scanner
 from gazelle.engines.planar.roaming import Roaming
-
-if TYPE_CHECKING:
-    from _goals import Goals
 
 SENSORS = {
     "none": None,
@@ -56,8 +53,6 @@ def main() -> None:
     parser.add_argument("--stage", type=Path, help="the program of Stage, else the one on PATH")
     parser.add_argument("--only", choices=PARTS, help="a part of it alone")
     args = parser.parse_args()
-    from _goals import Goals
-
     goals = Goals()
     print(f"{os.cpu_count()} processors, {args.threads} used, best of {args.windows} windows")
     if args.only in {None, "rival"}:
