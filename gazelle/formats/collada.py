@@ -60,10 +60,16 @@ def _document(data: bytes) -> Any:
         return document
     known = {f"#{material.id}" for material in document.materials}
     root = ET.fromstring(data)  # noqa: S314  # what is dangerous was refused
-    for bindings in root.iterfind(".//{*}technique_common"):
-        for binding in bindings.findall("{*}instance_material"):
-            if binding.get("target") not in known:
-                bindings.remove(binding)
+    broken = [
+        (bindings, binding)
+        for bindings in root.iterfind(".//{*}technique_common")
+        for binding in bindings.findall("{*}instance_material")
+        if binding.get("target") not in known
+    ]
+    if not broken:
+        return document
+    for bindings, binding in broken:
+        bindings.remove(binding)
     return collada.Collada(io.BytesIO(ET.tostring(root)), ignore=ignored)
 
 

@@ -247,14 +247,11 @@ def _is_convex(surface: WeldedSurface, tolerance: float) -> bool:
     points = np.concatenate([surface.vertices[surface.faces].mean(axis=1), surface.vertices])
     # what is deep in the hull of a few corners is deeper in that of all, which takes long
     few = surface.vertices[np.unique((_LOOKS @ surface.vertices.T).argmax(axis=1))]
-    for corners in (few, surface.vertices):
-        hull = convex_hull(corners)
-        if hull is None:
-            if corners is surface.vertices:
-                return False
-        elif _is_deep(hull, points, tolerance):
-            return False
-    return True
+    inner = convex_hull(few)
+    if inner is not None and _is_deep(inner, points, tolerance):
+        return False
+    hull = convex_hull(surface.vertices)
+    return hull is not None and not _is_deep(hull, points, tolerance)
 
 
 def _is_deep(hull: Hull, points: Floats, tolerance: float) -> bool:

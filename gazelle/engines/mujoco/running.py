@@ -109,7 +109,7 @@ class RunningWorlds:
         self.recipe = recipe
         self.pending: CompilerInput | None = None
         self.revision = self.computed = 0
-        self._drafted: tuple[int, frozenset[str], dict[str, list[TreeLink]]] | None = None
+        self._drafted: tuple[World, frozenset[str], dict[str, list[TreeLink]]] | None = None
 
     if not TYPE_CHECKING:  # what is compiled is had by attributes that the class names
 
@@ -175,10 +175,10 @@ class RunningWorlds:
         if self.revision:
             return self.compiled.bodies
         latest, drafted = self.latest, self._drafted
-        if drafted is None or (drafted[0], drafted[1]) != (id(latest.world), latest.kinematic):
+        if drafted is None or drafted[0] is not latest.world or drafted[1] != latest.kinematic:
             trees = trees_of(latest)
             bodies = {name: tree.bodies for name, tree in trees.items()}
-            drafted = self._drafted = id(latest.world), latest.kinematic, bodies
+            drafted = self._drafted = latest.world, latest.kinematic, bodies
         return drafted[2]
 
     def link_names(self) -> tuple[str, ...]:
