@@ -1,8 +1,22 @@
-"""Numbers on command lines; what is none is one clear error."""
+"""Numbers on command lines; a bad one is one clear error."""
 
 from __future__ import annotations
 
 import argparse
+import re
+from typing import Any
+
+_NEGATIVE = re.compile(r"-(\.?\d|\.?inf\b|\.?nan\b)", re.IGNORECASE)
+
+
+class NumberParser(argparse.ArgumentParser):
+    """A parser that takes ``-1,0.5`` and ``-1e-3`` for values, as argparse takes ``-1``."""
+
+    def _parse_optional(self, arg_string: str) -> Any:
+        # An option such as "-1" (rostopic's "once") is still one, but nothing that only begins so.
+        if _NEGATIVE.match(arg_string) and arg_string not in self._option_string_actions:
+            return None
+        return super()._parse_optional(arg_string)
 
 
 def positive_int(text: str) -> int:

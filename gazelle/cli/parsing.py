@@ -10,13 +10,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from gazelle.argument_types import positive_int
+from gazelle.argument_types import NumberParser, positive_int
 from gazelle.errors import did_you_mean
 
 _WIDTH = 80
 
 
-class Parser(argparse.ArgumentParser):
+class Parser(NumberParser):
     """A parser whose errors are one line and a hint, with exit code 2."""
 
     intermixed = False

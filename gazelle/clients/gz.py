@@ -9,6 +9,7 @@ import argparse
 import sys
 from collections.abc import Callable, Mapping, Sequence
 
+from gazelle.argument_types import NumberParser
 from gazelle.clients.gazebo import Gazebo
 from gazelle.description.pose import rpy_from_quaternion
 
@@ -29,7 +30,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = NumberParser(
         prog="gz", description="Steer a simulator from the shell, as Gazebo's gz does."
     )
     commands = parser.add_subparsers(dest="command", required=True)

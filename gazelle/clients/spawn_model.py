@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
 
+from gazelle.argument_types import NumberParser
 from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
 from gazelle.ros import Node, load_service
@@ -147,7 +148,7 @@ class _Spawner:
 
 
 def _options(arguments: Sequence[str]) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
+    parser = NumberParser(
         "spawn_model", description="Put a model into a running world.", allow_abbrev=False
     )
     kind = parser.add_mutually_exclusive_group(required=True)

@@ -5,7 +5,9 @@ import argparse
 import pytest
 
 from gazelle.argument_types import positive_float, positive_int
-from gazelle.cli.parsing import key_value
+from gazelle.cli.commands import COMMANDS
+from gazelle.cli.parsing import Parser, key_value
+from gazelle.clients import gz, spawn_model
 
 
 @pytest.mark.parametrize(("text", "number"), [("1", 1), ("2_000", 2000), ("1e6", 1_000_000)])
@@ -44,3 +46,77 @@ def test_options_are_read_as_json_or_text(text, pair):
 def test_options_need_a_name(text):
     with pytest.raises(argparse.ArgumentTypeError, match="KEY=VALUE"):
         key_value(text)
+
+
+class Refused(Exception):
+    """An error of a parser."""
+
+
+def refuse(_parser, message):
+    raise Refused(message)
+
+
+def complaint(parser, words):
+    try:
+        parser.parse_args(words)
+    except Refused as refused:
+        return str(refused)
+    return ""
+
+
+def parsers(parser):
+    """A parser and those of its sub-commands."""
+    yield parser
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for inner in action.choices.values():
+                yield from parsers(inner)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_option_of_every_command_takes_values_that_begin_with_a_minus_sign(name, monkeypatch):
+    monkeypatch.setattr(Parser, "error", refuse)
+    whole = Parser(prog=name)
+    COMMANDS[name].load().configure(whole)
+    for parser in parsers(whole):
+        for action in parser._actions:
+            if not action.option_strings or action.nargs == 0:
+                continue
+            action.type = action.choices = None
+            count = action.nargs if isinstance(action.nargs, int) else 1
+            for value in ("-3", "-1,0.5", "-.5,2,3", "-1e-3", "-2x3", "-inf"):
+                given = [[action.option_strings[-1], *[value] * count]]
+                if count == 1 and action.option_strings[-1].startswith("--"):
+                    given.append([f"{action.option_strings[-1]}={value}"])
+                for words in given:
+                    said = complaint(parser, words)  # about a file that is not given, at most
+                    assert not said or "the following arguments are required" in said, words
+
+
+@pytest.mark.parametrize(
+    ("words", "place", "value"),
+    [
+        (["deploy", "run", "--goal", "-1,0.5", "--goal=-2,-3"], "goal", ["-1,0.5", "-2,-3"]),
+        (["deploy", "run", "scan:=/lidar", "--scan-yaw", "-1e-3"], "scan_yaw", -1e-3),
+        (["film", "a", "b.gif", "--drive", "-0.2,0.3"], "drive", (-0.2, 0.3)),
+        (["picture", "a", "b.png", "--eye", "-1,2,3"], "eye", (-1.0, 2.0, 3.0)),
+        (["picture", "--target", "-.5,0,-1e-2", "a", "b.png"], "target", (-0.5, 0.0, -0.01)),
+        (["map", "a", "b", "--area", "-3", "-1e1", "3", "10"], "area", [-3.0, -10.0, 3.0, 10.0]),
+        (["param", "set", "/gain", "-1.5e-3"], "value", "-1.5e-3"),
+        (["param", "set", "/limit", "-.inf"], "value", "-.inf"),
+        (["topic", "pub", "/x", "std_msgs/Float64", "-1.5"], "values", ["-1.5"]),
+        (["topic", "pub", "-1", "/x", "std_msgs/Float64", "-0.5"], "once", True),
+    ],
+)
+def test_negative_values_arrive(words, place, value):
+    parser = Parser()
+    COMMANDS[words[0]].load().configure(parser)
+    assert getattr(parser.parse_args(words[1:]), place) == value
+
+
+def test_programs_of_ros_take_negative_values_too():
+    parsed = spawn_model._options(
+        ["-urdf", "-file", "a", "-model", "b", "-x", "-1e-3", "-Y", "-.5", "-J", "elbow", "-1e-2"]
+    )
+    assert (parsed.x, parsed.yaw, parsed.joints) == (-1e-3, -0.5, [["elbow", "-1e-2"]])
+    assert gz._parser().parse_args(["physics", "-g", "-1,0,-9.8"]).gravity == (-1.0, 0.0, -9.8)
