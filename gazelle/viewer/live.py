@@ -199,6 +199,7 @@ class LiveView(Closeable):
             self._changed = False
             for layer in self._layers:
                 layer.renew()
+        self._context.announce_selection()
         return [layer.read() for layer in self._layers]
 
 

@@ -310,10 +310,67 @@ def test_joints_are_moved_by_sliders(tmp_path):
         with LiveView(sim) as view:
             sliders = next(each for each in view._layers if type(each).__name__ == "JointSliders")
             view._context.select("arm")
+            pictures(view)
             assert (sliders._sliders["j"].min, sliders._sliders["j"].max) == (-1.0, 2.0)
             sim.robots["arm"].set_configuration(["j"], [0.7])
             pictures(view)
             assert sliders._sliders["j"].value == pytest.approx(0.7, abs=2e-3)
+
+
+def test_a_model_that_is_spawned_and_selected_on_the_page_has_its_sliders_once(room, monkeypatch):
+    """A click's thread spawns while another makes pictures: both used to build the sliders."""
+    with LiveView(room) as view:
+        sliders = next(each for each in view._layers if type(each).__name__ == "JointSliders")
+        builders, clashes, made = set(), [], []
+        slider = sliders._slider
+
+        def slow(name):
+            builders.add(threading.get_ident())
+            clashes.extend(builders - {threading.get_ident()})
+            if not made:
+                view._changed = True  # as when the news of the spawn comes just now
+            threading.Event().wait(0.1)
+            made.append(slider(name))
+            builders.discard(threading.get_ident())
+            return made[-1]
+
+        monkeypatch.setattr(sliders, "_slider", slow)
+        tools = view._layers[2]
+        tools._what.value = "turtlebot3_burger"
+        tools._where.value = (0.0, 2.0, 0.0)
+        spawner = threading.Thread(target=tools.spawn)
+        spawner.start()
+        while spawner.is_alive():
+            pictures(view)
+        spawner.join()
+        pictures(view)
+        kept = list(sliders._sliders.values())
+        assert {each.label for each in kept} == {"wheel_left_joint", "wheel_right_joint"}
+        assert all(each._impl.removed for each in made if each not in kept)
+        assert clashes == []
+
+
+@pytest.mark.parametrize(
+    ("step", "text"), [(0.01, "0.01 s"), (0.001, "0.001 s"), (0.0005, "0.0005 s")]
+)
+def test_a_single_step_is_seen_on_the_clock(step, text):
+    with Simulation("empty", time_step=step, threads=1) as sim, LiveView(sim) as view:
+        view._layers[0].do("step")
+        pictures(view)
+        assert f"**{text}**" in view._layers[0]._status.content
+
+
+def test_a_model_that_is_spawned_into_something_is_put_beside_it(monkeypatch):
+    with Simulation("turtlebot3_world", threads=1) as sim, LiveView(sim) as view:
+        said = []
+        monkeypatch.setattr(view._context, "tell", lambda *words: said.append(words))
+        tools = view._layers[2]
+        tools._what.value = "turtlebot3_burger"
+        tools._where.value = (0.0, 0.0, 0.0)  # a pillar stands there
+        tools.spawn()
+        pose = sim.robots["turtlebot3_burger"].pose
+        assert np.hypot(pose.x, pose.y) == pytest.approx(0.5)
+        assert "0.5, 0" in said[0][1]
 
 
 def test_outputs_are_plotted_while_they_are_chosen():

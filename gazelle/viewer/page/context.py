@@ -61,7 +61,7 @@ class PageContext:
         world: Number of the world that tools work on, among those shown.
         heading: Where the followed model is [m], shape (3,).
         only_looking: Whether nothing can be changed on the page.
-        listeners: Told when another model is selected.
+        listeners: Called between two steps after another model was selected.
     """
 
     simulation: Simulation
@@ -73,6 +73,7 @@ class PageContext:
     only_looking: bool = False
     heading: Floats = field(default_factory=lambda: np.zeros(3))
     listeners: list[Callable[[], None]] = field(default_factory=list)
+    _announced: tuple[str, int] = ("", 0)
 
     @property
     def scene(self) -> SceneApi:
@@ -96,9 +97,17 @@ class PageContext:
         return found
 
     def select(self, model: str, world: int = 0) -> None:
-        """Let tools work on a model; "" for none."""
-        if (model, world) != (self.selected, self.world):
-            self.selected, self.world = model, world
+        """Select the model that tools work on; "" for none. Listeners hear of it with the next picture."""
+        self.selected, self.world = model, world
+
+    def announce_selection(self) -> None:
+        """Call the listeners if another model is selected since the last call.
+
+        Clicks arrive on the page's threads, pictures on others. Listeners that rebuild parts of the
+        panel run here only, between two steps, so that no two of them rebuild a part at once.
+        """
+        if (self.selected, self.world) != self._announced:
+            self._announced = (self.selected, self.world)
             for listener in tuple(self.listeners):
                 listener()
 

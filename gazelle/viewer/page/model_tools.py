@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from gazelle import assets, formats
 from gazelle.array_types import Floats
 from gazelle.description import Pose
+from gazelle.simulation.free_place import spawn_where_free
 from gazelle.viewer.page.context import ROOT, PageContext
 from gazelle.viewer.page.shapes import Instance
 
@@ -66,9 +66,11 @@ class ModelTools:
         self._spawn.on_click(lambda _event: careful(self.spawn))
 
     def read(self) -> tuple[Floats, Floats] | None:
-        """Where the selected model is, position (3,) and quaternion (4,)."""
+        """Return the selected model's position (3,) and quaternion (4,)."""
         model = self._context.selected
         if model not in self._context.simulation.robots:
+            if model:
+                self._context.select("")
             return None
         place = self._context.simulation.engine.model_placement(model, self._context.chosen)
         return place.position[0], place.quaternion[0]
@@ -76,8 +78,6 @@ class ModelTools:
     def show(self, state: tuple[Floats, Floats] | None) -> None:
         """Put the gizmo there, and follow."""
         context = self._context
-        if state is None and context.selected:
-            context.select("")
         followed = np.zeros(3)
         if state is not None:
             spot = context.spot
@@ -146,17 +146,18 @@ class ModelTools:
             link.apply_wrench(self._force.value, duration=_PUSH, worlds=context.chosen)
 
     def spawn(self) -> None:
-        """Put the model that is chosen where it is wanted."""
+        """Spawn the chosen model where it is wanted, or at the nearest free place."""
         context, simulation = self._context, self._context.simulation
         what = self._what.value
         model = formats.load_model(self._file.value.strip() if what == _OWN else what)
-        name, number = model.name, 1
-        while name in simulation.robots:
-            number += 1
-            name = f"{model.name}_{number}"
         x, y, yaw = self._where.value
-        namespace = "/" if name == model.name else f"/{name}"
-        simulation.spawn(replace(model, name=name), pose=Pose(x, y, yaw=yaw), namespace=namespace)
+        put = spawn_where_free(simulation, model, Pose(x, y, yaw=yaw))
+        name = put.robot.name
+        if put.stuck:
+            context.tell("There is no free place", f"{name} is stuck in something.")
+        elif put.moved_to is not None:
+            there = "{:g}, {:g}".format(*put.moved_to)
+            context.tell("Something stands there", f"{name} was put at {there}.")
         context.select(name, context.world)
 
 

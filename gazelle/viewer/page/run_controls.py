@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass
 from typing import Any
@@ -63,10 +64,15 @@ class RunControls:
             self._speed.value = speed
         factor = self._factor(state.time)
         mode = "paused" if state.paused else f"real-time factor {factor:.2f}"
-        self._say(f"**{state.time:.2f} s** &nbsp; {mode}")
+        self._say(f"**{state.time:.{self._decimals()}f} s** &nbsp; {mode}")
 
     def renew(self) -> None:
         """The clock does not depend on models."""
+
+    def _decimals(self) -> int:
+        """Return as many decimals of a second as show a single step, at least two."""
+        step = self._context.simulation.physics.time_step
+        return max(2, math.ceil(-math.log10(step) - 1e-9))
 
     def _say(self, text: str) -> None:
         if text != self._said:
