@@ -71,7 +71,9 @@ def moveit_beside(sim: Simulation, door: RosDoor, args: argparse.Namespace) -> I
     door.node.set_param("/robot_description", _description(robot))
     command = [sys.executable, "-m", "gazelle", "launch", package, "move_group.launch"]
     environ = {**os.environ, "ROS_MASTER_URI": door.master_uri}
-    beside = subprocess.Popen(command, env=environ)  # noqa: S603  # our own program
+    # The summary of its parameters would hide what this command prints; errors go to stderr.
+    quiet = subprocess.DEVNULL
+    beside = subprocess.Popen(command, env=environ, stdout=quiet)  # noqa: S603  # our own program
     try:
         yield
     finally:

@@ -123,8 +123,8 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.writelines(f"{line}\n" for line in said if line)
         sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
         sys.stdout.flush()
-        with viewing(sim, args):
-            return _serve(sim, args) if args.ros else go(sim, args)
+        with viewing(sim, args) as page:
+            return _serve(sim, args, page) if args.ros else go(sim, args, page)
 
 
 def _listen_to_signals() -> None:
@@ -150,8 +150,16 @@ def _listed(sim: Simulation) -> str:
     return ", ".join(names) or "no models" if len(names) <= _MANY else f"{len(names)} models"
 
 
-def go(sim: Simulation, args: argparse.Namespace) -> int:
-    """Run until the end of the time, or Ctrl-C, as ``seconds``, ``rate`` and ``paused`` say."""
+def go(sim: Simulation, args: argparse.Namespace, page: str = "") -> int:
+    """Run until the end of the time, or Ctrl-C, as ``seconds``, ``rate`` and ``paused`` say.
+
+    Args:
+        sim: What runs.
+        args: Of the command line.
+        page: Line with the address of the page, printed first.
+    """
+    sys.stdout.write(page)
+    sys.stdout.flush()
     status = _Status(sim)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     try:
@@ -212,7 +220,7 @@ def _advance(sim: Simulation, seconds: float | None, status: _Status) -> None:
         status.show()
 
 
-def _serve(sim: Simulation, args: argparse.Namespace) -> int:
+def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
     """Be a ROS node until Ctrl-C, the end of the time, or the master's word."""
     from gazelle.bridges import serve_ros
     from gazelle.bridges.stage import serve_stage
@@ -223,14 +231,16 @@ def _serve(sim: Simulation, args: argparse.Namespace) -> int:
         with serve_stage(sim, rate=args.rate) as server, rosbridge_beside(server, args):
             if sim.paused:
                 sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
-            return _attend(sim, server, args)
+            return _attend(sim, server, args, page)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     with serve_ros(sim) as door, moveit_beside(sim, door, args), rosbridge_beside(door, args):
-        return _attend(sim, door, args)
+        return _attend(sim, door, args, page)
 
 
-def _attend(sim: Simulation, door: RosDoor | StageServer, args: argparse.Namespace) -> int:
-    sys.stdout.write(f"ROS node {door.node.name} on {door.master_uri}\n")
+def _attend(
+    sim: Simulation, door: RosDoor | StageServer, args: argparse.Namespace, page: str
+) -> int:
+    sys.stdout.write(f"ROS node {door.node.name} on {door.master_uri}\n{page}")
     sys.stdout.flush()
     status = _Status(sim)
     try:

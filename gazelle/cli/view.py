@@ -52,8 +52,8 @@ def _file(args: argparse.Namespace) -> int:
     world = formats.load(args.file)
     engine = args.engine or ("mujoco" if world.stage is None else "planar")
     args.seconds, args.rate, args.paused = None, 1.0, True
-    with Simulation(world, engine, seed=args.seed) as sim, viewing(sim, args):
-        return go(sim, args)
+    with Simulation(world, engine, seed=args.seed) as sim, viewing(sim, args) as page:
+        return go(sim, args, page)
 
 
 def _graph(args: argparse.Namespace) -> int:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import sys
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from gazelle.closing import Closeable
@@ -26,21 +26,24 @@ def add_view(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def viewing(sim: Simulation, args: argparse.Namespace) -> AbstractContextManager[object]:
-    """The page while the simulation runs, if it is wanted.
+@contextmanager
+def viewing(sim: Simulation, args: argparse.Namespace) -> Iterator[str]:
+    """Serve the page while the simulation runs, if it is wanted.
+
+    Yields:
+        A line with its address, "" without a page. Print it last, where it is found again.
 
     Raises:
         MissingExtraError: What serves the page is not installed.
         Error: The port is taken.
     """
     if args.view is None:
-        return nullcontext()
+        yield ""
+        return
     from gazelle.viewer.live import LiveView
 
-    view = LiveView(sim, port=args.view)
-    sys.stdout.write(f"view {view.url}\n")
-    sys.stdout.flush()
-    return view
+    with LiveView(sim, port=args.view) as view:
+        yield f"view {view.url}\n"
 
 
 def watched(progress: Progress, args: argparse.Namespace) -> Progress:
