@@ -23,6 +23,7 @@ from xml.parsers.expat import ExpatError
 import xacro as engine
 from xacro import substitution_args
 
+from gazelle import xacro_engine
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import expressions, xml
@@ -31,8 +32,6 @@ from gazelle.formats.reading import Reading
 from gazelle.formats.xacro_hints import hint_of
 
 _LOCK = threading.Lock()  # the package keeps its state in module globals
-_PREFIX = "xacro:"
-
 
 MAX_MADE = 60_000
 MAX_INCLUDED = 20
@@ -105,10 +104,14 @@ class PlacedElement(dom.Element):
 
 
 def is_xacro(root: Parameters) -> bool:
-    """Whether an XML file is meant for xacro: it names the namespace or uses the prefix."""
+    """Return whether an XML file is meant for xacro: it names the namespace or uses its tags."""
     if any(key == "xmlns:xacro" for key in root.attributes):
         return True
-    return any(child.tag.startswith(_PREFIX) for child in root.children)
+    return any(
+        child.tag.startswith(xacro_engine.PREFIX)
+        or xacro_engine.looks_old(child.tag, child.attributes)
+        for child in root.children
+    )
 
 
 def expand(path: Path, reading: Reading) -> Parameters:
@@ -130,7 +133,7 @@ def _run(name: str, data: bytes, reading: Reading) -> Parameters:
         engine.init_stacks(name)
         _made.count = 0
         try:
-            document = _parse(data, name, reading)
+            document = xacro_engine.prefix(_parse(data, name, reading), _reporter(reading))
             engine.process_doc(document, mappings=dict(reading.xacro_args))
         except RecursionError as error:
             file, line, element = _place(error.__traceback__) or (name, None, None)
@@ -210,14 +213,26 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
         for names, values in (
             (vars(engine), {"parse": parse, "open": guarded_open, "eval_text": _eval_text}),
             (vars(engine), {"safe_eval": expressions.evaluate}),
-            (vars(substitution_args), {"_eval_find": find, "eval": expressions.evaluate_plain}),
-            (substitution_args._eval_dict, {"find": find}),  # noqa: SLF001
+            (vars(substitution_args), {"eval": expressions.evaluate_plain}),
             (symbols, bounded),
             (symbols["python"], bounded | {"vars": expressions.no_vars}),
         ):
-            stack.enter_context(_replaced(names, values))
+            stack.enter_context(xacro_engine.replaced(names, values))
+        stack.enter_context(xacro_engine.adapted(find, _reporter(reading)))
         stack.enter_context(contextlib.redirect_stderr(said))
         yield said
+
+
+def _reporter(reading: Reading) -> xacro_engine.Report:
+    """Return what notes a tag without xacro's prefix at its place."""
+
+    def report(tag: str, node: Any) -> None:
+        file, line = getattr(node, "place", None) or (None, None)
+        label = xml.label(tag, dict(node.attributes.items()))
+        message = f"'{tag}' {xacro_engine.NO_PREFIX}"
+        reading.remark(message, Source(file, line, label), f"write <{xacro_engine.PREFIX}{tag}>")
+
+    return report
 
 
 def _refuse_ring(files: list[Any]) -> None:
@@ -245,24 +260,6 @@ _evaluate_text = engine.eval_text
 def _eval_text(text: str, symbols: Any) -> Any:
     """Most texts hold no expression, and need not be taken apart to find that out."""
     return text if text and "$" not in text else _evaluate_text(text, symbols)
-
-
-_MISSING = object()
-
-
-@contextlib.contextmanager
-def _replaced(names: dict[str, Any], values: dict[str, Any]) -> Iterator[None]:
-    """Other values in a namespace for a while."""
-    before = {name: names.get(name, _MISSING) for name in values}
-    names.update(values)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is _MISSING:
-                del names[name]
-            else:
-                names[name] = value
 
 
 def _explain(error: Exception, name: str) -> FormatError:

@@ -4,6 +4,7 @@ import pytest
 from xml_samples import INERTIAL
 
 from gazelle import FormatError, formats
+from gazelle.errors import FormatWarning
 
 NAMESPACE = "xmlns:xacro='http://www.ros.org/wiki/xacro'"
 
@@ -157,3 +158,69 @@ def test_macros_that_call_each_other_are_an_error_with_a_line(tmp_path):
         formats.load_model(main)
     assert caught.value.file == str(main)
     assert caught.value.line in {2, 3}
+
+
+OLD = [
+    ("<property name='n' value='base'/><link name='${n}'/>", "property"),
+    ("<macro name='m' params='n'><link name='${n}'/></macro><xacro:m n='base'/>", "macro"),
+    ("<xacro:macro name='m' params='n'><link name='${n}'/></xacro:macro><m n='base'/>", "m"),
+    ("<xacro:macro name='m'><link name='base'/></xacro:macro><m/>", "m"),
+    ("<xacro:macro name='m' params='n:=base'><link name='${n}'/></xacro:macro><m/>", "m"),
+    ("<if value='true'><link name='base'/></if>", "if"),
+    ("<link name='base'/><unless value='true'><link name='other'/></unless>", "unless"),
+    ("<arg name='n' default='base'/><link name='$(arg n)'/>", "arg"),
+    (
+        (
+            "<xacro:macro name='m' params='n *block'><link name='${n}'><insert_block name='block'/>"
+            "</link></xacro:macro><m n='base'><visual><geometry><sphere radius='1'/></geometry>"
+            "</visual></m>"
+        ),
+        "insert_block",
+    ),
+    ("<include filename='part.xacro'/>", "include"),
+]
+
+
+@pytest.mark.filterwarnings("ignore:.*no link has a mass")
+@pytest.mark.parametrize(("text", "tag"), OLD)
+def test_tags_without_prefix_are_expanded_as_in_melodic(tmp_path, text, tag):
+    (tmp_path / "part.xacro").write_text("<robot><link name='base'/></robot>")
+    file = tmp_path / "old.urdf.xacro"
+    namespace = NAMESPACE if "xacro:" in text else ""
+    file.write_text(f"<robot name='r' {namespace}>\n{text}</robot>")
+    with pytest.warns(FormatWarning, match=f"'{tag}' lacks the prefix") as caught:
+        model = formats.load_model(file)
+    assert [link.name for link in model.links] == ["base"]
+    said = next(str(each.message) for each in caught if f"'{tag}' lacks" in str(each.message))
+    assert f"{file}:2: " in said
+    assert f"write <xacro:{tag}>" in said
+
+
+@pytest.mark.filterwarnings("ignore:.*no link has a mass")
+@pytest.mark.parametrize(
+    "text",
+    [
+        # Noetic's files in which a macro has the name of an element
+        (
+            "<xacro:macro name='inertial' params='m'><inertial><mass value='${m}'/><inertia ixx='1' "
+            "ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></xacro:macro>"
+            "<link name='base'><xacro:inertial m='1'/></link>"
+        ),
+        (
+            "<xacro:macro name='cylinder' params='radius length'><cylinder radius='${radius}' "
+            "length='${length}'/></xacro:macro><link name='base'><visual><geometry>"
+            "<cylinder radius='1' length='2'/></geometry></visual></link>"
+        ),
+        (
+            "<xacro:macro name='link' params='name'><link name='base'/></xacro:macro>"
+            "<xacro:link name='other'/>"
+        ),
+        (
+            "<xacro:macro name='geometry' params='size'/><link name='base'><visual><geometry>"
+            "<box size='1 1 1'/></geometry></visual></link>"
+        ),
+    ],
+)
+def test_elements_with_the_name_of_a_macro_stay_themselves(text):
+    model = formats.load_model_string(f"<robot name='r' {NAMESPACE}>{text}</robot>")
+    assert [link.name for link in model.links] == ["base"]

@@ -18,6 +18,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
 
+from gazelle.ros.compat import namesakes
 from gazelle.ros.compat.cfg_modules import CfgLoader, has_cfg
 from gazelle.ros.compat.message_modules import MessageLoader, PackageLoader, has_definitions
 from gazelle.ros.messages.library import bundled_packages
@@ -45,6 +46,7 @@ def own_modules() -> frozenset[str]:
         "cfg_modules",
         "python2",
         "script",
+        "namesakes",
     }
     found = {path.stem for path in folder.glob("*.py")} - private
     return frozenset(found | {path.parent.name for path in folder.glob("*/__init__.py")})
@@ -123,6 +125,8 @@ class RosFinder(importlib.abc.MetaPathFinder):
             if importlib.util.find_spec(f"{HOME}.{fullname}") is None:
                 return None
             return ModuleSpec(fullname, AliasLoader())
+        if fullname in namesakes.NAMES:
+            return namesakes.spec(fullname, path)
         if rest:
             return _below_a_substitute(package, fullname)
         if package in _COMPILED:
@@ -202,6 +206,7 @@ def install() -> Installed:
     if _uses == 1:
         for name in [name for name in sys.modules if _is_ours(name)]:
             _hidden[name] = sys.modules.pop(name)
+        namesakes.adapt()
         sys.meta_path.insert(0, _finder)
     return Installed()
 
@@ -215,6 +220,7 @@ def uninstall() -> None:
     if _uses:
         return
     sys.meta_path.remove(_finder)
+    namesakes.restore()
     ours = (AliasLoader, MessageLoader, CfgLoader, PackageLoader)
     for name, module in list(sys.modules.items()):
         loader = getattr(getattr(module, "__spec__", None), "loader", None)

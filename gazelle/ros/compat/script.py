@@ -91,12 +91,12 @@ def run_named(
         raise packages.missing(word)
     if not arguments:
         raise packages.unnamed_program(word)
-    path = packages.program(word, arguments[0])
-    if path is not None and is_python(path):
-        return run_script(str(path), arguments[1:], sim_sleep=sim_sleep, debug=debug)
     program = program_of(word, arguments[0], packages)
     if isinstance(program, Skipped):
         raise RosError(f"'{program.package}' is left out: {program.reason}")
+    path = program.command[-1]
+    if program.folder is not None and is_python(Path(path)):
+        return run_script(path, arguments[1:], sim_sleep=sim_sleep, debug=debug)
     return _become([*program.command, *arguments[1:]])
 
 

@@ -221,4 +221,5 @@ def _output(text: str, packages: Packages, environment: Mapping[str, str] | None
             f"the command '{text}' ended with code {done.returncode}",
             hint=" ".join(said[-3:]) if said else None,
         )
+    sys.stderr.write(done.stderr.decode(errors="replace"))  # warnings, as with roslaunch
     return done.stdout.decode("utf-8", errors="replace")
