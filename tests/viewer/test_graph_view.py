@@ -100,6 +100,18 @@ def test_robots_stand_where_tf_says(node, view):
     assert "robot_description" in view._status.content
 
 
+def test_a_robot_that_tf_does_not_know_is_named(node, view):
+    view._discover()
+    view._picture()
+    view._discover()
+    expected = "/robot_description: no transform from any of its links to map"
+    assert expected in view._status.content
+    put_frames(node, view, tip=(1.0, 2.0))
+    view._picture()
+    view._discover()
+    assert expected not in view._status.content
+
+
 def test_links_that_tf_does_not_know_go_along(node, view):
     put_frames(node, view, base_link=(1.0, 2.0))
     view._discover()
@@ -119,6 +131,14 @@ def test_scans_clouds_maps_paths_and_poses_are_drawn_in_their_frames(node, view)
     say(node, view, "/goal", lost)
     assert view._anchors["/scan"].visible
     assert not view._anchors["/goal"].visible
+    view._discover()
+    assert "/goal: no transform from nowhere to map" in view._status.content
+    assert "/scan: no transform" not in view._status.content
+    put_frames(node, view, nowhere=(0.0, 1.0))
+    view._picture()
+    view._discover()
+    assert view._anchors["/goal"].visible
+    assert "/goal: no transform" not in view._status.content
 
     grid = on_frame("nav_msgs/OccupancyGrid", "map", data=[0, 100, -1, 0, 50, 0])
     grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 0.5

@@ -32,6 +32,7 @@ class DescribedRobot:
         text: Likewise.
         prefix: Likewise.
         model: What it describes.
+        placed: Whether tf knows any of its links.
 
     Raises:
         Error: The text describes no robot.
@@ -39,6 +40,7 @@ class DescribedRobot:
 
     def __init__(self, scene: SceneApi, root: str, text: str, prefix: str) -> None:
         self.text, self.prefix = text, prefix
+        self.placed = False
         self.model = model = _model(text)
         self._batches = ShapeBatches(scene, root, World(models=(model,)), np.zeros((1, 3)))
         self._frames = [prefix + link.rpartition("::")[2] for link in self._batches.links]
@@ -55,8 +57,9 @@ class DescribedRobot:
                 continue
             known[number] = True
             self._at[0, number], self._turned[0, number] = found.translation, found.rotation
-        self._batches.hide(hidden=not known.any())
-        if known.any():
+        self.placed = bool(known.any())
+        self._batches.hide(hidden=not self.placed)
+        if self.placed:
             self._carry(int(np.flatnonzero(known)[0]), ~known)
             self._batches.show(self._at, self._turned)
 

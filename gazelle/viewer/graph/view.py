@@ -75,6 +75,7 @@ class GraphView(Closeable):
         self._motions: dict[str, MotionTopic] = {}
         self._hidden: set[str] = set()
         self._refused: dict[str, tuple[str, str]] = {}
+        self._unplaced: dict[str, str] = {}  # frames without a transform, by topic
         self._subscribers: dict[str, Any] = {}
         self._stop = threading.Event()
         self._node.on_shutdown.append(lambda _reason: self._stop.set())
@@ -144,7 +145,17 @@ class GraphView(Closeable):
         fixed = self._fixed()
         counts = f"{len(self._tree.names())} frames, {len(self._kinds)} topics"
         said = [f"fixed frame **{fixed}** &nbsp; {counts}, {len(self._robots)} robots"]
-        self._say("\n\n".join([*said, *(fault for _, fault in self._refused.values())]))
+        faults = [fault for _, fault in self._refused.values()]
+        faults += [
+            f"{topic}: no transform from {frame} to {fixed}, so it is not shown"
+            for topic, frame in self._unplaced.items()
+        ]
+        faults += [
+            f"{name}: no transform from any of its links to {fixed}, so it is not shown"
+            for name, robot in self._robots.items()
+            if not robot.placed
+        ]
+        self._say("\n\n".join([*said, *faults]))
 
     def _meet(self, name: str) -> None:
         """Read a robot_description, if it is new or another one."""
@@ -216,8 +227,9 @@ class GraphView(Closeable):
         (self._hidden.discard if event.target.value else self._hidden.add)(topic)
 
     def _anchor(self, topic: str, fixed: str, frame: str) -> None:
-        """Put what a topic shows into its frame; it is hidden while nobody knows where that is."""
+        """Move what a topic shows into its frame; hide it while tf does not know the frame."""
         anchor = self._anchors[topic]
+        self._unplaced.pop(topic, None)
         if not frame or frame == fixed:
             anchor.visible = topic not in self._hidden
             return
@@ -225,6 +237,7 @@ class GraphView(Closeable):
             found = self._tree.lookup(fixed, frame)
         except TransformException:
             anchor.visible = False
+            self._unplaced[topic] = frame
             return
         anchor.visible = topic not in self._hidden
         x, y, z, w = found.rotation
