@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle.cli.descriptions_beside import urdf_of
 from gazelle.errors import ControlError, ResolveError
 
 if TYPE_CHECKING:
@@ -149,13 +150,7 @@ def _start(robot: Robot, file: Path) -> None:
 
 
 def _description(robot: Robot) -> str:
-    """The robot's URDF, expanded."""
-    source = robot.description.source
-    file = Path(source.file) if source is not None and source.file else None
-    if file is None or not file.is_file() or file.suffix not in (".urdf", ".xacro"):
+    text = urdf_of(robot)
+    if text is None:
         raise ResolveError(f"MoveIt plans for robots of URDF files, and '{robot.name}' is of none")
-    if file.suffix == ".urdf":
-        return file.read_text(encoding="utf-8")
-    import xacro
-
-    return str(xacro.process_file(str(file)).toxml())
+    return text

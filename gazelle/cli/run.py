@@ -26,6 +26,7 @@ import time
 from typing import TYPE_CHECKING
 
 from gazelle.argument_types import positive_float
+from gazelle.cli.descriptions_beside import descriptions_beside
 from gazelle.cli.moveit_beside import add_moveit, moveit_beside, start_wanted_controllers
 from gazelle.cli.rosbridge_beside import add_rosbridge, rosbridge_beside
 from gazelle.cli.spawning import spawn, wanted
@@ -233,7 +234,12 @@ def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
                 sys.stderr.write("paused; the service /gazelle/unpause starts it\n")
             return _attend(sim, server, args, page)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
-    with serve_ros(sim) as door, moveit_beside(sim, door, args), rosbridge_beside(door, args):
+    with (
+        serve_ros(sim) as door,
+        descriptions_beside(sim, door),
+        moveit_beside(sim, door, args),
+        rosbridge_beside(door, args),
+    ):
         return _attend(sim, door, args, page)
 
 
