@@ -18,11 +18,10 @@ from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
 
-from gazelle.ros.compat import namesakes
+from gazelle.ros.compat import namesakes, workspace_code
 from gazelle.ros.compat.cfg_modules import CfgLoader, has_cfg
 from gazelle.ros.compat.message_modules import MessageLoader, PackageLoader, has_definitions
 from gazelle.ros.messages.library import bundled_packages
-from gazelle.ros.messages.search import find_packages
 
 HOME = "gazelle.ros.compat"
 UPSTAIRS = ("gazelle.compat", "gazelle.bridges.moveit.modules")
@@ -46,6 +45,8 @@ def own_modules() -> frozenset[str]:
         "cfg_modules",
         "python2",
         "script",
+        "setup_files",
+        "workspace_code",
         "namesakes",
     }
     found = {path.stem for path in folder.glob("*.py")} - private
@@ -128,10 +129,16 @@ class RosFinder(importlib.abc.MetaPathFinder):
         if fullname in namesakes.NAMES:
             return namesakes.spec(fullname, path)
         if rest:
-            return _below_a_substitute(package, fullname)
+            return _below_a_substitute(package, fullname) or self._elsewhere(fullname, path)
         if package in _COMPILED:
             return ModuleSpec(package, AliasLoader(substitutes()[package]))
         return self._package(package, path)
+
+    @staticmethod
+    def _elsewhere(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
+        """The spec of a module in a package that lies in another folder than its package says."""
+        named = workspace_code.named_spec(name)
+        return named if named is not None and PathFinder.find_spec(name, path) is None else None
 
     @staticmethod
     def _package(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
@@ -141,12 +148,15 @@ class RosFinder(importlib.abc.MetaPathFinder):
         say, is the user's.
         """
         other = PathFinder.find_spec(name, path)
-        if other is not None and other.loader is not None:
-            return None  # it is found without us
-        folder = find_packages().get(name)
-        source = None if folder is None else folder / "src" / name / "__init__.py"
-        if source is not None and source.is_file():
-            return importlib.util.spec_from_file_location(name, source)
+        plain = other is not None and other.loader is not None
+        named = None
+        if other is None or not plain or workspace_code.comes_after(other):
+            named = workspace_code.named_spec(name)
+        if plain or named is not None:
+            return named  # without it, it is found without us
+        usual = workspace_code.usual_spec(name)
+        if usual is not None:
+            return usual
         if name in substitutes():
             return ModuleSpec(name, AliasLoader(substitutes()[name]))
         if _known(name):
