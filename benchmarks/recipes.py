@@ -1,15 +1,14 @@
-"""What the recipes of tasks learn, evaluated on held-out episodes: success, time, intervals.
+"""Success rates that recipes reach: train, evaluate, and write them to the published figures.
 
-Each task is trained as `gazelle tasks TASK` says, with `--seed S`, and evaluated in the engines
-that it has figures of, on starts, headings, goals and phases of obstacles that no policy was
-trained on. The TurtleBot3 stages are evaluated in both engines, with one goal an episode and with
-goals one after the other, and as published. Rates are of goals that were tried, of all seeds
-together, with 95 % intervals; beside them those of each seed.
+Each claim of gazelle/training/claims.yaml is measured by its own commands, with ``--seed`` of the
+training: on starts, headings, goals and phases of obstacles that no policy was trained on. Rates
+are percentages of goals tried; 'one more seed' is the interval in which the rate of a training with
+another seed lies with a probability of 95 %.
 
   gazelle bench recipes                            # the TurtleBot3 stages
   gazelle bench recipes --tasks Husarion UR5Reach
-  gazelle bench recipes --tasks all --seeds 0
   gazelle bench recipes --algo sac --tasks TurtleBot3Stage4Continuous
+  gazelle bench recipes --tasks all --write        # goes on where it was broken off
 """
 
 from __future__ import annotations
@@ -17,80 +16,78 @@ from __future__ import annotations
 import argparse
 import sys
 import tempfile
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from _busy import StopWatch
+from _campaign import Campaign, record, seeds_since
+from _checkout import clean_commit, commit
+from _claim_table import table
 
-from gazelle.training import (
-    VERIFIED,
-    Evaluation,
-    Run,
-    SuccessRate,
-    choose_progress,
-    evaluate,
-    recipe_for,
-    train,
-)
+from gazelle.training import find_task, recipe_for
+from gazelle.training.claims import CLAIMS_FILE, Claim, Trial, read_claims, training_command
 
 _STAGES = tuple(f"TurtleBot3Stage{stage}" for stage in (1, 2, 3, 4))
-
-_SCENARIOS = {
-    "held-out": {},
-    "in a row": {"respawn": True},
-    "published": {"goals": "published", "starts": "published"},
-}
-_SHARE = {"held-out": 1.0, "in a row": 0.1, "published": 0.5}
-"""Of the episodes; one in which goals follow each other has some eight of them."""
+_EPISODES = {"planar": 1000, "mujoco": 300}
 
 
-def trained(task: str, algo: str | None, out: Path, seed: int) -> Run:
-    """The newest run of a task that is there with all its steps, or a new one."""
-    for folder in sorted(out.glob(f"{task}-{algo or recipe_for(task).algo}-*"), reverse=True):
-        run = Run.open(folder)
-        done = [int(path.name) for path in run.checkpoints()]
-        if done and done[-1] >= run.config.recipe.steps and run.config.seed == seed:
-            return run
-    watch = StopWatch()
-    result = train(task, algo=algo, out=out, seed=seed, progress=choose_progress(sys.stderr))
-    print(f"{task}, seed {seed}: {watch.read()}", flush=True)
-    return result.run
+def selected(tasks: Sequence[str], algo: str | None, engines: Sequence[str]) -> list[Claim]:
+    """Return the claims to measure, those of one training together, the quickest first."""
+    published = read_claims().claims
+    if list(tasks) == ["all"]:
+        found = list(published)
+    else:
+        found = []
+        for task in tasks:
+            train = training_command(task, algo)
+            found += [each for each in published if each.train == train] or [new(task, algo)]
+    if engines:
+        found = [each for each in found if each.engine in engines]
+    return sorted(found, key=lambda claim: (claim.cpu or 1e3, claim.train))
 
 
-def engines_of(task: str) -> list[str]:
-    """Where a task is evaluated."""
-    if task in _STAGES:
-        return ["planar", "mujoco"]
-    return list(VERIFIED[task].success) if task in VERIFIED else []
-
-
-def scenarios_of(task: str) -> list[str]:
-    """With which starts and goals."""
-    return list(_SCENARIOS) if task in _STAGES else ["held-out"]
-
-
-def line(task: str, engine: str, scenario: str, found: list[Evaluation]) -> str:
-    """One row of the table."""
-    seeds = " ".join(f"{each.success.value:6.1%}" if each.success else "-" for each in found)
-    rates = "".join(
-        f"{share([getattr(each, name) for each in found]):>26}" for name in ("success", "collision")
+def new(task: str, algo: str | None) -> Claim:
+    """Return a claim of a training that has none yet."""
+    find_task(task)
+    recipe = recipe_for(task, algo)
+    engine = str(recipe.training_options.get("engine", "mujoco"))
+    return Claim(
+        task=task,
+        algo=recipe.algo,
+        engine=engine,
+        train=training_command(task, algo),
+        evaluate=f"gazelle eval RUN --engine {engine} --episodes {_EPISODES.get(engine, 300)}",
     )
-    late = sum(each.timeout.count for each in found) / sum(each.timeout.total for each in found)
-    tried = sum(each.timeout.total for each in found)
-    return f"{task:<27}{engine:<8}{scenario:<10}{tried:>7}  {seeds}{rates}{late:9.1%}"
 
 
-def share(rates: list[SuccessRate | None]) -> str:
-    """All of them together: ``91.2 % (88.4 to 93.4)``."""
-    told = [rate for rate in rates if rate is not None]
-    if not told:
-        return "-"
-    effective = sum(rate.total if rate.effective is None else rate.effective for rate in told)
-    count, total = sum(rate.count for rate in told), sum(rate.total for rate in told)
-    low, high = (100.0 * end for end in SuccessRate(count, total, effective).interval)
-    return f"{100.0 * count / total:.1f} % ({low:.1f} to {high:.1f})"
+def measured(args: argparse.Namespace, out: Path) -> list[Claim]:
+    """Measure claims, and write each trial into the data file if that is asked for."""
+    claims = selected(args.tasks, args.algo, args.engines)
+    now = clean_commit() if args.write else commit()
+    oldest = args.since or now
+    done = {claim.key: seeds_since(claim, oldest) for claim in claims} if args.write else {}
+    found = {claim.key: replace(claim, trials=()) for claim in claims}
+    campaign = Campaign(seeds=args.seeds, commit=now, out=out, keep=args.out is not None)
+    for claim, trial in campaign.results(claims, done):
+        show(claim, trial)
+        found[claim.key] = found[claim.key].with_trial(trial)
+        if args.write:
+            record(CLAIMS_FILE, claim, trial, args.seeds, oldest)
+    if args.write:
+        return [claim for claim in read_claims().claims if claim.key in found]
+    return list(found.values())
+
+
+def show(claim: Claim, trial: Trial) -> None:
+    """Report one trial as soon as it is known."""
+    sys.stderr.write(
+        f"{claim.train} --seed {trial.seed}: {trial.success} of {trial.attempts} "
+        f"({claim.engine}, {claim.goals}), {trial.cpu:.0f} s of processor time\n"
+    )
 
 
 def main() -> None:
+    """Measure and print a table."""
     parser = argparse.ArgumentParser(
         prog="gazelle bench recipes",
         description=__doc__,
@@ -100,32 +97,21 @@ def main() -> None:
         "--tasks", nargs="+", default=_STAGES, metavar="TASK", help="or all that have a figure"
     )
     parser.add_argument("--algo", help="by default that of the task's recipe")
-    parser.add_argument("--engines", nargs="+", help="by default those of the task")
-    parser.add_argument("--episodes", type=int, default=1000, help="of each seed")
+    parser.add_argument("--engines", nargs="+", default=[], help="by default all of the task")
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2], help="of the training")
     parser.add_argument("--out", type=Path, help="where runs are kept, and found again")
+    parser.add_argument(
+        "--write", action="store_true", help="write what is measured to the published figures"
+    )
+    parser.add_argument(
+        "--since",
+        metavar="COMMIT",
+        help="with --write: leave alone what was measured at this commit or later (default: now)",
+    )
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as spare:
-        out = args.out or Path(spare)
-        tasks = list(VERIFIED) if list(args.tasks) == ["all"] else args.tasks
-        runs = {
-            task: [trained(task, args.algo, out, seed) for seed in args.seeds] for task in tasks
-        }
-        print(f"default recipes, seeds {args.seeds}, {args.episodes} episodes of each")
-        print(
-            f"{'task':<27}{'engine':<8}{'goals':<10}{'tried':>7}  "
-            f"{'of each seed':<{7 * len(args.seeds) - 1}}"
-            f"{'success (95 %)':>26}{'collision (95 %)':>26}{'time-out':>9}"
-        )
-        for task, found in runs.items():
-            for engine in args.engines or engines_of(task) or [found[0].config.options["engine"]]:
-                for name in scenarios_of(task):
-                    count = max(1, round(_SHARE[name] * args.episodes))
-                    results = [
-                        evaluate(run.folder, episodes=count, engine=engine, **_SCENARIOS[name])
-                        for run in found
-                    ]
-                    print(line(task, engine, name, results), flush=True)
+        found = measured(args, args.out or Path(spare))
+    print(table(found), end="")
 
 
 if __name__ == "__main__":

@@ -77,7 +77,7 @@ class Evaluation:
         return tuple(record for record in self.records if record.failed)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values for JSON; rates as ``{count, total, value, low, high}``."""
+        """Plain values for JSON; rates as ``{count, total, effective, value, low, high}``."""
         return {
             "task": self.task,
             "episodes": self.episodes,
@@ -222,6 +222,7 @@ def _rate_to_dict(rate: SuccessRate | None) -> dict[str, float] | None:
     return {
         "count": rate.count,
         "total": rate.total,
+        "effective": rate.total if rate.effective is None else rate.effective,
         "value": rate.value,
         "low": low,
         "high": high,

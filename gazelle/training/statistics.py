@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from gazelle.training.episodes import Episodes
 
-_Z_95 = 1.959963984540054
+Z_95 = 1.959963984540054
 _COLUMNS = ("return", "length", "goals", "attempts", "collisions", "timeouts")
 _ENDS = {"success_rate": "goals", "collision_rate": "collisions", "timeout_rate": "timeouts"}
 
@@ -39,7 +39,7 @@ class SuccessRate:
         return wilson_interval(self.value * size, size)
 
 
-def wilson_interval(count: float, total: float, z: float = _Z_95) -> tuple[float, float]:
+def wilson_interval(count: float, total: float, z: float = Z_95) -> tuple[float, float]:
     """Confidence interval of a share, also sound near 0 and 1.
 
     The score interval of E. B. Wilson, "Probable inference, the law of
@@ -125,16 +125,21 @@ def rate_between_worlds(
         return clustered_rate(counts, totals, worlds)
     alike = total**2 / float((sizes**2).sum())
     variance = errors / total**2 * many / (many - 1)
-    draws = share * (1.0 - share) / variance * (_Z_95 / _student(many - 1)) ** 2
+    draws = share * (1.0 - share) / variance * (Z_95 / student_quantile(many - 1)) ** 2
     return SuccessRate(count, total, float(min(max(draws, alike), total)))
 
 
-def _student(freedom: int) -> float:
-    """The quantile of Student's t for 95 %, to 1 % from three degrees of freedom up.
+def student_quantile(freedom: int) -> float:
+    """Return the quantile of Student's t for a two-sided 95 %, to 1 % or better.
 
-    M. Abramowitz and I. A. Stegun, "Handbook of Mathematical Functions", 1964, 26.7.5.
+    M. Abramowitz and I. A. Stegun, "Handbook of Mathematical Functions", 1964, 26.7.5; one and two
+    degrees of freedom have closed forms.
     """
-    z = _Z_95
+    if freedom == 1:
+        return math.tan(0.95 * math.pi / 2)
+    if freedom == 2:
+        return 0.95 * math.sqrt(2.0 / (1.0 - 0.95**2))
+    z = Z_95
     terms = (
         z,
         (z**3 + z) / 4,
