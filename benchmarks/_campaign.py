@@ -41,6 +41,8 @@ def trained(command: str, seed: int, commit: str, out: Path) -> Trained:
     note = home / _NOTE
     if not note.exists():
         shutil.rmtree(home, ignore_errors=True)  # a training that was broken off
+        import torch  # noqa: F401  # its seconds are not the training's
+
         watch = StopWatch()
         _typed(f"{command} --seed {seed} --out {shlex.quote(str(home))}")
         spent = watch.read()

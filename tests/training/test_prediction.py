@@ -34,8 +34,14 @@ def shares(rng, mean, deviation, shape):
 @pytest.mark.parametrize("seeds", [3, 5, 10])
 @pytest.mark.parametrize(
     ("mean", "deviation", "most"),
-    [(0.5, 0.0, 0.995), (0.98, 0.0, 0.995), (0.999, 0.0, 1.0)]
-    + [(0.8, 0.1, 0.965), (0.95, 0.03, 0.965), (0.6, 0.2, 0.965)],
+    [
+        (0.5, 0.0, 0.995),
+        (0.98, 0.0, 0.995),
+        (0.999, 0.0, 1.0),
+        (0.8, 0.1, 0.965),
+        (0.95, 0.03, 0.965),
+        (0.6, 0.2, 0.965),
+    ],
 )
 def test_95_of_100_new_seeds_lie_within(seeds, mean, deviation, most):
     """Where seeds differ 95 %; where they do not, 97 to 99 %, as nobody can know that they do not."""
