@@ -1,8 +1,8 @@
 """Observations to the range that networks like, as the first layer of the network itself.
 
 Entries whose bounds fit what is observed are mapped from them to [-1, 1], once and for all. An
-entry without bounds, or one that uses so little of them that a network would hardly see it change,
-is normalised by what was observed so far. Either way it is one factor and one summand an entry,
+entry without bounds, or one that spreads over so little of them that a network would hardly see it
+change, is normalised by what was observed so far. Either way it is one factor and one summand an entry,
 which fold exactly into the first layer of the numpy actor, and all of it is saved with the weights.
 """
 
@@ -21,7 +21,9 @@ from gazelle.training.bearing import Bearing
 from gazelle.training.features import LEAST, MIDDLE, Features
 
 _LARGEST_BOUND = 1e4
-_LEAST_SHARE = 0.1  # of its bounds that an entry uses at least, else it is normalised
+# Least standard deviation of an entry whose bounds fit, as a share of their span: a tenth of what
+# an entry has that fills them evenly. The range says less, as one rare value can fill it.
+_LEAST_SPREAD = 0.03
 _FARTHEST = 10.0  # from the mean, in what the network sees
 _SMALLEST = 1e-6  # spread, relative to the mean, that is more than rounding
 
@@ -111,12 +113,11 @@ class ObservationScale:
         if not self._scale or tally[_COUNT] == 0.0:
             return False
         first = not self.decided
-        if first:
-            used = moments[_HIGH] - moments[_LOW]
-            moments[_LOOSE] = used < _LEAST_SHARE * self._span
-            tally[_DECIDED] = 1.0
         mean = moments[_MEAN]
         spread = np.sqrt(moments[_SQUARES] / tally[_COUNT])
+        if first:
+            moments[_LOOSE] = spread < _LEAST_SPREAD * self._span
+            tally[_DECIDED] = 1.0
         reach = np.maximum(moments[_HIGH] - mean, mean - moments[_LOW])
         size = spread if self.cuts else np.maximum(spread, reach / _FARTHEST)
         some = self.normalised & (size > _SMALLEST * np.maximum(np.abs(mean), _SMALLEST))

@@ -51,6 +51,37 @@ def test_only_entries_that_their_bounds_do_not_fit_are_normalised():
     np.testing.assert_allclose(seen[:, 1:4].std(axis=0), 1.0, atol=1e-5)
 
 
+DRAWN = {
+    "even": lambda rng, size: rng.uniform(-1.0, 1.0, size),
+    "normal": lambda rng, size: rng.normal(0.0, 1.0 / 3.0, size),
+    "skewed": lambda rng, size: rng.exponential(0.3, size),
+    "aside": lambda rng, size: rng.uniform(0.5, 1.0, size),
+    "angles": lambda rng, size: np.sin(rng.uniform(-np.pi, np.pi, size)),
+}
+"""Observations that bounds of -1 and 1 fit."""
+
+
+@pytest.mark.parametrize("factor", [1.0, 2.0, 30.0, 100.0, 1000.0])
+@pytest.mark.parametrize("kind", DRAWN)
+def test_bounds_that_are_too_wide_do_not_squeeze(kind, factor):
+    rows = DRAWN[kind](np.random.default_rng(0), (4000, 1)).astype(np.float32)
+    scale = ObservationScale(box(factor))
+    scale.observe(rows)
+    scale.refresh()
+    assert scale.normalised.all() == (factor > 10.0)
+    assert 0.06 < scaled(box(factor), scale, rows).std() < 1.1
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_rare_values_at_the_bounds_do_not_make_them_fit(kind):
+    rows = DRAWN[kind](np.random.default_rng(0), (4000, 1)).astype(np.float32)
+    scale = ObservationScale(box(30.0))
+    scale.observe(np.concatenate([rows, np.array([[-30.0], [30.0]], np.float32)]))
+    scale.refresh()
+    assert scale.normalised.all()
+    assert scaled(box(30.0), scale, rows).std() > 5.0 * rows.std() / 30.0
+
+
 @given(
     st.lists(st.integers(1, 40), min_size=1, max_size=8),
     st.floats(-1e4, 1e4),
@@ -134,8 +165,9 @@ OTHERS = (
     "task", [task for task in task_ids() if not any(name in task for name in OTHERS)]
 )
 def test_bounds_of_our_own_tasks_fit(task):
-    engine = "mujoco" if "Reach" in task else "planar"  # arms are moved by forces
-    env = gym.make_vec(task, 16, vectorization_mode="vector_entry_point", engine=engine)
+    asked = recipe_for(task).training_options
+    options = {name: asked[name] for name in ("engine", "starts", "goals") if name in asked}
+    env = gym.make_vec(task, 16, vectorization_mode="vector_entry_point", **options)
     scale = ObservationScale(env.single_observation_space)
     env.action_space.seed(0)
     env.reset(seed=0)
@@ -152,7 +184,8 @@ class WideCartPole(CartPoleVectorEnv):
     def __init__(self, num_envs=1, bound=1000.0, unit=1.0, origin=0.0, **options):
         super().__init__(num_envs, **options)
         self.unit, self.origin = unit, origin
-        self.single_observation_space = gym.spaces.Box(-bound, bound, (4,), np.float32)
+        most = np.full(4, bound, np.float32)
+        self.single_observation_space = gym.spaces.Box(-most, most, dtype=np.float32)
         self.observation_space = gym.vector.utils.batch_space(
             self.single_observation_space, num_envs
         )
@@ -175,6 +208,27 @@ CARTPOLES = {
     "kilometres": {"bound": 1000.0, "unit": 0.001},
     "far": {"bound": 1e6, "origin": 500.0},
 }
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore:this environment cannot save its state")
+@pytest.mark.parametrize("factor", [1.0, 10.0, 100.0, 1000.0])
+def test_a_users_cartpole_is_learnt_as_well_with_bounds_too_wide(factor, tmp_path):
+    """Bounds that fit are what is reached before it falls: places, speeds, angles and rates.
+
+    Divided by its bounds alone, the return is 25 with bounds a hundred times too wide.
+    """
+    task = f"test/CartPole-{factor:.0f}-times-v0"
+    bound = factor * np.array([2.4, 3.0, 0.21, 3.0], np.float32)
+    gym.register(
+        task,
+        vector_entry_point=WideCartPole,
+        kwargs={"bound": bound},
+        max_episode_steps=500,
+    )
+    result = train(task, steps=40_000, recipe=recipe_for("CartPole"), out=tmp_path)
+    del gym.registry[task]
+    assert result.summary["return"] > 160.0
 
 
 @pytest.mark.slow

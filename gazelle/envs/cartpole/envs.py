@@ -25,9 +25,9 @@ class CartPoleStayUpEnv(SettingsEnv):
     Index  Meaning                                Min     Max     Unit
     =====  =====================================  ======  ======  =====
     0      position of the cart on the rail       -5      5       m
-    1      velocity of the cart                   -50     50      m/s
+    1      velocity of the cart                   -inf    inf     m/s
     2      angle of the pole, upright is 0        -1.4    1.4     rad
-    3      angular velocity of the pole           -50     50      rad/s
+    3      angular velocity of the pole           -inf    inf     rad/s
     =====  =====================================  ======  ======  =====
 
     ## Action

@@ -39,7 +39,7 @@ class CartPoleTask(SimulationTask):
         robot = world.spawn(assets.robot("cartpole"), name="cartpole")
         self._foot, self._pole = robot.joints["foot_joint"], robot.joints["pole_joint"]
         self._foot.add_motor(_MOTOR)
-        most = np.array([5.0, _FASTEST, 2.0 * STEEPEST, _FASTEST], np.float32)
+        most = np.array([5.0, np.inf, 2.0 * STEEPEST, np.inf], np.float32)
         self.observation_space = gym.spaces.Box(-most, most, dtype=np.float32)
         self.action_space = gym.spaces.Discrete(2)
         super().__init__(

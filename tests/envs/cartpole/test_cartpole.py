@@ -30,6 +30,13 @@ def test_gymnasiums_checker_finds_nothing():
     env.close()
 
 
+def test_bounds_are_the_published_ones():
+    """Velocities have none: with bounds of 50 they were squeezed, and nothing was learnt."""
+    space = made().observation_space
+    np.testing.assert_allclose(space.high, [5.0, np.inf, 1.4, np.inf])
+    np.testing.assert_array_equal(space.low, -space.high)
+
+
 def test_a_pole_on_a_cart_that_stands_falls_as_a_rod_does():
     """Energy of a rod about its end: w^2 = 3 g / l (cos a0 - cos a)."""
     task = made(time_step=0.0005)
