@@ -123,7 +123,7 @@ def evaluate(
         run_or_policy: Folder of a run, a ``policy.npz``, or an actor.
         episodes: How many episodes to count; where copies share a world, as many more as fill the
             last world, so that each of them counts as often as the others.
-        seed: Seed of the environment.
+        seed: What the environment's seed follows from; see `evaluation_seed`. Trainings draw others.
         task: The task; needed unless a run tells it.
         num_envs: Copies that run at once; by default one an episode, at most 128.
         imports: Modules or files to import first, which register the task.

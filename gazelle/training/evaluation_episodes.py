@@ -26,6 +26,8 @@ from gazelle.training.stepper import Stepper
 from gazelle.training.tasks import control_period, make_task, told_by
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
 
+_BRANCH = 1  # of seeds: that of evaluations
+
 
 @dataclass(frozen=True, kw_only=True)
 class EvaluationSetup:
@@ -54,7 +56,7 @@ class EvaluationPart:
     episodes: int
     """How many are counted."""
     seed: int
-    """Of the environment."""
+    """What the seeds of its rounds follow from."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +85,7 @@ def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int)
         steps = 0
         for number, each in enumerate(_rounds(copies, episodes, setup.together)):
             ledger.expect(each)
-            steps += _play(setup.actor, stepper, ledger, _round_seed(seed, number))
+            steps += _play(setup.actor, stepper, ledger, evaluation_seed(seed, number))
         wall = time.perf_counter() - start
     finally:
         env.close()
@@ -100,11 +102,24 @@ def _rounds(copies: int, episodes: int, together: int) -> Iterator[npt.NDArray[n
         yield (np.arange(copies) < episodes - done).astype(np.int64)
 
 
-def _round_seed(seed: int, number: int) -> int:
-    """The first round has the seed itself, which is all that most evaluations need."""
-    if number == 0:
-        return seed
-    return int(np.random.SeedSequence([seed, number]).generate_state(1)[0])
+def evaluation_seed(seed: int, number: int = 0) -> int:
+    """Return the seed of one part of an evaluation.
+
+    Trainings hand their seed to the environment as it is, and ``[seed, shard]`` to the shards of
+    workers. Parts of an evaluation are on a branch of their own, so that with equal seeds no
+    start, heading or phase of a training is drawn again.
+
+    Args:
+        seed: Seed of the evaluation.
+        number: Part of it, from 0.
+
+    Raises:
+        TaskError: The seed is negative.
+    """
+    if seed < 0:
+        raise TaskError(f"seed must not be negative: {seed}")
+    branch = np.random.SeedSequence([seed, number], spawn_key=(_BRANCH,))
+    return int(branch.generate_state(1)[0])
 
 
 def play_with_workers(
@@ -153,8 +168,8 @@ def _parts(sizes: Sequence[int], episodes: int, seed: int) -> Iterator[Evaluatio
     first = 0
     for number, size in enumerate(sizes):
         more = min(max(rest - first, 0), size)
-        chance = int(np.random.SeedSequence([seed, number]).generate_state(1)[0])
         if share * size + more:
+            chance = evaluation_seed(seed, number)
             yield EvaluationPart(number, size, share * size + more, chance)
         first += size
 

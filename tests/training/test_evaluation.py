@@ -7,6 +7,9 @@ from corridor import MODES, PERIOD
 
 from gazelle.errors import TaskError
 from gazelle.training import Actor, evaluate
+from gazelle.training.copies import TaskCopies
+from gazelle.training.tasks import make_task
+from gazelle.training.workers.shards import Blueprint, Shard
 
 
 def actor(gain=0.0, bias=(0.0, 0.0, 0.0)):
@@ -94,7 +97,7 @@ def test_evaluation_works_without_torch():
 class Dice(gym.Env):
     """Ends at once, as one of ``sides`` episodes has it: a user's own task, of the plainest kind."""
 
-    observation_space = gym.spaces.Box(-10.0, 10.0, (1,), np.float32)
+    observation_space = gym.spaces.Box(-(2.0**21), 2.0**21, (1,), np.float32)
     action_space = gym.spaces.Discrete(2)
 
     def __init__(self, sides=5, tell=True, good=3, noise=0.0):
@@ -242,3 +245,32 @@ def test_the_fleet_is_evaluated_in_any_number(episodes):
     assert found.success.value > 0.1
     assert found.collision.count > 0
     assert found.success.total > episodes
+
+
+def drawn_by_trainings(seed, **options):
+    """What copies of the task begin with that are trained in: alone, and in two shards."""
+    blueprint = Blueprint(task="test/Dice-v0", sizes=(8, 8), options=options)
+    plain = TaskCopies(make_task("test/Dice-v0", 16, **options)).reset(seed)
+    shards = [Shard(blueprint, number).reset(seed) for number in range(2)]
+    return set(np.concatenate([plain, *shards]).ravel().tolist())
+
+
+@pytest.mark.parametrize(
+    ("workers", "seed"),
+    [
+        *((None, seed) for seed in (0, 7, 10_000, 2**32 - 1)),
+        pytest.param(1, 7, marks=pytest.mark.long),
+    ],
+)
+def test_no_episode_of_a_training_is_drawn_again_by_an_evaluation(workers, seed):
+    many = {"sides": 2**20, "good": 0}
+    given = {"task": "test/Dice-v0", "imports": [__file__], "seed": seed, "workers": workers}
+    found = evaluate(ONLY, episodes=48, num_envs=16, **given, **many)
+    drawn = {record.to_row()["scenario_0"] for record in found.failures}
+    assert len(drawn) > 40
+    assert not drawn & drawn_by_trainings(seed, **many)
+
+
+def test_a_negative_seed_is_refused():
+    with pytest.raises(TaskError, match="seed must not be negative: -1"):
+        evaluate(ONLY, task="test/Dice-v0", seed=-1)
