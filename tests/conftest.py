@@ -1,19 +1,18 @@
 """Fixtures that every room's tests share.
 
 What a test compares with may be missing: the corpus of public robot files, a Debian program.
-Then the test is skipped with one line that says so; in CI, where ``.ci/run`` has installed
-everything, it fails instead (``tests/missing.py``). What was skipped is kept in pytest's cache, so
-that `.ci/run` can run just that once the rest is installed.
+Then the test is skipped with one line that says so. What was skipped, and why, is kept in pytest's
+cache: `.ci/run` runs just that once the rest is installed, and fails where one is skipped again.
 """
 
 import gc
 import os
 import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
-from missing import skip_or_fail
 
 # Shells start background jobs with Ctrl-C ignored, and programs hand that on to theirs.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -39,19 +38,33 @@ settings.register_profile("fresh", deadline=None, derandomize=False)  # also whe
 settings.load_profile(os.environ.get("GAZELLE_EXAMPLES", "repeatable"))
 
 
-_skipped: list[str] = []
+@pytest.fixture(scope="session", autouse=True)
+def _folders_of_others(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """Stable-Baselines3 and PyTorch make folders beside pytest's and leave them; ROS has one at home."""
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("SB3_LOGDIR", "TORCHINDUCTOR_CACHE_DIR", "ROS_HOME"):
+            patch.setenv(name, str(tmp_path_factory.mktemp(name)))
+        yield
+
+
+_skipped: dict[str, str] = {}
 
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
     """Note which tests were skipped."""
     if report.skipped and not hasattr(report, "wasxfail"):
-        _skipped.append(report.nodeid)
+        _note_skipped(report)
 
 
 def pytest_collectreport(report: pytest.CollectReport) -> None:
     """Note which whole files were skipped."""
     if report.skipped:
-        _skipped.append(report.nodeid)
+        _note_skipped(report)
+
+
+def _note_skipped(report: pytest.TestReport | pytest.CollectReport) -> None:
+    """Note the reason, which pytest puts behind the place and the word `Skipped`."""
+    _skipped[report.nodeid] = str(report.longrepr[-1]).removeprefix("Skipped: ")
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
@@ -71,5 +84,5 @@ def corpus() -> Path:
     beside = Path(__file__).parents[2] / "shared" / "corpus"
     folder = Path(os.environ.get("GAZELLE_CORPUS", beside))
     if not folder.is_dir():
-        skip_or_fail("the corpus of public robot files is not here (set GAZELLE_CORPUS)")
+        pytest.skip("the corpus of public robot files is not here (set GAZELLE_CORPUS)")
     return folder

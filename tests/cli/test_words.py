@@ -187,10 +187,16 @@ def test_the_tab_key_completes(tmp_path, graph, monkeypatch):
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh"])
-def test_the_script_is_printed_and_understood(cli, shell):
+def test_the_script_is_printed(cli, shell):
     code, out, err = cli("completion", shell)
     assert (code, err) == (0, "")
     assert "complete -o filenames -F _gazelle_complete gazelle" in out
     assert " rostopic " not in out.splitlines()[-1]
-    if shutil.which(shell):
-        subprocess.run([shell, "-n"], input=out, text=True, check=True)
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh"])
+def test_the_script_is_understood(cli, shell):
+    if shutil.which(shell) is None:
+        pytest.skip(f"there is no {shell}")
+    _, out, _ = cli("completion", shell)
+    subprocess.run([shell, "-n"], input=out, text=True, check=True)

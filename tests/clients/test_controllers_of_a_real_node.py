@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 
 import pytest
-from missing import skip_or_fail
 from ros.real import INSTALLED, RealNode
 
 from gazelle.clients import ClientError, Controllers, JointCommander, TrajectoryClient
@@ -105,7 +104,7 @@ def texts():
 @pytest.fixture
 def node():
     if not INSTALLED:
-        skip_or_fail("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
+        pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
     with (
         Master(port=0, rosout=False) as master,
         Node("client", master_uri=master.uri) as client,

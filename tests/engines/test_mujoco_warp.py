@@ -8,7 +8,6 @@ import gymnasium as gym
 import numpy as np
 import pytest
 import scenes
-from missing import skip_or_fail
 from second_engine.ten_scenes import SCENES
 
 import gazelle
@@ -32,7 +31,9 @@ from gazelle.engines import DivergenceError, make_engine
 from gazelle.errors import EngineError, EngineWarning
 
 if importlib.util.find_spec("mujoco_warp") is None:
-    skip_or_fail("MuJoCo Warp is not here (docs/scale.md has the two commands)", whole_file=True)
+    pytest.skip(
+        "MuJoCo Warp is not here (docs/scale.md has the two commands)", allow_module_level=True
+    )
 
 pytestmark = pytest.mark.filterwarnings("ignore:the engine 'mujoco-warp' finds no graphics card")
 

@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 import scenes
 import trimesh
-from missing import skip_or_fail
 from PIL import Image as Picture
 
 from gazelle.description import Heightmap, Inertia, Inertial, Link, Mesh, Model, Pose
 from gazelle.engines import make_engine
 
 if importlib.util.find_spec("mujoco_warp") is None:
-    skip_or_fail("MuJoCo Warp is not here (docs/scale.md has the two commands)", whole_file=True)
+    pytest.skip(
+        "MuJoCo Warp is not here (docs/scale.md has the two commands)", allow_module_level=True
+    )
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore:the engine 'mujoco-warp' finds no graphics card"),

@@ -15,7 +15,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from missing import skip_or_fail
+import pytest
 
 SERVER = """
 import ctypes, json, os, sys, tempfile
@@ -52,7 +52,7 @@ def library():
 def needed():
     """Skip the test where it is not installed."""
     if library() is None:
-        skip_or_fail("libsdformat's `ign sdf` is not installed (Debian: libsdformat-dev)")
+        pytest.skip("libsdformat's `ign sdf` is not installed (Debian: libsdformat-dev)")
 
 
 @functools.cache

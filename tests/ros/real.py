@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import subprocess
-import tempfile
 import time
 from pathlib import Path
 
@@ -34,7 +33,7 @@ def say(*words): print(*words, flush=True)
 
 def environment(master_uri):
     """What real programs need to find each other on this machine only."""
-    home = Path(tempfile.gettempdir()) / f"ros-home-{os.getpid()}"
+    home = Path(os.environ["ROS_HOME"])  # of these tests (tests/conftest.py)
     (home / "log").mkdir(parents=True, exist_ok=True)
     kept = {key: os.environ[key] for key in ("HOME", "LANG", "TMPDIR") if key in os.environ}
     return kept | {

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from missing import skip_or_fail
 from test_workers import curves, trained
 
 from gazelle.errors import TaskError
@@ -24,7 +23,7 @@ pytestmark = pytest.mark.long  # a cluster is started for them
 @pytest.fixture(scope="module", autouse=True)
 def _cluster():
     if importlib.util.find_spec("ray") is None:
-        skip_or_fail("Ray is not here (pip install 'gazelle[distributed]')")
+        pytest.skip("Ray is not here (pip install 'gazelle[distributed]')")
     import ray
 
     os.environ["RAY_USAGE_STATS_ENABLED"] = "0"

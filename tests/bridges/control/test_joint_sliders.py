@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 from bridges.control.robot_graph import robot_graph
 from control.arms import JOINTS, arm_text
-from missing import skip_or_fail
 from real_messages import generate_real_classes
 from ros.real import INSTALLED, PYTHON, environment
 
@@ -70,7 +69,7 @@ def test_sliders_move_the_joints(uri):
 @pytest.fixture(scope="module")
 def classes(tmp_path_factory):
     if not INSTALLED:
-        skip_or_fail("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
+        pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
     packages = {"control_msgs", "controller_manager_msgs"}
     return generate_real_classes(packages, tmp_path_factory.mktemp("genpy"))
 

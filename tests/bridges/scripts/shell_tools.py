@@ -33,7 +33,8 @@ print(os.system("rosservice call /gazebo/reset_world > /dev/null"))
 print("/gazebo/set_model_state" in rosservice.get_service_list())
 print(rostopic.get_topic_type("/scan", blocking=False)[0])
 
-path = os.path.join(tempfile.mkdtemp(), "a.bag")
+folder = tempfile.TemporaryDirectory()
+path = os.path.join(folder.name, "a.bag")
 command = ["rosbag", "record", "-q", "-O", path, "/odom", "/scan"]
 recorder = subprocess.Popen(command, stdout=subprocess.DEVNULL)
 time.sleep(3)
@@ -45,3 +46,4 @@ with rosbag.Bag(path) as bag:
         seen.add(topic)
 print(sorted(seen))
 print(sh("rosbag info -y -k topics %s | grep topic:" % path)[1].split())
+folder.cleanup()

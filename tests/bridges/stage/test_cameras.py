@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from missing import skip_or_fail
 from real import INSTALLED, RealNode
 
 IMAGE, INFO, TF = "sensor_msgs/Image", "sensor_msgs/CameraInfo", "tf2_msgs/TFMessage"
@@ -130,7 +129,7 @@ def test_pictures_of_all_robots_are_drawn_in_one_call(stage, monkeypatch):
 @pytest.mark.ros
 def test_real_rospy_sees_pictures(stage, running):
     if not INSTALLED:
-        skip_or_fail("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
+        pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
     world = stage(ROBOT + WALL)
     running(world.server)
     half = "0.5"

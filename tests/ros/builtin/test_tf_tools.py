@@ -10,7 +10,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from missing import skip_or_fail
 from ros.real import environment
 
 from gazelle.errors import RosError
@@ -82,7 +81,7 @@ def test_tf_echo_prints_a_transform(master, tree, tmp_path):
 @pytest.mark.ros
 def test_the_real_tf_echo_prints_the_same(master, tree, tmp_path):
     if not REAL.exists():
-        skip_or_fail("the real tf_echo is not installed (Debian: tf-tools)")
+        pytest.skip("the real tf_echo is not installed (Debian: tf-tools)")
     command = [str(REAL), "odom", "laser"]
     said = first_lines(command, environment(master.uri), tmp_path, "(degree)")
     assert said.partition("\n")[2].rstrip() == ECHOED

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from missing import skip_or_fail
 from ros import real
 
 import gazelle.ros as ros
@@ -103,7 +102,7 @@ def test_frames_are_those_of_the_real_kdl(capsys):
         [real.PYTHON, "-c", KDL_SCRIPT], capture_output=True, text=True, check=False
     )
     if done.returncode:
-        skip_or_fail("PyKDL is not installed (Debian: python3-pykdl)")
+        pytest.skip("PyKDL is not installed (Debian: python3-pykdl)")
     exec(KDL_SCRIPT, {})  # the script above, with our PyKDL
     ours, theirs = json.loads(capsys.readouterr().out), json.loads(done.stdout)
     for mine, other in zip(ours, theirs, strict=True):
@@ -274,6 +273,6 @@ def test_clouds_are_those_of_the_real_packages(capsys):
         [real.PYTHON, "-c", CLOUD_SCRIPT], capture_output=True, text=True, check=False
     )
     if done.returncode:
-        skip_or_fail("needs Debian's python3-laser-geometry and python3-tf2-sensor-msgs")
+        pytest.skip("needs Debian's python3-laser-geometry and python3-tf2-sensor-msgs")
     exec(CLOUD_SCRIPT, {})  # the script above, with our modules
     assert json.loads(capsys.readouterr().out) == json.loads(done.stdout)

@@ -9,7 +9,6 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from missing import skip_or_fail
 from ros import real
 
 from gazelle.ros import Master, MasterProxy, Node
@@ -24,12 +23,12 @@ def peer_program(tmp_path_factory):
     if not real.INSTALLED:
         pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
     if shutil.which("g++") is None or shutil.which("pkg-config") is None:
-        skip_or_fail("no C++ compiler (Debian: g++ pkg-config)")
+        pytest.skip("no C++ compiler (Debian: g++ pkg-config)")
     flags = subprocess.run(
         ["pkg-config", "--cflags", "--libs", "roscpp"], capture_output=True, text=True, check=False
     )
     if flags.returncode:
-        skip_or_fail("roscpp is not installed (Debian: libroscpp-dev)")
+        pytest.skip("roscpp is not installed (Debian: libroscpp-dev)")
     program = tmp_path_factory.mktemp("roscpp") / "peer"
     command = ["g++", "-std=c++17", "-O0", str(SOURCE), "-o", str(program), *flags.stdout.split()]
     subprocess.run(command, check=True, timeout=300)
