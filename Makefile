@@ -11,6 +11,8 @@ export PIP_CONSTRAINT := $(CURDIR)/constraints.txt
 STAMP := $(VENV)/.installed
 # Tests run in so many processes, a file in one.
 WORKERS ?= 2
+# Which tests: files, folders, or @FILE with a line for each. Without them all.
+TESTS ?=
 PYTEST := $(VENV)/bin/python tools/run_tests.py -q -n $(WORKERS) --dist loadfile
 ALL := $(STAMP)-$(EXTRAS)
 # What is compiled when the package is installed, and with what.
@@ -29,7 +31,7 @@ ON_KERNELS = $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile -m "n
 
 help:
 	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
-	@echo "make test       set up and run every quick test (6 minutes on two processors)"
+	@echo "make test       set up and run every quick test (6 minutes on two processors); TESTS=tests/ros runs these"
 	@echo "make test-slow  the longer ones too, those that CI runs and all others"
 	@echo "make ros-suites ROS 1's own test suites against Gazelle (Debian 12, 20 minutes)"
 	@echo "make setup      .venv with everything, nothing run"
@@ -57,7 +59,7 @@ demo: $(STAMP)-demo
 	$(VENV)/bin/gazelle demo
 
 test: $(ALL)
-	$(PYTEST) -m "not slow and not long"
+	$(PYTEST) -m "not slow and not long" $(TESTS)
 
 test-slow: $(ALL)
 	GAZELLE_EXAMPLES=fresh $(PYTEST)

@@ -389,7 +389,9 @@ print(json.dumps(out))
 
 
 @pytest.mark.slow
-@pytest.mark.skipif("GAZELLE_GYMNASIUM_ROBOTICS" not in os.environ, reason="names its Python")
+@pytest.mark.skipif(
+    "GAZELLE_GYMNASIUM_ROBOTICS" not in os.environ, reason="set GAZELLE_GYMNASIUM_ROBOTICS"
+)
 def test_it_equals_gymnasium_robotics_itself(envs):
     python = Path(os.environ["GAZELLE_GYMNASIUM_ROBOTICS"])
     done = subprocess.run([python, "-c", PROBE, *TASKS], capture_output=True, text=True, check=True)
