@@ -167,7 +167,8 @@ OTHERS = (
 def test_bounds_of_our_own_tasks_fit(task):
     asked = recipe_for(task).training_options
     options = {name: asked[name] for name in ("engine", "starts", "goals") if name in asked}
-    env = gym.make_vec(task, 16, vectorization_mode="vector_entry_point", **options)
+    copies = 64 if asked["engine"] == "planar" else 16
+    env = gym.make_vec(task, copies, vectorization_mode="vector_entry_point", **options)
     scale = ObservationScale(env.single_observation_space)
     env.action_space.seed(0)
     env.reset(seed=0)
