@@ -1,73 +1,80 @@
-"""The table of success rates that ``gazelle bench recipes`` prints."""
+"""Tables of success rates, in Markdown that is aligned for terminals as well."""
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 
 from gazelle.training.claims import Claim
 
-_COLUMNS = (
-    "engine",
-    "goals",
-    "tried",
-    "of each seed",
-    "all",
-    "one more seed",
-    "collided",
-    "late",
-    "CPU s",
-)
-_ENDS = ("collisions", "timeouts")
+_SHORT = ("training", "evaluated in", "success", "of each seed", "one more seed", "processor time")
+_LONG = ("training", "evaluated in", "goals", *_SHORT[2:-1], "collided", "late")
 
 
-def table(claims: Sequence[Claim]) -> str:
-    """Return a row for each claim: rates of each seed and of one more, and how others failed."""
-    rows = [("task, or training", *_COLUMNS), *map(_row, claims)]
+def table(claims: Sequence[Claim], *, long: bool) -> str:
+    """Return a row for each claim, and a line that says when they were measured.
+
+    Args:
+        claims: In the order of the rows.
+        long: Also show which goals were evaluated and how attempts failed.
+    """
+    head = _LONG if long else _SHORT
+    rows = [head, *(_long(claim) if long else _short(claim) for claim in claims)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    left = {0, 1, 2, 4}
-    return "".join(
-        "  ".join(
-            cell.ljust(width) if place in left else cell.rjust(width)
-            for place, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ).rstrip()
-        + "\n"
-        for row in rows
-    )
+    rows.insert(1, ["-" * width for width in widths])
+    padded = [[f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)] for row in rows]
+    lines = "".join(f"| {' | '.join(row)} |\n" for row in padded)
+    return f"{lines}\n{_source(claims)}\n"
 
 
-def _row(claim: Claim) -> tuple[str, ...]:
-    success, cpu = claim.success, claim.cpu
-    name = claim.train.removeprefix("gazelle train ")
-    if success is None or cpu is None:
-        return name, claim.engine, claim.goals, "0", *("-" for _ in _COLUMNS[3:])
-    return (
-        name,
-        claim.engine,
-        claim.goals,
-        f"{success.total}",
-        " ".join(f"{percent(trial.rate.value):>5}" for trial in claim.trials),
-        percent(success.value),
-        expected(claim),
-        *(_share(claim, name) for name in _ENDS),
-        f"{cpu:.0f}",
-    )
+def _short(claim: Claim) -> list[str]:
+    cpu = "" if claim.cpu is None else f"{claim.cpu:.0f} s"
+    return [f"`{name(claim)}`", claim.engine, *_rates(claim), cpu]
 
 
-def percent(share: float) -> str:
-    """Return a share with one decimal, without a sign."""
-    return f"{100.0 * share:.1f}"
+def _long(claim: Claim) -> list[str]:
+    ends = [_share(claim, end) for end in ("collisions", "timeouts")]
+    return [f"`{name(claim)}`", claim.engine, claim.goals, *_rates(claim), *ends]
 
 
-def expected(claim: Claim) -> str:
-    """Return the interval of one more seed, or that there is only one seed."""
-    if claim.predicted is None:
-        return "one seed"
-    low, high = claim.predicted
-    return f"{percent(low)} to {percent(high)}"
+def name(claim: Claim) -> str:
+    """Return what stands behind ``gazelle train`` in the command of a training."""
+    return claim.train.removeprefix("gazelle train ")
+
+
+def _rates(claim: Claim) -> list[str]:
+    """Return the cells of the success rate, of each seed, and of one more seed."""
+    success, interval = claim.success, claim.predicted
+    if success is None:
+        return ["not measured yet", "", ""]
+    each = ", ".join(percent(trial.rate.value) for trial in claim.trials)
+    tried = sorted({trial.attempts for trial in claim.trials})
+    several = f"{tried[0]:,}" if len(tried) == 1 else f"{tried[0]:,} to {tried[-1]:,}"
+    expected = "one seed" if interval is None else f"{' to '.join(map(percent, interval))} %"
+    return [f"{percent(success.value)} %", f"{each} of {several}", expected]
 
 
 def _share(claim: Claim, end: str) -> str:
     counts = [getattr(trial, end) for trial in claim.trials]
-    if None in counts:
-        return "-"
-    return percent(sum(counts) / sum(trial.attempts for trial in claim.trials))
+    if not counts or None in counts:
+        return ""
+    return f"{percent(sum(counts) / sum(trial.attempts for trial in claim.trials))} %"
+
+
+def percent(share: float) -> str:
+    """Return a share in per cent with one decimal, without a sign."""
+    return f"{100.0 * share:.1f}"
+
+
+def _source(claims: Sequence[Claim]) -> str:
+    """Return one line with days, commits and the command that measures again."""
+    trials = [trial for claim in claims for trial in claim.trials]
+    days = sorted({trial.date for trial in trials})
+    commits = sorted({f"`{trial.commit}`" for trial in trials})
+    when = (
+        f"Measured {' to '.join(dict.fromkeys((days[0], days[-1])))} at {', '.join(commits)}; "
+        if days
+        else ""
+    )
+    names = shlex.join(dict.fromkeys(name(claim) for claim in claims))
+    return f"{when}again: `gazelle bench recipes --tasks {names}`."

@@ -7,13 +7,15 @@ another seed lies with a probability of 95 %.
 
   gazelle bench recipes                            # the TurtleBot3 stages
   gazelle bench recipes --tasks Husarion UR5Reach
-  gazelle bench recipes --algo sac --tasks TurtleBot3Stage4Continuous
+  gazelle bench recipes --tasks "TurtleBot3Stage4Continuous --algo sac"
   gazelle bench recipes --tasks all --write        # goes on where it was broken off
 """
 
 from __future__ import annotations
 
 import argparse
+import math
+import shlex
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -24,45 +26,60 @@ from _campaign import Campaign, record, seeds_since
 from _checkout import clean_commit, commit
 from _claim_table import table
 
+from gazelle.cli import train as train_command
+from gazelle.cli.parsing import Parser
 from gazelle.training import find_task, recipe_for
-from gazelle.training.claims import CLAIMS_FILE, Claim, Trial, read_claims, training_command
+from gazelle.training.claims import CLAIMS_FILE, Claim, Trial, read_claims
+from gazelle.training.recipes import task_name
 
 _STAGES = tuple(f"TurtleBot3Stage{stage}" for stage in (1, 2, 3, 4))
 _EPISODES = {"planar": 1000, "mujoco": 300}
 
 
-def selected(tasks: Sequence[str], algo: str | None, engines: Sequence[str]) -> list[Claim]:
-    """Return the claims to measure, those of one training together, the quickest first."""
+def selected(tasks: Sequence[str], engines: Sequence[str]) -> list[Claim]:
+    """Return the claims to measure, the quickest training first.
+
+    Args:
+        tasks: What stands behind ``gazelle train``, or ``all`` that is published.
+        engines: Engines of evaluations; none for all.
+    """
     published = read_claims().claims
-    if list(tasks) == ["all"]:
-        found = list(published)
-    else:
-        found = []
-        for task in tasks:
-            train = training_command(task, algo)
-            found += [each for each in published if each.train == train] or [new(task, algo)]
-    if engines:
-        found = [each for each in found if each.engine in engines]
-    return sorted(found, key=lambda claim: (claim.cpu or 1e3, claim.train))
+    trains = [f"gazelle train {task}" for task in tasks]
+    found = [each for each in published if list(tasks) == ["all"] or each.train in trains]
+    known = {claim.train for claim in found}
+    if list(tasks) != ["all"]:
+        found += [new(train) for train in trains if train not in known]
+    costs: dict[str, float] = {}
+    for claim in found:
+        costs[claim.train] = max(costs.get(claim.train, 0.0), claim.cpu or 0.0)
+    chosen = [each for each in found if not engines or each.engine in engines]
+    return sorted(chosen, key=lambda claim: (costs[claim.train] or math.inf, claim.train))
 
 
-def new(task: str, algo: str | None) -> Claim:
+def new(train: str) -> Claim:
     """Return a claim of a training that has none yet."""
-    find_task(task)
-    recipe = recipe_for(task, algo)
-    engine = str(recipe.training_options.get("engine", "mujoco"))
+    args = command_arguments(train)
+    recipe = recipe_for(find_task(args.task), args.algo)
+    engine = args.engine or str(recipe.training_options.get("engine", "mujoco"))
     return Claim(
-        task=task,
+        task=task_name(args.task),
         algo=recipe.algo,
         engine=engine,
-        train=training_command(task, algo),
+        train=train,
         evaluate=f"gazelle eval RUN --engine {engine} --episodes {_EPISODES.get(engine, 300)}",
     )
 
 
+def command_arguments(train: str) -> argparse.Namespace:
+    """Parse a command that trains."""
+    parser = Parser(prog="gazelle train")
+    train_command.configure(parser)
+    return parser.parse_args(shlex.split(train)[2:])
+
+
 def measured(args: argparse.Namespace, out: Path) -> list[Claim]:
     """Measure claims, and write each trial into the data file if that is asked for."""
-    claims = selected(args.tasks, args.algo, args.engines)
+    claims = selected(args.tasks, args.engines)
     now = clean_commit() if args.write else commit()
     oldest = args.since or now
     done = {claim.key: seeds_since(claim, oldest) for claim in claims} if args.write else {}
@@ -94,9 +111,12 @@ def main() -> None:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "--tasks", nargs="+", default=_STAGES, metavar="TASK", help="or all that have a figure"
+        "--tasks",
+        nargs="+",
+        default=_STAGES,
+        metavar="TASK",
+        help="may have options in quotes; or all that are published",
     )
-    parser.add_argument("--algo", help="by default that of the task's recipe")
     parser.add_argument("--engines", nargs="+", default=[], help="by default all of the task")
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2], help="of the training")
     parser.add_argument("--out", type=Path, help="where runs are kept, and found again")
@@ -111,7 +131,7 @@ def main() -> None:
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as spare:
         found = measured(args, args.out or Path(spare))
-    print(table(found), end="")
+    print(table(found, long=True), end="")
 
 
 if __name__ == "__main__":

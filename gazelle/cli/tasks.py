@@ -1,5 +1,5 @@
-"""List the tasks that 'gazelle train' knows, and what their policies were found
-to reach; or tell all about one: recipe, commands, figures with intervals.
+"""List the tasks that 'gazelle train' knows with their success rates; or show one
+with its recipe, commands, seeds and intervals.
 
   gazelle tasks
   gazelle tasks TurtleBot3Stage4
@@ -9,23 +9,25 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from gazelle.cli import showing
 
 if TYPE_CHECKING:
-    from gazelle.training import Task, Verified
+    from gazelle.training import Claim, Task
 
 _HEAD = ("TASK", "ALGO", "ENGINE", "PLANAR", "MUJOCO", "CPU", "WALL")
+_ENGINES = ("planar", "mujoco")
 _LEGEND = """\
 PLANAR, MUJOCO: goals reached after 'gazelle train TASK', on starts and goals
 that were not trained on, by 'gazelle eval RUN --engine ENGINE'. CPU: processor
 time of the training [s], which is the most that it takes where nothing else
 runs. WALL: on a clock [s]; * beside other programs, - not measured. 'gazelle
-tasks TASK' tells commands, intervals and how busy it was, 'gazelle bench
-recipes' measures again. For gym.make a TASK of Gazelle's is gazelle/TASK-v0.
+tasks TASK' shows commands, each seed, and the interval in which one more seed
+lies at 95 %; 'gazelle bench recipes' measures again. For gym.make a TASK is
+gazelle/TASK-v0.
 """
-_EPISODES = 1000
 _QUIET = 0.1  # processors that others kept busy at most, for a wall time to be of a quiet machine
 
 
@@ -36,90 +38,111 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
-    from gazelle.training import VERIFIED, find_task, list_tasks
+    from gazelle.training import find_task, list_tasks
 
     tasks = list_tasks()
     if args.task is not None:
         id_ = find_task(args.task)
         (task,) = [each for each in tasks if each.id == id_] or [_unlisted(id_)]
-        sys.stdout.write(_told(task))
+        sys.stdout.write(_details(task))
         return 0
-    listed = [task for task in tasks if task.name in VERIFIED or not _why_not(task)]
+    without = [(_typed(task), why) for task in tasks if (why := _why_not(task))]
+    listed = [task for task in tasks if not _why_not(task)]
     sys.stdout.write(showing.table([_HEAD, *map(_row, listed)]))
     sys.stdout.write(f"\n{_LEGEND}")
-    without = [(_typed(task), why) for task in tasks if (why := _why_not(task))]
     if without:
         sys.stdout.write("\n" + showing.table([("TASK", "WHY IT HAS NO FIGURE"), *without]))
     return 0
 
 
 def _row(task: Task) -> tuple[str, ...]:
-    from gazelle.training import VERIFIED, listed_recipe
+    from gazelle.training import listed_recipe
 
-    found = VERIFIED.get(task.name)
+    claims = _claims(task)
     recipe = listed_recipe(task.id)
+    reached = {claim.engine: claim.success for claim in claims}
+    times = [claim for claim in claims if claim.trials]
     return (
         _typed(task),
         recipe.algo,
         str(recipe.training_options.get("engine", "-")),
-        _reached(found, "planar"),
-        _reached(found, "mujoco"),
-        "-" if found is None else f"{found.seconds:.0f}",
-        "-" if found is None else _wall(found),
+        *("-" if (rate := reached.get(name)) is None else percent(rate.value) for name in _ENGINES),
+        f"{times[0].cpu:.0f}" if times else "-",
+        _wall(times[0]) if times else "-",
     )
 
 
-def _told(task: Task) -> str:
-    """All about one task."""
-    from gazelle.training import VERIFIED, VERIFIED_WITH, listed_recipe
+def _details(task: Task) -> str:
+    """Return the recipe, commands and figures of one task."""
+    from gazelle.training import listed_recipe, published_claims
 
-    found = VERIFIED.get(task.name)
     recipe = listed_recipe(task.id)
     engine = recipe.training_options.get("engine")
     where = "" if engine is None else f", engine {engine}"
+    own = _claims(task)
     rows = [
         ("train", f"gazelle train {_typed(task)}"),
         (
             "recipe",
             f"{recipe.algo}, {recipe.steps:,} control steps, {recipe.num_envs} copies{where}",
         ),
+        *(_figures(own) if own else [("figure", _why_not(task) or "none is known of this task")]),
     ]
-    if found is None:
-        rows.append(("figure", _why_not(task) or "none is known of this task"))
-    else:
-        rows += _figures(found)
-    for (name, algo), other in VERIFIED_WITH.items():
-        if _is_own(task) and name == task.name:
-            rows += _with_algorithm(name, algo, other)
+    for train in published_claims().other_trainings(task.name) if _is_own(task) else ():
+        rows += [("or", train), *_figures(published_claims().of_training(train))]
     return f"{task.id}\n" + showing.table([("  " + name, text) for name, text in rows])
 
 
-def _figures(found: Verified) -> list[tuple[str, str]]:
+def _figures(claims: Sequence[Claim]) -> list[tuple[str, str]]:
+    """Return what a training reaches in each engine, and what it costs."""
     rows: list[tuple[str, str]] = []
-    for engine, rate in found.success.items():
-        rows.append((engine, showing.rate(rate).lstrip()))
-        rows.append(("", f"gazelle eval RUN --engine {engine} --episodes {_EPISODES}"))
-    rows.append(("seeds", ", ".join(map(str, range(found.seeds)))))
-    rows.append(("time", f"{found.seconds:.0f} s of one processor for each training"))
-    wall = found.wall
-    if wall is not None:
-        where = f"of {wall.processors} processors, others kept {wall.others:.1f} busy"
-        rows.append(("wall", f"{wall.seconds:.0f} s; {where}"))
+    for claim in claims:
+        rows += [(claim.engine, reached(claim)), ("", claim.evaluate)]
+    measured = [claim for claim in claims if claim.trials]
+    if not measured:
+        return rows
+    first = measured[0]
+    rows.append(("seeds", f"{', '.join(map(str, first.seeds))}; {_source(first)}"))
+    rows.append(("time", f"{first.cpu:.0f} s of one processor for each training"))
+    if first.wall is not None:
+        busy = "" if first.others is None else f", others kept {first.others:.1f} busy"
+        rows.append(
+            ("wall", f"{first.wall:.0f} s; of {first.trials[0].processors} processors{busy}")
+        )
     return rows
 
 
-def _with_algorithm(task: str, algo: str, found: Verified) -> list[tuple[str, str]]:
-    """What an algorithm reaches that is not the recipe's."""
-    rows = [("or", f"gazelle train {task} --algo {algo}")]
-    for engine, reached in found.success.items():
-        rows.append((engine, showing.rate(reached).lstrip()))
-    return [*rows, ("time", f"{found.seconds:.0f} s")]
+def reached(claim: Claim) -> str:
+    """Return the success rate of all seeds, that of each, and the 95 % interval of one more."""
+    success, interval = claim.success, claim.predicted
+    if success is None:
+        return "not measured yet"
+    if interval is None:
+        return f"{percent(success.value)}; one seed ({success.count} of {success.total})"
+    low, high = interval
+    each = ", ".join(f"{100.0 * trial.rate.value:.1f}" for trial in claim.trials)
+    return f"{percent(success.value)} ({each}); one more seed {100.0 * low:.1f} to {percent(high)}"
+
+
+def percent(share: float) -> str:
+    """Return ``96.6 %``."""
+    return f"{100.0 * share:.1f} %"
+
+
+def _source(claim: Claim) -> str:
+    return f"measured {' and '.join(claim.dates)} at {' and '.join(claim.commits)}"
+
+
+def _claims(task: Task) -> tuple[Claim, ...]:
+    from gazelle.training import published_claims
+
+    return published_claims().of(task.name) if _is_own(task) else ()
 
 
 def _why_not(task: Task) -> str | None:
-    from gazelle.training import UNVERIFIED
+    from gazelle.training import published_claims
 
-    return UNVERIFIED.get(task.name) if _is_own(task) else None
+    return published_claims().unverified.get(task.name) if _is_own(task) else None
 
 
 def _is_own(task: Task) -> bool:
@@ -137,14 +160,8 @@ def _unlisted(id_: str) -> Task:
     return Task(id_, id_)
 
 
-def _wall(found: Verified) -> str:
-    """``59``, ``59*`` where other programs ran beside it, ``-`` where it was not measured."""
-    if found.wall is None:
+def _wall(claim: Claim) -> str:
+    """Return ``59``, ``59*`` where other programs ran beside it, ``-`` where it was not measured."""
+    if claim.wall is None:
         return "-"
-    return f"{found.wall.seconds:.0f}{'*' if found.wall.others > _QUIET else ''}"
-
-
-def _reached(found: Verified | None, engine: str) -> str:
-    """``99.9 %``; ``-`` where nothing was verified."""
-    rate = None if found is None else found.success.get(engine)
-    return "-" if rate is None else f"{100.0 * rate.value:.1f} %"
+    return f"{claim.wall:.0f}{'*' if (claim.others or 0.0) > _QUIET else ''}"

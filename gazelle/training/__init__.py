@@ -19,11 +19,13 @@ from gazelle.errors import MissingExtraError
 
 if TYPE_CHECKING:
     from gazelle.training.actor import Actor, load_actor
+    from gazelle.training.claims import Claim, Claims, Trial, published_claims
     from gazelle.training.evaluation import Evaluation, evaluate
     from gazelle.training.goal_reward import GoalReward
     from gazelle.training.learners import ALGORITHMS
     from gazelle.training.overrides import with_values
     from gazelle.training.policy_files import PolicyFiles, export_policy, load_policy
+    from gazelle.training.prediction import predicted_range
     from gazelle.training.progress import Progress, choose_progress
     from gazelle.training.recipe_choice import listed_recipe, task_recipe
     from gazelle.training.recipes import (
@@ -40,19 +42,14 @@ if TYPE_CHECKING:
     from gazelle.training.statistics import SuccessRate, wilson_interval
     from gazelle.training.study import Study, StudyResult, conduct
     from gazelle.training.tasks import Task, find_task, list_tasks, make_task
-    from gazelle.training.verified import (
-        UNVERIFIED,
-        VERIFIED,
-        VERIFIED_WITH,
-        Verified,
-        WallTime,
-    )
 
 _EXTRA = ("stable_baselines3", "tensorboard", "threadpoolctl", "torch", "tqdm")
 
 _HOMES = {
     "ALGORITHMS": "learners",
     "Actor": "actor",
+    "Claim": "claims",
+    "Claims": "claims",
     "EpisodeRecord": "records",
     "Evaluation": "evaluation",
     "GoalReward": "goal_reward",
@@ -70,11 +67,7 @@ _HOMES = {
     "RunConfig": "runs",
     "Task": "tasks",
     "TrainResult": "session",
-    "UNVERIFIED": "verified",
-    "VERIFIED": "verified",
-    "VERIFIED_WITH": "verified",
-    "Verified": "verified",
-    "WallTime": "verified",
+    "Trial": "claims",
     "choose_progress": "progress",
     "conduct": "study",
     "evaluate": "evaluation",
@@ -85,6 +78,8 @@ _HOMES = {
     "load_actor": "actor",
     "load_policy": "policy_files",
     "make_task": "tasks",
+    "predicted_range": "prediction",
+    "published_claims": "claims",
     "recipe_for": "recipes",
     "resume": "session",
     "task_recipe": "recipe_choice",
@@ -96,10 +91,9 @@ _HOMES = {
 __all__ = [
     "ALGORITHMS",
     "RECIPES",
-    "UNVERIFIED",
-    "VERIFIED",
-    "VERIFIED_WITH",
     "Actor",
+    "Claim",
+    "Claims",
     "EpisodeRecord",
     "Evaluation",
     "GoalReward",
@@ -116,8 +110,7 @@ __all__ = [
     "SuccessRate",
     "Task",
     "TrainResult",
-    "Verified",
-    "WallTime",
+    "Trial",
     "choose_progress",
     "conduct",
     "evaluate",
@@ -128,6 +121,8 @@ __all__ = [
     "load_actor",
     "load_policy",
     "make_task",
+    "predicted_range",
+    "published_claims",
     "recipe_for",
     "resume",
     "task_recipe",

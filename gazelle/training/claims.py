@@ -157,16 +157,28 @@ class Claims:
     unverified: Mapping[str, str]
     """Why a task has no success rate, by its name; one line each."""
 
-    def of(self, task: str, algo: str | None = None, *, goals: str = HELD_OUT) -> tuple[Claim, ...]:
-        """Return the claims of a task, one for each engine.
+    def of(self, task: str, algo: str | None = None) -> tuple[Claim, ...]:
+        """Return the claims of a task on held-out goals, one for each engine.
 
         Args:
             task: Name of the task.
             algo: Algorithm, given with ``--algo``; by default that of the recipe.
+        """
+        return self.of_training(training_command(task, algo))
+
+    def of_training(self, train: str, goals: str = HELD_OUT) -> tuple[Claim, ...]:
+        """Return the claims of a training, one for each engine.
+
+        Args:
+            train: Command of the training, as in `Claim.train`.
             goals: Goals of the evaluation.
         """
-        train = training_command(task, algo)
         return tuple(claim for claim in self.claims if (claim.train, claim.goals) == (train, goals))
+
+    def other_trainings(self, task: str) -> tuple[str, ...]:
+        """Return the commands that train a task otherwise than by its recipe."""
+        own = [claim for claim in self.claims if claim.task == task and not claim.of_recipe]
+        return tuple(dict.fromkeys(claim.train for claim in own))
 
     def find(self, key: tuple[str, str, str]) -> Claim | None:
         """Return the claim with this `Claim.key`; None where there is none."""
@@ -225,8 +237,9 @@ def published_claims() -> Claims:
     return read_claims()
 
 
-def _place(claim: Claim) -> tuple[str, str, str, str]:
-    return claim.task, claim.train, claim.goals, claim.engine
+def _place(claim: Claim) -> tuple[str, str, str, bool, str]:
+    """Return what claims are sorted by: the plane, where bases are trained, comes first."""
+    return claim.task, claim.train, claim.goals, claim.engine != "planar", claim.engine
 
 
 def _to_claim(data: dict[str, Any]) -> Claim:

@@ -116,27 +116,3 @@ def test_interrupt_saves_says_how_to_resume_and_resumes(cli, tmp_path):
     assert code == 0
     assert "trained: 2,048 control steps" in out
     assert "cannot save its state" in err
-
-
-def marked(wall):
-    """What stands behind a wall time that was measured beside other programs."""
-    return "*" if wall.others > 0.1 else ""
-
-
-def test_tasks_are_listed_with_what_their_recipes_reach(cli):
-    from gazelle.training import UNVERIFIED, VERIFIED
-
-    code, out, _ = cli("tasks")
-    assert code == 0
-    lines = {line.split()[0]: line for line in out.splitlines() if line}
-    assert max(map(len, out.splitlines())) <= 80
-    for name, found in VERIFIED.items():
-        reached = {engine: f"{100.0 * rate.value:.1f} %" for engine, rate in found.success.items()}
-        ends = (
-            *(reached.get(engine, "-") for engine in ("planar", "mujoco")),
-            f"{found.seconds:.0f}",
-            "-" if found.wall is None else f"{found.wall.seconds:.0f}{marked(found.wall)}",
-        )
-        assert re.split(r" {2,}", lines[name])[-4:] == list(ends)
-    for name, why in UNVERIFIED.items():
-        assert re.split(r" {2,}", lines[name])[1] in why
