@@ -12,6 +12,7 @@ COMPILER = """#!/bin/sh
 echo "$0 $@" >> "$(dirname "$0")/calls"
 for word; do [ "$previous" = -o ] && echo "$0" > "$word"; previous=$word; done
 echo "version $(cat "$(dirname "$0")/version")"
+echo "InstalledDir: /tmp/pip-build-env-$$"
 """
 """A compiler that notes how it was called and writes its name where a file is wanted."""
 

@@ -210,7 +210,8 @@ class BuildModules(build_ext):
         self._compiler = f"zig-{compilers.zig_target()}" if zig else "system"
         self._command = [*command, *ending]
         shown = subprocess.run([*command, "--version"], check=True, capture_output=True, text=True)
-        self._version = shown.stdout
+        # What follows tells where it is installed: pip has another folder for Zig's each time.
+        self._version = shown.stdout.partition("\n")[0]
 
     def copy_extensions_to_source(self) -> None:
         """Put them beside their sources, for an editable installation."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import subprocess
 from pathlib import Path
@@ -38,7 +39,7 @@ class Roslaunch:
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
-            env=environment | {"PATH": "/usr/bin:/bin", "HOME": "/tmp"},
+            env=environment | {"PATH": "/usr/bin:/bin", "HOME": os.environ["ROS_HOME"]},
         )
 
     def load(self, path, args=None):
