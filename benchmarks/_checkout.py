@@ -24,6 +24,11 @@ def commit() -> str:
     return f"{_git('rev-parse', 'HEAD')[:_DIGITS]}{'+changes' if _changes() else ''}"
 
 
+def commits() -> int:
+    """Return how many commits there are up to the one that is checked out."""
+    return int(_git("rev-list", "--count", "HEAD"))
+
+
 def clean_commit() -> str:
     """Return the commit that is checked out.
 

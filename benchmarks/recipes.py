@@ -9,6 +9,7 @@ another seed lies with a probability of 95 %.
   gazelle bench recipes --tasks Husarion UR5Reach
   gazelle bench recipes --tasks "TurtleBot3Stage4Continuous --algo sac"
   gazelle bench recipes --tasks all --write        # goes on where it was broken off
+  gazelle bench recipes --verify --cheap           # does today's code reach what is published?
 """
 
 from __future__ import annotations
@@ -23,8 +24,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from _campaign import Campaign, record, seeds_since
-from _checkout import clean_commit, commit
+from _checkout import clean_commit, commit, commits
 from _claim_table import table
+from _verify import CHEAP, seed_of, verify, within, worth_verifying
 
 from gazelle.cli import train as train_command
 from gazelle.cli.parsing import Parser
@@ -33,6 +35,7 @@ from gazelle.training.claims import CLAIMS_FILE, Claim, Trial, read_claims
 from gazelle.training.recipes import task_name
 
 _STAGES = tuple(f"TurtleBot3Stage{stage}" for stage in (1, 2, 3, 4))
+_SEEDS = (0, 1, 2)
 _EPISODES = {"planar": 1000, "mujoco": 300}
 
 
@@ -79,17 +82,18 @@ def command_arguments(train: str) -> argparse.Namespace:
 
 def measured(args: argparse.Namespace, out: Path) -> list[Claim]:
     """Measure claims, and write each trial into the data file if that is asked for."""
-    claims = selected(args.tasks, args.engines)
+    claims = selected(args.tasks or _STAGES, args.engines)
+    seeds = args.seeds or _SEEDS
     now = clean_commit() if args.write else commit()
     oldest = args.since or now
     done = {claim.key: seeds_since(claim, oldest) for claim in claims} if args.write else {}
     found = {claim.key: replace(claim, trials=()) for claim in claims}
-    campaign = Campaign(seeds=args.seeds, commit=now, out=out, keep=args.out is not None)
+    campaign = Campaign(seeds=seeds, commit=now, out=out, keep=args.out is not None)
     for claim, trial in campaign.results(claims, done):
         show(claim, trial)
         found[claim.key] = found[claim.key].with_trial(trial)
         if args.write:
-            record(CLAIMS_FILE, claim, trial, args.seeds, oldest)
+            record(CLAIMS_FILE, claim, trial, seeds, oldest)
     if args.write:
         return [claim for claim in read_claims().claims if claim.key in found]
     return list(found.values())
@@ -103,35 +107,70 @@ def show(claim: Claim, trial: Trial) -> None:
     )
 
 
+def verified(args: argparse.Namespace, out: Path) -> bool:
+    """Train again and compare with what is published; return whether nothing falls below."""
+    turn = commits()
+    claims = worth_verifying(selected(args.tasks or ["all"], args.engines), cheap=args.cheap)
+    if args.budget is not None:
+        claims = within(claims, args.budget, turn)
+    seeds = args.seeds or [seed_of(turn)]
+    print(f"seed {' '.join(map(str, seeds))}; 'published' is the 95 % interval of one more seed")
+    failed = verify(claims, seeds, out)
+    for each in failed:
+        print(f"falls below what is published, with two seeds: {each}")
+    return not failed
+
+
 def main() -> None:
-    """Measure and print a table."""
+    """Measure and print a table, or compare."""
+    args = arguments()
+    with tempfile.TemporaryDirectory() as spare:
+        out = args.out or Path(spare)
+        if args.verify:
+            raise SystemExit(0 if verified(args, out) else 1)
+        print(table(measured(args, out), long=True), end="")
+
+
+def arguments() -> argparse.Namespace:
+    """Parse the command line."""
     parser = argparse.ArgumentParser(
         prog="gazelle bench recipes",
         description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument(
+    add = parser.add_argument
+    add(
         "--tasks",
         nargs="+",
-        default=_STAGES,
         metavar="TASK",
-        help="may have options in quotes; or all that are published",
+        help="may have options, in quotes; 'all': all that are published",
     )
-    parser.add_argument("--engines", nargs="+", default=[], help="by default all of the task")
-    parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2], help="of the training")
-    parser.add_argument("--out", type=Path, help="where runs are kept, and found again")
-    parser.add_argument(
-        "--write", action="store_true", help="write what is measured to the published figures"
-    )
-    parser.add_argument(
+    add("--engines", nargs="+", default=[], help="by default all of the task")
+    add("--seeds", type=int, nargs="+", help="of the training (default: 0 1 2)")
+    add("--out", type=Path, help="where runs are kept, and found again")
+    add("--write", action="store_true", help="write what is measured to the published figures")
+    add(
         "--since",
         metavar="COMMIT",
         help="with --write: leave alone what was measured at this commit or later (default: now)",
     )
+    add(
+        "--verify",
+        action="store_true",
+        help="compare with what is published, all or TASKS, with a seed that "
+        "depends on the number of commits; exit code 1 where one falls below",
+    )
+    add("--cheap", action="store_true", help=f"only trainings of less than {CHEAP:.0f} s")
+    add(
+        "--budget",
+        type=float,
+        metavar="SECONDS",
+        help="only as many trainings as take this processor time, in turn",
+    )
     args = parser.parse_args()
-    with tempfile.TemporaryDirectory() as spare:
-        found = measured(args, args.out or Path(spare))
-    print(table(found, long=True), end="")
+    if not args.verify and (args.cheap or args.budget is not None):
+        parser.error("--cheap and --budget belong to --verify")
+    return args
 
 
 if __name__ == "__main__":
