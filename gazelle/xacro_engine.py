@@ -12,6 +12,8 @@ import importlib
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from gazelle.assets import published, published_hint
+
 PREFIX = "xacro:"
 NO_PREFIX = "lacks the prefix 'xacro:', and was expanded as up to ROS Melodic; ROS Noetic does not"
 
@@ -65,7 +67,13 @@ def adapted(find: Callable[[str], str], report: Report) -> Iterator[Any]:
     parse, expand_macro = package.parse, package.handle_macro_call
 
     def parse_old(given: Any, filename: str | None = None) -> Any:
-        return prefix(parse(given, filename), report)
+        if given is not None or filename is None:
+            return prefix(parse(given, filename), report)
+        try:
+            return prefix(parse(None, str(published(filename))), report)
+        except package.XacroException as error:
+            error.suffix = error.suffix or published_hint(filename)
+            raise
 
     def expand_old_macro(node: Any, macros: Any, symbols: Any) -> Any:
         if ":" not in node.tagName and _calls(package, node, macros, symbols):

@@ -172,8 +172,9 @@ def fault(each):
     if each.module in FRONT_DOORS or there is None or here == there:
         return ""
     if here is None:
-        # Errors say where in a file they are, with description's Source; streams are drawn natively.
-        below = there in ("description", "native")
+        # Errors say where in a file they are, with description's Source; streams are drawn natively;
+        # xacro includes bundled files by the paths that their packages publish.
+        below = there in ("assets", "description", "native")
         return "" if below else "modules at the top are below all rooms"
     if there in STRANGERS.get(here, set()):
         return f"{here} knows nothing of {there}"

@@ -6,7 +6,7 @@ one key frame a change of leg repeats the path exactly. The last key frame leads
 start at the last leg's speed, which makes a loop of it.
 
 Run ``python tools/stage4_motion.py`` and paste the output into
-``gazelle/assets/worlds/turtlebot3_stage_4.world``. Figures: ROBOTIS, turtlebot3_simulations.
+``gazelle/assets/turtlebot3_gazebo/worlds/turtlebot3_stage_4.world``. Figures: ROBOTIS, turtlebot3_simulations.
 """
 
 from __future__ import annotations

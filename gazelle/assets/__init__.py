@@ -1,7 +1,7 @@
 """Robots, worlds and models that come with Gazelle: data, and the paths to it.
 
-Laid out as the files of a Gazebo and ROS 1 workspace are, so that ``model://NAME`` resolves
-under ``root() / "models"`` and ``package://NAME`` under ``root()``::
+Laid out as the files of a Gazebo and ROS 1 workspace are: worlds and models in the packages that publish
+them, those of Gazebo itself and of nobody else in ``worlds/`` and ``models/``::
 
     gazelle.load(gazelle.assets.world("turtlebot3_stage_1"))
 """
@@ -11,9 +11,19 @@ from __future__ import annotations
 from importlib import resources
 from pathlib import Path
 
+from gazelle.assets.published import published, published_hint
 from gazelle.errors import ResolveError, did_you_mean
 
-__all__ = ["models", "robot", "robots", "root", "world", "worlds"]
+__all__ = [
+    "models",
+    "published",
+    "published_hint",
+    "robot",
+    "robots",
+    "root",
+    "world",
+    "worlds",
+]
 
 
 def root() -> Path:
@@ -22,8 +32,9 @@ def root() -> Path:
 
 
 def worlds() -> dict[str, Path]:
-    """World files by name, such as ``turtlebot3_stage_1``."""
-    return {path.stem: path for path in sorted((root() / "worlds").glob("*.world"))}
+    """Return world files by name, such as ``turtlebot3_stage_1``."""
+    files = [*root().glob("worlds/*.world"), *root().glob("*/worlds/*.world")]
+    return {path.stem: path for path in sorted(files, key=lambda path: path.stem)}
 
 
 def robots() -> dict[str, Path]:
@@ -35,8 +46,10 @@ def robots() -> dict[str, Path]:
 
 
 def models() -> dict[str, Path]:
-    """Model files (SDF) by name, such as ``ground_plane``."""
-    return {path.parent.name: path for path in sorted((root() / "models").glob("*/model.sdf"))}
+    """Return model files (SDF) by name, such as ``ground_plane``."""
+    patterns = ("models/*/model.sdf", "*/models/*/model.sdf", "*/models/*/*/model.sdf")
+    files = [path for pattern in patterns for path in root().glob(pattern)]
+    return {path.parent.name: path for path in sorted(files, key=lambda path: path.parent.name)}
 
 
 def world(name: str) -> Path:

@@ -14,6 +14,7 @@ from typing import Any
 from xml.sax.saxutils import escape
 
 from gazelle.argument_types import NumberParser
+from gazelle.assets import published, published_hint
 from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
 from gazelle.ros import Node, load_service
@@ -226,9 +227,10 @@ def _speaking() -> Iterator[None]:
 
 def _read_file(path: str) -> str:
     try:
-        return Path(path).expanduser().read_text(encoding="utf-8")
+        return published(Path(path).expanduser()).read_text(encoding="utf-8")
     except OSError as error:
-        raise RosError(f"the model cannot be read: {error.strerror}", file=path) from None
+        message = f"the model cannot be read: {error.strerror}"
+        raise RosError(message, file=path, hint=published_hint(path)) from None
 
 
 def _wait_for_the_end(node: Node) -> None:

@@ -238,14 +238,17 @@ def _tell_other(name: str, resolver: Resolver) -> None:
 
 def bundled_names(assets: Path) -> list[str]:
     """Names of all worlds, models and robots that come with Gazelle."""
-    models = [folder.parent.name for folder in assets.glob("models/*/model.config")]
+    patterns = ("models/*", "*/models/*", "*/models/*/*")
+    files = [file for each in patterns for file in assets.glob(f"{each}/model.config")]
+    models = [file.parent.name for file in files]
     return sorted({*models, *_bundled_files(assets)})
 
 
 def _bundled_files(assets: Path) -> dict[str, Path]:
     files: dict[str, Path] = {}
     for suffix in _WORLD_SUFFIXES:
-        for file in sorted(assets.glob(f"worlds/*{suffix}")):
+        places = assets.glob(f"worlds/*{suffix}"), assets.glob(f"*/worlds/*{suffix}")
+        for file in (each for found in places for each in sorted(found)):
             files.setdefault(file.name.removesuffix(suffix), file)
     for pattern in ("robots/*", "*/urdf/*"):
         for suffix in _ROBOT_SUFFIXES:

@@ -17,6 +17,7 @@ from importlib import resources
 from pathlib import Path
 from urllib.parse import unquote
 
+from gazelle.assets import published
 from gazelle.formats import packages
 
 MODEL_VARIABLES = (
@@ -30,6 +31,8 @@ MODEL_VARIABLES = (
 PACKAGE_VARIABLE = "ROS_PACKAGE_PATH"
 NEIGHBOUR_LEVELS = 4
 
+_PACKAGED = ("*/models/", "*/models/*/")
+"""Where bundled packages have their models."""
 _NETWORK = ("http://", "https://", "fuel://", "ftp://")
 
 
@@ -127,6 +130,7 @@ class Resolver:
         return any(real.is_relative_to(root) for root in self._readable_roots())
 
     def _allowed(self, path: Path) -> Path | None:
+        path = published(path, self.assets)
         try:
             return path if path.exists() and self.readable(path) else None
         except (OSError, ValueError):
@@ -239,8 +243,9 @@ class Resolver:
 
     def bundled_model(self, name: str) -> Path | None:
         """The folder of a model that comes with Gazelle, or None."""
-        folder = self.assets / "models" / name
-        return folder if (folder / "model.config").is_file() else None
+        places = [self.assets / "models" / name]
+        places += [folder for pattern in _PACKAGED for folder in self.assets.glob(pattern + name)]
+        return next((folder for folder in places if (folder / "model.config").is_file()), None)
 
     def given_model(self, name: str) -> Path | None:
         """The folder of a model directly in one of ``paths``, or None."""

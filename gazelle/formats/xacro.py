@@ -24,6 +24,7 @@ import xacro as engine
 from xacro import substitution_args
 
 from gazelle import xacro_engine
+from gazelle.assets import published, published_hint
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import expressions, xml
@@ -36,11 +37,6 @@ _LOCK = threading.Lock()  # the package keeps its state in module globals
 MAX_MADE = 60_000
 MAX_INCLUDED = 20
 """How often a file may be included by what it includes."""
-
-_BUNDLED_HINT = (
-    "this package is the one that comes with Gazelle, which holds less than its namesake: "
-    "put the folder of yours on ROS_PACKAGE_PATH, or give it as a path"
-)
 
 
 class _Made(threading.local):
@@ -191,20 +187,19 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
         return _parse(xml.read_bytes(path), _plain(path), reading)
 
     def _checked(filename: str) -> Path:
-        path = Path(filename)
+        path = published(filename)
         if not path.is_file():
-            bundled = path.is_relative_to(reading.resolver.assets)
             raise FormatError(
-                f"there is no file '{filename}' to include",
-                hint=_BUNDLED_HINT if bundled else None,
+                f"there is no file '{filename}' to include", hint=published_hint(path)
             )
         if not reading.resolver.readable(path):
             raise FormatError(f"'{filename}' lies outside of the folders that may be read")
         return path
 
     def guarded_open(filename: str) -> Any:
-        refuse_pointer_file(_checked(filename))
-        return builtins.open(filename, encoding="utf-8")  # noqa: PTH123
+        path = _checked(filename)
+        refuse_pointer_file(path)
+        return builtins.open(path, encoding="utf-8")  # noqa: PTH123
 
     said = io.StringIO()
     symbols = engine._global_symbols  # noqa: SLF001  # the package has no other way

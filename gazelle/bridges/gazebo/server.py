@@ -118,11 +118,13 @@ def find_world(name: str) -> str:
     """
     folders = [Path(), *_resource_path(), assets.root()]
     for folder in folders:
-        if (folder / name).is_file():
-            return str(folder / name)
+        file = assets.published(folder / name)
+        if file.is_file():
+            return str(file)
     if "/" in name and "://" not in name:
-        looked = ", ".join(str(folder) for folder in folders)
-        raise ResolveError("there is no such world", file=name, hint=f"looked in {looked}")
+        looked = f"looked in {', '.join(str(folder) for folder in folders)}"
+        hint = assets.published_hint(name) or looked
+        raise ResolveError("there is no such world", file=name, hint=hint)
     return name
 
 

@@ -6,10 +6,10 @@ import re
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 from xml.parsers import expat
 
 from gazelle import characters
+from gazelle.assets import published, published_hint
 from gazelle.errors import FormatWarning, describe
 from gazelle.ros.launch.errors import LaunchError
 
@@ -67,9 +67,10 @@ def read_document(path: str) -> Element:
         LaunchError: There is no such file, it is not XML, or it has not exactly one ``<launch>``.
     """
     try:
-        data = Path(path).read_bytes()
+        data = published(path).read_bytes()
     except FileNotFoundError:
-        raise LaunchError("there is no such launch file", file=path) from None
+        hint = published_hint(path)
+        raise LaunchError("there is no such launch file", file=path, hint=hint) from None
     except IsADirectoryError:
         raise LaunchError("this is a folder, not a launch file", file=path) from None
     return parse_document(data, path)

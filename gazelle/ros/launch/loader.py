@@ -354,7 +354,7 @@ class _Loader:
         except LaunchError as error:
             if error.line is not None:
                 raise
-            raise element.error(f"{error.message}: {file}") from None
+            raise element.error(f"{error.message}: {file}", error.hint) from None
         try:
             self._launch(document, inner)
         except MissingArgumentError as error:

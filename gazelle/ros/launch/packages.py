@@ -11,6 +11,7 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from gazelle.assets import published
 from gazelle.errors import did_you_mean
 from gazelle.ros.builtin import registry
 from gazelle.ros.launch.errors import LaunchError, MissingPackageError
@@ -98,7 +99,9 @@ class Packages:
                 resource = space / "share" / package / relative
                 if resource.exists():
                     return str(resource)
-        return os.path.join(folder, relative)  # noqa: PTH118  # keeps the text as it is
+        text = os.path.join(folder, relative)  # noqa: PTH118  # keeps the text as it is
+        found = published(text)
+        return text if found == Path(text) else str(found)
 
     def programs(self, package: str, kind: str) -> list[Path]:
         """The files that may be the program of a node, the best first."""

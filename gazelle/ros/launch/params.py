@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, cast
 
+from gazelle.assets import published, published_hint
 from gazelle.errors import did_you_mean
 from gazelle.ros import names
 from gazelle.ros.launch.document import Element
@@ -61,16 +61,17 @@ def read_param(element: Element, scope: LaunchScope) -> LaunchParameter:
     except LaunchError as error:
         raise element.error(error.message, error.hint) from None
     except OSError as error:
-        raise element.error(f"{given[0]}='{text}' cannot be read: {error.strerror}") from None
+        message = f"{given[0]}='{text}' cannot be read: {error.strerror}"
+        raise element.error(message, published_hint(text)) from None
 
 
 def _value(source: str, text: str, kind: str) -> Any:
     if source == "value":
         return convert(text.strip(), kind)
     if source == "textfile":
-        return convert(Path(text).read_text(encoding="utf-8", errors="replace"), kind)
+        return convert(published(text).read_text(encoding="utf-8", errors="replace"), kind)
     if source == "binfile":
-        return Path(text).read_bytes()
+        return published(text).read_bytes()
     return ParameterCommand(text, kind)
 
 
@@ -110,9 +111,10 @@ def _load(
     text = element.text
     if file:
         try:
-            text = Path(file).read_text(encoding="utf-8", errors="replace")
+            text = published(file).read_text(encoding="utf-8", errors="replace")
         except OSError as error:
-            raise element.error(f"the file '{file}' cannot be read: {error.strerror}") from None
+            message = f"the file '{file}' cannot be read: {error.strerror}"
+            raise element.error(message, published_hint(file)) from None
     if scope.flag(element, "subst_value"):
         text = scope.resolve(text, element)
     try:
