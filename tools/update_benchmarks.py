@@ -1,7 +1,8 @@
-"""Run benchmarks and put what they print into the docs.
+"""Run benchmarks and put what they print into the docs, with the day and the commit.
 
-Without arguments all that docs/benchmarks.md has, else the ones named; ``contacts`` is the table of
-docs/physics.md, what contacts cost and how far off they are; ``workers`` is in docs/scale.md. All of physics, in two minutes:
+Without arguments all tables, else the ones named. A table of docs/benchmarks.md or docs/scale.md
+stands behind its benchmark and the arguments (``<!-- learner --all-in -->``); ``contacts`` is the
+table of docs/physics.md, errors and costs of contacts. All of physics, in two minutes:
 
     python tools/update_benchmarks.py physics contacts
 """
@@ -11,62 +12,96 @@ from __future__ import annotations
 import datetime as dt
 import platform
 import re
+import shlex
 import subprocess
 import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-PAGE = ROOT / "docs" / "benchmarks.md"
-BLOCK = r"(?ms)(<!-- {name} -->\n```text\n)(.*?)(^```$)"
-SCALE = ROOT / "docs" / "scale.md"
-PHYSICS = ROOT / "docs" / "physics.md"
-TABLE = r"(<!-- {name} -->\n)((?:\|.*\n)+)()"
+sys.path.insert(0, str(ROOT / "benchmarks"))
+
+from _checkout import commit  # noqa: E402  # lies beside the benchmarks
+
+PAGES = ("benchmarks.md", "scale.md", "physics.md")
+BLOCK = re.compile(
+    r"(?ms)^<!-- (?P<name>[a-z]+)(?P<arguments> [^>]*?)? -->\n"
+    r"(?P<text>```text\n.*?^```\n|(?:\|[^\n]*\n)+\n[^\n]*\n)"
+)
 
 
-def main() -> None:
-    """Refresh the pages."""
-    for name in sys.argv[1:] or [*re.findall(r"<!-- (\w+) -->", PAGE.read_text()), "workers"]:
-        if name == "workers":
-            refresh(SCALE, BLOCK, name, measured(name))
-        elif name == "contacts":
-            refresh(PHYSICS, TABLE, name, printed("tools/contact_errors.py"))
+@dataclass(frozen=True, slots=True)
+class Table:
+    """One table of a page."""
+
+    page: Path
+    """File that it stands in."""
+    name: str
+    """Benchmark that prints it."""
+    arguments: str
+    """Arguments of the benchmark."""
+
+    def refresh(self) -> None:
+        """Measure it and put it into the page."""
+        if self.name == "contacts":
+            new = f"{printed('tools/contact_errors.py')}\n\nMeasured {source()}.\n"
         else:
-            refresh(PAGE, BLOCK, name, measured(name))
+            # Under ROOT's own gazelle, as the commit is of that.
+            figures = printed(
+                "-m", "gazelle.cli.main", "bench", self.name, *shlex.split(self.arguments)
+            )
+            new = f"```text\n{source()}\n{figures}\n```\n"
+
+        def block(found: re.Match[str]) -> str:
+            here = (found["name"], (found["arguments"] or "").strip())
+            head = found[0][: found.start("text") - found.start()]
+            return head + new if here == (self.name, self.arguments) else found[0]
+
+        self.page.write_text(BLOCK.sub(block, self.page.read_text(encoding="utf-8")))
 
 
-def refresh(page: Path, block: str, name: str, figures: str) -> None:
-    """Put figures in the place of what a page has of that name."""
-    text = page.read_text()
-    pattern = re.compile(block.format(name=name))
-    if not pattern.search(text):
-        raise SystemExit(f"{page.name} has no place for '{name}': add <!-- {name} --> and a block")
-    page.write_text(pattern.sub(lambda found: found[1] + figures + found[3], text, count=1))
+def tables() -> Iterator[Table]:
+    """Yield all tables of the docs."""
+    for name in PAGES:
+        page = ROOT / "docs" / name
+        for found in BLOCK.finditer(page.read_text(encoding="utf-8")):
+            yield Table(page, found["name"], (found["arguments"] or "").strip())
 
 
-def printed(script: str) -> str:
-    """What a script of this checkout prints."""
+def printed(*arguments: str) -> str:
+    """Run Python in this checkout and return what it prints."""
     done = subprocess.run(
-        [sys.executable, script], cwd=ROOT, capture_output=True, text=True, check=True
+        [sys.executable, *arguments], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True
     )
-    return f"{done.stdout.strip()}\n"
+    return done.stdout.strip()
 
 
-def measured(name: str) -> str:
-    """What a benchmark prints, with the day and the machine."""
-    command = [str(Path(sys.executable).with_name("gazelle")), "bench", name]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    versions = f"Python {platform.python_version()}, {processor()}"
-    return f"{dt.datetime.now(dt.UTC).date()}, {versions}\n{done.stdout.strip()}\n"
+def source() -> str:
+    """Return what figures are of: day, commit, Python and processor."""
+    day = dt.datetime.now(dt.UTC).date()
+    return f"{day}, commit {commit()}, Python {platform.python_version()}, {processor()}"
 
 
 def processor() -> str:
-    """The name of the processor."""
+    """Return the name of the processor."""
     info = Path("/proc/cpuinfo")
     if info.exists():
         found = re.search(r"model name\s*: (.*)", info.read_text())
         if found:
             return found[1]
     return platform.processor() or platform.machine()
+
+
+def main() -> None:
+    """Refresh the pages."""
+    known = list(tables())
+    unknown = set(sys.argv[1:]) - {table.name for table in known}
+    if unknown:
+        raise SystemExit(f"no page has a table of {', '.join(sorted(unknown))}")
+    for table in known:
+        if not sys.argv[1:] or table.name in sys.argv[1:]:
+            table.refresh()
 
 
 if __name__ == "__main__":
