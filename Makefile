@@ -27,13 +27,14 @@ BUILD_INPLACE = $(VENV)/bin/python setup.py --quiet build_ext --inplace
 ON_KERNELS = $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile -m "not slow" -p no:cacheprovider \
 	-W error::pytest.PytestUnraisableExceptionWarning $(KERNEL_TESTS)
 
-.PHONY: help setup demo test test-slow ros-suites lint bench checked wheel clean
+.PHONY: help setup demo test test-slow ros-suites release-check lint bench checked wheel clean
 
 help:
 	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
 	@echo "make test       set up and run every quick test (6 minutes on two processors); TESTS=tests/ros runs these"
 	@echo "make test-slow  the longer ones too, those that CI runs and all others"
 	@echo "make ros-suites ROS 1's own test suites against Gazelle (Debian 12, 20 minutes)"
+	@echo "make release-check  measure all that is published again (hours; goes on where it stopped)"
 	@echo "make setup      .venv with everything, nothing run"
 	@echo "make lint       ruff (check and format) and mypy in strict mode"
 	@echo "make bench      the benchmark of the environments"
@@ -67,6 +68,11 @@ test-slow: $(ALL)
 # ROS_SOURCES names a folder with checkouts; without it, Debian's source packages are fetched.
 ros-suites: $(ALL)
 	$(VENV)/bin/python tools/ros_suites.py $(if $(ROS_SOURCES),--sources $(ROS_SOURCES),--fetch)
+
+# ONLY names steps, such as ONLY="'recipe Kobuki*' 'slow tests'".
+release-check: $(ALL)
+	$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]'
+	$(VENV)/bin/python tools/release_check.py $(if $(ONLY),--only $(ONLY))
 
 lint: $(ALL)
 	$(VENV)/bin/ruff check

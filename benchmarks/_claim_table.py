@@ -44,14 +44,19 @@ def name(claim: Claim) -> str:
 
 def _rates(claim: Claim) -> list[str]:
     """Return the cells of the success rate, of each seed, and of one more seed."""
-    success, interval = claim.success, claim.predicted
+    success = claim.success
     if success is None:
         return ["not measured yet", "", ""]
     each = ", ".join(percent(trial.rate.value) for trial in claim.trials)
     tried = sorted({trial.attempts for trial in claim.trials})
     several = f"{tried[0]:,}" if len(tried) == 1 else f"{tried[0]:,} to {tried[-1]:,}"
-    expected = "one seed" if interval is None else f"{' to '.join(map(percent, interval))} %"
-    return [f"{percent(success.value)} %", f"{each} of {several}", expected]
+    return [f"{percent(success.value)} %", f"{each} of {several}", expected(claim)]
+
+
+def expected(claim: Claim) -> str:
+    """Return the interval of one more seed, or that there is only one."""
+    interval = claim.predicted
+    return "one seed" if interval is None else f"{' to '.join(map(percent, interval))} %"
 
 
 def _share(claim: Claim, end: str) -> str:

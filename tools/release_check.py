@@ -1,0 +1,267 @@
+"""Measure everything that Gazelle publishes, before a release, and write down what came of it.
+
+Steps are: each training of gazelle/training/claims.yaml with three seeds, each table of the docs,
+the slow tests, and ROS 1's own suites. Figures go to where they are published; the outcome of each
+step goes to docs/release-check.md, with the commit. It takes hours. A step that has passed at a
+commit is not repeated, so a run that was broken off goes on.
+
+    python tools/release_check.py
+    python tools/release_check.py --only 'recipe Kobuki*' 'table physics'
+"""
+
+from __future__ import annotations
+
+import argparse
+import fnmatch
+import json
+import os
+import shlex
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import asdict, dataclass, field
+from functools import cache
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "benchmarks")]
+
+from _checkout import clean_commit  # noqa: E402  # lies beside the benchmarks
+from _claim_table import expected, percent  # noqa: E402
+from update_benchmarks import source, tables  # noqa: E402
+
+from gazelle.training.claims import (  # noqa: E402
+    CLAIMS_FILE,
+    HELD_OUT,
+    Claim,
+    Claims,
+    read_claims,
+)
+
+REPORT = ROOT / "docs" / "release-check.md"
+STATE = ROOT / "build" / "release-check"
+GAZELLE = (sys.executable, "-m", "gazelle.cli.main")
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One thing to measure or to test."""
+
+    name: str
+    """What it is."""
+    command: Sequence[str]
+    """What runs it."""
+    judge: Callable[[str], tuple[bool, str]] = lambda output: (True, last_line(output))
+    """Returns of its output whether it is good, and a summary of one line."""
+    environment: dict[str, str] = field(default_factory=dict)
+    """Environment variables that are added."""
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """Result of a step."""
+
+    good: bool
+    seconds: float
+    summary: str
+
+
+def steps(since: str | None = None) -> list[Step]:
+    """Return all steps in their order.
+
+    Args:
+        since: Trainings of this commit or later are not repeated; by default only those of today's.
+    """
+    python = (sys.executable,)
+    return [
+        *(
+            recipe_step(train, since)
+            for train in dict.fromkeys(claim.train for claim in read_claims().claims)
+        ),
+        *(
+            Step(f"table {table.name}", (*python, "tools/update_benchmarks.py", table.name))
+            for table in tables()
+        ),
+        Step(
+            "slow tests",
+            (*python, "tools/run_tests.py", "-q", "-n", "2", "--dist", "loadfile", "-m", "slow"),
+            environment={"GAZELLE_EXAMPLES": "fresh"},
+        ),
+        Step("ROS suites", (*python, "tools/ros_suites.py", "--fetch", "--strict", "--tries", "2")),
+    ]
+
+
+def recipe_step(train: str, since: str | None = None) -> Step:
+    """Return the step that trains with three seeds and writes the success rates."""
+    before = {claim.key: claim for claim in committed().claims if claim.train == train}
+
+    def judge(_: str) -> tuple[bool, str]:
+        after = [claim for claim in read_claims().claims if claim.train == train]
+        pairs = [(before.get(claim.key, claim), claim) for claim in after]
+        return (
+            not any(falls_short(old, new) for old, new in pairs),
+            "; ".join(compared(old, new) for old, new in pairs if new.goals == HELD_OUT),
+        )
+
+    name = train.removeprefix("gazelle train ")
+    command = (*GAZELLE, "bench", "recipes", "--tasks", name, "--seeds", "0", "1", "2", "--write")
+    command = (*command, "--since", since) if since else command
+    return Step(f"recipe {name}", command, judge)
+
+
+@cache
+def committed() -> Claims:
+    """Return the success rates of the commit, whatever was measured since."""
+    name = CLAIMS_FILE.relative_to(ROOT)
+    text = subprocess.run(
+        ["git", "show", f"HEAD:{name}"], cwd=ROOT, stdout=subprocess.PIPE, check=True
+    ).stdout
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / name.name
+        file.write_bytes(text)
+        return read_claims(file)
+
+
+def falls_short(old: Claim, new: Claim) -> bool:
+    """Return whether most seeds are below the interval that was published before."""
+    if old.predicted is None:
+        return False
+    low = [trial.rate.value < old.predicted[0] for trial in new.trials]
+    return 2 * sum(low) > len(low)
+
+
+def compared(old: Claim, new: Claim) -> str:
+    """Return a success rate beside the interval that was published before."""
+    rate = "-" if new.success is None else f"{percent(new.success.value)} %"
+    before = expected(old) if old.trials else "nothing"
+    short = ", BELOW" if falls_short(old, new) else ""
+    return f"{new.engine} {rate} (before: {before}{short})"
+
+
+def last_line(output: str) -> str:
+    """Return the last line that is not empty."""
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    return lines[-1] if lines else ""
+
+
+def run(step: Step) -> Outcome:
+    """Run a step; its output is shown and its last line kept."""
+    print(f"--- {step.name}: {shlex.join(step.command)}", flush=True)
+    start = time.monotonic()
+    done = subprocess.run(
+        step.command,
+        cwd=ROOT,
+        env=os.environ | step.environment,
+        stdout=subprocess.PIPE,
+        text=True,
+        check=False,
+    )
+    print(done.stdout, flush=True)
+    good, summary = (
+        step.judge(done.stdout) if done.returncode == 0 else (False, last_line(done.stdout))
+    )
+    if done.returncode:
+        summary = f"exit code {done.returncode}; {summary}"
+    return Outcome(good, round(time.monotonic() - start, 1), summary)
+
+
+def check(
+    chosen: Iterable[Step], everything: Sequence[Step], state: Path, report: Path, head: str
+) -> bool:
+    """Run the steps that have not passed yet and write the report after each.
+
+    Args:
+        chosen: Steps to run.
+        everything: Steps that the report lists.
+        state: Folder with the outcomes at this commit.
+        report: File to write.
+        head: First line of the report's text: day, commit, machine.
+
+    Returns:
+        Whether all of them are good.
+    """
+    state.mkdir(parents=True, exist_ok=True)
+    names = []
+    for step in chosen:
+        names.append(step.name)
+        known = outcomes(state).get(step.name)
+        if known is None or not known.good:
+            save(state, step.name, run(step))
+        report.write_text(written(everything, outcomes(state), head), encoding="utf-8")
+    found = outcomes(state)
+    return all(found[name].good for name in names)
+
+
+def outcomes(state: Path) -> dict[str, Outcome]:
+    """Return the outcomes so far, by the steps' names."""
+    file = state / "outcomes.json"
+    if not file.exists():
+        return {}
+    return {name: Outcome(**each) for name, each in json.loads(file.read_text()).items()}
+
+
+def save(state: Path, name: str, outcome: Outcome) -> None:
+    """Add an outcome to those of a commit."""
+    found = outcomes(state) | {name: outcome}
+    part = state / "outcomes.part"
+    part.write_text(json.dumps({key: asdict(each) for key, each in found.items()}, indent=1))
+    part.replace(state / "outcomes.json")
+
+
+def written(everything: Sequence[Step], found: dict[str, Outcome], head: str) -> str:
+    """Return the report."""
+    rows = []
+    for step in everything:
+        outcome = found.get(step.name)
+        if outcome is None:
+            rows.append(f"| {step.name} | not run | | |")
+        else:
+            good = "good" if outcome.good else "FAILED"
+            summary = outcome.summary.replace("|", "/")
+            rows.append(f"| {step.name} | {good} | {outcome.seconds:,.0f} | {summary} |")
+    count = sum(outcome.good for outcome in found.values())
+    return "\n".join(
+        [
+            "# Release check",
+            "",
+            "Written by `make release-check` (`tools/release_check.py`), and not to be edited: everything that is published, measured again.",
+            "",
+            f"Measured {head}. {count} of {len(everything)} steps are good.",
+            "",
+            "| step | outcome | seconds | result |",
+            "|---|---|---|---|",
+            *rows,
+            "",
+        ]
+    )
+
+
+def main() -> int:
+    """Run the steps that are asked for."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--only", nargs="+", default=["*"], metavar="PATTERN", help="of the steps")
+    parser.add_argument(
+        "--since", metavar="COMMIT", help="do not repeat trainings of this commit or later"
+    )
+    args = parser.parse_args()
+    everything = steps(args.since)
+    chosen = [
+        step
+        for step in everything
+        if any(fnmatch.fnmatch(step.name, pattern) for pattern in args.only)
+    ]
+    if not chosen:
+        parser.error(f"no step is called like {' or '.join(args.only)}")
+    head = source() + (f"; trainings at {args.since} or later" if args.since else "")
+    good = check(chosen, everything, STATE / clean_commit(), REPORT, head)
+    subprocess.run([sys.executable, "tools/render_claims.py"], cwd=ROOT, check=True)
+    print(f"the report is in {REPORT.relative_to(ROOT)}; commit it with the figures")
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
