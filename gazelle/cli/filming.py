@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle.cli.grounding import add_ground
 from gazelle.cli.parsing import (
     add_environment_options,
     add_file_options,
@@ -42,6 +43,7 @@ def add_source(parser: argparse.ArgumentParser) -> None:
     look.add_argument(
         "--size", metavar="WxH", type=_size, default=(960, 600), help="pixels (default 960x600)"
     )
+    add_ground(look)
     look.add_argument(
         "--spawn",
         metavar="ROBOT[@X,Y[,YAW]]",
@@ -97,7 +99,7 @@ def _running(args: argparse.Namespace) -> Any:
     from gazelle.simulation import Simulation
     from gazelle.viewer.sources import SimulationSource
 
-    world = formats.load(args.source)
+    world = formats.open_world(args.source, ground=args.ground)
     engine = args.engine or ("planar" if world.stage is not None or args.top else "mujoco")
     simulation = Simulation(world, engine, seed=args.seed or 0)
     try:

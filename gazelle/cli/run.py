@@ -10,6 +10,7 @@ worlds').
   gazelle run pick_and_place --spawn fetch --ros --moveit
   gazelle run map.yaml --engine planar --spawn turtlebot3_burger --ros
 
+A robot or model by itself opens in a world with ground and sun.
 With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as
 Gazebo has them. A master is started where ROS_MASTER_URI names none that
 answers.
@@ -27,6 +28,7 @@ from typing import TYPE_CHECKING
 
 from gazelle.argument_types import positive_float
 from gazelle.cli.descriptions_beside import descriptions_beside
+from gazelle.cli.grounding import add_ground
 from gazelle.cli.moveit_beside import add_moveit, moveit_beside, start_wanted_controllers
 from gazelle.cli.rosbridge_beside import add_rosbridge, rosbridge_beside
 from gazelle.cli.spawning import spawn, wanted
@@ -65,6 +67,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--paused", action="store_true", help="load, but do not start the clock")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    add_ground(parser)
     add_view(parser)
     parser.add_argument("--ros", action="store_true", help="be a node on a ROS 1 graph")
     add_moveit(parser)
@@ -107,7 +110,7 @@ def run(args: argparse.Namespace) -> int:
 
     _listen_to_signals()
     sys.path[:0] = args.plugins
-    world = formats.load(args.file)
+    world = formats.open_world(args.file, ground=args.ground)
     _take_from_file(args, world.stage)
     if args.ros:
         from gazelle.bridges import refuse_twin

@@ -16,6 +16,7 @@ import argparse
 import sys
 import time
 
+from gazelle.cli.grounding import add_ground
 from gazelle.cli.run import go
 from gazelle.cli.viewing import viewing
 
@@ -27,6 +28,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--engine", metavar="NAME", help="mujoco or planar")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    add_ground(parser)
     parser.add_argument(
         "--frame", metavar="NAME", help="of a graph: what stands still (default map, odom ...)"
     )
@@ -49,7 +51,7 @@ def _file(args: argparse.Namespace) -> int:
     from gazelle import formats
     from gazelle.simulation import Simulation
 
-    world = formats.load(args.file)
+    world = formats.open_world(args.file, ground=args.ground)
     engine = args.engine or ("mujoco" if world.stage is None else "planar")
     args.seconds, args.rate, args.paused = None, 1.0, True
     with Simulation(world, engine, seed=args.seed) as sim, viewing(sim, args) as page:

@@ -73,6 +73,7 @@ class World:
         unrestored: The world before they were applied, for what writes it again; else None.
         extras: Other elements kept whole: road, population, audio, gui, ...
         stage: All that a Stage file says, which ``models`` above are made of; else None.
+        bare: True for the file of a robot or model, which says nothing of the world around it.
     """
 
     name: str = "default"
@@ -93,6 +94,7 @@ class World:
     unrestored: World | None = field(default=None, compare=False, repr=False)
     extras: tuple[Parameters, ...] = ()
     stage: StageWorld | None = field(default=None, repr=False)
+    bare: bool = field(default=False, compare=False, repr=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 
     @property

@@ -14,6 +14,7 @@ from gazelle.formats.mesh import MeshData, load_mesh
 from gazelle.formats.occupancy import load_map
 from gazelle.formats.occupancy_writing import save_map
 from gazelle.formats.octree import Octree
+from gazelle.formats.opening import open_world
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.srdf import load_srdf, load_srdf_string
 from gazelle.formats.write import save, to_string, write_text
@@ -32,6 +33,7 @@ __all__ = [
     "load_srdf",
     "load_srdf_string",
     "load_string",
+    "open_world",
     "save",
     "save_map",
     "to_string",

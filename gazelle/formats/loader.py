@@ -40,8 +40,8 @@ def load(
 ) -> World:
     """The world in a file: SDF, URDF, xacro, Stage, a map, or the folder of a model.
 
-    A file of a robot or model gives a world that holds just that; a map of ``map_server``
-    (``.yaml``) one with a wall on each occupied cell. What kind any other file is is decided by
+    A file of a robot or model gives a world that holds just that (``open_world`` adds ground and
+    sun); a map of ``map_server`` (``.yaml``) one with a wall on each occupied cell. What kind any other file is is decided by
     its content.
 
     Args:
@@ -304,7 +304,7 @@ def read_root(root: Parameters, reading: Reading) -> World:
             hint="gazelle.formats.load_srdf() reads it; load the URDF it is for",
         )
     if root.tag == "robot":
-        return World(models=(urdf.read_robot(root, reading),), source=root.source)
+        return World(models=(urdf.read_robot(root, reading),), bare=True, source=root.source)
     if root.tag in {"sdf", "gazebo"}:
         return sdf.read_sdf(root, reading)
     if root.tag == "gazebo:world":

@@ -65,6 +65,8 @@ class Simulation(Closeable):
     Args:
         world: A description, or a file or bundled name to load one from.
         engine: ``mujoco``.
+        ground: Whether the file or description of a robot or model opens in a world with ground
+            and sun, as ``formats.open_world`` says. A world stays as it is.
         nworld: Number of copies.
         seed: Decides all random numbers; world i's do not depend on ``nworld``.
         threads: Native threads; all processors if None. Results do not depend on it.
@@ -93,9 +95,10 @@ class Simulation(Closeable):
 
     def __init__(
         self,
-        world: World | str | Path,
+        world: World | Model | str | Path,
         engine: str = "mujoco",
         *,
+        ground: bool = True,
         nworld: int = 1,
         seed: int = 0,
         threads: int | None = None,
@@ -103,7 +106,7 @@ class Simulation(Closeable):
         on_fault: str = "raise",
         fault_dump: str | Path | None = None,
     ) -> None:
-        loaded = world if isinstance(world, World) else formats.load(world)
+        loaded = formats.open_world(world, ground=ground)
         self.requests = RequestQueue()
         self._engine = make_engine(
             engine, loaded, nworld, time_step=time_step, threads=threads, late=True

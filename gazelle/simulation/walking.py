@@ -16,6 +16,7 @@ from gazelle.native.system import System
 from gazelle.simulation.carried_plugins import CarriedPlugins
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.entities import EntityManager
+from gazelle.simulation.falling import FallWatch
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.plugin_groups import PluginGroup
@@ -73,6 +74,7 @@ class StepLoop:
         self._loads = loads
         self._entities = entities
         self._faults = faults
+        self._falls = FallWatch(engine)
         self._plan = StepPlan((), (), 1)
         self._planned: tuple[int, bool, int, int] | None = None
         self._systems: list[System] = []
@@ -220,12 +222,13 @@ class StepLoop:
             self.carried.catch_up()
 
     def _look_back(self) -> None:
-        """After steps: move what follows, measure, tell who listens."""
+        """After steps: move what follows, measure, tell who listens, look for what falls."""
         for follower in tuple(self.followers):
             follower()
         update_sensors(self._plan.sensors, self._simulation.clock.now_ns)
         for listener in tuple(self._listeners):
             listener()
+        self._falls.look(self._simulation.clock.now_ns)
 
     def _renew(self) -> StepPlan:
         """The plan, made anew if it no longer holds."""

@@ -38,6 +38,7 @@ def read_sdf(root: Parameters, reading: Reading) -> World:
         lights=tuple(
             read_light(node, read_pose(node.find("pose"))) for node in root.find_all("light")
         ),
+        bare=True,
         source=root.source,
     )
 

@@ -1,0 +1,81 @@
+"""Models that fall out of the world."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+import numpy as np
+
+from gazelle.description import Model
+from gazelle.engines import Engine
+from gazelle.errors import SimulationWarning, describe
+from gazelle.rotations import conjugate, rotate
+
+_PERIOD_NS = 500_000_000
+_DEPTH = 10.0
+"""How far below its start a model is before it may have fallen out of the world [m]."""
+
+_RINGS = (2.0, 5.0)
+"""Radii around the model at which ground below it counts [m]; the model itself is narrower."""
+_TURNS = np.arange(8) * math.pi / 4.0
+
+
+class FallWatch:
+    """Warns once of each model that has nothing below it and is far below its start.
+
+    Args:
+        engine: Knows where models are, and what is below them.
+    """
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+        self._period = 0
+        self._warned: set[str] = set()
+
+    def look(self, now_ns: int) -> None:
+        """Look for models that fall, once in half a simulated second."""
+        period = now_ns // _PERIOD_NS
+        if period == self._period:
+            return
+        self._period = period
+        for model in self._engine.world.models:
+            if not model.static and model.links and model.name not in self._warned:
+                self._judge(model, now_ns / 1e9)
+
+    def _judge(self, model: Model, seconds: float) -> None:
+        heights = self._engine.model_placement(model.name).position[:, 2]
+        lowest = int(np.argmin(heights))
+        height = float(heights[lowest])
+        if height > model.pose.z - _DEPTH or self._has_ground(model, lowest):
+            return
+        self._warned.add(model.name)
+        where = f" of world {lowest}" if len(heights) > 1 else ""
+        text = describe(
+            f"'{model.name}'{where} has fallen out of the world: at {seconds:g} s it is at "
+            f"z = {height:.1f} m, and there is nothing below it",
+            hint=self._cause(model),
+        )
+        warnings.warn(SimulationWarning(text), stacklevel=6)
+
+    def _has_ground(self, model: Model, world: int) -> bool:
+        """Return whether there is something below a model or beside that."""
+        name, worlds = f"{model.name}::{model.links[0].name}", np.array([world])
+        back = conjugate(self._engine.link_placement(name, worlds).quaternion[0])
+        ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
+        origins = np.vstack([radius * ring for radius in _RINGS])
+        down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
+        hits = self._engine.cast_rays(name, rotate(back, origins), rotate(back, down), worlds)
+        return bool(np.isfinite(hits.distance).any())
+
+    def _cause(self, model: Model) -> str:
+        if not _collides(model):
+            return "no link of it has a <collision>, so nothing can hold it"
+        others = [each for each in self._engine.world.models if each.name != model.name]
+        if any(each.static and _collides(each) for each in others):
+            return "it started beside the ground or in it, or was pushed through it"
+        return "this world has no ground: add model://ground_plane, or leave out --no-ground"
+
+
+def _collides(model: Model) -> bool:
+    return any(link.collisions for placed in model.walk() for link in placed.model.links)
