@@ -151,20 +151,31 @@ class Engine(Protocol):
 
     def set_link_placement(
         self, link: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Move the links that hang together with a link so that it is there, joints as they are.
+    ) -> str:
+        """Move a link, and all that hangs on it, joints as they are.
+
+        A link that hangs on a joint takes the part of the pose that its joint allows: a hinge the
+        turn about its axis, a slide the way along it, within its limits. Its parent stays.
 
         Args:
             link: Scoped name.
             position: [m], shape (3,) or (n, 3).
             quaternion: (x, y, z, w), shape (4,) or (n, 4).
             worlds: Which worlds.
+
+        Returns:
+            The scoped name of the joint that was moved; empty if the whole model was.
+
+        Raises:
+            EngineError: The link is fixed to the world.
         """
 
     def set_link_motion(
         self, link: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give a link a velocity; those that hang together with it keep their joints' speeds.
+        """Give a link a velocity; what hangs on it keeps its joints' speeds.
+
+        A link that hangs on a joint takes the part that its joint allows, as of a pose.
 
         Args:
             link: Scoped name.

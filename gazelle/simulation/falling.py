@@ -39,18 +39,26 @@ class FallWatch:
         if period == self._period:
             return
         self._period = period
-        for model in self._engine.world.models:
-            if not model.static and model.links and model.name not in self._warned:
-                self._judge(model, now_ns / 1e9)
+        models = [
+            model
+            for model in self._engine.world.models
+            if not model.static and model.links and model.name not in self._warned
+        ]
+        if not models:
+            return
+        places = self._engine.link_placements([_first_link(model) for model in models])
+        starts = np.array([(model.pose * model.links[0].pose).z for model in models])
+        heights = places.position[:, :, 2]
+        worlds = heights.argmin(axis=0)
+        for column in np.flatnonzero(heights.min(axis=0) < starts - _DEPTH).tolist():
+            world = int(worlds[column])
+            self._judge(models[column], world, float(heights[world, column]), now_ns / 1e9)
 
-    def _judge(self, model: Model, seconds: float) -> None:
-        heights = self._engine.model_placement(model.name).position[:, 2]
-        lowest = int(np.argmin(heights))
-        height = float(heights[lowest])
-        if height > model.pose.z - _DEPTH or self._has_ground(model, lowest):
+    def _judge(self, model: Model, world: int, height: float, seconds: float) -> None:
+        if self._has_ground(model, world):
             return
         self._warned.add(model.name)
-        where = f" of world {lowest}" if len(heights) > 1 else ""
+        where = f" of world {world}" if self._engine.nworld > 1 else ""
         text = describe(
             f"'{model.name}'{where} has fallen out of the world: at {seconds:g} s it is at "
             f"z = {height:.1f} m, and there is nothing below it",
@@ -60,7 +68,7 @@ class FallWatch:
 
     def _has_ground(self, model: Model, world: int) -> bool:
         """Return whether there is something below a model or beside that."""
-        name, worlds = f"{model.name}::{model.links[0].name}", np.array([world])
+        name, worlds = _first_link(model), np.array([world])
         back = conjugate(self._engine.link_placement(name, worlds).quaternion[0])
         ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
         origins = np.vstack([radius * ring for radius in _RINGS])
@@ -75,6 +83,10 @@ class FallWatch:
         if any(each.static and _collides(each) for each in others):
             return "it started beside the ground or in it, or was pushed through it"
         return "this world has no ground: add model://ground_plane, or leave out --no-ground"
+
+
+def _first_link(model: Model) -> str:
+    return f"{model.name}::{model.links[0].name}"
 
 
 def _collides(model: Model) -> bool:

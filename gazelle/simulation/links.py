@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import math
+import warnings
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Inertia, Link, Pose
 from gazelle.engines import Motion, Placement
-from gazelle.errors import SimulationError
+from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.rotations import from_yaw
 from gazelle.simulation.inputs import chosen, finite, motion, numbers, placement, size_of
 from gazelle.simulation.requests import between_steps
 from gazelle.simulation.retuning import set_parameters
 from gazelle.simulation.running_state import RunningState
+
+_CLOSE = 1e-3
+"""What does not count as being elsewhere [m or rad]."""
 
 
 class LinkHandle:
@@ -52,7 +58,10 @@ class LinkHandle:
         yaw: ArrayLike | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Put the link somewhere, with all that hangs together with it, joints as they are.
+        """Put the link somewhere, with all that hangs on it, joints as they are.
+
+        A link that hangs on a joint takes the part of the pose that its joint allows, and a
+        warning says if that is not all.
 
         Args:
             position: [m], shape (3,) or (n, 3).
@@ -61,13 +70,25 @@ class LinkHandle:
             worlds: Which worlds; all if None.
 
         Raises:
-            EngineError: The link is held to the world by a joint.
+            EngineError: The link is fixed to the world.
             SimulationError: A value cannot be, or both a quaternion and a heading are given.
         """
+        self.approach(position, orientation_of(quaternion, yaw), worlds)
+
+    @between_steps
+    def approach(
+        self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
+    ) -> str:
+        """Put the link somewhere like ``set_pose``; returns what its joint keeps it from."""
         some = chosen(worlds, self._engine.nworld)
-        turned = orientation_of(quaternion, yaw)
-        place = placement(self.name, position, turned, size_of(some, self._engine.nworld))
-        self._engine.set_link_placement(self.name, *place, some)
+        goal = placement(self.name, position, quaternion, size_of(some, self._engine.nworld))
+        joint = self._engine.set_link_placement(self.name, *goal, some)
+        apart = _apart(self._engine.link_placement(self.name, some), *goal) if joint else ""
+        if apart:
+            text = f"link '{self.name}' takes only the part of a pose that joint '{joint}' allows"
+            warnings.warn(SimulationWarning(text), stacklevel=3)
+            return f"joint '{joint}' holds it {apart} from there"
+        return ""
 
     @between_steps
     def set_twist(
@@ -75,7 +96,8 @@ class LinkHandle:
     ) -> None:
         """Give the link a velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3).
 
-        The joints of what hangs together with it keep their speeds.
+        The joints of what hangs on it keep their speeds. A link that hangs on a joint takes the
+        part that its joint allows.
 
         Raises:
             SimulationError: A value cannot be.
@@ -169,6 +191,16 @@ class LinkHandle:
             "link_gravity": gravity,
         }
         set_parameters(self._simulation, self.name, given, worlds)
+
+
+def _apart(here: Placement, position: Floats, quaternion: Floats) -> str:
+    """Return how far a link is from where it was to be, in words; empty if it is there."""
+    distance = float(np.linalg.norm(here.position - position, axis=-1).max())
+    goal = quaternion / np.linalg.norm(quaternion, axis=-1, keepdims=True)
+    cosine = float(np.abs(np.sum(here.quaternion * goal, axis=-1)).min())
+    turned = 2.0 * math.acos(min(1.0, cosine))
+    parts = [f"{distance:.3g} m"] if distance > _CLOSE else []
+    return " and ".join([*parts, f"{turned:.3g} rad"] if turned > _CLOSE else parts)
 
 
 def orientation_of(quaternion: ArrayLike | None, yaw: ArrayLike | None) -> ArrayLike:

@@ -28,7 +28,7 @@ def test_thrusters_with_next_to_no_inertia_turn():
     with pytest.warns(EngineWarning) as caught:
         sim = Simulation(model)
     with sim:
-        sim.run(2.0)
+        sim.run(1.0)
         assert np.isfinite(sim.robots["rov"].position).all()
     said = [str(each.message) for each in caught]
     assert len(said) == 1
@@ -51,9 +51,9 @@ def test_an_inertia_of_no_body_runs(numbers):
     with pytest.warns(FormatWarning, match="was taken"):
         model = rov(numbers)
     with Simulation(model) as sim:
-        sim.run(2.0)
+        sim.run(1.0)
         assert np.isfinite(sim.robots["rov"].position).all()
-        assert sim.robots["rov"].pose.z == pytest.approx(-9.81 * 2.0, rel=0.1)
+        assert sim.robots["rov"].pose.z == pytest.approx(-4.9, rel=0.1)
 
 
 @pytest.mark.parametrize("moments", [(0.002, 0.003, 0.9), (0.5, 0.001, 0.002), (1.0, 1.0, 2.5)])

@@ -23,7 +23,6 @@ from gazelle.description import (
 )
 from gazelle.engines import CHANGES, PARAMETERS, Engine, make_engine
 from gazelle.errors import EngineError
-from gazelle.rotations import from_yaw
 
 READS = {
     "nworld",
@@ -158,33 +157,6 @@ def test_a_snapshot_of_sleepers_restores_the_exact_future():
 
 
 # -- placing and pushing -----------------------------------------------------------------
-
-
-def test_placing_a_link_moves_what_hangs_together_with_it():
-    engine = make(scenes.burger(), nworld=2)
-    engine.set_joint_position("burger::wheel_left_joint", 0.7)
-    engine.set_link_placement("burger::wheel_left_link", (1.0, 2.0, 3.0), from_yaw(np.array(0.4)))
-    wheel = engine.link_placement("burger::wheel_left_link")
-    np.testing.assert_allclose(wheel.position, [[1.0, 2.0, 3.0]] * 2, atol=1e-12)
-    assert abs(wheel.quaternion[0] @ from_yaw(np.array(0.4))) == pytest.approx(1.0)
-    assert engine.joint_position("burger::wheel_left_joint")[0, 0] == pytest.approx(0.7)
-
-
-def test_giving_a_link_a_velocity_keeps_the_speeds_of_the_joints():
-    engine = make(scenes.burger(pose=Pose(yaw=0.5)), nworld=2)
-    engine.set_joint_velocity("burger::wheel_left_joint", 2.0)
-    chosen = np.array([1])
-    engine.set_link_motion("burger::wheel_left_link", (0.1, 0.2, 0.3), (1.0, 2.0, 3.0), chosen)
-    motion = engine.link_motion("burger::wheel_left_link")
-    np.testing.assert_allclose(motion.linear[1], [0.1, 0.2, 0.3], atol=1e-12)
-    np.testing.assert_allclose(motion.angular[1], [1.0, 2.0, 3.0], atol=1e-12)
-    assert engine.joint_velocity("burger::wheel_left_joint")[1, 0] == 2.0
-    np.testing.assert_array_equal(engine.link_motion("burger::base_footprint").linear[0], 0.0)
-
-
-def test_a_link_held_by_the_world_cannot_be_placed():
-    with pytest.raises(EngineError, match="fixed to the world"):
-        make(arm()).set_link_placement("arm::rod", (0.0, 0.0, 0.0), UP)
 
 
 def test_a_wrench_accelerates_the_centre_of_mass_and_turns_about_it():

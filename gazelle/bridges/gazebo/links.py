@@ -98,13 +98,14 @@ class LinkServices:
             return no("SetLinkState: failed")
         state, worlds = read_state(wanted), self._entities.worlds
         place = state.placed_in(frame)
+        # Gazebo does not turn the velocity, and takes the frame's own off.
+        linear, angular = state.linear - frame.linear, state.angular - frame.angular
         try:
-            link.set_pose(place.position, place.quaternion, worlds=worlds)
-            # Gazebo does not turn the velocity, and takes the frame's own off.
-            link.set_twist(state.linear - frame.linear, state.angular - frame.angular, worlds)
-        except Error:
-            return no("SetLinkState: failed")
-        return yes("SetLinkState: success")
+            missed = link.approach(place.position, place.quaternion, worlds)
+            link.set_twist(linear, angular, worlds)
+        except Error as error:
+            return no(f"SetLinkState: failed: {error}")
+        return yes(f"SetLinkState: success{', but ' if missed else ''}{missed}")
 
     def apply_wrench(self, request: Any) -> Answer:
         """``apply_body_wrench``.

@@ -25,7 +25,7 @@ from gazelle.bridges.gazebo.spawning import (
     read_or_say,
 )
 from gazelle.description import Light, Model, Pose
-from gazelle.errors import Error
+from gazelle.errors import EngineError, Error
 from gazelle.ros.errors import ServiceError
 from gazelle.simulation import Robot
 
@@ -154,14 +154,22 @@ class ModelServices:
         frame = self._entities.frame(wanted.reference_frame)
         if frame is None:
             return no("SetModelState: specified reference frame entity does not exist")
-        self._place(robot, read_state(wanted).placed_in(frame))
-        return yes("SetModelState: set model state done")
+        missed = self._place(robot, read_state(wanted).placed_in(frame))
+        return yes(f"SetModelState: set model state done{', but ' if missed else ''}{missed}")
 
-    def _place(self, robot: Robot, state: State) -> None:
-        engine, worlds = self._simulation.engine, self._entities.worlds
-        engine.set_model_placement(robot.name, state.position, state.quaternion, worlds)
+    def _place(self, robot: Robot, state: State) -> str:
+        """Put a model somewhere; returns what it is kept from, where a joint holds it.
+
+        Gazebo calls that done, and its joint brings the model back.
+        """
+        engine, worlds, missed = self._simulation.engine, self._entities.worlds, ""
+        try:
+            engine.set_model_placement(robot.name, state.position, state.quaternion, worlds)
+        except EngineError as error:
+            missed = error.message
         if robot.links and not robot.description.static:
             engine.set_model_motion(robot.name, state.linear, state.angular, worlds)
+        return missed
 
     def set_configuration(self, request: Any) -> Answer:
         """``set_model_configuration``: joints are put somewhere, with the speed they have."""

@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.motion import Placement
+from gazelle.engines.hanging_links import HangingLinks
+from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.mujoco.attachments import Attachment
+from gazelle.engines.mujoco.joint_access import JointAccess
 from gazelle.engines.mujoco.layout import LinkSlot
 from gazelle.engines.mujoco.links import LinkAccess
 from gazelle.engines.mujoco.models import ModelAccess
@@ -26,17 +28,21 @@ class LinkHandling:
         run: What runs.
         links: Where links are.
         models: Puts their roots somewhere.
+        joints: Moves the joints that they hang on.
     """
 
-    def __init__(self, run: RunningWorlds, links: LinkAccess, models: ModelAccess) -> None:
+    def __init__(
+        self, run: RunningWorlds, links: LinkAccess, models: ModelAccess, joints: JointAccess
+    ) -> None:
         self._run, self._links, self._models = run, links, models
+        self._hanging = HangingLinks(lambda: run.world, links, joints)
 
     # -- placing -----------------------------------------------------------------------
 
     def set_link_placement(
         self, link: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Move the links that hang together with a link so that it is there, joints as they are."""
+    ) -> str:
+        """Move a link, or its joint as far as that allows; see the protocol."""
         slot = self._run.now().link(link)
         if slot.root == "static":
             self._run.make_kinematic(link.partition("::")[0])
@@ -44,29 +50,35 @@ class LinkHandling:
         here = self._links.link_placement(link, worlds)
         goal_p = np.broadcast_to(np.asarray(position, np.float64), here.position.shape)
         goal_q = unit(np.broadcast_to(np.asarray(quaternion, np.float64), here.quaternion.shape))
+        joint = "" if slot.root else self._hanging.place(link, Placement(goal_p, goal_q), worlds)
+        if joint:
+            return joint
         carrier = self._loose_carrier(link, slot)
         root = self._links.link_placement(slot.carrier, worlds)
         turn = multiply(goal_q, conjugate(here.quaternion))
         moved = goal_p + rotate(turn, root.position - here.position)
         self._models.put(carrier, moved, multiply(turn, root.quaternion), worlds)
         self._run.stale = True
+        return ""
 
     def set_link_motion(
         self, link: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give a link a velocity; those that hang together with it keep their joints' speeds."""
+        """Give a link a velocity, or its joint what suits it; see the protocol."""
         slot = self._run.now().link(link)
+        motion = self._links.link_motion(link, worlds)
+        speed = np.broadcast_to(np.asarray(linear, np.float64), motion.linear.shape)
+        spin = np.broadcast_to(np.asarray(angular, np.float64), motion.angular.shape)
+        if slot.root is None and self._hanging.move(link, Motion(speed, spin), worlds):
+            return
         carrier = self._loose_carrier(link, slot)
         if carrier.free is None:
+            if not (speed.any() or spin.any()):
+                return
             raise EngineError(f"link '{link}' moves only when it is placed; it has no velocity")
-        here, motion = (
-            self._links.link_placement(link, worlds),
-            self._links.link_motion(link, worlds),
-        )
+        here = self._links.link_placement(link, worlds)
         root, carried = self._of_carrier(slot, worlds)
-        spin = np.broadcast_to(np.asarray(angular, np.float64), motion.angular.shape)
-        more_spin = spin - motion.angular
-        more = np.asarray(linear, np.float64) - motion.linear
+        more_spin, more = spin - motion.angular, speed - motion.linear
         arm = root.position - here.position
         velocity = carried[0] + more + cross(more_spin, arm)
         local = rotate(conjugate(root.quaternion), carried[1] + more_spin)
@@ -85,8 +97,8 @@ class LinkHandling:
         carrier = self._run.layout.link(slot.carrier)
         if carrier.free is None and carrier.mocap is None:
             raise EngineError(
-                f"link '{link}' is fixed to the world by a joint and cannot be moved",
-                hint=f"set the joints between the world and '{link}' instead",
+                f"link '{link}' is fixed to the world and cannot be moved",
+                hint="only links that hang on a joint that moves can, or of free models",
             )
         return carrier
 

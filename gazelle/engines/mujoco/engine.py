@@ -111,7 +111,7 @@ class MujocoEngine:
     def _take_over_access(
         self, links: LinkAccess, models: ModelAccess, joints: JointAccess
     ) -> None:
-        handling = LinkHandling(self._run, links, models)
+        handling = LinkHandling(self._run, links, models, joints)
         self.link_placement, self.link_motion = links.link_placement, links.link_motion
         self.link_acceleration = self._steps.link_acceleration
         self.cast_rays, self.cast_ranges = links.cast_rays, links.cast_ranges

@@ -14,7 +14,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gazelle.description import Joint, JointAxis, Vector3
+from gazelle.description import Joint, JointAxis
+from gazelle.engines.hanging_links import across
 from gazelle.errors import EngineError
 
 _HINGE = mujoco.mjtJoint.mjJNT_HINGE
@@ -81,23 +82,13 @@ def _screw(body: Any, name: str, joint: Joint, time_step: float) -> None:
 def _planar(body: Any, name: str, joint: Joint, time_step: float) -> None:
     """Slides in the plane across the axis, then a turn about it."""
     axis = _axis(joint, 0)
-    first, second = _across(axis.xyz)
+    first, second = across(np.asarray(axis.xyz))
     damping = [axis.damping, 0.0, 0.0]
     for suffix, direction in (("", first), ("#1", second)):
-        along = list(joint.pose.rotate(direction))
+        along = list(joint.pose.rotate(tuple(direction.tolist())))
         body.add_joint(name=f"{name}{suffix}", type=_SLIDE, axis=along, damping=damping)
     turn = replace(joint, type="continuous")
     body.add_joint(name=f"{name}#2", type=_HINGE, **_axis_options(turn, axis, time_step))
-
-
-def _across(axis: Vector3) -> tuple[Vector3, Vector3]:
-    """Two unit vectors that make a right-handed frame with a unit vector."""
-    x, y, z = axis
-    helper = (1.0, 0.0, 0.0) if abs(x) < 0.9 else (0.0, 1.0, 0.0)
-    first = np.cross(helper, (x, y, z))
-    first /= np.linalg.norm(first)
-    second = np.cross((x, y, z), first)
-    return (first[0], first[1], first[2]), (second[0], second[1], second[2])
 
 
 def _floating(body: Any, name: str, joint: Joint, _: float) -> None:

@@ -78,7 +78,8 @@ class PlanarEngine:
         run = self._run
         self.make_kinematic = run.make_kinematic
         models, rays = PlanarModels(run, self._kinematic), PlanarRays(run, self._kinematic)
-        links, joints = PlanarLinks(run, models), PlanarJoints(run)
+        joints = PlanarJoints(run)
+        links = PlanarLinks(run, models, joints)
         self.model_placement, self.planar_pose = models.model_placement, models.planar_pose
         self.set_model_placement = models.set_model_placement
         self.set_model_motion = models.set_model_motion

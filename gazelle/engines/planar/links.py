@@ -9,10 +9,14 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Pose
+from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.motion import Motion, Placement
+from gazelle.engines.mujoco.rows import unit
+from gazelle.engines.planar.joints import PlanarJoints
 from gazelle.engines.planar.link_table import PlanarLinkTable
 from gazelle.engines.planar.models import PlanarModels
 from gazelle.engines.planar.running import RunningPlane
+from gazelle.engines.planar.skeleton import FROZEN
 from gazelle.rotations import conjugate, cross, multiply, rotate
 
 
@@ -22,10 +26,12 @@ class PlanarLinks:
     Args:
         run: What runs.
         models: They are on.
+        joints: They hang on.
     """
 
-    def __init__(self, run: RunningPlane, models: PlanarModels) -> None:
+    def __init__(self, run: RunningPlane, models: PlanarModels, joints: PlanarJoints) -> None:
         self._run, self._models = run, models
+        self._hanging = HangingLinks(lambda: run.recipe.world, self, joints, FROZEN)
         self._tables: dict[tuple[str, ...], PlanarLinkTable] = {}
         run.on_change.append(self._tables.clear)
 
@@ -68,22 +74,35 @@ class PlanarLinks:
 
     def set_link_placement(
         self, link: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Move a link's model so that the link is there, joints as they are."""
+    ) -> str:
+        """Move a link's model, or its joint as far as that allows; see the protocol."""
         model = self._run.owner(link)
+        if self._run.model(model).skeleton.hinges:
+            here = self.link_placement(link, worlds)
+            goal = Placement(
+                np.broadcast_to(np.asarray(position, np.float64), here.position.shape),
+                unit(np.broadcast_to(np.asarray(quaternion, np.float64), here.quaternion.shape)),
+            )
+            if joint := self._hanging.place(link, goal, worlds):
+                return joint
         at, turned = self._run.model(model).skeleton.place(link, self._run.own(model, worlds)[0])
         frame = multiply(np.asarray(quaternion, np.float64), conjugate(turned))
         origin = np.asarray(position, np.float64) - rotate(frame, at)
         self._models.set_model_placement(model, origin, frame, worlds)
+        return ""
 
     def set_link_motion(
         self, link: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give a link's model the velocity with which the link moves so, joints at rest."""
+        """Give a link's model or joint the velocity with which the link moves so."""
         model = self._run.owner(link)
         arm = self.link_placement(link, worlds).position
         arm = arm - self._models.model_placement(model, worlds).position
         spin = np.broadcast_to(np.asarray(angular, np.float64), arm.shape)
+        speed = np.broadcast_to(np.asarray(linear, np.float64), arm.shape)
+        hinged = bool(self._run.model(model).skeleton.hinges)
+        if hinged and self._hanging.move(link, Motion(speed, spin), worlds):
+            return
         origin = np.asarray(linear, np.float64) - cross(spin, arm)
         self._models.set_model_motion(model, origin, spin, worlds)
 

@@ -18,6 +18,9 @@ Place = tuple[Floats, Floats]
 
 _MOVING = {"revolute", "continuous", "prismatic", "screw", "universal", "revolute2"}
 
+FROZEN = frozenset({"ball", "fixed", "floating", "planar", "screw"})
+"""Joints that hold a link as it is when that is put somewhere: a screw turns only by itself."""
+
 
 @dataclass(frozen=True, slots=True)
 class Hinge:

@@ -5,6 +5,8 @@ import math
 import numpy as np
 import pytest
 
+import gazelle
+from gazelle.errors import SimulationWarning
 from gazelle.ros import Duration, Time, load_message
 
 BALL = """<sdf version="1.6"><model name="{name}"><link name="core">
@@ -235,3 +237,63 @@ def test_the_motor_of_a_joint_is_set_axis_by_axis_and_in_any_order(graph):
     graph.sim.step(50)
     assert both.velocities()[0, 1] == pytest.approx(0.0, abs=1e-6)
     assert both.motor_effort()[0].tolist() == [0.0, 1e4]
+
+
+CART = """<robot name='cartpole'><link name='world'/>
+<joint name='slider' type='prismatic'><parent link='world'/><child link='cart'/><axis xyz='1 0 0'/>
+<limit lower='-2' upper='2' effort='9' velocity='9'/></joint>
+<joint name='hinge' type='continuous'><parent link='cart'/><child link='pole'/><axis xyz='0 1 0'/></joint>
+<link name='cart'>{0}</link><link name='pole'>{0}</link></robot>""".format(
+    "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
+)
+
+
+@pytest.fixture
+def cart(graph):
+    return graph.sim.spawn(gazelle.formats.load_model_string(CART), pose=gazelle.Pose(y=9.0))
+
+
+def set_link(graph, link, **pose):
+    state = load_message("gazebo_msgs/LinkState")(link_name=link)
+    for name, value in pose.items():
+        setattr(state.pose.position if name in "xyz" else state.pose.orientation, name[-1], value)
+    return graph.client.call("set_link_state", "SetLinkState", link_state=state)
+
+
+def test_a_pole_is_put_upright_by_its_links_state_and_the_cart_stays(graph, cart):
+    cart.joints["hinge"].set_position(0.7)
+    cart.joints["hinge"].set_velocity(2.0)
+    cart.joints["slider"].set_position(0.5)
+    with pytest.warns(SimulationWarning, match="only the part"):
+        answer = set_link(graph, "pole")  # all zeros: no turn, at the origin
+    assert answer.success
+    assert answer.status_message.startswith("SetLinkState: success, but joint 'cartpole::hinge'")
+    assert cart.joints["hinge"].position == pytest.approx(0.0, abs=1e-9)
+    assert cart.joints["hinge"].velocity == pytest.approx(0.0, abs=1e-9)
+    assert cart.joints["slider"].position == pytest.approx(0.5)
+    answer = set_link(graph, "cartpole::cart", x=-0.25, y=9.0)
+    assert (answer.success, answer.status_message) == (True, "SetLinkState: success")
+    assert cart.joints["slider"].position == pytest.approx(-0.25)
+    with pytest.warns(SimulationWarning, match="only the part"):
+        assert "holds it 3 m from there" in set_link(graph, "cart", x=5.0, y=9.0).status_message
+
+
+def test_the_state_of_a_model_that_a_joint_holds_is_answered_as_by_gazebo(graph, cart):
+    cart.joints["slider"].set_velocity(1.0)
+    state = load_message("gazebo_msgs/ModelState")(model_name="cartpole")
+    state.pose.position.x = 3.0
+    answer = graph.client.call("set_model_state", "SetModelState", model_state=state)
+    assert answer.success
+    assert answer.status_message == (
+        "SetModelState: set model state done, but model 'cartpole' is fixed to the world by a joint "
+        "and cannot be moved"
+    )
+    assert cart.joints["slider"].velocity == 0.0
+
+
+def test_why_a_links_state_cannot_be_set_is_said(graph):
+    fixed = CART.replace("type='prismatic'", "type='fixed'")
+    graph.sim.spawn(gazelle.formats.load_model_string(fixed), name="post")
+    answer = set_link(graph, "post::cart")
+    assert not answer.success
+    assert "is fixed to the world" in answer.status_message
