@@ -6,7 +6,8 @@
 
 roslibpy, roslib.js and Foxglove connect to ws://localhost:9090. Only this
 machine can reach it unless --address names an address of a network; pages of
-other sites that a browser has open are refused unless --allow-origin fits.
+other sites that a browser has open are refused unless --allow-origin fits, and
+pages opened as files (origin 'null') unless it is --allow-origin null.
 """  # this is the text of --help
 
 from __future__ import annotations

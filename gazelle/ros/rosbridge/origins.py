@@ -12,12 +12,13 @@ _NULL = "null"
 
 
 def may_connect(origin: str | None, host: str, settings: BridgeSettings) -> bool:
-    """Whether a client with these HTTP headers is let in.
+    """Return True if a client with these HTTP headers may connect.
 
-    Programs send no origin and are let in. Pages are, if they are of this machine, were opened as
-    files (unless ``websocket_null_origin`` is false), come from the very host whose rosbridge they
-    ask for, or fit ``allowed_origins``. A page of somebody else's that a browser here has open is
-    not. As such a page's host may be made to lead here (DNS rebinding), its name only counts as
+    Programs send no origin and are let in. Pages are, if they are of this machine, come from the
+    very host whose rosbridge they ask for, or fit ``allowed_origins``. A page of somebody else's
+    that a browser here has open is not. It could call itself ``null`` by a sandboxed frame, as
+    files do: that is let in where ``allowed_origins`` holds the word ``null`` itself, or
+    ``websocket_null_origin`` is true. As such a page's host may be made to lead here (DNS rebinding), its name only counts as
     this host's if it is an address, or this machine's own name.
 
     Args:
@@ -28,7 +29,7 @@ def may_connect(origin: str | None, host: str, settings: BridgeSettings) -> bool
     if origin is None:
         return True
     if origin == _NULL:
-        return settings.websocket_null_origin
+        return settings.websocket_null_origin or _NULL in settings.allowed_origins
     if settings.allowed_origins and matches(origin, settings.allowed_origins):
         return True
     page, asked = _name(origin), _name(f"//{host}")

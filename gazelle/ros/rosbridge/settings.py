@@ -41,8 +41,8 @@ class BridgeSettings:
     websocket_ping_interval: float = 0.0
     """Seconds between pings; 0 for none."""
     websocket_ping_timeout: float = 30.0
-    websocket_null_origin: bool = True
-    """Let pages in that were opened as files."""
+    websocket_null_origin: bool = False
+    """Let pages in without an origin: files, and any site's sandboxed frames."""
     topics_glob: tuple[str, ...] = ()
     services_glob: tuple[str, ...] = ()
     params_glob: tuple[str, ...] = ()

@@ -350,7 +350,12 @@ def test_a_slow_client_holds_nobody_up(robot, bridge, client):
         (None, "127.0.0.1:9090", True),
         ("http://localhost:8080", "localhost:9090", True),
         ("http://127.0.0.1", "localhost:9090", True),
-        ("null", "localhost:9090", True),
+        ("null", "localhost:9090", False),  # a sandboxed frame of any page
+        ("NULL", "localhost:9090", False),
+        ("file://", "localhost:9090", False),
+        ("", "localhost:9090", False),
+        ("http://localhost@evil.example", "localhost:9090", False),
+        ("http://localhost.evil.example", "localhost:9090", False),
         ("https://evil.example", "localhost:9090", False),
         ("https://evil.example", "evil.example:9090", False),  # DNS rebinding
         ("http://192.168.1.7:8000", "192.168.1.7:9090", True),
@@ -364,14 +369,28 @@ def test_which_pages_may_connect(origin, host, allowed):
 
     settings = settings_from({"allowed_origins": ["https://*.example.org"]})
     assert may_connect(origin, host, settings) is allowed
-    if origin == "null":
-        strict = settings_from({"websocket_null_origin": "false"})
-        assert not may_connect(origin, host, strict)
+
+
+@pytest.mark.parametrize(
+    ("given", "allowed"),
+    [
+        ({"allowed_origins": "[null]"}, True),
+        ({"websocket_null_origin": "true"}, True),
+        ({"allowed_origins": "[*]"}, False),  # not by its name
+        ({"websocket_null_origin": "false"}, False),
+    ],
+)
+def test_a_page_without_an_origin_connects_only_if_that_is_allowed_by_name(given, allowed):
+    from gazelle.ros.rosbridge.origins import may_connect
+
+    assert may_connect("null", "localhost:9090", settings_from(given)) is allowed
 
 
 def test_a_page_from_elsewhere_is_turned_away(bridge):
     with pytest.raises(InvalidStatus, match="403"):
         JsonClient(bridge.port, origin="https://evil.example")
+    with pytest.raises(InvalidStatus, match="403"):
+        JsonClient(bridge.port, origin="null")
     JsonClient(bridge.port, origin="http://localhost:8000").socket.close()
 
 
