@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle.argument_types import positive_float
-from gazelle.cli.parsing import Parser
+from gazelle.cli.parsing import Parser, add_import_option
 
 if TYPE_CHECKING:
     from gazelle.training.deploy import GoalPlace, GoalResult, Policy, SafetyLimits
@@ -71,6 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="how far the lidar is turned to the left on the robot",
     )
     parser.add_argument("--log", metavar="FILE", type=Path, help="log of interventions (JSON)")
+    add_import_option(parser)
     parser.set_defaults(parser=parser)
 
 
@@ -84,7 +85,7 @@ def run(args: argparse.Namespace) -> int:
     if arguments.plain:
         args.parser.error(f"unrecognized arguments: {' '.join(arguments.plain)}")
     goals = _goals(args)
-    policy = open_policy(args.policy)
+    policy = open_policy(args.policy, imports=args.imports, trust=args.trust)
     limits = _limits(args, policy)
     with stopping() as stop:
         node = arguments.start()

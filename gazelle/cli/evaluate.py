@@ -71,6 +71,7 @@ def run(args: argparse.Namespace) -> int:
         task=args.task,
         num_envs=args.num_envs,
         imports=args.imports,
+        trust=args.trust,
         best=args.best,
         workers=args.workers,
         ray=args.ray,

@@ -16,6 +16,7 @@ import sys
 from pathlib import Path
 
 from gazelle.cli import showing
+from gazelle.cli.parsing import add_import_option
 from gazelle.errors import TaskError
 
 
@@ -30,6 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="PATH", type=Path, help="file or folder (default RUN/export)"
     )
+    add_import_option(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -40,7 +42,9 @@ def run(args: argparse.Namespace) -> int:
         check_format(args.format)
     except TaskError as error:
         args.parser.error(f"{error.message}: {error.hint}")
-    files = export_policy(args.run, args.format, args.out, best=args.best)
+    files = export_policy(
+        args.run, args.format, args.out, best=args.best, imports=args.imports, trust=args.trust
+    )
     sys.stdout.write(
         f"policy:   {files.policy}\n"
         f"contract: {files.contract}\n"

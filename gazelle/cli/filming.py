@@ -82,6 +82,7 @@ def opened(args: argparse.Namespace) -> Any:
             seed=10_000 if args.seed is None else args.seed,
             task=args.task,
             imports=args.imports,
+            trust=args.trust,
             **environment_options(args),
         )
     if path.suffix == ".bag":

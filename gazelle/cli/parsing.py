@@ -99,7 +99,7 @@ def add_scenario_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_import_option(parser: argparse.ArgumentParser) -> None:
-    """The option that finds tasks of the user's own."""
+    """The options that find tasks of the user's own, and that let a run find them."""
     parser.add_argument(
         "--import",
         dest="imports",
@@ -107,6 +107,9 @@ def add_import_option(parser: argparse.ArgumentParser) -> None:
         action="append",
         default=[],
         help="a module or file that registers your task (repeatable)",
+    )
+    parser.add_argument(
+        "--trust", action="store_true", help="import the code that a run names, whoever wrote it"
     )
 
 

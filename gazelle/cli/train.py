@@ -107,6 +107,7 @@ def run(args: argparse.Namespace) -> int:
             steps=args.steps,
             progress=watched(choose_progress(), args),
             imports=args.imports,
+            trust=args.trust,
             workers=args.workers,
             ray=args.ray,
         )

@@ -11,9 +11,10 @@ from gymnasium.vector import VectorEnv
 
 from gazelle.envs.contract import PolicyContract, generic_contract
 from gazelle.errors import FormatError, TaskError
-from gazelle.training.importing import load_all
+from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.runs import Run, RunConfig, versions
 from gazelle.training.tasks import control_period, make_task, told_by
+from gazelle.training.trust import require_trust
 
 CONTRACT = "contract.json"
 
@@ -76,17 +77,25 @@ def load_contract(file: Path) -> PolicyContract:
         raise FormatError(f"not a policy's contract: {error}", file=str(file)) from error
 
 
-def run_contract(run: Run) -> PolicyContract:
+def run_contract(
+    run: Run, modules: Sequence[TaskModule] = (), *, trust: bool = False
+) -> PolicyContract:
     """The contract of a run; of one that kept none, its environment is made once to ask it.
+
+    Args:
+        run: The run.
+        modules: Imported ones that register its task, instead of those that it names.
+        trust: Whether to import those.
 
     Raises:
         FormatError: It is damaged.
-        TaskError: The task of the run is not there.
+        TaskError: The task of the run is not there, or it names code that is not trusted.
     """
     file = run.folder / CONTRACT
     if file.is_file():
         return load_contract(file)
-    load_all(run.config.imports)
+    require_trust(run, modules, trust=trust)
+    load_all(() if modules else run.config.imports)
     env = make_task(run.config.task, 1, **run.config.options)
     try:
         return contract_of(task_contract(env), run.config)

@@ -24,6 +24,7 @@ from gazelle.training.records import EpisodeRecord, merged
 from gazelle.training.runs import Run
 from gazelle.training.statistics import SuccessRate
 from gazelle.training.tasks import evaluation_options, fitting_copies
+from gazelle.training.trust import require_trust
 from gazelle.training.workers.shards import divided
 
 _MOST_COPIES = 128
@@ -103,6 +104,7 @@ def evaluate(
     task: str | None = None,
     num_envs: int | None = None,
     imports: Sequence[str] = (),
+    trust: bool = False,
     best: bool = False,
     workers: int | None = None,
     ray: str | None = None,
@@ -127,6 +129,7 @@ def evaluate(
         task: The task; needed unless a run tells it.
         num_envs: Copies that run at once; by default one an episode, at most 128.
         imports: Modules or files to import first, which register the task.
+        trust: Whether to import modules that the run names and ``imports`` does not.
         best: Of a run, take the best policy of the evaluations during the training.
         workers: How many processes play the episodes. The copies are divided among them with a seed
             each, by their number alone: any number of workers finds the same, but other episodes
@@ -136,14 +139,17 @@ def evaluate(
             evaluations, and from its recipe's ``evaluation_options``.
 
     Raises:
-        TaskError: A number is below 1, no task is given, or the policy does not fit it.
+        TaskError: A number is below 1, no task is given, the policy does not fit it, or the run
+            names code that is not trusted.
         FormatError: The policy is damaged.
         MissingExtraError: Ray is asked for and not installed.
     """
     if episodes < 1 or (num_envs is not None and num_envs < 1):
         raise TaskError("an evaluation needs at least 1 episode and 1 environment")
     modules = load_all(imports)
-    actor, task, options = resolve_policy(run_or_policy, task, modules, options, best=best)
+    actor, task, options = resolve_policy(
+        run_or_policy, task, modules, options, best=best, trust=trust
+    )
     unit = fitting_copies(task, 1, options)
     episodes = -(-episodes // unit) * unit
     copies = fitting_copies(task, min(episodes, num_envs or _MOST_COPIES), options)
@@ -185,11 +191,13 @@ def resolve_policy(
     options: dict[str, Any],
     *,
     best: bool = False,
+    trust: bool = False,
 ) -> tuple[Actor, str, dict[str, Any]]:
     """The actor, its task, and the options of the environment."""
     given = {key: value for key, value in options.items() if value is not None}
     if isinstance(run_or_policy, str | Path) and Path(run_or_policy).suffix != ".npz":
         run = Run.open(Path(run_or_policy))
+        require_trust(run, modules, trust=trust)
         if task is None:
             load_all(() if modules else run.config.imports)
             task = run.config.task

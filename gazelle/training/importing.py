@@ -66,6 +66,14 @@ class TaskModule:
             )
         return TaskModule(text)
 
+    def is_loaded(self) -> bool:
+        """Return True if this process has imported it, from its folder where it has one."""
+        module = sys.modules.get(self.name)
+        file = getattr(module, "__file__", None)
+        if module is None or self.folder is None:
+            return module is not None
+        return file is not None and Path(file).resolve().is_relative_to(Path(self.folder).resolve())
+
     def load(self) -> None:
         """Import it, which registers its tasks.
 

@@ -26,6 +26,7 @@ class Playback(Closeable):
         seed: Of the environment.
         task: The task; needed unless a run tells it.
         imports: Modules or files to import first, which register the task.
+        trust: Whether to import modules that the run names and ``imports`` does not.
         options: Of the environment, as ``evaluate`` takes them.
 
     Attributes:
@@ -43,10 +44,15 @@ class Playback(Closeable):
         seed: int = 10_000,
         task: str | None = None,
         imports: Sequence[str] = (),
+        trust: bool = False,
         **options: Any,
     ) -> None:
         self._actor, name, known = resolve_policy(
-            run_or_policy, task, load_all(imports), {**options, "render_mode": "rgb_array"}
+            run_or_policy,
+            task,
+            load_all(imports),
+            {**options, "render_mode": "rgb_array"},
+            trust=trust,
         )
         self._env = make_task(name, 1, **known)
         self.period = control_period(self._env) or 0.1

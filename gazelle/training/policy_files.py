@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from gazelle.envs.contract import PolicyContract
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.training.actor import Actor, load_actor
 from gazelle.training.contracts import CONTRACT, load_contract, run_contract
+from gazelle.training.importing import load_all
 from gazelle.training.recipes import task_name
 from gazelle.training.runs import Run
 
@@ -36,6 +38,8 @@ def export_policy(
     out: str | Path | None = None,
     *,
     best: bool = False,
+    imports: Sequence[str] = (),
+    trust: bool = False,
 ) -> PolicyFiles:
     """Write a run's policy for use elsewhere, and its contract beside it.
 
@@ -49,16 +53,19 @@ def export_policy(
         out: The policy's file, or a folder for it; by default the folder ``export`` of the run.
             Its name is then the task's. The contract's is the same, ending in ``.json``.
         best: Take the best policy of the evaluations during the training, not the newest.
+        imports: Modules or files that register the task, instead of those that the run names.
+        trust: Whether to import those.
 
     Raises:
-        TaskError: There is no such format, or the files cannot be written.
+        TaskError: There is no such format, the files cannot be written, or the run names code
+            that is not trusted.
         FormatError: The run is damaged or has no policy yet.
         MissingExtraError: The package ``onnx`` is not installed.
     """
     check_format(format)
     found = Run.open(Path(run))
     actor = load_actor(found.policy_file(best=best))
-    contract = run_contract(found)
+    contract = run_contract(found, load_all(imports), trust=trust)
     if actor.inputs != contract.size:
         raise TaskError(
             f"the policy takes {actor.inputs} numbers, the contract tells {contract.size}",
@@ -87,19 +94,24 @@ def check_format(name: str) -> None:
         raise TaskError(f"there is no format '{name}' for policies", hint=hint)
 
 
-def load_policy(source: str | Path) -> tuple[Path, PolicyContract]:
+def load_policy(
+    source: str | Path, *, imports: Sequence[str] = (), trust: bool = False
+) -> tuple[Path, PolicyContract]:
     """The file of a policy and its contract.
 
     Args:
         source: Folder of a run, or a file that `export_policy` wrote.
+        imports: Modules or files that register the task, instead of those that the run names.
+        trust: Whether to import those.
 
     Raises:
         FormatError: There is none, or the contract is missing or damaged.
+        TaskError: The run names code that is not trusted.
     """
     path = Path(source)
     if path.is_dir():
         run = Run.open(path)
-        return run.policy_file(), run_contract(run)
+        return run.policy_file(), run_contract(run, load_all(imports), trust=trust)
     if path.name in {"policy.npz", "best.npz"} and (path.parent / CONTRACT).is_file():
         return path, load_contract(path.parent / CONTRACT)
     return path, load_contract(path.with_suffix(".json"))

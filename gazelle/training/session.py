@@ -31,6 +31,7 @@ from gazelle.training.tasks import (
     split_module,
     with_continuous_actions,
 )
+from gazelle.training.trust import require_trust
 from gazelle.training.threads import limit_threads
 from gazelle.training.user_callbacks import find_callbacks, make_callbacks
 from gazelle.training.vecenv import VectorEnvAdapter
@@ -155,6 +156,7 @@ def resume(
     progress: Progress | None = None,
     threads: int = 1,
     imports: Sequence[str | TaskModule] = (),
+    trust: bool = False,
     workers: int | None = None,
     ray: str | None = None,
 ) -> TrainResult:
@@ -170,17 +172,21 @@ def resume(
         progress: Shows how far it is; by default nothing is shown.
         threads: Threads for torch and BLAS.
         imports: Modules or files that register the task, if not those that the run names.
+        trust: Whether to import modules that the run names and ``imports`` does not.
         workers: For a run that was begun with workers: how many, by default one.
         ray: Where they are, see `train`.
 
     Raises:
         FormatError: There is no run, no checkpoint, or it is damaged.
-        TaskError: The run has more steps already, or its task is not there.
+        TaskError: The run has more steps already, its task is not there, or it names code that is
+            not trusted.
     """
     found = Run.open(Path(run))
     checkpoint = found.newest_checkpoint()
-    if imports:
-        found = found.changed(imports=load_all(imports))
+    modules = load_all(imports)
+    if modules:
+        found = found.changed(imports=modules)
+    require_trust(found, modules, trust=trust)
     load_all(found.config.imports)
     if steps is not None and steps != found.config.recipe.steps:
         done = int(checkpoint.name)

@@ -83,15 +83,22 @@ def command_of(action: tuple[float, ...], rule: ActionRule) -> VelocityCommand:
     return VelocityCommand(float(linear), float(angular))
 
 
-def open_policy(source: str | Path) -> Policy:
+def open_policy(
+    source: str | Path, *, imports: Sequence[str] = (), trust: bool = False
+) -> Policy:
     """A policy from the folder of a run, or from a file that `export_policy` wrote.
+
+    Args:
+        source: The folder or file.
+        imports: Modules or files that register the task, instead of those that the run names.
+        trust: Whether to import those.
 
     Raises:
         FormatError: There is none, or it or its contract is damaged.
-        TaskError: It has a memory, its actions are no velocities, or it is an ONNX file, and ONNX Runtime is not
-            installed.
+        TaskError: It has a memory, its actions are no velocities, it is an ONNX file, and ONNX
+            Runtime is not installed, or the run names code that is not trusted.
     """
-    file, contract = load_policy(source)
+    file, contract = load_policy(source, imports=imports, trust=trust)
     brain: Brain = _OnnxBrain(file) if file.suffix == ".onnx" else _ArrayBrain(load_actor(file))
     outputs, _ = brain.decide(np.zeros((1, contract.size), np.float32))
     if contract.action.choices and outputs.shape[1] != len(contract.action.choices):
