@@ -165,11 +165,12 @@ def _short(value: object) -> str:
 def report(result: TrainResult) -> int:
     """Print what came out and what to type next; returns the exit code."""
     folder = result.run.folder
+    trust = " --trust" if result.run.config.imports else ""
     if result.interrupted:
         total = result.run.config.recipe.steps
         sys.stderr.write(
             f"stopped at {result.steps:,} of {total:,} steps; everything is saved\n"
-            f"  go on with: {showing.program()} train --resume {folder}\n"
+            f"  go on with: {showing.program()} train --resume {folder}{trust}\n"
         )
         return 128 + (result.stop_signal or signal.SIGINT)
     if not result.new_steps:
@@ -181,7 +182,7 @@ def report(result: TrainResult) -> int:
         sys.stdout.write(f"trained: {showing.training(result, indent=9)}\n")
     sys.stdout.write(
         f"the run: {folder}\n"
-        f"next:    {showing.program()} eval {folder}\n"
+        f"next:    {showing.program()} eval {folder}{trust}\n"
         f"         tensorboard --logdir {folder}\n"
     )
     return 0

@@ -64,8 +64,8 @@ def export_policy(
     """
     check_format(format)
     found = Run.open(Path(run))
-    actor = load_actor(found.policy_file(best=best))
     contract = run_contract(found, load_all(imports), trust=trust)
+    actor = load_actor(found.policy_file(best=best))
     if actor.inputs != contract.size:
         raise TaskError(
             f"the policy takes {actor.inputs} numbers, the contract tells {contract.size}",
@@ -111,7 +111,8 @@ def load_policy(
     path = Path(source)
     if path.is_dir():
         run = Run.open(path)
-        return run.policy_file(), run_contract(run, load_all(imports), trust=trust)
+        contract = run_contract(run, load_all(imports), trust=trust)
+        return run.policy_file(), contract
     if path.name in {"policy.npz", "best.npz"} and (path.parent / CONTRACT).is_file():
         return path, load_contract(path.parent / CONTRACT)
     return path, load_contract(path.with_suffix(".json"))

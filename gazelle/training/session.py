@@ -31,8 +31,8 @@ from gazelle.training.tasks import (
     split_module,
     with_continuous_actions,
 )
-from gazelle.training.trust import require_trust
 from gazelle.training.threads import limit_threads
+from gazelle.training.trust import require_trust
 from gazelle.training.user_callbacks import find_callbacks, make_callbacks
 from gazelle.training.vecenv import VectorEnvAdapter
 from gazelle.training.workers.joining import join_workers

@@ -98,10 +98,13 @@ def test_a_package_in_the_users_folder(tmp_path, task, given):
     config = json.loads((run / "config.json").read_text())
     assert config["task"] == "my/Reach-v0"
     assert config["imports"] == [{"module": "my_robots.tasks", "folder": str(home)}]
-    found = gazelle(elsewhere, "eval", run, "--episodes", "20", "--json")
+    asked = gazelle(elsewhere, "eval", run, "--episodes", "20")
+    assert asked.returncode == 1
+    assert "imports code: 'my_robots.tasks' from the folder" in asked.stderr
+    found = gazelle(elsewhere, "eval", run, "--episodes", "20", "--json", "--trust")
     assert found.returncode == 0, found.stderr
     assert json.loads(found.stdout)["distinct"] == 20
-    more = gazelle(elsewhere, "train", "--resume", run, "--steps", "4096")
+    more = gazelle(elsewhere, "train", "--resume", run, "--steps", "4096", "--trust")
     assert more.returncode == 0, more.stderr
     assert "2,048 control steps" in more.stdout
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -83,9 +84,7 @@ def command_of(action: tuple[float, ...], rule: ActionRule) -> VelocityCommand:
     return VelocityCommand(float(linear), float(angular))
 
 
-def open_policy(
-    source: str | Path, *, imports: Sequence[str] = (), trust: bool = False
-) -> Policy:
+def open_policy(source: str | Path, *, imports: Sequence[str] = (), trust: bool = False) -> Policy:
     """A policy from the folder of a run, or from a file that `export_policy` wrote.
 
     Args:
