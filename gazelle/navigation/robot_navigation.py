@@ -27,6 +27,7 @@ from gazelle.rotations import rotate, yaw_of
 from gazelle.sensors import LaserScan
 from gazelle.simulation import ModelPlugin, Robot, SensorUnit
 from gazelle.simulation.clock import Schedule
+from gazelle.simulation.inputs import chosen, one_world
 from gazelle.simulation.navigation_control import NavigationPlan
 
 _SOURCES = ("truth", "amcl", "slam")
@@ -145,15 +146,15 @@ class RobotNavigation(ModelPlugin):
             SimulationError: There is nothing at the laser's height to make a map of.
             Error: A number is not finite.
         """
-        chosen = range(self._robot.simulation.nworld) if worlds is None else worlds.tolist()
+        some = self._some(worlds)
         poses = self._robot.planar_pose()
-        for world in chosen:
+        for world in some:
             here = poses[world]
             heading = math.atan2(y - here[1], x - here[0]) if yaw is None else yaw
             goal = goal_of(float(x), float(y), float(heading))
             self._pilot(world).go(goal, self._robot.simulation.time)
         self._listen()
-        return GoalTask(self._robot, [self.pilots[world] for world in chosen])
+        return GoalTask(self._robot, [self.pilots[world] for world in some])
 
     def explore(
         self, settings: ExploreSettings | None = None, *, worlds: Worlds | None = None
@@ -166,24 +167,30 @@ class RobotNavigation(ModelPlugin):
             settings: As of ``explore_lite``.
             worlds: Which worlds; all if None.
         """
-        chosen = range(self._robot.simulation.nworld) if worlds is None else worlds.tolist()
-        for world in chosen:
+        some = self._some(worlds)
+        for world in some:
             self._pilot(world).explore(settings or ExploreSettings())
         self._listen()
-        return GoalTask(self._robot, [self.pilots[world] for world in chosen])
+        return GoalTask(self._robot, [self.pilots[world] for world in some])
 
     def map(self, world: int = 0) -> OccupancyMap | None:
         """The map that a world's robot works on; None before the first scan of one that is made."""
-        return self._pilot(world).grid
+        return self._pilot(one_world(world, self._robot.simulation.nworld)).grid
 
     def cancel(self, worlds: Worlds | None = None) -> None:
         """Have no goal, and stand."""
-        chosen = list(self.pilots) if worlds is None else worlds.tolist()
-        for world in chosen:
+        some = list(self.pilots) if worlds is None else self._some(worlds)
+        for world in some:
             pilot = self.pilots.get(world)
             if pilot is not None and pilot.busy:
                 pilot.cancel()
                 self._robot.inputs["cmd_vel"].send(0.0, 0.0, np.array([world]))
+
+    def _some(self, worlds: Worlds | None) -> list[int]:
+        """Return the worlds that are meant."""
+        nworld = self._robot.simulation.nworld
+        found = chosen(worlds, nworld)
+        return list(range(nworld)) if found is None else found.tolist()
 
     def plans(self) -> dict[int, NavigationPlan]:
         """The goal of each world that has one, and the way there."""

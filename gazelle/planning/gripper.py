@@ -10,6 +10,7 @@ import numpy as np
 from gazelle.control import GoalState
 from gazelle.control.values import GripperGoal, GripperResult
 from gazelle.errors import PlanningError, did_you_mean
+from gazelle.simulation.inputs import one_world
 from gazelle.simulation.robot import Robot
 
 _ACTIONS = ("gripper_cmd", "gripper_action")
@@ -56,7 +57,7 @@ class RobotGripper:
     """
 
     def __init__(self, robot: Robot, name: str | None = None, *, world: int = 0) -> None:
-        self._robot, self._world = robot, world
+        self._robot, self._world = robot, one_world(world, robot.simulation.nworld)
         found = {
             each.controller.name: each
             for each in robot.controllers.loaded

@@ -28,6 +28,7 @@ from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene import PlanningScene
 from gazelle.planning.scene_objects import SceneObject
 from gazelle.planning.variables import JointBounds
+from gazelle.simulation.inputs import one_world
 from gazelle.simulation.joint_motion import JointMotion
 from gazelle.simulation.robot import Robot
 
@@ -110,7 +111,7 @@ class Group:
         tip: str | None = None,
         world: int = 0,
     ) -> None:
-        self.robot, self.world = robot, world
+        self.robot, self.world = robot, one_world(world, robot.simulation.nworld)
         self.options = options or PlanOptions()
         found = _semantics(robot, semantics)
         model = RobotModel(robot.description, found, limits)

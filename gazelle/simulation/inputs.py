@@ -34,7 +34,10 @@ def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
     """
     if worlds is None:
         return None
-    given = np.asarray(worlds)
+    try:
+        given = np.asarray(worlds)
+    except ValueError:  # rows of different lengths
+        given = np.zeros((0, 0))
     if not given.ndim:
         given = given.reshape(1)
     if given.dtype == np.bool_ and given.shape == (nworld,):
@@ -43,9 +46,24 @@ def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
     # What is below zero is large without a sign: one look is enough.
     if not whole or (given.size and not np.maximum.reduce(given.astype(np.uint64)) < nworld):
         raise SimulationError(
-            f"worlds must be in 0 to {nworld - 1}, or a mask of {nworld}, not {worlds}"
+            f"worlds must be in 0 to {nworld - 1}, or a mask of {nworld}, not {_short(worlds)}"
         )
     return given.astype(np.intp)
+
+
+def one_world(world: int, nworld: int) -> int:
+    """The index of a world.
+
+    Raises:
+        SimulationError: There is no such world, or it is no int.
+    """
+    try:
+        index = operator.index(world)
+    except TypeError:
+        index = -1
+    if not 0 <= index < nworld:
+        raise SimulationError(f"there is no world {_short(world)}; worlds are 0 to {nworld - 1}")
+    return index
 
 
 def size_of(worlds: Worlds | None, nworld: int) -> int:
@@ -193,7 +211,7 @@ def placeable(model: Model) -> Model:
     return model
 
 
-def _short(values: ArrayLike) -> str:
+def _short(values: object) -> str:
     """Values as text of one line."""
     text = " ".join(str(values).split())
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."

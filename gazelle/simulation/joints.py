@@ -95,7 +95,7 @@ class JointHandle:
         Raises:
             SimulationError: A value is not finite, or the duration is negative.
         """
-        some = chosen(worlds, self._engine.nworld)
+        some = self._some(worlds)
         rows = self._effort_of(effort, some)
         self._simulation.loads.turn(self.name, rows, start, duration, some)
 
@@ -103,6 +103,9 @@ class JointHandle:
     def clear_efforts(self) -> None:
         """End all efforts on the joint, in all worlds."""
         self._simulation.loads.clear_joint(self.name)
+
+    def _some(self, worlds: Worlds | None) -> Worlds | None:
+        return chosen(worlds, self._engine.nworld)
 
     def _effort_of(self, values: ArrayLike, worlds: Worlds | None) -> Floats:
         """Efforts of the right shape. One that is not finite breaks its own world, no other."""
@@ -112,33 +115,33 @@ class JointHandle:
     @between_steps
     def positions(self, worlds: Worlds | None = None) -> Floats:
         """Positions of all axes, shape (n, axes); of ball joints quaternions, shape (n, 4)."""
-        return self._engine.joint_position(self.name, worlds)
+        return self._engine.joint_position(self.name, self._some(worlds))
 
     @between_steps
     def velocities(self, worlds: Worlds | None = None) -> Floats:
         """Velocities of all axes, shape (n, axes)."""
-        return self._engine.joint_velocity(self.name, worlds)
+        return self._engine.joint_velocity(self.name, self._some(worlds))
 
     @between_steps
     def set_position(self, position: ArrayLike, worlds: Worlds | None = None) -> None:
         """Put it somewhere in some worlds (all if None) [m or rad], shape as `positions` or (axes,)."""
-        width = self.positions(np.array([0])).shape[1]
-        count = size_of(worlds, self._engine.nworld)
+        width, some = self.positions(np.array([0])).shape[1], self._some(worlds)
+        count = size_of(some, self._engine.nworld)
         what = f"the position of joint '{self.name}'"
-        self._engine.set_joint_position(self.name, finite(what, position, width, count), worlds)
+        self._engine.set_joint_position(self.name, finite(what, position, width, count), some)
 
     @between_steps
     def set_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
         """Give it a velocity in some worlds [m/s or rad/s], shape as `velocities` or (axes,)."""
-        count = size_of(worlds, self._engine.nworld)
-        what = f"the velocity of joint '{self.name}'"
+        some = self._some(worlds)
+        what, count = f"the velocity of joint '{self.name}'", size_of(some, self._engine.nworld)
         given = finite(what, velocity, self.axes, count, alike=True)
-        self._engine.set_joint_velocity(self.name, given, worlds)
+        self._engine.set_joint_velocity(self.name, given, some)
 
     @between_steps
     def wrench(self, worlds: Worlds | None = None) -> Wrench:
         """What the child exerts on the parent, about the joint's origin, in the world frame."""
-        return self._engine.joint_wrench(self.name, worlds)
+        return self._engine.joint_wrench(self.name, self._some(worlds))
 
     @between_steps
     def add_motor(self, max_effort: ArrayLike) -> None:
@@ -159,7 +162,7 @@ class JointHandle:
         Raises:
             EngineError: There is no motor on it.
         """
-        return self._engine.parameter("motor_effort", self.name, worlds)
+        return self._engine.parameter("motor_effort", self.name, self._some(worlds))
 
     @property
     @between_steps
@@ -171,8 +174,9 @@ class JointHandle:
     @between_steps
     def drive(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set what the motor holds [m/s or rad/s]: () or (n,), of several axes (n, axes)."""
+        some = self._some(worlds)
         try:
-            self._engine.set_motor_velocity(self.name, velocity, worlds)
+            self._engine.set_motor_velocity(self.name, velocity, some)
         except (TypeError, ValueError) as error:
             raise SimulationError(
                 f"the velocity of the motor on '{self.name}' cannot be {velocity!r}: {error}",

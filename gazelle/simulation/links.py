@@ -42,12 +42,12 @@ class LinkHandle:
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Its pose in many worlds."""
-        return self._engine.link_placement(self.name, worlds)
+        return self._engine.link_placement(self.name, chosen(worlds, self._engine.nworld))
 
     @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:
         """Its velocity in many worlds, in the world frame."""
-        return self._engine.link_motion(self.name, worlds)
+        return self._engine.link_motion(self.name, chosen(worlds, self._engine.nworld))
 
     @between_steps
     def set_pose(

@@ -270,14 +270,15 @@ class WorldParameters:
                 f"there is no parameter '{kind}' to draw", hint=did_you_mean(kind, kinds)
             )
         engine = self._simulation.engine
+        some = chosen(worlds, engine.nworld)
         width = engine.parameter(engine_kind, name, np.array([0])).shape[1]
-        share = self.stream(f"{engine_kind}/{name}").uniform(width, worlds)
+        share = self.stream(f"{engine_kind}/{name}").uniform(width, some)
         least, most = (
             finite(f"a bound of {kind} of '{name}'", bound, width, len(share), alike=True)
             for bound in (low, high)
         )
         drawn: Floats = least + share * (most - least)
-        engine.set_parameter(engine_kind, name, drawn, worlds)
+        engine.set_parameter(engine_kind, name, drawn, some)
         return drawn
 
     @between_steps

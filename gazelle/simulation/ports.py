@@ -123,7 +123,8 @@ class TwistInput(StatePart):
     @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:
         """Forget the last command: stand still."""
-        rows: slice | Worlds = slice(None) if worlds is None else worlds
+        some = chosen(worlds, len(self.linear))
+        rows: slice | Worlds = slice(None) if some is None else some
         self.linear[rows] = 0.0
         self.angular[rows] = 0.0
         self._revision += 1
@@ -163,13 +164,13 @@ class Input(StatePart, Generic[T]):
             value: Of the port's kind.
             worlds: Which worlds; all if None.
         """
-        self._receive(value, worlds)
+        self._receive(value, self._some(worlds))
 
     @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:
         """Forget the last value."""
         if self._forget is not None:
-            self._forget(worlds)
+            self._forget(self._some(worlds))
 
 
 class Service(StatePart, Generic[Q, R]):
@@ -202,7 +203,7 @@ class Service(StatePart, Generic[Q, R]):
             request: Of the service's request type, or None.
             worlds: Which worlds; all if None.
         """
-        return self._answer(request, worlds)
+        return self._answer(request, self._some(worlds))
 
 
 class FramePrefix(Enum):

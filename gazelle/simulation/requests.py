@@ -16,8 +16,10 @@ from concurrent.futures import Future
 from types import TracebackType
 from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 
+from gazelle.array_types import Worlds
 from gazelle.errors import SimulationError
 from gazelle.simulation.deadlocks import BlockedOwner
+from gazelle.simulation.inputs import chosen
 
 T = TypeVar("T")
 P = ParamSpec("P")
@@ -36,6 +38,7 @@ class RequestQueue:
         waiting: What was asked for and is not done yet.
         closed: Whether nothing can be asked for any more.
         changes: How often it changed who listens, what is awake, or what there is.
+        nworld: Number of worlds that there are.
     """
 
     def __init__(self) -> None:
@@ -45,6 +48,7 @@ class RequestQueue:
         self.waiting: deque[tuple[Callable[[], Any], Future[Any]]] = deque()
         self.closed = False
         self.changes = 0
+        self.nworld = 1
         self._reason = ""
 
     @property
@@ -205,6 +209,14 @@ class StatePart:
     """A part of what a simulation owns; it belongs to nobody until it is bound to one."""
 
     _requests: RequestQueue | None = None
+
+    def _some(self, worlds: Worlds | None) -> Worlds | None:
+        """Return indices of worlds that the simulation has.
+
+        Raises:
+            SimulationError: It has no such world.
+        """
+        return worlds if self._requests is None else chosen(worlds, self._requests.nworld)
 
     def bind(self, requests: RequestQueue | None) -> None:
         """Belong to a simulation."""

@@ -231,19 +231,19 @@ class Robot(Ports):
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Pose of the model frame in many worlds."""
-        return self.simulation.engine.model_placement(self.name, worlds)
+        return self.simulation.engine.model_placement(self.name, self._some(worlds))
 
     @between_steps
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """x, y [m] and heading [rad] of the model frame in many worlds, shape (n, 3)."""
-        return self.simulation.engine.planar_pose(self.name, worlds)
+        return self.simulation.engine.planar_pose(self.name, self._some(worlds))
 
     @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:
         """Velocity of the canonical link in many worlds, in the world frame; 0 without a link."""
         first = self.first_link
         if first is None:
-            count = self.simulation.nworld if worlds is None else len(worlds)
+            count = size_of(self._some(worlds), self.simulation.nworld)
             return Motion(np.zeros((count, 3)), np.zeros((count, 3)))
         return first.motion(worlds)
 
@@ -338,7 +338,10 @@ class Robot(Ports):
             EngineError: The model does not move.
         """
         self.joint_description(joint)
-        return self.simulation.engine.joint_wrench(f"{self.name}::{joint}", worlds)
+        return self.simulation.engine.joint_wrench(f"{self.name}::{joint}", self._some(worlds))
+
+    def _some(self, worlds: Worlds | None) -> Worlds | None:
+        return chosen(worlds, self.simulation.nworld)
 
     def joint_description(self, name: str) -> Joint:
         """What the file says about a joint, fixed ones too.

@@ -13,6 +13,7 @@ from gazelle.array_types import Worlds
 from gazelle.description import Sensor
 from gazelle.sensors import GroupedModel, SensorModel
 from gazelle.simulation.clock import NANOSECONDS, Schedule
+from gazelle.simulation.inputs import chosen, one_world
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import FramePrefix, Output
 from gazelle.simulation.requests import between_steps
@@ -71,7 +72,7 @@ class SampledSensor:
     @between_steps
     def measure(self, worlds: Worlds | None = None) -> NDArray[Any]:
         """Measure now, out of turn, shape (n, channels); the last reading stays as it is."""
-        return self._model.measure(worlds, self.period)
+        return self._model.measure(chosen(worlds, self._simulation.nworld), self.period)
 
     @between_steps
     def read(self, world: int = 0) -> Any:
@@ -79,7 +80,7 @@ class SampledSensor:
 
         The first call measures at once and wakes the sensor.
         """
-        return self.reading(self.latest()[world])
+        return self.reading(self.latest()[one_world(world, self._simulation.nworld)])
 
     @between_steps
     def latest(self) -> NDArray[Any]:

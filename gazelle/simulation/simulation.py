@@ -111,6 +111,7 @@ class Simulation(Closeable):
         self._engine = make_engine(
             engine, loaded, nworld, time_step=time_step, threads=threads, late=True
         )
+        self.requests.nworld = self._engine.nworld
         self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
         moved: object = self._engine
@@ -341,8 +342,12 @@ class Simulation(Closeable):
         Args:
             view: From where and how; ``gazelle.sensors.look_at`` helps.
             world: Which world.
+
+        Raises:
+            SimulationError: There is no such world.
         """
-        return self.requests.call(lambda: self._renderer.picture(self, view, world))
+        which = inputs.one_world(world, self.nworld)
+        return self.requests.call(lambda: self._renderer.picture(self, view, which))
 
     # -- saving and ending -------------------------------------------------------------
 

@@ -14,6 +14,7 @@ from gazelle.closing import Closeable
 from gazelle.errors import Error, SimulationError, SimulationWarning
 from gazelle.rendering import PinholeLens
 from gazelle.simulation import Robot, Simulation
+from gazelle.simulation.inputs import one_world
 from gazelle.viewer.page.camera_insets import CameraInsets
 from gazelle.viewer.page.context import ROOT, OptionalLayer, PageContext, PageLayer, spots_of
 from gazelle.viewer.page.driving import DriveControls
@@ -66,9 +67,10 @@ class LiveView(Closeable):
         rate: float = 20.0,
         only_looking: bool = False,
     ) -> None:
-        count = min(_BESIDE, simulation.nworld - world) if worlds is None else worlds
-        if not 0 <= world < simulation.nworld or not 0 < count <= simulation.nworld - world:
-            raise Error(f"there is no world {world}; there are {simulation.nworld}")
+        left = simulation.nworld - one_world(world, simulation.nworld)
+        count = min(_BESIDE, left) if worlds is None else worlds
+        if not 0 < count <= left:
+            raise Error(f"a view cannot show {count} worlds from {world} on: there are {left}")
         if not rate > 0.0:
             raise Error(f"a view needs a rate above zero, not {rate:g}")
         self._simulation, self._period = simulation, 1.0 / rate

@@ -14,6 +14,7 @@ from gazelle.engines.planar import Fleet, PlanarEngine, Scanner
 from gazelle.engines.planar import columns as c
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
+from gazelle.simulation.inputs import one_world
 from gazelle.viewer.plan_scans import scanners_of
 
 Colour = tuple[int, int, int]
@@ -58,11 +59,10 @@ class TopView:
         trails: bool = True,
         extent: tuple[float, float, float, float] | None = None,
     ) -> None:
-        self._simulation, self._world, self._size = simulation, world, size
+        self._simulation, self._size = simulation, size
         self._scans, self._trails = scans, trails
         fleet = fleet_of(simulation)
-        if not 0 <= world < fleet.nworld:
-            raise Error(f"there is no world {world}; there are {fleet.nworld}")
+        self._world = one_world(world, fleet.nworld)
         if min(size) < 1:
             raise Error(f"a picture needs a size, not {size[0]} x {size[1]}")
         self._frame = PlanFrame(extent or extent_of(fleet, world), size)

@@ -8,10 +8,10 @@ import numpy as np
 from PIL import Image
 
 from gazelle.array_types import Floats, Picture
-from gazelle.errors import Error
 from gazelle.rendering import LiveScene, PinholeLens
 from gazelle.sensors import look_at
 from gazelle.simulation import Simulation
+from gazelle.simulation.inputs import one_world
 from gazelle.viewer.page.shapes import extent_of_world
 
 Place = tuple[float, float, float]
@@ -52,12 +52,11 @@ class SceneCamera:
         size: tuple[int, int] = (960, 600),
         fov: float = _FOV,
     ) -> None:
-        if not 0 <= world < simulation.nworld:
-            raise Error(f"there is no world {world}; there are {simulation.nworld}")
+        which = one_world(world, simulation.nworld)
         if follow:
             _ = simulation.robots[follow]
         self._simulation, self._follow = simulation, follow
-        self._world, self._size = np.array([world]), size
+        self._world, self._size = np.array([which]), size
         self._lens = PinholeLens(size[0] * _FINER, size[1] * _FINER, fov)
         self._scene: tuple[object, LiveScene | None] = (None, None)
         self._eye, self._target = self._usual(eye, target)

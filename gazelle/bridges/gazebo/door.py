@@ -25,6 +25,7 @@ from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.loggers import serve_loggers
 from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Ports, Robot, Simulation
+from gazelle.simulation.inputs import one_world
 from gazelle.simulation.scheduled_plugin import make_scheduled
 
 _MOVES = {
@@ -58,6 +59,7 @@ class GazeboDoor(Closeable):
         world: int = 0,
         monotonic_clock: bool = False,
     ) -> None:
+        world = one_world(world, simulation.nworld)
         self.context = GazeboContext(simulation, node, world, monotonic=monotonic_clock)
         self._simulation, self._node = simulation, node
         self._closing: list[Callable[[], None]] = []

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar.stage_layout import Rider, StageRobot
 from gazelle.errors import SimulationError
+from gazelle.simulation.inputs import chosen
 from gazelle.simulation.stage.stage_bodies import StageBodies
 
 
@@ -57,7 +58,8 @@ class Actuator:
     def _want(self, goal: float, worlds: Worlds | None, *, towards: bool) -> None:
         if not math.isfinite(goal):
             raise SimulationError(f"an actuator cannot be told {goal}")
-        which = slice(None) if worlds is None else worlds
+        some = chosen(worlds, len(self._goal))
+        which = slice(None) if some is None else some
         self._goal[which], self._towards[which] = goal, towards
 
     def update(self, dt: float) -> None:

@@ -45,4 +45,5 @@ class DriveInput(TwistInput):
     def clear(self, worlds: Worlds | None = None) -> None:
         """Forget the last command: stand still."""
         super().clear(worlds)
-        self._commands()[slice(None) if worlds is None else worlds] = 0.0
+        some = chosen(worlds, len(self.linear))
+        self._commands()[slice(None) if some is None else some] = 0.0

@@ -18,6 +18,7 @@ from gazelle.engines.planar.stage_layout import StageRobot, without_actuators
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
+from gazelle.simulation.inputs import chosen, one_world
 from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.devices import Devices
 from gazelle.simulation.stage.drive_state import DriveState
@@ -300,12 +301,12 @@ class StageFleet(Senses):
             raise SimulationError(
                 f"'{name}' has no ranger {ranger} with a sensor {sensor}"
             ) from None
-        found: Floats = self.scan(scanner)[world, place].copy()
+        found: Floats = self.scan(scanner)[one_world(world, self.nworld), place].copy()
         return found
 
     def returns(self, scanner: int, place: int, world: int = 0) -> Floats:
         """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing."""
-        return self.rangers.returns(scanner, place, world)
+        return self.rangers.returns(scanner, place, one_world(world, self.nworld))
 
     # -- changes -----------------------------------------------------------------------
 
@@ -335,8 +336,9 @@ class StageFleet(Senses):
             name = self.robots[index].name
             raise SimulationError(f"the pose of '{name}' is not finite: {values}")
         self.refresh()
-        self.engine.place_body(index, values, worlds)
-        rows = slice(None) if worlds is None else worlds
+        some = chosen(worlds, self.nworld)
+        self.engine.place_body(index, values, some)
+        rows = slice(None) if some is None else some
         self._motion.before[rows, index] = self.poses[rows, index]
         self._devices.follow(index)
 

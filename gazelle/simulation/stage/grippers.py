@@ -18,6 +18,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageGripper, StageModel, StagePose
 from gazelle.engines.planar.stage_layout import StageRobot
 from gazelle.errors import SimulationError
+from gazelle.simulation.inputs import chosen, one_world
 from gazelle.simulation.stage.bumpers import gaps_to
 from gazelle.simulation.stage.outlines import Outlines, outlines_of
 from gazelle.simulation.stage.stage_bodies import StageBodies
@@ -91,13 +92,14 @@ class Gripper:
             raise SimulationError(
                 f"a gripper has no command '{command}'", hint=f"known are {', '.join(COMMANDS)}"
             )
-        which = slice(None) if worlds is None else worlds
+        some = chosen(worlds, len(self.paddles))
+        which = slice(None) if some is None else some
         moved = self._closing if command in {"open", "close"} else self._rising
         moved[which] = 1 if command in {"close", "up"} else -1
 
     def state(self, world: int = 0) -> GripperState:
         """All of it in one world now."""
-        held = int(self.carried[world])
+        held = int(self.carried[one_world(world, len(self.paddles))])
         return GripperState(
             float(self.paddles[world]),
             float(self.lift[world]),
@@ -107,7 +109,7 @@ class Gripper:
 
     def beams(self, world: int = 0) -> tuple[bool, bool]:
         """Whether something that can be gripped breaks the inner and the outer beam."""
-        if self.carried[world] != _NONE:
+        if self.carried[one_world(world, len(self.paddles))] != _NONE:
             return (True, True)
         length = self._device.paddle_size[0] * self._model.size.x
         edge = self._edge(world)

@@ -10,6 +10,7 @@ import numpy as np
 
 from gazelle.array_types import Worlds
 from gazelle.engines.planar.stage_layout import StageRobot
+from gazelle.simulation.inputs import chosen, one_world
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.bumpers import find_bumps
 from gazelle.simulation.stage.cameras import CameraPictures, Cameras, cameras_of
@@ -49,6 +50,9 @@ class Senses(StageBodies):
     def _cameras(self) -> Cameras:
         return Cameras(self, models_of(self))
 
+    def _one(self, world: int) -> int:
+        return one_world(world, self.nworld)
+
     def gripper(self, name: str, which: int = 0) -> Gripper:
         """A gripper of a robot, in all worlds.
 
@@ -76,7 +80,7 @@ class Senses(StageBodies):
         Raises:
             SimulationError: There is no such robot or finder.
         """
-        return find_fiducials(self._around, self.robot(name).index, finder, world)
+        return find_fiducials(self._around, self.robot(name).index, finder, self._one(world))
 
     def blobs(self, name: str, finder: int = 0, world: int = 0) -> list[Blob]:
         """What a blob finder of a robot sees now, from left to right.
@@ -84,7 +88,7 @@ class Senses(StageBodies):
         Raises:
             SimulationError: There is no such robot or finder.
         """
-        return find_blobs(self._around, self.robot(name).index, finder, world)
+        return find_blobs(self._around, self.robot(name).index, finder, self._one(world))
 
     def bumps(self, name: str, bumper: int = 0, world: int = 0) -> tuple[str | None, ...]:
         """The whole name of the model that each strip of a bumper touches now, or None.
@@ -92,7 +96,7 @@ class Senses(StageBodies):
         Raises:
             SimulationError: There is no such robot or bumper.
         """
-        return find_bumps(self._around, self.robot(name).index, bumper, world)
+        return find_bumps(self._around, self.robot(name).index, bumper, self._one(world))
 
     def picture(self, name: str, camera: int = 0, world: int = 0) -> CameraPictures:
         """What a camera of a robot sees now, drawn once a step: colours and depths.
@@ -108,7 +112,7 @@ class Senses(StageBodies):
         Raises:
             SimulationError: There is no such robot or camera.
         """
-        return self._cameras.picture(self.robot(name).index, camera, world)
+        return self._cameras.picture(self.robot(name).index, camera, self._one(world))
 
     def draw(self, wanted: Iterable[tuple[str, int, int]]) -> None:
         """Draw at once, by all threads, what ``picture`` will be asked for this step.
@@ -146,5 +150,6 @@ class Senses(StageBodies):
             robots = [r.index for r in self.robots if len(cameras_of(r)) > camera]
         else:
             robots = [self.robot(name).index for name in names]
-        every = np.arange(self.nworld) if worlds is None else worlds
+        some = chosen(worlds, self.nworld)
+        every = np.arange(self.nworld) if some is None else some
         return self._cameras.pictures(robots, camera, every)
