@@ -14,6 +14,12 @@ from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.autoreset import with_idle
 from gazelle.envs.contract import PolicyContract, generic_contract
 from gazelle.envs.floor_plan import FloorPlan
+from gazelle.envs.row_checks import (
+    checked_ends,
+    checked_info,
+    checked_observation,
+    checked_reward,
+)
 from gazelle.errors import TaskError
 
 Info = dict[str, NDArray[Any]]
@@ -155,7 +161,9 @@ class BatchedTask(ABC):
         """
         self.elapsed[worlds] = 0
         self._begin(worlds)
-        observation, info = self._look(worlds)
+        seen, told = self._look(worlds)
+        observation = checked_observation(seen, len(worlds), self.row_space.shape)
+        info = checked_info(told, len(worlds))
         if self.max_episode_steps is not None:
             info["is_timeout"] = np.zeros(len(worlds), dtype=np.bool_)
         scenario = self.scenario(worlds)
@@ -180,17 +188,19 @@ class BatchedTask(ABC):
             actions: Shape (nworld, ...).
 
         Raises:
-            TaskError: The actions have the wrong shape or values.
+            TaskError: The actions have the wrong shape or values, or what the task returns has.
         """
-        verdict = self._act(actions)
+        verdict, nworld = self._act(actions), self.nworld
+        observation = checked_observation(verdict.observation, nworld, self.row_space.shape)
+        reward = checked_reward(verdict.reward, nworld)
+        terminated = checked_ends("terminated", verdict.terminated, nworld)
+        info = checked_info(verdict.info, nworld)
         self.elapsed += 1
-        truncated = np.zeros(self.nworld, dtype=np.bool_)
+        truncated = np.zeros(nworld, dtype=np.bool_)
         if self.max_episode_steps is not None:
             truncated = self.elapsed >= self.max_episode_steps
-            verdict.info["is_timeout"] = truncated & ~verdict.terminated
-        return Transition(
-            verdict.observation, verdict.reward, verdict.terminated, truncated, verdict.info
-        )
+            info["is_timeout"] = truncated & ~terminated
+        return Transition(observation, reward, terminated, truncated, info)
 
     def step(self, actions: ArrayLike) -> BatchStep:
         """Make one control step in every world, and begin the next episode where one ended.

@@ -15,6 +15,7 @@ from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import World
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
 from gazelle.envs.options import TaskSettings
+from gazelle.envs.row_checks import checked_observation
 from gazelle.errors import TaskError
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
@@ -29,8 +30,8 @@ class StepOutcome:
     """What a control step was worth; arrays over worlds.
 
     Attributes:
-        reward: Shape (nworld,).
-        terminated: Whether the episode came to its end, shape (nworld,).
+        reward: Finite, shape (nworld,).
+        terminated: Whether the episode came to its end, bools, shape (nworld,).
         info: More arrays, shape (nworld, ...), such as ``is_success``.
     """
 
@@ -139,14 +140,9 @@ class SimulationTask(BatchedTask):
         return Verdict(observation, came.reward, came.terminated, dict(came.info))
 
     def _seen(self, worlds: Worlds | None) -> Any:
-        seen = np.asarray(self.observe(worlds), dtype=self.observation_space.dtype)
-        shape = (self.nworld if worlds is None else len(worlds), *self.observation_space.shape)
-        if seen.shape != shape:
-            raise TaskError(
-                f"observe gave an array of shape {seen.shape}, and observation_space wants {shape}",
-                hint="a row a world, an entry for each bound of the space",
-            )
-        return seen
+        count = self.nworld if worlds is None else len(worlds)
+        seen = checked_observation(self.observe(worlds), count, self.observation_space.shape)
+        return seen.astype(self.observation_space.dtype, copy=False)
 
     def _hold(self, worlds: Worlds) -> Any:
         return self._stream.counters[worlds], {

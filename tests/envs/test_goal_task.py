@@ -137,7 +137,7 @@ def broken(**methods):
             r"draw_goals gave.*\(2, 3\)",
         ),
         ({"achieved": lambda *_: np.zeros(2)}, "achieved gave an array of shape"),
-        ({"observe": lambda *_: np.zeros((2, 7))}, "observe gave an array of shape"),
+        ({"observe": lambda *_: np.zeros((2, 7))}, "observation has shape"),
         ({"compute_reward": lambda *_: -1.0}, "compute_reward gave an array of shape"),
         ({"goal_space": None}, "Broken has no Box as goal_space"),
         ({"goal_space": gym.spaces.Discrete(2)}, "Broken has no Box as goal_space"),

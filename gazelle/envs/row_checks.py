@@ -1,0 +1,89 @@
+"""Checks of what a task returns: arrays with a row a world."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Bools, Floats
+from gazelle.errors import TaskError
+
+_NUMBERS = "biuf"
+
+
+def checked_reward(values: Any, count: int) -> Floats:
+    """Return rewards as float64, shape (count,).
+
+    Raises:
+        TaskError: They have another shape, or one is not finite.
+    """
+    reward = _checked(
+        "reward", values, (count,), f"one number a world, such as np.zeros({count})", _NUMBERS
+    )
+    if not np.isfinite(reward).all():
+        where = int(np.flatnonzero(~np.isfinite(reward))[0])
+        raise TaskError(f"the reward of world {where} is {reward[where]}; rewards must be finite")
+    return reward.astype(np.float64, copy=False)
+
+
+def checked_ends(name: str, values: Any, count: int) -> Bools:
+    """Return where episodes end, shape (count,).
+
+    Raises:
+        TaskError: They have another shape, or are no bools.
+    """
+    return _checked(
+        name, values, (count,), f"one bool a world, such as np.zeros({count}, bool)", "b"
+    )
+
+
+def checked_observation(values: Any, count: int, shape: tuple[int, ...]) -> NDArray[Any]:
+    """Return observations, shape (count, ...) as the space says.
+
+    Raises:
+        TaskError: They have another shape.
+    """
+    hint = "a row a world, an entry for each bound of observation_space"
+    return _checked("observation", values, (count, *shape), hint, _NUMBERS)
+
+
+def checked_info(info: dict[str, Any], count: int) -> dict[str, NDArray[Any]]:
+    """Return info as arrays, shape (count, ...).
+
+    Raises:
+        TaskError: A value is no number or array of numbers for each world.
+    """
+    return {
+        name: values
+        if isinstance(values, np.ndarray)
+        and values.shape[:1] == (count,)
+        and values.dtype.kind in _NUMBERS
+        else _checked(
+            f"info['{name}']",
+            values,
+            (count, ...),
+            f"a row a world; for one value in all of them np.full({count}, value)",
+            _NUMBERS,
+        )
+        for name, values in info.items()
+    }
+
+
+def _checked(name: str, values: Any, shape: tuple[Any, ...], hint: str, kinds: str) -> NDArray[Any]:
+    """Return values as an array of a shape, in which ``...`` stands for any more axes."""
+    try:
+        given = np.asarray(values)
+    except ValueError:
+        raise TaskError(f"{name} has rows of different lengths", hint=hint) from None
+    leading = shape[:-1] if shape[-1:] == (...,) else shape
+    fits = given.shape[: len(leading)] == leading
+    if not fits or (leading is shape and given.ndim != len(shape)):
+        wanted = f"({', '.join('...' if side is ... else str(side) for side in shape)}"
+        wanted += ",)" if len(shape) == 1 else ")"
+        raise TaskError(f"{name} has shape {given.shape}, expected {wanted}", hint=hint)
+    if given.dtype.kind not in kinds:
+        what = "bools" if kinds == "b" else "numbers"
+        raise TaskError(f"{name} is of {given.dtype}, expected {what}", hint=hint)
+    return given
