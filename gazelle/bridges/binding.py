@@ -183,7 +183,8 @@ class Binding:
         if output.prefix is FramePrefix.NONE:
             return ""
         own = self._prefixes.own(place)
-        return own if output.prefix is FramePrefix.OWN else place.strip("/") or own
+        below = place.removeprefix(self._simulation.ports.namespace)
+        return own if output.prefix is FramePrefix.OWN else below.strip("/") or own
 
     def _subscribe(self, port: TwistInput | Input[Any]) -> None:
         if isinstance(port, TwistInput):

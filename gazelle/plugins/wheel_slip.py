@@ -66,7 +66,7 @@ class WheelSlip(ModelPlugin):
             raise SimulationError("a <wheel> is required here", source=parameters.source)
         self._tuned = dict.fromkeys((_LATERAL, _LONGITUDINAL), _UNCHANGED)
         name = parameters.get("robotNamespace", "wheel_slip")
-        topic = absolute("", f"{robot.name}/{name.strip('/')}")
+        topic = absolute(self._simulation.ports.namespace, f"{robot.name}/{name.strip('/')}")
         robot.tunings[f"{name} slip"] = Tuning(
             topic,
             [

@@ -347,9 +347,11 @@ class Ports:
     Args:
         requests: Of the simulation; what comes through the ports from other threads is done
             between two steps.
+        namespace: Put before topics.
     """
 
-    def __init__(self, requests: RequestQueue | None = None) -> None:
+    def __init__(self, requests: RequestQueue | None = None, namespace: str = "") -> None:
+        self.namespace = namespace
         self.inputs: dict[str, Any] = PortTable(requests)
         self.outputs: dict[str, Output[Any]] = PortTable(requests)
         self.services: dict[str, Service[Any, Any]] = PortTable(requests)

@@ -143,11 +143,10 @@ class Robot(Ports):
         namespace: str = "",
         stage: StageFleet | None = None,
     ) -> None:
-        super().__init__(simulation.requests)
+        super().__init__(simulation.requests, namespace)
         self.simulation = simulation
         self._requests = simulation.requests
         self.name = model.name
-        self.namespace = namespace
         self.description = model
         self.managers: dict[str, ControllerManager] = {}
         self._links = link_handles(simulation, model)

@@ -75,18 +75,17 @@ class Simulation(Closeable):
             ``reset`` the world with a warning and go on. The other worlds make their steps
             either way, and the steps that broke it are written down for ``Replay``.
         fault_dump: File for that; a temporary one if None.
+        namespace: Before names of topics that files ask for, as that of the node of a ``gzserver``.
 
     Attributes:
         physics: Time step, gravity, solver and the like; settable in the middle of a run.
         parameters: Masses, friction and the like, which each world can have of its own.
         ports: Of the plugins of the world; those of models are on their ``Robot``.
         native: The engine, if it updates systems between its steps; else None.
-        carrier: The engine, if it takes controllers of joints into its steps; else None.
-        tables: The engine, if it looks at many links and joints at once; else None.
+        carrier, tables: Likewise, if it takes controllers into its steps, and sees many joints at once.
         events: Tell who must follow what is spawned, deleted and reset.
         requests: What threads ask for; hold it with ``with`` to do several things at one moment.
-        entities: Makes and ends models; for the thread that owns the state.
-        loop: Makes the steps; likewise.
+        entities, loop: Make and end models, and make the steps; for the thread that owns the state.
 
     Raises:
         FormatError: The file cannot be read.
@@ -105,6 +104,7 @@ class Simulation(Closeable):
         time_step: float | None = None,
         on_fault: str = "raise",
         fault_dump: str | Path | None = None,
+        namespace: str = "",
     ) -> None:
         loaded = formats.open_world(world, ground=ground)
         self.requests = RequestQueue()
@@ -123,7 +123,7 @@ class Simulation(Closeable):
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
         self._loads = Loads(self._engine, self.clock)
         self._shared_loads = shared(self._loads, self.requests)
-        self.ports, self.events = Ports(self.requests), Events()
+        self.ports, self.events = Ports(self.requests, namespace), Events()
         self.entities = EntityManager(self)
         self._renderer, self.live_scene = SceneRenderer(), LiveScene(self._engine)
         self._faults = FaultLog(on_fault, fault_dump)

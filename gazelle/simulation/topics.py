@@ -7,16 +7,31 @@ from typing import Protocol
 from gazelle.description import Parameters
 
 
+class _Named(Protocol):
+    namespace: str
+
+
+class _Host(Protocol):
+    @property
+    def ports(self) -> _Named:
+        """Of the world."""
+
+
 class Spawned(Protocol):
     """A model in a running simulation."""
 
     namespace: str
 
+    @property
+    def simulation(self) -> _Host:
+        """That it is in."""
+
 
 def namespace_of(robot: Spawned, parameters: Parameters, otherwise: str = "") -> str:
-    """The namespace of a plugin: its ``robotNamespace``, else the one it was spawned in.
+    """Return the namespace of a plugin: its ``robotNamespace``, else the one it was spawned in.
 
-    As Gazebo gives the latter to plugins without the tag, an empty tag keeps it away.
+    As Gazebo gives the latter to plugins without the tag, an empty tag keeps it away. One without a
+    slash in front is in the namespace of the simulation.
 
     Args:
         robot: Whose plugin it is.
@@ -24,7 +39,9 @@ def namespace_of(robot: Spawned, parameters: Parameters, otherwise: str = "") ->
         otherwise: If neither says anything; many of Gazebo's plugins take the model's name.
     """
     given = "robotNamespace" in parameters
-    return (parameters.get("robotNamespace", "") if given else robot.namespace) or otherwise
+    own = (parameters.get("robotNamespace", "") if given else robot.namespace) or otherwise
+    base = robot.simulation.ports.namespace
+    return f"{base}/{own}" if base and not own.startswith("/") else own
 
 
 def absolute(namespace: str, name: str) -> str:

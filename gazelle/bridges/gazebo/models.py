@@ -89,8 +89,11 @@ class ModelServices:
     def _spawn(self, model: Model, pose: Pose, request: Any) -> Answer:
         if model.name in self._simulation.robots:
             return no(TAKEN)
+        # What scripts send by default means the simulator's own namespace.
+        own = self._simulation.ports.namespace if request.robot_namespace == "/" else ""
         try:
-            self._simulation.spawn(model, pose=pose, namespace=request.robot_namespace)
+            namespace = own or request.robot_namespace
+            self._simulation.spawn(model, pose=pose, namespace=namespace)
         except Error as error:
             return no(failure(error))
         return yes("SpawnModel: Successfully spawned entity")

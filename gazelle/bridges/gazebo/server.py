@@ -41,7 +41,7 @@ def main(arguments: Sequence[str]) -> int:
     place = names.as_namespace(found.options["namespace"])
     refuse_twin(names.join(place, found.options["name"]), found.options.get("master_uri"))
     # The node comes first: what the world warns of while it is read goes to /rosout, too.
-    with found.start() as node, _simulation(options) as sim:
+    with found.start() as node, _simulation(options, place) as sim:
         for plugin in options.plugins:
             sim.load_plugin(plugin)
         if options.paused:
@@ -58,11 +58,11 @@ def main(arguments: Sequence[str]) -> int:
     return 0
 
 
-def _simulation(options: argparse.Namespace) -> Simulation:
-    """The world that runs; what is asked for in vain is said."""
+def _simulation(options: argparse.Namespace, namespace: str) -> Simulation:
+    """Return the world that runs; what is asked for in vain is said."""
     for notice in dict.fromkeys(options.notices):
         warnings.warn(notice, SimulationWarning, stacklevel=2)
-    return Simulation(find_world(options.world), seed=options.seed)
+    return Simulation(find_world(options.world), seed=options.seed, namespace=namespace.rstrip("/"))
 
 
 def _run(door: RosDoor, stop: threading.Event, seconds: float | None) -> None:
