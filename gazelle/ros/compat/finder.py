@@ -42,6 +42,7 @@ def own_modules() -> frozenset[str]:
         "commands",
         "finder",
         "message_modules",
+        "module_hints",
         "cfg_modules",
         "python2",
         "script",

@@ -16,6 +16,7 @@ from pathlib import Path
 from gazelle.errors import RosError, did_you_mean
 from gazelle.ros.builtin.on_path import offer
 from gazelle.ros.compat.finder import install
+from gazelle.ros.compat.module_hints import hint_of_error
 from gazelle.ros.compat.python2 import advice_text, explain
 
 _PACKAGE = str(Path(__file__).parents[2])
@@ -151,6 +152,9 @@ def _execute(source: bytes, file: Path, main: types.ModuleType, *, debug: bool) 
         # Our own frames in front tell the user nothing.
         inner = trace.tb_next if trace is not None and not debug else trace
         traceback.print_exception(type(error), error, inner)
+        hint = hint_of_error(error)
+        if hint is not None:
+            sys.stderr.write(f"hint: {hint}\n")
         return INTERRUPTED if isinstance(error, KeyboardInterrupt) else 1
     return 0
 

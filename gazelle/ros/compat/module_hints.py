@@ -1,0 +1,132 @@
+"""What to do about modules that a ROS 1 machine has and this one may not.
+
+One table for what pip brings under the same or another name, one for what nobody sells.
+"""
+
+from __future__ import annotations
+
+PIP = {
+    "Cryptodome": "pycryptodomex",
+    "PIL": "pillow",
+    "PySide2": "PySide2",
+    "baselines": "'gazelle[train]', whose stable_baselines3 took its place",
+    "bson": "pymongo",
+    "catkin": "catkin_pkg",
+    "catkin_pkg": "catkin_pkg",
+    "cbor": "cbor",
+    "cv2": "opencv-python-headless",
+    "defusedxml": "defusedxml",
+    "distro": "distro",
+    "docutils": "docutils",
+    "em": "empy==3.3.4",
+    "evdev": "evdev",
+    "gnupg": "python-gnupg",
+    "h5py": "h5py",
+    "joblib": "joblib",
+    "keras": "keras",
+    "lxml": "lxml",
+    "matplotlib": "'gazelle[plots]'",
+    "mock": "mock",
+    "netifaces": "netifaces",
+    "networkx": "networkx",
+    "nose": "nose",
+    "numba": "numba",
+    "pandas": "pandas",
+    "paramiko": "paramiko",
+    "pkg_resources": "'setuptools<81'",
+    "psutil": "psutil",
+    "py_trees": "'py_trees<2'",
+    "pyassimp": "pyassimp",
+    "pydot": "pydot",
+    "pygame": "pygame",
+    "pygraphviz": "pygraphviz",
+    "pymongo": "pymongo",
+    "pynput": "pynput",
+    "rosdep2": "rosdep",
+    "rosdistro": "rosdistro",
+    "scipy": "scipy",
+    "serial": "pyserial",
+    "skimage": "scikit-image",
+    "sklearn": "scikit-learn",
+    "stable_baselines": "'gazelle[train]', whose stable_baselines3 took its place",
+    "stable_baselines3": "'gazelle[train]'",
+    "sympy": "sympy",
+    "tensorboard": "'gazelle[train]'",
+    "tensorflow": "tensorflow",
+    "torch": "'gazelle[train]'",
+    "tornado": "tornado",
+    "tqdm": "tqdm",
+    "transforms3d": "transforms3d",
+    "trimesh": "trimesh",
+    "twisted": "twisted",
+    "urdf_parser_py": "urdf-parser-py",
+    "usb": "pyusb",
+    "vcstools": "vcstools",
+    "yaml": "pyyaml",
+    "zmq": "pyzmq",
+}
+"""From a module to what ``pip install`` takes."""
+
+_SOURCE = "it is Python code of ROS: put a checkout of {} on ROS_PACKAGE_PATH"
+_WINDOW = "it is for windows, which Gazelle does not open; 'gazelle view' shows what runs"
+_ARM = (
+    "it is not on PyPI: moveit_commander, or the services compute_ik and compute_fk of "
+    "'gazelle run ROBOT --ros --moveit', do the same"
+)
+
+ADVICE = {
+    **dict.fromkeys(
+        ("bondpy", "smclib"), _SOURCE.format("bond_core, https://github.com/ros/bond_core,")
+    ),
+    **dict.fromkeys(("hrl_geom", "kdl_parser_py", "pykdl_utils", "trac_ik_python"), _ARM),
+    **dict.fromkeys(
+        ("python_qt_binding", "qt_gui", "qt_dotgraph", "rqt_gui", "rqt_gui_py", "rviz"), _WINDOW
+    ),
+    **dict.fromkeys(
+        ("smach", "smach_ros", "smach_msgs"),
+        _SOURCE.format("executive_smach, https://github.com/ros/executive_smach,"),
+    ),
+    "camera_info_manager": _SOURCE.format("camera_info_manager_py"),
+    "diagnostic_updater": _SOURCE.format("diagnostics, https://github.com/ros/diagnostics,"),
+    "flexbe_core": _SOURCE.format("flexbe_behavior_engine"),
+    "genmsg": "definitions are read without it: import PACKAGE.msg is enough",
+    "interactive_markers": _SOURCE.format(
+        "interactive_markers, https://github.com/ros-visualization/interactive_markers,"
+    ),
+    "moveit_python": _SOURCE.format("moveit_python"),
+    "pcl": "it is C++: sensor_msgs.point_cloud2 and ros_numpy read clouds",
+    "py_trees_ros": _SOURCE.format("py_trees_ros"),
+    "resource_retriever": "package:// is rospkg.RosPack().get_path(PACKAGE) and what follows it",
+    "roswtf": "'gazelle node info' and 'gazelle topic info' say who speaks with whom",
+    "sound_play": _SOURCE.format("audio_common"),
+}
+"""From a module to what to do where pip does not bring it."""
+
+_KINDS = {"msg", "srv", "action"}
+
+
+def module_hint(name: str) -> str | None:
+    """Return what to do about a missing module; None where nothing is known.
+
+    Args:
+        name: As ``import`` has it, with dots.
+    """
+    top, _, rest = name.partition(".")
+    if top in PIP:
+        return f"pip install {PIP[top]}"
+    if top in ADVICE:
+        return ADVICE[top]
+    if top.endswith(("_msgs", "_srvs", "_interfaces")) or rest.partition(".")[0] in _KINDS:
+        return f"the definitions of '{top}' are not bundled: put the package on ROS_PACKAGE_PATH"
+    return None
+
+
+def hint_of_error(error: BaseException) -> str | None:
+    """Return what to do about an exception of an import; None for others."""
+    if not isinstance(error, ImportError) or not error.name:
+        return None
+    if isinstance(error, ModuleNotFoundError):
+        return module_hint(error.name)
+    if error.name.endswith("PyKDL"):
+        return f"Gazelle's PyKDL has frames only; for chains and solvers: {_ARM}"
+    return None
