@@ -77,8 +77,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
+    from gazelle.interrupts import stopping
     from gazelle.ros.builtin.arguments import parse_arguments
-    from gazelle.ros.signals import stopping
     from gazelle.training.deploy import DeployNode, open_policy
 
     arguments = parse_arguments(args.names, "gazelle_policy")
@@ -87,20 +87,15 @@ def run(args: argparse.Namespace) -> int:
     goals = _goals(args)
     policy = open_policy(args.policy, imports=args.imports, trust=args.trust)
     limits = _limits(args, policy)
-    with stopping() as stop:
-        node = arguments.start()
-        try:
-            deployed = DeployNode(
-                node,
-                policy,
-                limits,
-                turned=args.scan_yaw,
-                time_limit=args.time_limit,
-                log=args.log,
-            )
-        except BaseException:
-            node.close()
-            raise
+    with arguments.start() as node, stopping() as stop:
+        deployed = DeployNode(
+            node,
+            policy,
+            limits,
+            turned=args.scan_yaw,
+            time_limit=args.time_limit,
+            log=args.log,
+        )
         with deployed:
             sys.stderr.write(f"{policy.contract.task} on {node.name}, guarded\n")
             deployed.go_to(goals)

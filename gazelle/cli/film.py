@@ -13,9 +13,12 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Iterable, Iterator
 
 from gazelle.argument_types import positive_float
+from gazelle.array_types import Picture
 from gazelle.cli.filming import add_source, opened
+from gazelle.interrupts import StopRequest, stopping
 
 _SECONDS = 10.0
 
@@ -47,11 +50,21 @@ def run(args: argparse.Namespace) -> int:
     from gazelle.viewer.sources import BagSource, RecordingSource, pictures_of
 
     file = writable(args.out, FILMS)
-    with opened(args) as source:
+    with opened(args) as source, stopping() as stop:
         seconds = args.seconds
         if seconds is None and not isinstance(source, BagSource | BagTopView | RecordingSource):
             seconds = _SECONDS
         period = args.speed / args.fps
-        count = write_film(file, pictures_of(source, seconds, period), args.fps)
+        pictures = pictures_of(source, seconds, period)
+        sys.stderr.write("filming; Ctrl-C ends the film early\n")
+        count = write_film(file, _until(stop, pictures), args.fps)
     sys.stdout.write(f"{file}: {count} pictures, {count / args.fps:.1f} s\n")
-    return 0
+    return 0 if stop.signal is None else 128 + stop.signal
+
+
+def _until(stop: StopRequest, pictures: Iterable[Picture]) -> Iterator[Picture]:
+    """Yield pictures until somebody asks to stop, at least one."""
+    for picture in pictures:
+        yield picture
+        if stop.is_set():
+            return

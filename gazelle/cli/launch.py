@@ -15,13 +15,13 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
-import signal
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.argument_types import positive_float
+from gazelle.errors import Error
 
 if TYPE_CHECKING:
     from gazelle.ros.launch import LaunchPlan, Packages
@@ -103,7 +103,6 @@ def _test(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> int
     package, name = testing.report_name(Path(plan.files[0]))
     folder = Path(args.results) if args.results else testing.results_folder()
     report = testing.TestReport(f"{package}.{name}")
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     testing.run_tests(
         plan,
         report,
@@ -180,6 +179,7 @@ def _show(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> str
 def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> int:
     from dataclasses import replace
 
+    from gazelle.interrupts import stopping
     from gazelle.ros import net
     from gazelle.ros.launch import describing
     from gazelle.ros.launch.process import StopTimeouts
@@ -202,18 +202,14 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
     if plan.tests:
         _say(f"{len(plan.tests)} tests are not run; --test runs them")
     launch = Launch(plan, options, say=_say, packages=packages)
-
-    def end(number: int, _frame: object) -> None:
-        if launch.ended.is_set():
-            signal.signal(number, signal.SIG_DFL)  # asked twice: whoever asks again gets his way
-        launch.end()
-
-    for number in (signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)):
-        signal.signal(number, end)
     if not args.no_summary:
         sys.stdout.write(describing.summary(plan) + f"\nROS_MASTER_URI={launch.master_uri}\n\n")
-    with _same_terminal(), launch:
-        launch.start()
+    with _same_terminal(), launch, stopping(launch.end) as request:
+        try:
+            launch.start()
+        except Error:
+            if not request.is_set():
+                raise
         code = launch.spin()
         _say("shutting down")
     _say("done")

@@ -15,10 +15,11 @@ from gazelle import __version__
 from gazelle.cli.commands import COMMANDS, Command
 from gazelle.cli.parsing import Parser
 from gazelle.errors import Error, GazelleWarning, describe, did_you_mean
+from gazelle.interrupts import end_process, exit_code, interruptible, requested
 from gazelle.ros.process_name import call_process
 from gazelle.ros.tool_names import process_name, translated
 
-DONE, FAILED, WRONG_USAGE, INTERRUPTED = 0, 1, 2, 130
+DONE, FAILED, WRONG_USAGE = 0, 1, 2
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -28,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         argv: The arguments after ``gazelle``; by default those of this process.
 
     Returns:
-        0 done, 1 the work failed, 2 the command line was wrong, 130 Ctrl-C.
+        0 done, 1 the work failed, 2 the command line was wrong, 130 Ctrl-C, 143 SIGTERM.
     """
     arguments = translated(sys.argv[1:] if argv is None else argv)
     arguments, debug = _without_debug(arguments)
@@ -45,7 +46,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     if argv is None:
         call_process(process_name(arguments))
     with _one_line_warnings(show_all=debug), _progress():
-        return _run(command, arguments[1:], debug=debug)
+        code = _run(command, arguments[1:], debug=debug, own=argv is None)
+    if requested():
+        end_process(code)
+    return code
 
 
 @contextlib.contextmanager
@@ -98,25 +102,23 @@ def overview() -> str:
     return "\n".join(lines)
 
 
-def _run(command: Command, arguments: list[str], *, debug: bool) -> int:
+def _run(command: Command, arguments: list[str], *, debug: bool, own: bool) -> int:
     """Run one sub-command; any error becomes a message and an exit code."""
     # Read by BLAS libraries when numpy is first imported, so set before the command is.
     from gazelle.training.threads import claim_environment
 
     claim_environment()
     try:
-        module = command.load()
-        parser = Parser(prog=f"gazelle {command.name}", description=module.__doc__)
-        module.configure(parser)
-        parsed = parser.parse_args(arguments)
-        parsed.debug = debug
-        code = module.run(parsed)
-        sys.stdout.flush()
+        # A script is given the signals of a fresh process, as Python has them.
+        with (
+            contextlib.nullcontext() if command.name == "exec" else interruptible(ends_process=own)
+        ):
+            return _call(command, arguments, debug=debug)
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else FAILED
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as request:
         sys.stderr.write("\ngazelle: interrupted\n")
-        return INTERRUPTED
+        return exit_code(request)
     except BrokenPipeError:
         # The reader of our output is gone, as in `gazelle tasks | head`.
         with contextlib.suppress(OSError):
@@ -127,6 +129,16 @@ def _run(command: Command, arguments: list[str], *, debug: bool) -> int:
             traceback.print_exc()
         _report(error)
         return FAILED
+
+
+def _call(command: Command, arguments: list[str], *, debug: bool) -> int:
+    module = command.load()
+    parser = Parser(prog=f"gazelle {command.name}", description=module.__doc__)
+    module.configure(parser)
+    parsed = parser.parse_args(arguments)
+    parsed.debug = debug
+    code = module.run(parsed)
+    sys.stdout.flush()
     return code
 
 

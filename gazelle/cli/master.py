@@ -10,9 +10,7 @@ Only this machine can reach it unless --host names an address of a network.
 from __future__ import annotations
 
 import argparse
-import signal
 import sys
-import threading
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -34,6 +32,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
+    from gazelle.interrupts import stopping
     from gazelle.ros import net
     from gazelle.ros.master.server import run_master
 
@@ -41,14 +40,8 @@ def run(args: argparse.Namespace) -> int:
     if port is None:
         port = net.split_uri(net.default_master_uri())[1]
     host = args.host or net.default_host()
-    end = threading.Event()
-    ending = (signal.SIGINT, signal.SIGTERM)
-    former = [signal.signal(number, lambda *_: end.set()) for number in ending]
-    try:
+    with stopping() as end:
         run_master(host, port, rosout=not args.no_rosout, ready=_announce, end=end)
-    finally:
-        for number, handler in zip(ending, former, strict=True):
-            signal.signal(number, handler)
     return 0
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from gazelle.argument_types import positive_int
 from gazelle.cli.tools import SubCommands, answer
-from gazelle.ros.signals import stopping
+from gazelle.interrupts import stopping
 
 _CLEANUP = (
     "Warning: these might include alive and functioning nodes, e.g. in unstable networks.\n"
@@ -80,7 +80,7 @@ def _ping(args: argparse.Namespace) -> int:
 
     if bool(args.node) == args.all:
         args.parser.error("give a node, or --all")
-    with stopping() as stop, _graph() as graph:
+    with _graph() as graph, stopping() as stop:
         nodes = graph.nodes() if args.all else [args.node]
         if args.all:
             names = "".join(f" * {node}\n" for node in nodes)

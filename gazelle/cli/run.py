@@ -20,9 +20,7 @@ from __future__ import annotations
 
 import argparse
 import math
-import signal
 import sys
-import threading
 import time
 from typing import TYPE_CHECKING
 
@@ -108,7 +106,6 @@ def run(args: argparse.Namespace) -> int:
         args.parser.error("--rosbridge is for a ROS graph; add --ros")
     from gazelle import formats
 
-    _listen_to_signals()
     sys.path[:0] = args.plugins
     world = formats.open_world(args.file, ground=args.ground)
     _take_from_file(args, world.stage)
@@ -129,13 +126,6 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.flush()
         with viewing(sim, args) as page:
             return _serve(sim, args, page) if args.ros else go(sim, args, page)
-
-
-def _listen_to_signals() -> None:
-    """Let SIGTERM end it as Ctrl-C does, and both where a script's shell runs it behind itself."""
-    if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
 
 
 def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:
@@ -171,10 +161,8 @@ def go(sim: Simulation, args: argparse.Namespace, page: str = "") -> int:
             sim.pause()
             sys.stderr.write("paused; Ctrl-C ends it\n")
         _advance(sim, args.seconds, status)
-    except KeyboardInterrupt:
+    finally:
         status.show(final=True)
-        return 130
-    status.show(final=True)
     return 0
 
 
@@ -254,10 +242,8 @@ def _attend(
     status = _Status(sim)
     try:
         door.run(args.seconds)
-    except KeyboardInterrupt:
+    finally:
         status.show(final=True)
-        return 130
-    status.show(final=True)
     return 0
 
 

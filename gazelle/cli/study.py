@@ -53,7 +53,7 @@ def run(args: argparse.Namespace) -> int:
         result = conduct(study, args.out, workers=args.workers, ray=args.ray, on_row=_show)
     except KeyboardInterrupt:
         sys.stderr.write(f"\nstopped; the same command goes on with {args.out}\n")
-        return 130
+        raise
     if sys.stderr.isatty() and result.new:
         sys.stderr.write("\n")
     sys.stdout.write(f"{args.out}: {len(result.rows)} rows, {result.new} of them new\n")

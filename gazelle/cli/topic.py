@@ -15,7 +15,7 @@ from typing import Any
 
 from gazelle.argument_types import positive_float, positive_int
 from gazelle.cli.tools import SubCommands
-from gazelle.ros.signals import stopping
+from gazelle.interrupts import stopping
 
 _TOOL = "rostopic"
 
@@ -168,13 +168,13 @@ def _echo(args: argparse.Namespace) -> int:
         width=args.width,
         keep=filter_of(args.filter) if args.filter else None,
     )
-    with stopping() as stop:
-        if args.bag:
+    if args.bag:
+        with stopping() as stop:
             topic = None if args.all else args.topic
             echo_bag(args.bag, topic, sys.stdout, options, stop)
-        else:
-            with _graph() as graph:
-                echo(graph, args.topic, sys.stdout, options, stop)
+        return 0
+    with _graph() as graph, stopping() as stop:
+        echo(graph, args.topic, sys.stdout, options, stop)
     return 0
 
 
@@ -184,7 +184,7 @@ def _publish(args: argparse.Namespace) -> int:
     if args.values and args.file:
         args.parser.error("give values or --file, not both")
     values = parse_arguments(args.values)
-    with stopping() as stop, _graph() as graph:
+    with _graph() as graph, stopping() as stop:
         publisher = MessagePublisher(
             graph,
             args.topic,
@@ -227,7 +227,7 @@ def _hz(args: argparse.Namespace) -> int:
     from gazelle.ros.tools.echoing import filter_of
     from gazelle.ros.tools.rates import measure_rates
 
-    with stopping() as stop, _graph() as graph:
+    with _graph() as graph, stopping() as stop:
         measure_rates(
             graph,
             args.topics,
@@ -244,7 +244,7 @@ def _hz(args: argparse.Namespace) -> int:
 def _bw(args: argparse.Namespace) -> int:
     from gazelle.ros.tools.rates import measure_size
 
-    with stopping() as stop, _graph() as graph:
+    with _graph() as graph, stopping() as stop:
         measure_size(graph, args.topic, sys.stdout, stop, window=args.window)
     return 0
 
@@ -252,7 +252,7 @@ def _bw(args: argparse.Namespace) -> int:
 def _delay(args: argparse.Namespace) -> int:
     from gazelle.ros.tools.rates import measure_delay
 
-    with stopping() as stop, _graph() as graph:
+    with _graph() as graph, stopping() as stop:
         measure_delay(
             graph,
             args.topic,

@@ -64,9 +64,6 @@ def _graph(args: argparse.Namespace) -> int:
     with GraphView(frame=args.frame, port=args.view) as view:
         sys.stdout.write(f"view {view.url}\n")
         sys.stdout.flush()
-        try:
-            while not view.ended:
-                time.sleep(0.2)
-        except KeyboardInterrupt:
-            return 130
+        while not view.ended:
+            time.sleep(0.2)
     return 0

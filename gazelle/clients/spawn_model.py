@@ -17,11 +17,11 @@ from gazelle.argument_types import NumberParser
 from gazelle.assets import published, published_hint
 from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
+from gazelle.interrupts import stopping
 from gazelle.ros import Node, load_service
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.compat.rosgraph.roslogging import RosStreamHandler
 from gazelle.ros.errors import RosTimeoutError
-from gazelle.ros.signals import stopping
 
 # After this wall time without Gazebo's services a word is said; they are waited for all the same [s].
 _PATIENCE_S = 10.0

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import csv
-import signal
-import threading
 import time
 from pathlib import Path
-from types import FrameType
-from typing import Any, Self
+from typing import Any
 
 from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.logger import KVWriter, Logger, TensorBoardOutputFormat
 
+from gazelle.interrupts import StopRequest
 from gazelle.training.checkpoint import write_checkpoint
 from gazelle.training.event_files import trim_events
 from gazelle.training.export import export_actor
@@ -51,39 +49,6 @@ _CURVE_POINTS = 200
 
 class StopRequested(Exception):  # noqa: N818  # a signal to the loop, not a fault
     """A signal asked to stop, and everything is saved."""
-
-
-class StopOnSignal:
-    """While active, the first Ctrl-C or SIGTERM only asks to stop; the second interrupts at once.
-
-    Args:
-        progress: Tells the user that the request was heard.
-
-    Attributes:
-        heard: The signal that asked to stop; None so far.
-    """
-
-    def __init__(self, progress: Progress) -> None:
-        self.heard: int | None = None
-        self._progress = progress
-        self._before: dict[int, Any] = {}
-
-    def __enter__(self) -> Self:
-        if threading.current_thread() is threading.main_thread():
-            for number in (signal.SIGINT, signal.SIGTERM):
-                self._before[number] = signal.signal(number, self._hear)
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        for number, handler in self._before.items():
-            signal.signal(number, handler)
-
-    def _hear(self, number: int, frame: FrameType | None) -> None:
-        del frame
-        if self.heard is not None:
-            raise KeyboardInterrupt
-        self.heard = number
-        self._progress.say("stopping after this update (Ctrl-C again stops at once) ...")
 
 
 class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
@@ -130,7 +95,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
     """
 
     def __init__(
-        self, run: Run, total: int, episodes: EpisodeLog, progress: Progress, stop: StopOnSignal
+        self, run: Run, total: int, episodes: EpisodeLog, progress: Progress, stop: StopRequest
     ) -> None:
         super().__init__()
         self.run = run
@@ -192,9 +157,9 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         if steps - self.logged_at >= self.total / _CURVE_POINTS:
             self._log()
         due = steps - self.saved_at >= self.run.config.checkpoint_every
-        if self.stop.heard is not None or due:
+        if self.stop.is_set() or due:
             self._save()
-        if self.stop.heard is not None:
+        if self.stop.is_set():
             raise StopRequested
 
     def _on_step(self) -> bool:

@@ -13,7 +13,8 @@ from typing import Any
 import torch
 
 from gazelle.errors import TaskError, TaskWarning
-from gazelle.training.callback import StopOnSignal, StopRequested, TrainingCallback
+from gazelle.interrupts import stopping
+from gazelle.training.callback import StopRequested, TrainingCallback
 from gazelle.training.checkpoint import read_checkpoint
 from gazelle.training.contracts import contract_of, save_contract
 from gazelle.training.demonstrations import with_demonstrator_found
@@ -38,6 +39,7 @@ from gazelle.training.vecenv import VectorEnvAdapter
 from gazelle.training.workers.joining import join_workers
 
 _CHECKPOINTS = 10
+_STOPPING = "stopping after this update (Ctrl-C again stops at once) ..."
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,7 +247,7 @@ class _Session:
 
     def go(self, run: Run, checkpoint: Path | None = None) -> TrainResult:
         """Train until the total; from the checkpoint if there is one."""
-        with StopOnSignal(self.progress) as stop:
+        with stopping(lambda: self.progress.say(_STOPPING)) as stop:
             callback = TrainingCallback(run, self.total, self.episodes, self.progress, stop)
             if checkpoint is not None:
                 extra = read_checkpoint(checkpoint, self.learner)
@@ -270,7 +272,7 @@ class _Session:
             wall_seconds=seconds,
             sim_seconds=None if period is None else new * period,
             interrupted=interrupted,
-            stop_signal=stop.heard if interrupted else None,
+            stop_signal=stop.signal if interrupted else None,
             summary=self.episodes.summary(),
         )
 

@@ -154,7 +154,7 @@ class _Table:
         self._done: set[tuple[str, ...]] = set()
         self.rows: list[dict[str, Any]] = []
         self._columns: list[str] = []
-        if path.exists():
+        if path.exists() and path.stat().st_size:
             self._read()
         self._file = path.open("a", newline="", encoding="utf-8")
         if self._columns:

@@ -72,7 +72,7 @@ def test_interrupt_ends_a_run_cleanly(extra, before, number):
     time.sleep(0.5)
     os.kill(process.pid, number)
     _, err = process.communicate(timeout=120)
-    assert process.returncode == 130
+    assert process.returncode == 128 + number
     assert "Traceback" not in err
     assert "simulated" in err
 

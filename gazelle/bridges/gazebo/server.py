@@ -13,9 +13,9 @@ from pathlib import Path
 from gazelle import assets
 from gazelle.bridges.serving import RosDoor, refuse_twin
 from gazelle.errors import ResolveError, SimulationWarning
+from gazelle.interrupts import stopping
 from gazelle.ros import names
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.signals import stopping
 from gazelle.simulation import Simulation
 
 # Options that change nothing here, with a value and without.

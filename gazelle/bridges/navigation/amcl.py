@@ -20,6 +20,7 @@ from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import Error
+from gazelle.interrupts import stopping
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
@@ -30,7 +31,6 @@ from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.node import Node
-from gazelle.ros.signals import stopping
 from gazelle.ros.tf import StampedTransform
 from gazelle.ros.time import Time
 from gazelle.simulation import Tunable

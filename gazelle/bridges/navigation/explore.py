@@ -13,6 +13,7 @@ from gazelle.array_types import Bytes
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames
 from gazelle.bridges.navigation.messages import stamped
+from gazelle.interrupts import stopping
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.costmap.values import LETHAL, NO_INFORMATION
 from gazelle.navigation.exploration import Explorer, ExploreSettings, Place
@@ -22,7 +23,6 @@ from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.clock import Rate
 from gazelle.ros.messages import load_message
 from gazelle.ros.node import Node
-from gazelle.ros.signals import stopping
 from gazelle.ros.time import Time
 
 SECOND = 1_000_000_000

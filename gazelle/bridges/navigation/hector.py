@@ -11,6 +11,7 @@ from gazelle.array_types import Floats
 from gazelle.bridges.navigation.frames import flat
 from gazelle.bridges.navigation.mapping_node import MappingNode
 from gazelle.description.occupancy import OccupancyMap
+from gazelle.interrupts import stopping
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.hector import HectorSettings, HectorSlam
@@ -18,7 +19,6 @@ from gazelle.navigation.planners.planar import composed, inverse
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.node import Node
-from gazelle.ros.signals import stopping
 from gazelle.rotations import from_yaw, yaw_of
 
 

@@ -18,6 +18,7 @@ from gazelle.bridges.navigation.messages import (
     twist_message,
     wrong_quaternion,
 )
+from gazelle.interrupts import stopping
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.move_base import GoalOutcome, RobotState, navigation_stack
 from gazelle.navigation.move_base.state_machine import MoveStep
@@ -28,7 +29,6 @@ from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.clock import Rate
 from gazelle.ros.messages import load_message, load_service
 from gazelle.ros.node import Node
-from gazelle.ros.signals import stopping
 from gazelle.ros.time import Time
 
 SECOND = 1_000_000_000

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 
 from gazelle.bridges.stage.door import StageDoor
 from gazelle.bridges.stage.place import stage_of
+from gazelle.interrupts import stopping
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.signals import stopping
 from gazelle.simulation import Simulation
 
 

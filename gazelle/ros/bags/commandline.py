@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from gazelle.argument_types import positive_float, positive_int
+from gazelle.interrupts import stopping
 from gazelle.ros import names
-from gazelle.ros.signals import stopping
 
 
 def configure_record(parser: argparse.ArgumentParser) -> None:
@@ -81,7 +81,7 @@ def record(args: argparse.Namespace, node_options: Mapping[str, Any] | None = No
     )
     check(options)
     keywords = node_options or {"name": names.anonymous("record")}
-    with stopping() as stop, Node(**keywords) as node:
+    with Node(**keywords) as node, stopping() as stop:
         BagRecorder(node, options, _quiet if args.quiet else _say).run(stop)
     return 0
 
@@ -146,7 +146,7 @@ def play(args: argparse.Namespace, node_options: Mapping[str, Any] | None = None
         keep_alive=args.keep_alive,
     )
     keywords = node_options or {"name": names.anonymous("play")}
-    with stopping() as stop, Node(**keywords, clock=WallClock()) as node:
+    with Node(**keywords, clock=WallClock()) as node, stopping() as stop:
         player = Player(node, bags, options, None if args.quiet else _PlayStatus().show)
         try:
             with _keys(player, stop):

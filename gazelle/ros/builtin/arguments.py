@@ -9,10 +9,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from gazelle.interrupts import stopping
 from gazelle.ros import names
 from gazelle.ros.errors import MasterUnreachableError, NoMasterError
 from gazelle.ros.node import Node
-from gazelle.ros.signals import stopping
 
 _MASTER_LOOK_S = 0.02
 _END_LOOK_S = 0.2

@@ -7,6 +7,7 @@ import warnings
 from typing import TextIO
 
 from gazelle.errors import Error, GazelleWarning
+from gazelle.interrupts import interruptible
 from gazelle.ros.builtin.registry import main_of
 from gazelle.ros.builtin.registry import package as built_in
 from gazelle.ros.errors import NodeClosedError
@@ -20,7 +21,8 @@ def main(arguments: list[str]) -> int:
     call_process(known.process_names.get(kind, kind) if known else kind)
     warnings.showwarning = _show_warning
     try:
-        return main_of(package, kind)(rest)
+        with interruptible(ends_process=True):
+            return main_of(package, kind)(rest)
     except NodeClosedError:
         return 0  # somebody asked the node to end while it began
     except Error as error:

@@ -6,11 +6,11 @@ import argparse
 import sys
 from collections.abc import Sequence
 
+from gazelle.interrupts import interruptible, stopping
 from gazelle.ros import net
 from gazelle.ros.errors import RosError
 from gazelle.ros.master.server import run_master
 from gazelle.ros.process_name import call_process
-from gazelle.ros.signals import stopping
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -22,12 +22,14 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--run-id", default="", help="what /run_id is to be")
     parsed = parser.parse_args([word for word in arguments if ":=" not in word])
     call_process("rosmaster")
-    with stopping() as end:
-        try:
+    try:
+        with interruptible(ends_process=True), stopping() as end:
             run_master(parsed.host, parsed.port, rosout=False, run_id=parsed.run_id, end=end)
-        except RosError as error:
-            sys.stderr.write(f"[rosmaster] {error}\n")
-            return 1
+    except RosError as error:
+        sys.stderr.write(f"[rosmaster] {error}\n")
+        return 1
+    except KeyboardInterrupt:
+        return 0  # asked to end while it began
     return 0
 
 

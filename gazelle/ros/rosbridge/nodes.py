@@ -9,12 +9,12 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from gazelle.errors import RosError
+from gazelle.interrupts import stopping
 from gazelle.ros.builtin.arguments import parse_arguments, spin
 from gazelle.ros.node import Node
 from gazelle.ros.rosbridge.rosapi import RosApi
 from gazelle.ros.rosbridge.server import BridgeServer
 from gazelle.ros.rosbridge.settings import BridgeSettings, read_settings
-from gazelle.ros.signals import stopping
 
 
 def websocket_main(arguments: Sequence[str]) -> int:

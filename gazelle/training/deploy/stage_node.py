@@ -15,9 +15,9 @@ from gazelle.clients import Gazebo
 from gazelle.clients.errors import ClientError
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
+from gazelle.interrupts import stopping
 from gazelle.ros import Node
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.signals import stopping
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.node import DeployNode
 from gazelle.training.deploy.policies import Policy, open_policy
@@ -45,19 +45,10 @@ def run_stage(stage: int, arguments: Sequence[str]) -> int:
         Error: A parameter is wrong, or the policy cannot drive.
     """
     found = parse_arguments(arguments, f"turtlebot3_dqn_stage_{stage}")
-    with stopping() as stop:
-        node = found.start()
-        try:
-            folder = _learned(node, stage)
-            policy = None if folder is None else open_policy(folder)
-            tour = None if policy is None else _Tour(node, policy, stage, stop)
-        except BaseException:
-            node.close()
-            raise
-        if tour is None:
-            node.close()
-        else:
-            tour.drive()
+    with found.start() as node, stopping() as stop:
+        folder = _learned(node, stage)
+        if folder is not None:
+            _Tour(node, open_policy(folder), stage, stop).drive()
     return 0
 
 

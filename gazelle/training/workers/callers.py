@@ -42,7 +42,9 @@ def call_all(
             caller.wait()
     finally:
         for caller in callers:
-            caller.stop()
+            caller.end()
+        for caller in callers:
+            caller.close()
 
 
 def workers_at(
@@ -108,9 +110,14 @@ class _Caller(Generic[JobT]):
         if self._error is not None:
             raise self._error
 
-    def stop(self) -> None:
-        """End the worker, whatever it is doing."""
+    def end(self) -> None:
+        """Ask the worker to end, whatever it is doing."""
         self._stopped.set()
+        if self._link is not None:
+            self._link.end()
+
+    def close(self) -> None:
+        """Wait for the worker's end."""
         if self._link is not None:
             self._link.close()
 

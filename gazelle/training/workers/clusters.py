@@ -47,8 +47,12 @@ class RayLink:
         except ray.exceptions.RayTaskError as error:
             raise error.cause from error
 
+    def end(self) -> None:
+        """See `WorkerLink.end`."""
+        self.close()
+
     def close(self) -> None:
-        """End the actor."""
+        """End the actor; again is harmless."""
         connected().kill(self.actor)
 
 

@@ -20,8 +20,8 @@ from gazelle.training.workers.shards import Blueprint, ShardHost
 from gazelle.training.workers.team import WorkerLink, WorkerLostError
 
 _LENGTH = struct.Struct("<Q")
-_GRACE = 5.0  # of a worker at work to end it, once its driver has gone [s]
-_PATIENCE = 10.0  # until a worker that was asked to end is killed [s]
+_GRACE = 0.5  # of a worker at work to end it, once its driver has gone [s]
+_PATIENCE = 1.0  # until a worker that was asked to end is killed [s]
 _LIBRARIES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -40,6 +40,7 @@ class ProcessLink:
             [sys.executable, "-m", "gazelle.training.workers.serve"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
+            process_group=0,  # Ctrl-C is for the driver, which ends its workers
             env=os.environ
             | few
             | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if path)},
@@ -71,16 +72,22 @@ class ProcessLink:
         except OSError as error:
             raise WorkerLostError(str(error)) from error
 
+    def end(self) -> None:
+        """See `WorkerLink.end`."""
+        with contextlib.suppress(OSError):
+            _open(self._process.stdin).close()
+
     def close(self) -> None:
         """End the process, by force if it does not."""
-        for pipe in (self._process.stdout, self._process.stdin):
-            with contextlib.suppress(OSError):
-                _open(pipe).close()
+        self.end()
         try:
             self._process.wait(_PATIENCE)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
+        # Only now: a thread that waits for an answer holds the pipe until the process has ended.
+        with contextlib.suppress(OSError):
+            _open(self._process.stdout).close()
 
 
 def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[int]], WorkerLink]:
@@ -91,7 +98,8 @@ def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[in
 
 def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
     """A worker's life: answer requests until there are no more."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the driver hears Ctrl-C, and ends its workers
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_IGN)  # for the driver, which saves and ends its workers
     inbox: queue.SimpleQueue[Any] = queue.SimpleQueue()
     threading.Thread(target=_listen, args=(requests, inbox), daemon=True).start()
     first = inbox.get()

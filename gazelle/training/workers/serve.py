@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import traceback
 
 from gazelle.training.workers.processes import serve
 
@@ -12,7 +13,14 @@ def main() -> None:
     """Keep the channel to ourselves: what anybody prints goes to the error output."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
-    serve(sys.stdin.buffer, answers)
+    code = 0
+    try:
+        serve(sys.stdin.buffer, answers)
+    except BaseException:  # noqa: BLE001  # as Python does, but for what follows
+        traceback.print_exc()
+        code = 1
+    sys.stderr.flush()
+    os._exit(code)  # the thread that reads the requests would abort the end of the interpreter
 
 
 if __name__ == "__main__":

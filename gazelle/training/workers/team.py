@@ -33,6 +33,9 @@ class WorkerLink(Protocol):
             WorkerLostError: The worker ended before it answered.
         """
 
+    def end(self) -> None:
+        """Ask the worker to end, whatever it is doing; does not wait."""
+
     def close(self) -> None:
         """End the worker and wait for it."""
 
@@ -116,6 +119,8 @@ class Team:
 
     def close(self) -> None:
         """End all workers."""
+        for link in self._links:
+            link.end()
         while self._links:
             self._links.pop().close()
 

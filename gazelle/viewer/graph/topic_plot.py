@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.interrupts import stopping
 from gazelle.ros import Node, load_message
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.signals import stopping
 from gazelle.viewer.plots import plot_series
 
 _LOOK_S = 1.0

@@ -82,8 +82,9 @@ def test_a_hook_of_the_real_rospy_says_the_same(master, script):
 def test_a_signal_while_the_script_waits_for_the_end_does_not_hang(node):
     from gazelle.ros.compat.rospy.state import process
 
+    process.catch_signals()
     # As when the signal comes while `spin` holds the lock of the event it waits for.
     with process.shutdown._cond:
-        process._on_signal(signal.SIGINT, None)
+        os.kill(os.getpid(), signal.SIGINT)
     assert process.shutdown.wait(30)
     process.wait_ended()

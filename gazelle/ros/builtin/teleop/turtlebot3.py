@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.errors import RosError
+from gazelle.interrupts import stopping
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.teleop.keyboard import CTRL_C, DOWN, LEFT, RIGHT, UP, Keyboard
 from gazelle.ros.messages import load_message
-from gazelle.ros.signals import stopping
 
 LIMITS = {"burger": (0.22, 2.84), "waffle": (0.26, 1.82), "waffle_pi": (0.26, 1.82)}
 """Greatest speeds of each model [m/s, rad/s], from its data sheet."""

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.interrupts import stopping
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.teleop.keyboard import CTRL_C, Keyboard
 from gazelle.ros.messages import load_message
 from gazelle.ros.node import Node
-from gazelle.ros.signals import stopping
 from gazelle.ros.time import Time
 
 _LOOK_S = 0.1

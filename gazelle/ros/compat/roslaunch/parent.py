@@ -11,6 +11,7 @@ from types import FrameType
 from typing import Any
 
 from gazelle.errors import Error
+from gazelle.interrupts import SignalRelay
 from gazelle.ros import net
 from gazelle.ros.compat.roslaunch.core import Node, RLException, printlog
 from gazelle.ros.compat.roslaunch.nodeprocess import (
@@ -177,6 +178,8 @@ class Runner:
         self._auto_terminate = False
         self._thread = threading.Thread(target=self._watch, name="roslaunch", daemon=True)
         self._before: dict[int, Any] = {}
+        self._relay: SignalRelay | None = None
+        self._over = False
         launch.listeners.append(self._tell)
 
     def start(self, *, auto_terminate: bool) -> None:
@@ -228,7 +231,7 @@ class Runner:
             if self._thread.is_alive() and self._thread is not threading.current_thread():
                 self._thread.join()
             self._launch.close()
-            self._give_back_signals()
+        self._give_back_signals()
 
     def _watch(self) -> None:
         while not self._launch.ended.wait(_LOOK_S):
@@ -246,6 +249,7 @@ class Runner:
         """End nodes at signals, then do what was done at them before."""
         if threading.current_thread() is not threading.main_thread():
             return
+        self._relay = SignalRelay(self._end)
         for name in _SIGNALS:
             number = getattr(signal, name, None)
             if number is not None:
@@ -258,10 +262,23 @@ class Runner:
             if signal.getsignal(number) == self._on_signal:
                 signal.signal(number, signal.SIG_DFL if before is None else before)
         self._before = {}
+        if self._relay is not None:
+            self._relay.close()
+            self._relay = None
+
+    def _end(self, number: int) -> None:
+        """End nodes, then have the main thread do what was done at the signal before."""
+        self.stop()
+        self._over = True
+        signal.pthread_kill(threading.main_thread().ident or 0, number)
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        # The main thread may hold any lock now, so another one ends the nodes.
+        if not self._over:
+            if self._relay is not None:
+                self._relay.post(number)
+            return
         before: Callable[..., Any] | int | None = self._before.get(number)
-        self.stop()
         if callable(before):
             before(number, frame)
         elif before == signal.SIG_DFL:

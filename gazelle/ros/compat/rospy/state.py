@@ -11,6 +11,7 @@ import traceback
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from gazelle.interrupts import SignalRelay
 from gazelle.ros.compat.rospy.exceptions import ROSInitException
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ class NodeProcessState:
         self._ender: int | None = None
         self._hooking: int | None = None
         self._previous: dict[int, Any] = {}
+        self._relay: SignalRelay | None = None
 
     def require(self) -> Node:
         """The node.
@@ -144,22 +146,30 @@ class NodeProcessState:
 
     def catch_signals(self) -> None:
         """End the node at Ctrl-C and when the process is told to terminate."""
+        self._relay = SignalRelay(self._end_apart)
         for number in (signal.SIGTERM, signal.SIGINT):
             self._previous[number] = signal.signal(number, self._on_signal)
 
     def _on_signal(self, number: int, frame: Any) -> None:
         # The main thread may hold any lock now, that of the event too, so another one does it all.
-        threading.Thread(target=self.end, args=(f"signal-{number}",), name="shutdown").start()
+        if self._relay is not None:
+            self._relay.post(number)
         previous = self._previous.get(number)
         if callable(previous):
             with contextlib.suppress(KeyboardInterrupt):
                 previous(number, frame)
+
+    def _end_apart(self, number: int) -> None:
+        """End on a thread that Python waits for, since hooks may take long."""
+        threading.Thread(target=self.end, args=(f"signal-{number}",), name="shutdown").start()
 
     def reset(self) -> None:
         """Forget everything, as if the process had just begun; the node must be closed."""
         with contextlib.suppress(ValueError):  # only the main thread may set signals
             for number, previous in self._previous.items():
                 signal.signal(number, previous)
+        if self._relay is not None:
+            self._relay.close()
         atexit.unregister(self._at_exit)
         self.__init__()  # type: ignore[misc]
 
