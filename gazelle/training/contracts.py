@@ -43,9 +43,13 @@ def contract_of(told: PolicyContract, config: RunConfig) -> PolicyContract:
         told: By its task, see `task_contract`.
         config: Of the run.
     """
+    limit, steps = told.time_limit, config.recipe.evaluation_options.get("max_episode_steps")
+    if steps is not None and told.control_period:  # trainings may have shorter or longer episodes
+        limit = steps * told.control_period
     return dataclasses.replace(
         told,
         task=config.task,
+        time_limit=limit,
         versions=versions(),
         training={
             "algorithm": config.recipe.algo,

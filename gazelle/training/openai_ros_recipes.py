@@ -21,6 +21,15 @@ _DRIVING = Recipe(
     settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
 )
 
+# Crashes are early, so episodes of a fifth of the length show five times as many starts as steps of
+# long ones do: 96 % survive with each of three seeds, with whole episodes 58 to 95 % did.
+_ROAMING = dataclasses.replace(
+    _DRIVING,
+    gamma=0.98,
+    training_options={**_DRIVING.training_options, "max_episode_steps": 100},
+    evaluation_options={"max_episode_steps": 500},
+)
+
 # The same bases on the way to a place.
 _TO_PLACE = dataclasses.replace(
     _DRIVING,
@@ -59,7 +68,7 @@ OPENAI_ROS: dict[str, Recipe] = {
         goal_reward=GoalReward(goal=2.0, collision=2.0, progress=0.3, other_end=2.0),
         bearing=Bearing(x=5, y=6, yaw=7, goal=(-2.94, 3.92)),
     ),
-    "TurtleBot2Maze": _DRIVING,
+    "TurtleBot2Maze": _ROAMING,
     # Its yaw is not shown, so the course of the last four steps has to do.
     "TurtleBot2Wall": dataclasses.replace(
         _TO_PLACE,
@@ -68,6 +77,6 @@ OPENAI_ROS: dict[str, Recipe] = {
         bearing=Bearing(x=5, y=6, yaw=9, goal=(5.0, 0.0)),
         training_options={**_DRIVING.training_options, "course": [1, 2, 4, 8, 16]},
     ),
-    "TurtleBot3World": _DRIVING,
+    "TurtleBot3World": _ROAMING,
 }
 """By the task's name."""

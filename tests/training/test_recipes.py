@@ -5,7 +5,9 @@ import json
 
 import pytest
 
+from gazelle.envs import registry
 from gazelle.errors import TaskError, TaskWarning
+from gazelle.training.contracts import contract_of, task_contract
 from gazelle.training.recipes import (
     RECIPES,
     OffPolicySettings,
@@ -15,7 +17,8 @@ from gazelle.training.recipes import (
     recipe_to_dict,
     task_name,
 )
-from gazelle.training.tasks import find_task, with_continuous_actions
+from gazelle.training.runs import RunConfig
+from gazelle.training.tasks import find_task, make_task, with_continuous_actions
 
 
 @pytest.mark.filterwarnings("ignore:.* cannot be shown what to do:gazelle.errors.TaskWarning")
@@ -73,6 +76,31 @@ def test_unknown_key_suggests_the_closest():
 def test_impossible_recipes_are_refused(change):
     with pytest.raises(TaskError):
         dataclasses.replace(Recipe(), **change)
+
+
+ENTRIES = {task_name(entry.id): entry for entry in registry.ENTRIES}
+
+
+@pytest.mark.parametrize("task", [task for task in RECIPES if task in ENTRIES])
+def test_episodes_of_another_length_are_for_training_only(task):
+    """Success is to last to the end: of an evaluation, and of a policy's contract, the task's own."""
+    recipe, own = RECIPES[task], ENTRIES[task].max_episode_steps
+    trained = recipe.training_options.get("max_episode_steps", own)
+    assert recipe.evaluation_options.get("max_episode_steps", trained) == own
+
+
+def test_a_contract_has_the_time_of_an_evaluation_and_not_of_a_training():
+    config = RunConfig(
+        task="gazelle/TurtleBot2Maze-v0",
+        recipe=RECIPES["TurtleBot2Maze"],
+        seed=0,
+        options=dict(RECIPES["TurtleBot2Maze"].training_options),
+        checkpoint_every=1,
+    )
+    env = make_task(config.task, 1, **config.options)
+    contract = contract_of(task_contract(env), config)
+    env.close()
+    assert contract.time_limit == pytest.approx(100.0)
 
 
 @pytest.mark.slow
