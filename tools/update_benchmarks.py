@@ -102,6 +102,7 @@ def main() -> None:
     for table in known:
         if not sys.argv[1:] or table.name in sys.argv[1:]:
             table.refresh()
+            print(f"{table.page.relative_to(ROOT)} has the new figures of {table.name}")
 
 
 if __name__ == "__main__":
