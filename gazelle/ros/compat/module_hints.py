@@ -70,15 +70,15 @@ PIP = {
 _SOURCE = "it is Python code of ROS: put a checkout of {} on ROS_PACKAGE_PATH"
 _WINDOW = "it is for windows, which Gazelle does not open; 'gazelle view' shows what runs"
 _ARM = (
-    "it is not on PyPI: moveit_commander, or the services compute_ik and compute_fk of "
-    "'gazelle run ROBOT --ros --moveit', do the same"
+    "it is not on PyPI: kdl_parser_py with PyKDL, trac_ik_python and moveit_commander, which are here, "
+    "do the same"
 )
 
 ADVICE = {
     **dict.fromkeys(
         ("bondpy", "smclib"), _SOURCE.format("bond_core, https://github.com/ros/bond_core,")
     ),
-    **dict.fromkeys(("hrl_geom", "kdl_parser_py", "pykdl_utils", "trac_ik_python"), _ARM),
+    **dict.fromkeys(("hrl_geom", "pykdl_utils"), _ARM),
     **dict.fromkeys(
         ("python_qt_binding", "qt_gui", "qt_dotgraph", "rqt_gui", "rqt_gui_py", "rviz"), _WINDOW
     ),
@@ -128,5 +128,5 @@ def hint_of_error(error: BaseException) -> str | None:
     if isinstance(error, ModuleNotFoundError):
         return module_hint(error.name)
     if error.name.endswith("PyKDL"):
-        return f"Gazelle's PyKDL has frames only; for chains and solvers: {_ARM}"
+        return "Gazelle's PyKDL has frames, chains and kinematics; dynamics are not there"
     return None

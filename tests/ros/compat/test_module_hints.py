@@ -19,11 +19,11 @@ from gazelle.ros.messages import load_message
         ("import em", "pip install empy==3.3.4"),
         ("from catkin_pkg.package import parse_package", "pip install catkin_pkg"),
         ("from urdf_parser_py.urdf import URDF", "pip install urdf-parser-py"),
-        ("from trac_ik_python.trac_ik import IK", "compute_ik"),
+        ("from pykdl_utils.kdl_kinematics import KDLKinematics", "kdl_parser_py"),
         ("import smach_ros", "executive_smach"),
         ("from foo_msgs.msg import Foo", "'foo_msgs' are not bundled"),
         ("from python_qt_binding import QtGui", "gazelle view"),
-        ("from PyKDL import Chain", "frames only"),
+        ("from PyKDL import ChainDynParam", "dynamics are not there"),
     ],
 )
 def test_the_last_line_says_what_to_do(tmp_path, capsys, monkeypatch, line, hint):

@@ -1,0 +1,1 @@
+"""Inverse kinematics between limits of joints."""
