@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle import bounded_yaml
 from gazelle.cli.descriptions_beside import urdf_of
 from gazelle.errors import ControlError, ResolveError
 
@@ -129,7 +130,7 @@ def _start(robot: Robot, file: Path) -> None:
     import yaml
 
     try:
-        given: Any = yaml.safe_load(file.read_text(encoding="utf-8"))
+        given: Any = bounded_yaml.safe_load(file.read_text(encoding="utf-8"))
     except OSError as error:
         raise ResolveError(f"cannot read {file}: {error.strerror}") from error
     except yaml.YAMLError as error:

@@ -23,7 +23,7 @@ from xml.parsers.expat import ExpatError
 import xacro as engine
 from xacro import substitution_args
 
-from gazelle import xacro_engine
+from gazelle import bounded_yaml, xacro_engine
 from gazelle.assets import published, published_hint
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
@@ -199,6 +199,7 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
     def guarded_open(filename: str) -> Any:
         path = _checked(filename)
         refuse_pointer_file(path)
+        bounded_yaml.check(xml.read_bytes(path))
         return builtins.open(path, encoding="utf-8")  # noqa: PTH123
 
     said = io.StringIO()

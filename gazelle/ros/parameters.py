@@ -7,6 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, Protocol
 
+from gazelle import bounded_yaml
 from gazelle.ros import names
 from gazelle.ros.errors import ApiError, ParameterNotFoundError, RosError, report
 from gazelle.ros.loop import EventLoop
@@ -201,7 +202,7 @@ def set_private(parameters: NodeParameters, mappings: dict[str, str]) -> None:
         if not old.startswith("_") or old.startswith("__"):
             continue
         try:
-            value = yaml.safe_load(new) if new else ""
+            value = bounded_yaml.safe_load(new) if new else ""
         except yaml.YAMLError:
             value = new
         try:

@@ -8,6 +8,7 @@ from typing import Any
 
 import yaml
 
+from gazelle import bounded_yaml
 from gazelle.errors import FormatError, TaskError, did_you_mean
 
 METRICS = ("success", "return")
@@ -44,7 +45,7 @@ class SweepPlan:
             FormatError: The file cannot be read, or says something that cannot be.
         """
         try:
-            values = yaml.safe_load(file.read_text(encoding="utf-8"))
+            values = bounded_yaml.safe_load(file.read_text(encoding="utf-8"))
         except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
             raise FormatError(f"cannot read the sweep: {error}", file=str(file)) from error
         if not isinstance(values, dict) or not isinstance(values.get("parameters"), dict):

@@ -8,6 +8,7 @@ import warnings
 from typing import Any
 
 from gazelle import characters
+from gazelle.bounded_yaml import bounded, refuse_deep
 from gazelle.errors import FormatWarning, describe
 from gazelle.ros.launch.errors import LaunchError
 
@@ -78,6 +79,7 @@ def parse_yaml(text: str) -> Any:
     """As `load_yaml`, but raises what PyYAML does; LaunchError for an angle that is none."""
     import yaml
 
+    refuse_deep(text)
     return yaml.load(text, _loader())  # noqa: S506  # a safe loader, with angles
 
 
@@ -85,6 +87,7 @@ def parse_yaml_documents(text: str) -> list[Any]:
     """As `load_yaml_documents`, but raises what PyYAML does."""
     import yaml
 
+    refuse_deep(text)
     return list(yaml.load_all(text, _loader()))  # a safe loader, with angles
 
 
@@ -168,7 +171,7 @@ def _loader() -> Any:
         return _loaders[0]
     import yaml
 
-    base: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    base: Any = bounded(getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
     class Loader(base):  # type: ignore[misc]  # the base is chosen above
         """Safe YAML with angles."""

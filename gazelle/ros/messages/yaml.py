@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle import bounded_yaml
 from gazelle.ros.messages.base import Message
 from gazelle.ros.messages.errors import MessageException
 from gazelle.ros.messages.spec import BUILTIN, OCTETS, Field
@@ -74,7 +75,7 @@ def from_yaml(message: type[Message] | Message, text: str, keys: Mapping[str, An
     import yaml
 
     try:
-        value = yaml.safe_load(text)
+        value = bounded_yaml.safe_load(text)
     except yaml.YAMLError as err:
         raise MessageException(f"this is no YAML: {err}") from err
     return from_dict(message, value, keys)

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, TextIO
 
+from gazelle import bounded_yaml
 from gazelle.ros.clock import Rate
 from gazelle.ros.messages import MessageException, load_message
 from gazelle.ros.messages.yaml import fill_message_args, get_printable_message_args
@@ -36,7 +37,7 @@ def parse_arguments(words: Iterable[str]) -> list[Any]:
     found = []
     for word in words:
         try:
-            found.append(yaml.safe_load(word) if word else "")
+            found.append(bounded_yaml.safe_load(word) if word else "")
         except yaml.YAMLError as error:
             raise ToolError(f"'{word}' is no YAML: {error}") from None
     return found
@@ -68,7 +69,7 @@ def file_documents(path: str) -> list[list[Any]]:
 
     try:
         text = Path(path).read_text(encoding="utf-8")
-        return [[each] for each in yaml.safe_load_all(text) if each is not None]
+        return [[each] for each in bounded_yaml.safe_load_all(text) if each is not None]
     except OSError as error:
         raise ToolError(f"{path} cannot be read: {error.strerror}") from None
     except yaml.YAMLError as error:

@@ -1,0 +1,130 @@
+"""YAML of anybody: safe values, of which aliases do not make more than there is room for.
+
+``[*a, *a]`` shares a list that what walks through it meets twice, so a file of a kilobyte can hold
+more values than any memory. What contains itself holds values without end.
+"""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import yaml
+
+MAX_VALUES = 1_000_000
+"""Values in a document, each counted as often as aliases repeat it."""
+
+
+MAX_DEPTH = 100
+"""Levels of lists and mappings; loaders call themselves for each, and some crash."""
+
+
+def safe_load(text: str) -> Any:
+    """Return the value of a YAML document.
+
+    Raises:
+        yaml.YAMLError: It is no YAML, holds more than ``MAX_VALUES`` values on more than
+            ``MAX_DEPTH`` levels, or contains itself.
+    """
+    import yaml
+
+    refuse_deep(text)
+    return yaml.load(text, bounded(yaml.SafeLoader))  # noqa: S506  # a safe loader
+
+
+def safe_load_all(text: str) -> Iterator[Any]:
+    """Yield the values of all documents; see ``safe_load``."""
+    import yaml
+
+    refuse_deep(text)
+    yield from yaml.load_all(text, bounded(yaml.SafeLoader))  # a safe loader
+
+
+def refuse_deep(text: str | bytes) -> None:
+    """Refuse text of more than ``MAX_DEPTH`` levels, without any recursion.
+
+    Raises:
+        yaml.YAMLError: It has more, or is no YAML.
+    """
+    import yaml
+
+    depth = 0
+    for event in yaml.parse(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > MAX_DEPTH:
+                problem = f"this is nested more than {MAX_DEPTH} levels deep"
+                raise yaml.MarkedYAMLError(problem=problem, problem_mark=event.start_mark)
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
+
+
+def check(text: bytes) -> None:
+    """Refuse a document that another loader shall read; see ``safe_load``."""
+    import yaml
+
+    refuse_deep(text)
+    yaml.compose(text, bounded(yaml.SafeLoader))
+
+
+@functools.cache
+def bounded(loader: type[Any]) -> type[Any]:
+    """Return a loader like another that counts values before it makes them.
+
+    Text for it has passed ``refuse_deep``.
+    """
+
+    class Bounded(loader):  # type: ignore[misc]  # of a class that is given
+        def get_node(self) -> yaml.Node | None:
+            return _counted(super().get_node())
+
+        def get_single_node(self) -> yaml.Node | None:
+            return _counted(super().get_single_node())
+
+    return Bounded
+
+
+def _counted(node: yaml.Node | None) -> yaml.Node | None:
+    if node is not None:
+        _refuse_large(node)
+    return node
+
+
+def _refuse_large(root: yaml.Node) -> None:
+    """Count the values below a node, those of shared ones once for each place.
+
+    Raises:
+        yaml.YAMLError: There are too many, or a node is below itself.
+    """
+    import yaml
+
+    sizes: dict[int, int | None] = {}
+
+    def size(node: yaml.Node) -> int:
+        known = sizes.get(id(node), 0)
+        if known is None:
+            raise yaml.MarkedYAMLError(problem="this contains itself", problem_mark=node.start_mark)
+        if known:
+            return known
+        sizes[id(node)] = None
+        total = 1
+        for child in _children(node):
+            total += size(child)
+        if total > MAX_VALUES:
+            raise yaml.MarkedYAMLError(
+                problem=f"aliases and lists make {total:,} values of this, "
+                f"more than the limit of {MAX_VALUES:,}",
+                problem_mark=node.start_mark,
+            )
+        sizes[id(node)] = total
+        return total
+
+    size(root)
+
+
+def _children(node: yaml.Node) -> Iterator[yaml.Node]:
+    if isinstance(node.value, list):
+        for child in node.value:
+            yield from child if isinstance(child, tuple) else (child,)
