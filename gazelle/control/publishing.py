@@ -25,7 +25,9 @@ class PublishingSchedule:
     def set_rate(self, rate: float) -> None:
         """Go on at another rate [Hz]."""
         self.rate = rate
-        self._period_ns = round(_NANOSECONDS / rate) if rate > 0.0 else 0
+        self._period_ns = 0
+        if rate > 0.0:  # a nanosecond at least, and some thirty years at most
+            self._period_ns = max(1, round(min(_NANOSECONDS / rate, _NANOSECONDS**2)))
 
     def start(self, now_ns: int, *, at_once: bool = True) -> None:
         """Begin at a time: it is due at the next update, or a period later."""

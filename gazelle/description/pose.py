@@ -210,7 +210,12 @@ def rotate(q: Quaternion, v: Vector3) -> Vector3:
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Quaternion (x, y, z, w) of R = Rz(yaw) Ry(pitch) Rx(roll); angles in rad."""
+    """Quaternion (x, y, z, w) of R = Rz(yaw) Ry(pitch) Rx(roll); angles in rad.
+
+    Of an angle that is not finite it is no number, which whoever uses the pose refuses.
+    """
+    if not (math.isfinite(roll) and math.isfinite(pitch) and math.isfinite(yaw)):
+        return (math.nan, math.nan, math.nan, math.nan)
     cr, sr = math.cos(roll / 2), math.sin(roll / 2)
     cp, sp = math.cos(pitch / 2), math.sin(pitch / 2)
     cy, sy = math.cos(yaw / 2), math.sin(yaw / 2)

@@ -16,10 +16,13 @@ SHORTEST_STEP, LONGEST_STEP = 1e-9, 1e6
 FARTHEST = 1e10
 
 # More does not fit into the numbers that native code counts with.
-_MOST = 2**31 - 1
+MOST = 2**31 - 1
+
+# A world takes a kilobyte at the very least.
+MAX_WORLDS = 2**20
 
 
-def whole_number(what: str, value: Any, least: int = 1) -> int:
+def whole_number(what: str, value: Any, least: int = 1, most: int = MOST) -> int:
     """A number of worlds, threads or steps.
 
     Raises:
@@ -29,8 +32,8 @@ def whole_number(what: str, value: Any, least: int = 1) -> int:
         number = operator.index(value)
     except TypeError:
         raise EngineError(f"{what} must be an int, not {value!r}") from None
-    if not least <= number <= _MOST:
-        raise EngineError(f"{what} must be at least {least} and at most {_MOST}, not {number}")
+    if not least <= number <= most:
+        raise EngineError(f"{what} must be at least {least} and at most {most}, not {number}")
     return number
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterator
+from itertools import count
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 
 from gazelle.errors import FormatError
 from gazelle.formats import xml
+from gazelle.formats.limits import MAX_NODES, MAX_TRIANGLES
 from gazelle.formats.mesh_looks import PLAIN, MeshLook
 
 Piece = tuple[str, NDArray[np.float64], NDArray[np.int32], MeshLook]
@@ -37,13 +39,21 @@ def parse(data: bytes) -> list[Piece]:
         raise FormatError("the COLLADA file has no scene")
     metre = float(document.assetInfo.unitmeter or 1.0)
     pieces: list[Piece] = []
+    visits, triangles = count(1), 0
     for node in document.scene.nodes:
-        for found, matrix in _instances(node, np.eye(4), 0):
+        for found, matrix in _instances(node, np.eye(4), 0, visits):
             geometry = _geometry(found)
             name, looks = geometry.name or geometry.id or "", _looks(found)
             for primitive in geometry.primitives:
                 look = looks.get(primitive.material, PLAIN)
-                pieces.extend(_piece(name, primitive, look, matrix, metre))
+                for piece in _piece(name, primitive, look, matrix, metre):
+                    pieces.append(piece)
+                    triangles += len(piece[2])
+            if triangles > MAX_TRIANGLES:
+                raise FormatError(
+                    f"the scene has more than the limit of {MAX_TRIANGLES:,} triangles",
+                    hint="each counts as often as its node is put somewhere",
+                )
     return pieces
 
 
@@ -74,9 +84,14 @@ def _document(data: bytes) -> Any:
 
 
 def _instances(
-    node: Any, outer: NDArray[np.float64], depth: int
+    node: Any, outer: NDArray[np.float64], depth: int, visits: Iterator[int]
 ) -> Iterator[tuple[Any, NDArray[np.float64]]]:
     """Each node of the scene that puts a geometry somewhere, with its transform."""
+    if next(visits) > MAX_NODES:
+        raise FormatError(
+            f"the scene has more than the limit of {MAX_NODES:,} nodes",
+            hint="each counts as often as <instance_node> puts it somewhere",
+        )
     if depth > MAX_DEPTH:
         raise FormatError(f"the scene has nodes nested more than {MAX_DEPTH} deep")
     kind = type(node).__name__
@@ -88,7 +103,7 @@ def _instances(
     if kind in {"Node", "NodeNode"}:
         matrix = outer @ np.asarray(node.matrix, np.float64)
     for child in getattr(node, "children", None) or ():
-        yield from _instances(child, matrix, depth + 1)
+        yield from _instances(child, matrix, depth + 1, visits)
 
 
 def _geometry(node: Any) -> Any:

@@ -18,6 +18,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError
 from gazelle.formats.lfs import refuse_pointer
+from gazelle.formats.limits import read_bounded
 from gazelle.formats.picture import MAX_PIXELS, read_elevations
 from gazelle.formats.usgs_dem import read_usgs_dem
 
@@ -89,7 +90,7 @@ READERS: Final[dict[str, Callable[[Path], Floats]]] = {
 
 def _bytes_of(path: Path) -> bytes:
     try:
-        data = path.read_bytes()
+        data = read_bounded(path)
     except OSError as error:
         raise FormatError(f"cannot read: {error.strerror}", file=str(path)) from error
     refuse_pointer(data, path)

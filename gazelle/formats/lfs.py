@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from gazelle.errors import FormatError
+from gazelle.formats.limits import refuse_special
 
 _BEGINS = b"version https://git-lfs"
 
@@ -26,6 +27,7 @@ def refuse_pointer(data: bytes, path: Path) -> None:
 
 def refuse_pointer_file(path: Path) -> None:
     """As ``refuse_pointer`` of a file that may be large, if there is one."""
+    refuse_special(path)
     try:
         with path.open("rb") as file:
             head = file.read(len(_BEGINS))

@@ -20,9 +20,9 @@ from gazelle.description import Mesh, Source, Vector3
 from gazelle.errors import FormatError
 from gazelle.formats import collada, stl, wavefront, wavefront_looks
 from gazelle.formats.lfs import refuse_pointer
+from gazelle.formats.limits import read_bounded
 from gazelle.formats.mesh_looks import PLAIN, MeshLook, look_of_trimesh
 
-MAX_BYTES = 512 * 2**20
 CACHED = 256
 
 
@@ -132,9 +132,7 @@ def load_parts(path: Path) -> tuple[MeshPart, ...]:
         FormatError: The file cannot be read, or holds no triangle.
     """
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise FormatError(f"the file is larger than {MAX_BYTES} bytes", file=str(path))
-        data = path.read_bytes()
+        data = read_bounded(path)
     except OSError as error:
         raise FormatError(f"the file cannot be read: {error}", file=str(path)) from error
     digest = hashlib.blake2b(data, digest_size=16).hexdigest()

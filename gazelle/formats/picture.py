@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Bytes, Floats
 from gazelle.errors import FormatError
 from gazelle.formats.lfs import refuse_pointer_file
+from gazelle.formats.limits import refuse_special
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -50,6 +51,7 @@ def _read(path: Path, values_of: Callable[[Image], T]) -> T:
     import PIL.Image
 
     _teach_doubles()
+    refuse_special(path)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", PIL.Image.DecompressionBombWarning)

@@ -21,6 +21,7 @@ from gazelle.array_types import Floats
 from gazelle.description import Collision, Inertia, Inertial, Parameters
 from gazelle.errors import FormatError
 from gazelle.formats import values
+from gazelle.formats.limits import HEAVIEST
 from gazelle.formats.reading import Reading
 from gazelle.formats.solids import WATER, joined, solid_of
 
@@ -55,9 +56,10 @@ def sound_inertial(
         reading: Takes the fault.
     """
     mass = inertial.mass
-    if not (mass > 0.0 and math.isfinite(mass)):
+    if not 0.0 < mass <= HEAVIEST:
+        wanted = "greater than zero" if not mass > 0.0 else f"{HEAVIEST:g} kg at most"
         reading.fault(
-            f"the mass must be greater than zero, found {mass:g}: {LEAST_MASS:g} kg was taken",
+            f"the mass must be {wanted}, found {mass:g}: {LEAST_MASS:g} kg was taken",
             node.find("mass") or node,
         )
         mass = LEAST_MASS
@@ -92,8 +94,7 @@ def _note_triangle(inertia: Inertia, node: Parameters, reading: Reading) -> None
 
 def is_sound(inertial: Inertial) -> bool:
     """Whether the mass is positive and the inertia positive definite."""
-    mass = inertial.mass
-    return mass > 0.0 and math.isfinite(mass) and _is_positive(inertial.inertia)
+    return 0.0 < inertial.mass <= HEAVIEST and _is_positive(inertial.inertia)
 
 
 def check_inertia(inertia: Inertia, node: Parameters) -> None:
@@ -107,7 +108,9 @@ def check_inertia(inertia: Inertia, node: Parameters) -> None:
 
 
 def _is_positive(i: Inertia) -> bool:
-    """Whether a tensor is positive definite (Sylvester's criterion)."""
+    """Whether a tensor is positive definite (Sylvester's criterion), and not out of all bounds."""
+    if not all(abs(each) <= HEAVIEST for each in (i.ixx, i.iyy, i.izz, i.ixy, i.ixz, i.iyz)):
+        return False
     minor = i.ixx * i.iyy - i.ixy * i.ixy
     whole = (
         i.izz * minor
@@ -118,7 +121,7 @@ def _is_positive(i: Inertia) -> bool:
 
 
 def _sound_tensor(tensor: Floats, mass: float, collisions: Iterable[Collision]) -> Floats:
-    if not np.isfinite(tensor).all():
+    if not (np.abs(tensor) <= HEAVIEST).all():
         tensor = np.zeros((3, 3))
     if not tensor.any():
         filled = _of_shapes(mass, collisions)

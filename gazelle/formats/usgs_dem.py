@@ -16,6 +16,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError
 from gazelle.formats.lfs import refuse_pointer
+from gazelle.formats.limits import read_bounded
 
 _RECORD: Final = 1024
 _SPACING: Final = slice(816, 852)
@@ -46,7 +47,7 @@ def read_usgs_dem(path: Path) -> Floats:
         FormatError: It cannot be read, or is no such file.
     """
     try:
-        data = path.read_bytes()
+        data = read_bounded(path)
         refuse_pointer(data, path)
         records = _records(data)
         dx, dy, unit = _resolution(records[0][_SPACING])

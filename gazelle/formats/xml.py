@@ -20,6 +20,7 @@ from gazelle.errors import FormatError
 from gazelle.formats import blanks
 from gazelle.formats.blanks import Report
 from gazelle.formats.lfs import refuse_pointer
+from gazelle.formats.limits import read_bounded
 from gazelle.formats.wellformed import well_formed
 from gazelle.formats.xml_faults import Opened, explained
 
@@ -42,9 +43,7 @@ def read_bytes(path: Path) -> bytes:
             ``MAX_BYTES``.
     """
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise FormatError(f"the file is larger than {MAX_BYTES} bytes", file=str(path))
-        data = path.read_bytes()
+        data = read_bounded(path, MAX_BYTES)
     except FileNotFoundError:
         raise FormatError("there is no such file", file=str(path)) from None
     except (OSError, ValueError) as error:

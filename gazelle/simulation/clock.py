@@ -78,7 +78,8 @@ class Schedule:
     the average and never drifts.
 
     Args:
-        rate: [Hz]; 0 means every physics step.
+        rate: [Hz]; 0 means every physics step. A period is a nanosecond at least, and some thirty
+            years at most.
 
     Attributes:
         due_ns: The next time at which it is due [ns]; 0 for "every step".
@@ -88,6 +89,15 @@ class Schedule:
         self.rate = rate
         self.due_ns = 0
         self._count = 0
+
+    @property
+    def rate(self) -> float:
+        """How often it is due [Hz]; 0 for every step."""
+        return self._rate
+
+    @rate.setter
+    def rate(self, value: float) -> None:
+        self._rate = min(max(value, 1.0 / NANOSECONDS), NANOSECONDS) if value > 0.0 else 0.0
 
     @property
     def count(self) -> int:

@@ -30,6 +30,7 @@ from gazelle.sensors import (
     Sonar,
     SonarModel,
 )
+from gazelle.sensors.limits import check_sensor
 
 if TYPE_CHECKING:
     from gazelle.description import Model
@@ -89,7 +90,12 @@ def mounts(engine: Engine, scene: LiveScene, model: Model, seed: int) -> Iterato
 
 
 def sensor_model(mount: SensorMount) -> SensorModel | None:
-    """The measurement model of a sensor; None, with a warning, for what is not measured."""
+    """The measurement model of a sensor; None, with a warning, for what is not measured.
+
+    Raises:
+        SimulationError: It has more rays or pixels than there is room for.
+    """
+    check_sensor(mount.sensor, mount.name, mount.engine.nworld)
     try:
         return _MODELS.get(mount.sensor.type, _unknown)(mount)
     except EngineError as error:

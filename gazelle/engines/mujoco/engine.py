@@ -15,7 +15,7 @@ from gazelle.description import Model, World
 from gazelle.engines.engine import DivergenceError
 from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
-from gazelle.engines.limits import check_world, physics_step, whole_number
+from gazelle.engines.limits import MAX_WORLDS, check_world, physics_step, whole_number
 from gazelle.engines.mujoco.attachments import Attachment
 from gazelle.engines.mujoco.bodies import LinkHandling
 from gazelle.engines.mujoco.carrying import CarriedSystems
@@ -78,7 +78,7 @@ class MujocoEngine:
     ) -> None:
         settle()
         step = physics_step(world.profile.max_step_size if time_step is None else time_step)
-        nworld = whole_number("nworld", nworld)
+        nworld = whole_number("nworld", nworld, most=MAX_WORLDS)
         threads = None if threads is None else whole_number("threads", threads)
         if step != world.profile.max_step_size:
             world = with_profile(world, replace(world.profile, max_step_size=step))

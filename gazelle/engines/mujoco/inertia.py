@@ -17,6 +17,7 @@ from gazelle.description import Inertial
 from gazelle.engines.mujoco.remarks import LEAST_MOMENT
 from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.errors import EngineError
+from gazelle.formats.limits import HEAVIEST
 
 _ROUNDING = 1e-9
 """What moments may lack in this proportion to the largest is not worth a second compilation."""
@@ -43,9 +44,15 @@ def inertia_of(body: TreeLink) -> tuple[Floats, Floats]:
     """A link's moments, (3,), and axes (w, x, y, z), (4,).
 
     Raises:
-        EngineError: The inertia is not positive definite.
+        EngineError: The inertia is not positive definite, or too large.
     """
     inertial = body.link.inertial or Inertial()
+    if not (inertial.mass <= HEAVIEST and (np.abs(inertial.inertia.matrix()) <= HEAVIEST).all()):
+        raise EngineError(
+            f"link '{body.name}' has a mass or a moment of inertia beyond the limit of "
+            f"{HEAVIEST:g} kg or kg m²",
+            source=inertial.source or body.link.source,
+        )
     rotation = inertial.pose.matrix()[:3, :3]
     moments, axes = principal((rotation @ inertial.inertia.matrix() @ rotation.T)[None])
     if moments[0, 0] <= 0.0:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from gazelle.description import Joint, JointAxis, Link, Model, PlacedModel, Pose
+from gazelle.engines.limits import FARTHEST
 from gazelle.errors import EngineError, did_you_mean
 
 # Joints that two bodies held at points do not make.
@@ -85,7 +86,7 @@ def tree_of(model: Model, *, kinematic: bool = False) -> KinematicTree:
     first link in the file is let free and its joint closes it.
 
     Raises:
-        EngineError: A joint names a link that is not there.
+        EngineError: A joint names a link that is not there, or a link is too far away.
     """
     parts = _parts_of(model)
     root: RootKind = "kinematic" if kinematic else "static" if model.static else "free"
@@ -131,9 +132,13 @@ def _parts_of(model: Model) -> dict[str, _PosedLink]:
             collide = placed.model.self_collide if link.self_collide is None else link.self_collide
             if placed.model.enable_wind and not link.enable_wind:
                 link = replace(link, enable_wind=True)  # noqa: PLW2901
-            parts[f"{placed.scope}::{link.name}"] = _PosedLink(
-                link, placed.pose * link.pose, collide, static
-            )
+            name, pose = f"{placed.scope}::{link.name}", placed.pose * link.pose
+            if not all(abs(each) <= FARTHEST for each in pose.position):
+                raise EngineError(
+                    f"link '{name}' cannot be at {pose}: that is too far away",
+                    source=link.source or placed.model.source,
+                )
+            parts[name] = _PosedLink(link, pose, collide, static)
     return parts
 
 

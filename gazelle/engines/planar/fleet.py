@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats
-from gazelle.engines.limits import physics_step, whole_number
+from gazelle.engines.limits import MAX_WORLDS, physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.bodies import Bodies
 from gazelle.engines.planar.grid_cells import put_back, relink, relink_some
@@ -110,7 +110,7 @@ class Fleet:
         cell: float = _CELL,
         threads: int | None = None,
     ) -> None:
-        nworld, time_step = whole_number("nworld", nworld), physics_step(time_step)
+        nworld, time_step = whole_number("nworld", nworld, most=MAX_WORLDS), physics_step(time_step)
         threads = None if threads is None else whole_number("threads", threads)
         self.nworld, self.nbody = nworld, len(bodies)
         self.euler = euler

@@ -1,0 +1,48 @@
+"""Limits of what a file may hold, for what no format limits by itself."""
+
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+from gazelle.errors import FormatError
+
+MAX_NODES = 100_000
+"""Nodes of a COLLADA scene, each counted as often as it is put somewhere."""
+
+MAX_TRIANGLES = 10_000_000
+"""Triangles of a mesh, each counted as often as it is put somewhere."""
+
+HEAVIEST = 1e15
+"""Greatest mass [kg] or moment of inertia [kg m²]: squares of such are still numbers."""
+
+
+MAX_BYTES = 512 * 2**20
+"""Size of a file of a mesh, a picture or elevations."""
+
+
+def read_bounded(path: Path, most: int = MAX_BYTES) -> bytes:
+    """Return what is in a file.
+
+    Raises:
+        FormatError: It is larger, or it is a pipe, a socket or a device.
+        OSError: It cannot be read.
+    """
+    refuse_special(path)
+    if path.stat().st_size > most:
+        raise FormatError(f"the file is larger than {most} bytes", file=str(path))
+    return path.read_bytes()
+
+
+def refuse_special(path: Path) -> None:
+    """Refuse a pipe, a socket or a device, which may never end.
+
+    Raises:
+        FormatError: It is one of them.
+    """
+    try:
+        mode = path.stat().st_mode
+    except OSError:
+        return  # whoever opens it says why
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise FormatError("this is a pipe, a socket or a device, and no file", file=str(path))

@@ -1,0 +1,58 @@
+"""Limits of what a sensor's description may ask for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gazelle.description import Scan, Sensor
+from gazelle.errors import SimulationError
+
+MAX_RAYS = 4_000_000
+"""Of one range finder, all rows together."""
+
+MAX_PIXELS = 1 << 26
+"""Of one camera: 8192 by 8192."""
+
+MAX_VALUES = 1 << 28
+"""Rays or pixels of one sensor in all worlds together."""
+
+
+def check_sensor(sensor: Sensor, name: str, nworld: int) -> None:
+    """Refuse a sensor that measures more at once than there is room for.
+
+    Args:
+        sensor: What it is.
+        name: Its scoped name.
+        nworld: Number of worlds that it measures in.
+
+    Raises:
+        SimulationError: It has too many rays or pixels.
+    """
+    for what, count, most in _counts(sensor):
+        if not count <= most:
+            raise SimulationError(
+                f"sensor '{name}' has {count:.4g} {what}, more than the limit of {most:,}",
+                source=sensor.source,
+            )
+        if not count * nworld <= MAX_VALUES:
+            raise SimulationError(
+                f"sensor '{name}' has {count:.4g} {what} in each of {nworld} worlds, more than the "
+                f"limit of {MAX_VALUES:,} in all of them",
+                source=sensor.source,
+            )
+
+
+def _counts(sensor: Sensor) -> Iterator[tuple[str, float, int]]:
+    """Yield what is counted, how many there are, and how many there may be."""
+    if sensor.lidar is not None:
+        yield "rays", _rays(sensor.lidar.horizontal) * _rays(sensor.lidar.vertical), MAX_RAYS
+    for camera in sensor.cameras:
+        yield "pixels", _float(camera.width) * _float(camera.height), MAX_PIXELS
+
+
+def _rays(scan: Scan) -> float:
+    return max(1.0, abs(_float(scan.samples) * scan.resolution))
+
+
+def _float(count: int) -> float:
+    return float(min(count, 10**18))
