@@ -5,8 +5,6 @@ from __future__ import annotations
 import io
 import json
 import math
-import zipfile
-import zlib
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -14,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.bounded_npz import BROKEN, open_npz
 from gazelle.description import World
 from gazelle.errors import Error, SimulationError
 from gazelle.simulation.encoding import decode, encode
@@ -23,17 +22,9 @@ from gazelle.simulation.robot import Robot, RobotHost
 _FORMAT = 3
 
 # What reading an archive may raise that is none, or broken.
-_BROKEN = (
-    AttributeError,
-    EOFError,
-    LookupError,
-    NotImplementedError,
-    OSError,
-    TypeError,
-    ValueError,
-    zipfile.BadZipFile,
-    zlib.error,
-)
+# Of a snapshot, unpacked [bytes].
+MAX_BYTES = 1 << 36
+
 _HINT = "restore into a simulation with the same world, models, engine and number of worlds"
 
 
@@ -197,10 +188,10 @@ def _read(data: bytes) -> dict[str, NDArray[Any]]:
     if not isinstance(data, bytes | bytearray | memoryview):
         raise SimulationError(f"a snapshot is bytes, not {type(data).__name__}")
     try:
-        with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        with open_npz(io.BytesIO(data), MAX_BYTES) as archive:
             index = json.loads(archive["index"].tobytes())
             return _arrays_of(archive["data"].tobytes(), index)
-    except _BROKEN:
+    except BROKEN:
         raise SimulationError("these bytes are no snapshot, or a damaged one") from None
 
 

@@ -12,7 +12,6 @@ pictures and behind layers with a memory if it remembers (`PolicyMemory`):
 from __future__ import annotations
 
 import json
-import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, get_args
@@ -21,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gazelle.array_types import Floats32
+from gazelle.bounded_npz import BROKEN, open_npz
 from gazelle.errors import FormatError, TaskError
 from gazelle.training.bearing import Bearing
 from gazelle.training.features import Features
@@ -239,11 +239,10 @@ def load_actor(path: Path) -> Actor:
     """Read a policy that `Actor.save` wrote.
 
     Raises:
-        FormatError: The file is damaged or is something else.
-        OSError: The file cannot be read.
+        FormatError: The file cannot be read, is damaged, or is something else.
     """
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with open_npz(Path(path)) as file:
             about = _read_about(str(file["about"]))
             layers = range(about["layers"])
             extra: dict[str, Any] = {name: file[name] for name in _OPTIONAL if name in file}
@@ -253,7 +252,7 @@ def load_actor(path: Path) -> Actor:
                 extra["pictures"] = _picture_layers(file)
             if f"{_MEMORY[0]}0" in file:
                 extra["memory"] = _memory_layers(file)
-            return Actor(
+            actor = Actor(
                 weights=tuple(file[f"weight{i}"] for i in layers),
                 biases=tuple(file[f"bias{i}"] for i in layers),
                 activation=about["activation"],
@@ -261,10 +260,26 @@ def load_actor(path: Path) -> Actor:
                 first_action=about["first_action"],
                 **extra,
             )
-    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile) as error:
+            _refuse_unfit(actor)
+            return actor
+    except BROKEN as error:
+        text = " ".join(str(error).split()) or type(error).__name__
         raise FormatError(
-            f"not a policy: {error}", file=str(path), hint="expected a policy.npz of a Gazelle run"
+            f"not a policy: {text}", file=str(path), hint="expected a policy.npz of a Gazelle run"
         ) from error
+
+
+def _refuse_unfit(actor: Actor) -> None:
+    """Let a policy act once, so that arrays that do not fit each other are found now.
+
+    Raises:
+        ValueError: They do not; any of ``BROKEN`` likewise.
+    """
+    with np.errstate(all="ignore"):
+        outputs = actor.outputs(np.zeros((1, actor.inputs), np.float32), actor.begin(1))
+        actions = actor.to_env(actor.mode(outputs))
+    if outputs.ndim != 2 or len(actions) != 1:
+        raise ValueError(f"its layers give outputs of shape {outputs.shape}")
 
 
 def _feature_arrays(features: Features) -> dict[str, npt.NDArray[Any]]:

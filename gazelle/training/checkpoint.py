@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 import torch
 
+from gazelle.bounded_npz import BROKEN
 from gazelle.errors import FormatError, SimulationWarning
 from gazelle.training import portable
 from gazelle.training.export import export_actor
@@ -165,9 +166,12 @@ def _set_torch_state(learner: Learner, file: Path) -> None:
             _attribute(learner, name).load_state_dict(values)
         for name, tensor in state["tensors"].items():
             _attribute(learner, name).data.copy_(tensor)
-    except (pickle.UnpicklingError, RuntimeError, KeyError, ValueError, EOFError) as error:
+    except (pickle.UnpicklingError, *BROKEN) as error:
         hint = "it is damaged, or belongs to another recipe"
-        reason = str(error).splitlines()[0]
+        # What torch says of an unpickling error advises to load the file without this protection.
+        unsafe = isinstance(error, pickle.UnpicklingError)
+        reason = "they hold more than numbers" if unsafe else (str(error) or "it is cut off")
+        reason = reason.splitlines()[0]
         raise FormatError(
             f"cannot use these weights: {reason}", file=str(file), hint=hint
         ) from error

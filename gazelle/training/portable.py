@@ -8,14 +8,15 @@ So every state is split into plain JSON and plain arrays (`numpy.load` with
 from __future__ import annotations
 
 import json
-import zipfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.bounded_npz import BROKEN, open_npz
 from gazelle.errors import FormatError
+from gazelle.training.limits import MAX_BYTES
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -72,15 +73,14 @@ def load(path: Path) -> Any:
     """Read what `save` wrote.
 
     Raises:
-        FormatError: The files are damaged, or hold Python objects.
-        OSError: The files cannot be read.
+        FormatError: The files cannot be read, are damaged, or hold Python objects.
     """
     try:
         tree = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
-        with np.load(path.with_suffix(".npz"), allow_pickle=False) as file:
+        with open_npz(path.with_suffix(".npz"), MAX_BYTES) as file:
             arrays = {name: file[name] for name in file.files}
         return unpack(tree, arrays)
-    except (ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+    except BROKEN as error:
         raise FormatError(
             f"not a readable state: {error}",
             file=str(path),

@@ -1,0 +1,72 @@
+"""Arrays from ``.npz`` files of anybody: never Python objects, and no more than there is room for."""
+
+from __future__ import annotations
+
+import math
+import zipfile
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+
+MAX_BYTES = 1 << 30
+"""Size of all arrays of a file together, unpacked."""
+
+BROKEN = (
+    ArithmeticError,
+    AttributeError,
+    EOFError,
+    LookupError,
+    MemoryError,
+    NotImplementedError,
+    OSError,
+    RuntimeError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+    zipfile.BadZipFile,
+    zlib.error,
+)
+"""Errors that reading a damaged file raises."""
+
+
+@contextmanager
+def open_npz(source: Path | IO[bytes], most: int = MAX_BYTES) -> Iterator[Any]:
+    """Open a file as ``numpy.load`` does, once its sizes are known to be possible.
+
+    Args:
+        source: The file.
+        most: Size of all arrays together [bytes].
+
+    Raises:
+        ValueError: The arrays are larger, or one says that it is larger than it is; any of
+            ``BROKEN`` for a file that is damaged in another way.
+    """
+    with zipfile.ZipFile(source) as archive:
+        total = sum(member.file_size for member in archive.infolist())
+        if total > most:
+            raise ValueError(f"its arrays have {total:,} bytes, more than the limit of {most:,}")
+        for member in archive.infolist():
+            with archive.open(member) as file:
+                _refuse_short(file, member)
+    if not isinstance(source, Path):
+        source.seek(0)
+    with np.load(source, allow_pickle=False) as arrays:
+        yield arrays
+
+
+def _refuse_short(file: IO[bytes], member: zipfile.ZipInfo) -> None:
+    """Refuse an array that is cut off: room for all of it would be taken before that is seen."""
+    read = {
+        (1, 0): np.lib.format.read_array_header_1_0,
+        (2, 0): np.lib.format.read_array_header_2_0,
+    }
+    header = read.get(np.lib.format.read_magic(file))
+    if header is None:
+        raise ValueError(f"'{member.filename}' is of another version")
+    shape, _, dtype = header(file)
+    if math.prod(shape) * dtype.itemsize > member.file_size:
+        raise ValueError(f"'{member.filename}' is cut off")

@@ -1,0 +1,132 @@
+"""Damaged and hostile files of a run are one clear error, whatever was done to them."""
+
+import contextlib
+import io
+import pickle
+import zipfile
+
+import numpy as np
+import pytest
+import torch
+
+from gazelle.bounded_npz import MAX_BYTES
+from gazelle.errors import Error, FormatError
+from gazelle.training import portable
+from gazelle.training.actor import Actor, load_actor
+from gazelle.training.checkpoint import _set_torch_state
+
+
+def policy(tmp_path):
+    draws = np.random.default_rng(0)
+    shapes = ((3, 8), (8, 2))
+    Actor(
+        weights=tuple(draws.normal(size=shape).astype(np.float32) for shape in shapes),
+        biases=tuple(np.zeros(shape[1], np.float32) for shape in shapes),
+        activation="tanh",
+        head="gaussian",
+        log_std=np.zeros(2, np.float32),
+        low=-np.ones(2, np.float32),
+        high=np.ones(2, np.float32),
+    ).save(tmp_path / "policy.npz")
+    return tmp_path / "policy.npz"
+
+
+def header_of(shape, kind="<f4"):
+    file = io.BytesIO()
+    about = {"descr": kind, "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(file, about)
+    return file.getvalue()
+
+
+def with_member(file, name, data):
+    """Put something else in the place of an array."""
+    with zipfile.ZipFile(file) as old:
+        members = {each: old.read(each) for each in old.namelist()}
+    members[f"{name}.npy"] = data
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as new:
+        for each, content in members.items():
+            new.writestr(each, content)
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_a_policy_with_bytes_changed_is_read_or_refused(tmp_path, seed):
+    file = policy(tmp_path)
+    draws, data = np.random.default_rng(seed), bytearray(file.read_bytes())
+    for _ in range(draws.integers(1, 6)):
+        where = draws.integers(len(data))
+        how = draws.integers(3)
+        if how == 0:
+            data[where] = draws.integers(256)
+        elif how == 1:
+            del data[where : where + draws.integers(1, 50)]
+        else:
+            data = data[: max(1, where)]
+    file.write_bytes(data)
+    with contextlib.suppress(FormatError):
+        load_actor(file)
+
+
+@pytest.mark.parametrize(
+    ("shape", "complaint"),
+    [((2**40,), "is cut off"), ((2**31, 2**31), "is cut off"), ((3, 9), "EOF")],
+)
+def test_an_array_that_says_to_be_larger_than_it_is_takes_no_room(tmp_path, shape, complaint):
+    file = policy(tmp_path)
+    with_member(file, "weight0", header_of(shape))
+    with pytest.raises(FormatError, match=complaint):
+        load_actor(file)
+
+
+def test_a_policy_that_unpacks_to_gigabytes_is_refused_before(tmp_path):
+    file = policy(tmp_path)
+    with zipfile.ZipFile(file, "a", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("bias9.npy", header_of((2,)))
+        archive.infolist()[-1].file_size = 4 << 30
+    with pytest.raises(FormatError, match=rf"more than the limit of {MAX_BYTES:,}"):
+        load_actor(file)
+
+
+@pytest.mark.parametrize("shape", [(4, 8), (3, 7), (3,), (0, 8), (3, 8, 1)])
+def test_layers_that_do_not_fit_each_other_are_found_when_they_are_read(tmp_path, shape):
+    file = policy(tmp_path)
+    with_member(file, "weight1", header_of(shape) + bytes(4 * int(np.prod(shape))))
+    with pytest.raises(FormatError, match="not a policy"):
+        load_actor(file)
+
+
+def test_a_policy_that_is_not_there_or_a_folder_is_one_clear_error(tmp_path):
+    for file in (tmp_path / "none.npz", tmp_path):
+        with pytest.raises(FormatError, match="not a policy"):
+            load_actor(file)
+
+
+class Evil:
+    def __reduce__(self):
+        return exec, ("raise SystemExit('executed')",)
+
+
+@pytest.mark.parametrize("how", ["torch", "pickle", "cut", "empty"])
+def test_weights_that_hold_more_than_numbers_are_refused_without_bad_advice(tmp_path, how):
+    file = tmp_path / "learner.pt"
+    if how == "pickle":
+        file.write_bytes(pickle.dumps(Evil()))
+    else:
+        torch.save({"modules": Evil()}, file)
+    if how in ("cut", "empty"):
+        file.write_bytes(file.read_bytes()[: 0 if how == "empty" else 100])
+    with pytest.raises(FormatError, match="cannot use these weights") as caught:
+        _set_torch_state(None, file)
+    assert "weights_only" not in str(caught.value)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_state_with_bytes_changed_is_read_or_refused(tmp_path, seed):
+    portable.save(tmp_path / "state", {"a": np.arange(5), "b": [1, (2, "x")], "c": b"bytes"})
+    draws = np.random.default_rng(seed)
+    file = tmp_path / ("state.json" if seed % 2 else "state.npz")
+    data = bytearray(file.read_bytes())
+    for _ in range(3):
+        data[draws.integers(len(data))] = draws.integers(256)
+    file.write_bytes(data)
+    with contextlib.suppress(Error):
+        portable.load(tmp_path / "state")
