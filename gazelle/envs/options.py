@@ -10,6 +10,7 @@ from typing import Any, ClassVar, TypedDict, TypeVar
 
 from gazelle.description import Model, World
 from gazelle.engines import engine_names
+from gazelle.envs.limits import MAX_LIDAR_SAMPLES, MAX_STEPS
 from gazelle.errors import TaskError, did_you_mean
 
 RENDER_MODES = ("rgb_array",)
@@ -81,10 +82,11 @@ class TaskSettings:
             raise TaskError("the engine planar knows no forces, which this task needs", hint=hint)
         if self.render_mode is not None:
             check_name("render mode", self.render_mode, RENDER_MODES)
-        for name, least in (("seed", 0), ("max_episode_steps", 1), ("threads", 1)):
+        limits = (("seed", 0, None), ("max_episode_steps", 1, MAX_STEPS), ("threads", 1, None))
+        for name, least, most in limits:
             value = getattr(self, name)
             if value is not None:
-                check_whole(name, value, least)
+                check_whole(name, value, least, most)
         if self.time_step is not None:
             _check_time_step(self.time_step)
 
@@ -141,7 +143,7 @@ class NavigationSettings(TaskSettings):
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
         TaskSettings.__post_init__(self)
-        check_whole("lidar_samples", self.lidar_samples, 2)
+        check_whole("lidar_samples", self.lidar_samples, 2, MAX_LIDAR_SAMPLES)
         if not isinstance(self.respawn, bool):
             raise TaskError(f"respawn must be True or False, not {self.respawn!r}")
         check_name("kind of starts", str(self.starts), SPLITS)
@@ -188,14 +190,16 @@ def check_name(kind: str, name: str, known: Iterable[str]) -> None:
         raise TaskError(f"there is no {kind} '{name}'", hint=did_you_mean(name, names))
 
 
-def check_whole(name: str, value: object, least: int) -> None:
-    """Raise TaskError unless the value is an int that is not too small."""
+def check_whole(name: str, value: object, least: int, most: int | None = None) -> None:
+    """Raise TaskError unless the value is an int that is not too small or too large."""
     try:
         number = operator.index(value)  # type: ignore[arg-type]  # that is what is tested
     except TypeError:
         number = least - 1
     if isinstance(value, bool) or number < least:
         raise TaskError(f"{name} must be an int, {least} or more, not {value!r}")
+    if most is not None and number > most:
+        raise TaskError(f"{name} must be {most:,} at most, not {number:,}")
 
 
 def check_up_to(name: str, value: object, most: float, unit: str) -> None:

@@ -8,6 +8,7 @@ from typing import Any, Unpack
 from gymnasium.vector import AutoresetMode
 
 from gazelle.envs.agv_fleet.task import AGVFleetTask, FleetOptions, FleetSettings
+from gazelle.envs.limits import MAX_ENVS
 from gazelle.envs.options import check_whole, read_options
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
@@ -117,7 +118,7 @@ class AGVFleetVectorEnv(TaskVectorEnv):
         autoreset_mode: AutoresetMode | str = AutoresetMode.SAME_STEP,
         **options: Unpack[FleetOptions],
     ) -> None:
-        check_whole("num_envs", num_envs, 1)
+        check_whole("num_envs", num_envs, 1, MAX_ENVS)
         settings = read_options(FleetSettings, options)
         task = AGVFleetTask(num_envs, settings)
         super().__init__(

@@ -1,0 +1,17 @@
+"""Limits of what the arguments of environments make large."""
+
+from __future__ import annotations
+
+from gazelle.engines.limits import MAX_WORLDS
+
+MAX_ENVS = MAX_WORLDS
+"""Copies of an environment."""
+
+MAX_LIDAR_SAMPLES = 100_000
+"""Ranges in an observation."""
+
+MAX_AGENTS = 10_000
+"""Robots that share a world."""
+
+MAX_STEPS = 1 << 53
+"""Control steps of an episode."""
