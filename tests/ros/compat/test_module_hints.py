@@ -1,13 +1,28 @@
 """A script that imports what is not there is told what to do."""
 
 import builtins
+import os
+import sys
 
 import pytest
 
+import gazelle.ros as ros
 from gazelle.ros.compat.finder import own_modules
 from gazelle.ros.compat.module_hints import ADVICE, PIP, module_hint
 from gazelle.ros.compat.script import run_script
 from gazelle.ros.messages import load_message
+
+
+@pytest.fixture
+def run(monkeypatch):
+    """``run_script``, without what it leaves behind in a process of its own."""
+    monkeypatch.setitem(sys.modules, "__main__", sys.modules["__main__"])
+    monkeypatch.setattr(sys, "argv", sys.argv)
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    for name in ("PATH", "PYTHONPATH"):
+        monkeypatch.setenv(name, os.environ.get(name, ""))
+    yield run_script
+    ros.uninstall()
 
 
 @pytest.mark.parametrize(
@@ -26,7 +41,7 @@ from gazelle.ros.messages import load_message
         ("from PyKDL import ChainDynParam", "dynamics are not there"),
     ],
 )
-def test_the_last_line_says_what_to_do(tmp_path, capsys, monkeypatch, line, hint):
+def test_the_last_line_says_what_to_do(run, tmp_path, capsys, monkeypatch, line, hint):
     missing = line.split()[1].split(".")[0]
     real = builtins.__import__
 
@@ -38,7 +53,7 @@ def test_the_last_line_says_what_to_do(tmp_path, capsys, monkeypatch, line, hint
     script = tmp_path / "script.py"
     script.write_text(line)
     monkeypatch.setattr(builtins, "__import__", without)
-    assert run_script(str(script)) == 1
+    assert run(str(script)) == 1
     last = capsys.readouterr().err.splitlines()[-1]
     assert last.startswith("hint: ")
     assert hint in last
