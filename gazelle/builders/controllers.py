@@ -19,6 +19,7 @@ from gazelle.builders.robots import add_plugin, add_transmissions
 from gazelle.builders.sensors import plugin
 from gazelle.description import Joint, Link, Model
 from gazelle.rotations import conjugate, rotate
+from gazelle.writing import write_text
 
 Interface = Literal["effort", "position", "velocity"]
 Kind = Literal["trajectory", "group", "joint"]
@@ -63,7 +64,7 @@ class ControlFiles:
                 raise BuildError(f"{path} is there already", hint="name another folder")
         for path, text in texts.items():
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
+            write_text(path, text)
         return list(texts)
 
 

@@ -8,6 +8,8 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gazelle.writing import replacing, write_text
+
 if TYPE_CHECKING:
     from gazelle.training import Evaluation
 
@@ -32,19 +34,18 @@ def save_failures(found: Evaluation, file: Path) -> None:
         OSError: The file cannot be written.
     """
     if file.suffix.lower() == ".png":
-        from PIL import Image
-
         from gazelle.viewer.failures import draw_failures
+        from gazelle.viewer.film_files import write_picture
 
-        Image.fromarray(draw_failures(found)).save(file)
+        write_picture(file, draw_failures(found))
         return
     rows = [record.to_row() for record in found.failures]
     if file.suffix.lower() == ".json":
         about = found.to_dict() | {"goals": _by_goal(found), "failures": rows}
-        file.write_text(json.dumps(about, indent=2) + "\n", encoding="utf-8")
+        write_text(file, json.dumps(about, indent=2) + "\n")
         return
     columns = list(dict.fromkeys(name for row in rows for name in row))
-    with file.open("w", newline="", encoding="utf-8") as table:
+    with replacing(file) as draft, draft.open("w", newline="", encoding="utf-8") as table:
         writer = csv.DictWriter(table, columns or ["outcome"], restval="")
         writer.writeheader()
         writer.writerows(rows)

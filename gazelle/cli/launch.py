@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.argument_types import positive_float
 from gazelle.errors import Error
+from gazelle.writing import write_text
 
 if TYPE_CHECKING:
     from gazelle.ros.launch import LaunchPlan, Packages
@@ -91,7 +92,7 @@ def run(args: argparse.Namespace) -> int:
         sys.stdout.write(shown)
         return 0
     if args.pid:
-        Path(args.pid).write_text(f"{os.getpid()}\n", encoding="utf-8")
+        write_text(args.pid, f"{os.getpid()}\n")
     if args.test:
         return _test(args, plan, packages)
     return _launch(args, plan, packages)

@@ -18,8 +18,16 @@ from gazelle.errors import Error, GazelleWarning, describe, did_you_mean
 from gazelle.interrupts import end_process, exit_code, interruptible, requested
 from gazelle.ros.process_name import call_process
 from gazelle.ros.tool_names import process_name, translated
+from gazelle.writing import naming
 
 DONE, FAILED, WRONG_USAGE = 0, 1, 2
+_NO_MEMORY = (
+    "cannot allocate memory",
+    "can't allocate memory",
+    "can't start new thread",
+    "failed to map segment",
+    "std::bad_alloc",
+)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -31,6 +39,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         0 done, 1 the work failed, 2 the command line was wrong, 130 Ctrl-C, 143 SIGTERM.
     """
+    if argv is None and not _open_streams():
+        _complain("the standard output is closed", "'>/dev/null' throws it away")
+        return FAILED
     arguments = translated(sys.argv[1:] if argv is None else argv)
     arguments, debug = _without_debug(arguments)
     if not arguments or arguments[0] in {"-h", "--help", "help"}:
@@ -50,6 +61,20 @@ def main(argv: Sequence[str] | None = None) -> int:
     if requested():
         end_process(code)
     return code
+
+
+def _open_streams() -> bool:
+    """Have all standard streams, so that no file becomes one; returns whether there is an output."""
+    there = sys.stdout is not None
+    for number in range(3):
+        try:
+            os.fstat(number)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # the least free number
+    sys.stdin = sys.stdin or open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
+    sys.stdout = sys.stdout or open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+    return there
 
 
 @contextlib.contextmanager
@@ -138,7 +163,8 @@ def _call(command: Command, arguments: list[str], *, debug: bool) -> int:
     parsed = parser.parse_args(arguments)
     parsed.debug = debug
     code = module.run(parsed)
-    sys.stdout.flush()
+    with naming("the standard output"):
+        sys.stdout.flush()
     return code
 
 
@@ -149,12 +175,28 @@ def _report(error: Exception) -> None:
     elif isinstance(error, OSError):
         name = f"{error.filename}: " if error.filename else ""
         _complain(f"{name}{error.strerror or error}", None)
+    elif _is_out_of_memory(error):
+        text = str(error).partition("\n")[0]
+        _complain(
+            f"there is not enough memory{': ' if text else ''}{text}",
+            "free some, raise the limit ('ulimit -v'), or ask for less (--num-envs, --size)",
+        )
     else:
         text = str(error).splitlines()[0] if str(error) else ""
         _complain(
             f"this should not happen: {type(error).__name__}: {text}",
             "run it again with --debug for the traceback, and report it",
         )
+
+
+def _is_out_of_memory(error: BaseException | None) -> bool:
+    """Whether an error, or what it came of, is a want of memory, whatever the library calls it."""
+    while error is not None:
+        text = str(error).lower()
+        if isinstance(error, MemoryError) or any(sign in text for sign in _NO_MEMORY):
+            return True
+        error = error.__cause__ or error.__context__
+    return False
 
 
 def _complain(message: str, hint: str | None) -> None:

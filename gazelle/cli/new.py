@@ -19,6 +19,7 @@ from pathlib import Path
 
 from gazelle.cli import showing
 from gazelle.errors import TaskError
+from gazelle.writing import write_text
 
 _FILES = {"task.py": "{}.py", "robot.urdf": "{}.urdf", "test.py": "test_{}.py"}
 
@@ -99,5 +100,5 @@ def write_task(name: str, folder: Path) -> list[Path]:
     for file, source in wanted.items():
         text = (home / f"{source}.txt").read_text(encoding="utf-8")
         text = text.replace("TESTFILE", f"test_{stem}").replace("TASKFILE", stem)
-        file.write_text(text.replace("NAME", name), encoding="utf-8")
+        write_text(file, text.replace("NAME", name))
     return list(wanted)

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.cli.tools import SubCommands
+from gazelle.writing import write_text
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -118,7 +119,7 @@ def _dump(args: argparse.Namespace) -> int:
             for name, value in leaves(get_parameter(graph, space), space):
                 sys.stdout.write(f"{name}={value}\n")
     if args.file:
-        Path(args.file).write_text(text, encoding="utf-8")
+        write_text(args.file, text)
     else:
         sys.stdout.write(text)
     return 0

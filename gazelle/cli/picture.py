@@ -27,15 +27,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
-    from PIL import Image
-
-    from gazelle.viewer.film_files import STILLS, writable
+    from gazelle.viewer.film_files import STILLS, writable, write_picture
 
     file = writable(args.out, STILLS)
     with opened(args) as source:
         if args.at is not None:
             source.advance(args.at)
         picture = source.look()
-    Image.fromarray(picture).save(file)
+    write_picture(file, picture)
     sys.stdout.write(f"{file}: {picture.shape[1]} x {picture.shape[0]}\n")
     return 0

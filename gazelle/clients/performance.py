@@ -16,6 +16,7 @@ from gazelle.clients.errors import ClientError
 from gazelle.closing import Closeable
 from gazelle.errors import MissingExtraError
 from gazelle.ros import Node, load_message
+from gazelle.writing import replacing, write_text
 
 _TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
 _PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
@@ -119,9 +120,12 @@ class PerformanceWatch(Closeable):
         file = Path(path)
         rows = [asdict(sample) for sample in self.samples]
         if file.suffix == ".json":
-            file.write_text(json.dumps(rows, indent=1), encoding="utf-8")
+            write_text(file, json.dumps(rows, indent=1))
         elif file.suffix == ".csv":
-            with file.open("w", newline="", encoding="utf-8") as stream:
+            with (
+                replacing(file) as draft,
+                draft.open("w", newline="", encoding="utf-8") as stream,
+            ):
                 writer = csv.DictWriter(stream, [field.name for field in fields(Sample)])
                 writer.writeheader()
                 writer.writerows(rows)
@@ -151,7 +155,8 @@ class PerformanceWatch(Closeable):
             axes.set_ylim(0.0, 1.1 * max(values, default=0.0) or 1.0)
             axes.grid(alpha=0.3)
         axes.set_xlabel("wall time [s]")
-        figure.savefig(path, dpi=120)
+        with replacing(path) as draft:
+            figure.savefig(draft, dpi=120)
 
     # -- looking -----------------------------------------------------------------------------
 

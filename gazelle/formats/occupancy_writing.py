@@ -10,6 +10,7 @@ import numpy as np
 from gazelle.array_types import Bytes
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import FormatError
+from gazelle.writing import replacing, write_bytes
 
 PathLike = str | os.PathLike[str]
 
@@ -65,8 +66,9 @@ def save_map(
         f"occupied_thresh: {_DARK}\nfree_thresh: {_BRIGHT}\n"
     )
     try:
-        picture.write_bytes(head.encode() + levels.tobytes())
-        settings.write_text(text, encoding="utf-8")
+        with replacing(settings) as draft:
+            draft.write_text(text, encoding="utf-8")
+            write_bytes(picture, head.encode() + levels.tobytes())
     except OSError as error:
         raise FormatError(f"the map cannot be written: {error.strerror}", file=stem) from None
     return settings, picture

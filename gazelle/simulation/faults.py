@@ -15,6 +15,7 @@ from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.encoding import encode
 from gazelle.simulation.recording import header
 from gazelle.simulation.running_state import RunningState
+from gazelle.writing import write_text
 
 Policy = Literal["raise", "reset"]
 POLICIES = ("raise", "reset")
@@ -87,7 +88,7 @@ class FaultLog:
         after = time_ns + error.steps * simulation.clock.step_ns
         step = {"call": "step", "arguments": encode((error.steps,)), "time": after}
         path = self._next_path()
-        path.write_text(f"{json.dumps(first)}\n{json.dumps(step)}\n", encoding="utf-8")
+        write_text(path, f"{json.dumps(first)}\n{json.dumps(step)}\n")
         return path
 
     def _next_path(self) -> Path:

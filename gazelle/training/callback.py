@@ -19,6 +19,7 @@ from gazelle.training.periodic import PeriodicEvaluation
 from gazelle.training.progress import Progress
 from gazelle.training.runs import Run
 from gazelle.training.statistics import EpisodeLog
+from gazelle.writing import naming
 
 _COLUMNS = (
     "time/steps",
@@ -65,6 +66,7 @@ class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
         if file.exists():
             with file.open(newline="", encoding="utf-8") as old:
                 rows = [row for row in csv.DictReader(old) if int(row["time/steps"]) <= steps]
+        self._path = file
         self._file = file.open("w", newline="", encoding="utf-8")
         self._writer = csv.DictWriter(self._file, _COLUMNS, restval="", extrasaction="ignore")
         self._writer.writeheader()
@@ -75,12 +77,14 @@ class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
     ) -> None:
         """Add a row."""
         del key_excluded
-        self._writer.writerow({**key_values, "time/steps": step})
-        self._file.flush()
+        with naming(self._path):
+            self._writer.writerow({**key_values, "time/steps": step})
+            self._file.flush()
 
     def close(self) -> None:
         """Close the file."""
-        self._file.close()
+        with naming(self._path):
+            self._file.close()
 
 
 class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base

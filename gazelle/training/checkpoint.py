@@ -13,6 +13,7 @@ without the break, as long as the environment can save its state.
 
 from __future__ import annotations
 
+import io
 import pickle
 import random
 import warnings
@@ -49,7 +50,10 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
         learner: Between two rollouts; an update that runs ahead is waited for.
         extra: More to remember; see `portable.pack` for what it may hold.
     """
-    torch.save(_torch_state(learner), folder / "learner.pt")
+    # Not to the file: torch's own writer makes a RuntimeError of a full disk.
+    buffer = io.BytesIO()
+    torch.save(_torch_state(learner), buffer)
+    (folder / "learner.pt").write_bytes(buffer.getbuffer())
     export_actor(learner.policy).save(folder / "policy.npz")
     state: dict[str, Any] = {
         "counters": {name: getattr(learner, name) for name in _COUNTERS if hasattr(learner, name)},

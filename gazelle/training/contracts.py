@@ -16,6 +16,7 @@ from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.runs import Run, RunConfig, versions
 from gazelle.training.tasks import control_period, make_task, told_by
 from gazelle.training.trust import require_trust
+from gazelle.writing import write_text
 
 CONTRACT = "contract.json"
 
@@ -63,7 +64,7 @@ def contract_of(told: PolicyContract, config: RunConfig) -> PolicyContract:
 def save_contract(contract: PolicyContract, folder: Path) -> Path:
     """Write a contract into a folder; returns its file."""
     file = folder / CONTRACT
-    file.write_text(json.dumps(contract.to_dict(), indent=2) + "\n", encoding="utf-8")
+    write_text(file, json.dumps(contract.to_dict(), indent=2) + "\n")
     return file
 
 

@@ -14,6 +14,8 @@ from pathlib import Path
 from google.protobuf.message import DecodeError  # type: ignore[import-untyped]  # no types
 from tensorboard.compat.proto.event_pb2 import Event  # type: ignore[import-untyped]  # no types
 
+from gazelle.writing import write_bytes
+
 _LENGTH = struct.Struct("<Q")
 _HEAD, _FOOT = 12, 4
 
@@ -29,9 +31,7 @@ def trim_events(folder: Path, steps: int) -> None:
         data = file.read_bytes()
         kept = b"".join(record for record, step in _records(data) if step <= steps)
         if kept != data:
-            draft = file.with_name(f"trimmed.{file.name}.part")
-            draft.write_bytes(kept)
-            draft.replace(file)
+            write_bytes(file, kept)
 
 
 def _records(data: bytes) -> Iterator[tuple[bytes, int]]:

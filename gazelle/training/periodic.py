@@ -10,6 +10,7 @@ from gazelle.training.actor import Actor
 from gazelle.training.evaluation import Evaluation, evaluate
 from gazelle.training.runs import Run
 from gazelle.training.tasks import evaluation_options
+from gazelle.writing import replacing
 
 SEED = 20_000
 """Of the environment of these evaluations: other episodes than those of ``gazelle eval``."""
@@ -99,6 +100,5 @@ class PeriodicEvaluation:
 
 def _replace(actor: Actor, file: Path) -> None:
     """All or nothing."""
-    draft = file.with_name("best.part.npz")
-    actor.save(draft)
-    draft.replace(file)
+    with replacing(file) as draft:
+        actor.save(draft)

@@ -14,6 +14,7 @@ from gazelle.training.contracts import CONTRACT, load_contract, run_contract
 from gazelle.training.importing import load_all
 from gazelle.training.recipes import task_name
 from gazelle.training.runs import Run
+from gazelle.writing import replacing, write_bytes, write_text
 
 FORMATS = {"onnx": ".onnx", "numpy": ".npz"}
 """The formats by name, with the ends of their files' names."""
@@ -76,7 +77,7 @@ def export_policy(
     try:
         policy.parent.mkdir(parents=True, exist_ok=True)
         _write(actor, contract, policy)
-        beside.write_text(json.dumps(contract.to_dict(), indent=2) + "\n", encoding="utf-8")
+        write_text(beside, json.dumps(contract.to_dict(), indent=2) + "\n")
     except OSError as error:
         hint = "give another file with --out"
         raise TaskError(f"cannot write the policy: {error}", hint=hint) from error
@@ -131,10 +132,11 @@ def _place(run: Run, suffix: str, out: Path | None) -> Path:
 
 def _write(actor: Actor, contract: PolicyContract, file: Path) -> None:
     if file.suffix == ".npz":
-        actor.save(file)
+        with replacing(file) as draft:
+            actor.save(draft)
         return
     from gazelle.training.onnx_graph import onnx_model
 
     text = json.dumps(contract.to_dict())
     model = onnx_model(actor, metadata={"gazelle_contract": text})
-    file.write_bytes(model.SerializeToString())
+    write_bytes(file, model.SerializeToString())

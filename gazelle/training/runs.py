@@ -29,6 +29,7 @@ from typing import Any
 from gazelle.errors import FormatError, TaskError
 from gazelle.training.importing import TaskModule, modules_from_list, modules_to_list
 from gazelle.training.recipes import Recipe, recipe_from_dict, recipe_to_dict, task_name
+from gazelle.writing import naming, replacing, write_text
 
 _FORMAT = "gazelle-run-1"
 _PACKAGES = ("gazelle", "gymnasium", "mujoco-core", "numpy", "stable-baselines3", "torch")
@@ -167,13 +168,17 @@ class Run:
         draft = place.with_name(place.name + ".part")
         shutil.rmtree(draft, ignore_errors=True)
         draft.mkdir()
-        write(draft)
+        try:
+            with naming(place):
+                write(draft)
+        except BaseException:
+            shutil.rmtree(draft, ignore_errors=True)
+            raise
         shutil.rmtree(place, ignore_errors=True)
         draft.rename(place)
         if (place / "policy.npz").is_file():
-            fresh = self.folder / "policy.npz.part"
-            shutil.copyfile(place / "policy.npz", fresh)
-            fresh.replace(self.folder / "policy.npz")
+            with replacing(self.folder / "policy.npz") as fresh:
+                shutil.copyfile(place / "policy.npz", fresh)
         for old in self.checkpoints()[:-_KEPT]:
             shutil.rmtree(old)
         return place
@@ -193,9 +198,7 @@ def _new_folder(out: Path, name: str) -> Path:
 
 def _write_config(folder: Path, config: RunConfig) -> None:
     """All or nothing, so that a run is never without a configuration."""
-    draft = folder / "config.json.part"
-    draft.write_text(json.dumps(_config_to_dict(config), indent=2) + "\n", encoding="utf-8")
-    draft.replace(folder / "config.json")
+    write_text(folder / "config.json", json.dumps(_config_to_dict(config), indent=2) + "\n")
 
 
 def _config_to_dict(config: RunConfig) -> dict[str, Any]:

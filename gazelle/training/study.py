@@ -26,6 +26,7 @@ from typing import Any
 from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle.training.importing import TaskModule
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
+from gazelle.writing import naming, replacing
 
 _OWN = ("seed", "seconds", "error")
 """Columns that a study adds to those of parameters and results."""
@@ -173,24 +174,24 @@ class _Table:
             if missing or not self._columns:
                 self._rewrite(missing)
             else:
-                csv.DictWriter(self._file, self._columns).writerow(row)
-                self._file.flush()
+                with naming(self._path):
+                    csv.DictWriter(self._file, self._columns).writerow(row)
+                    self._file.flush()
 
     def close(self) -> None:
         """Close the file."""
-        with self._lock:
+        with self._lock, naming(self._path):
             self._file.close()
 
     def _rewrite(self, more: list[str]) -> None:
         known = [key for key in self._columns if key not in _OWN[1:]]
         self._columns = [*known, *more, *_OWN[1:]]
-        draft = self._path.with_name(self._path.name + ".part")
-        with draft.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, self._columns)
-            writer.writeheader()
-            writer.writerows(self.rows)
-        self._file.close()
-        draft.replace(self._path)
+        with replacing(self._path) as draft:
+            with draft.open("w", newline="", encoding="utf-8") as file:
+                writer = csv.DictWriter(file, self._columns)
+                writer.writeheader()
+                writer.writerows(self.rows)
+            self._file.close()
         self._file = self._path.open("a", newline="", encoding="utf-8")
 
     def _read(self) -> None:

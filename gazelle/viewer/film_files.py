@@ -13,6 +13,7 @@ from PIL import Image
 
 from gazelle.array_types import Picture
 from gazelle.errors import Error, MissingExtraError, did_you_mean
+from gazelle.writing import replacing
 
 if TYPE_CHECKING:
     from av.video.stream import VideoStream
@@ -40,6 +41,16 @@ def writable(path: str | Path, suffixes: tuple[str, ...]) -> Path:
     return file
 
 
+def write_picture(file: Path, picture: Picture) -> None:
+    """Write a picture of shape (height, width, 3), as the suffix says.
+
+    Raises:
+        OSError: It cannot be written.
+    """
+    with replacing(file) as draft:
+        Image.fromarray(picture).save(draft)
+
+
 def write_film(path: str | Path, pictures: Iterable[Picture], rate: float) -> int:
     """Write pictures of one size as a film.
 
@@ -63,7 +74,9 @@ def write_film(path: str | Path, pictures: Iterable[Picture], rate: float) -> in
     if first is None:
         raise Error(f"there is no picture to make '{file.name}' of")
     every = chain([first], stream)
-    return (_write_mp4 if file.suffix.lower() == ".mp4" else _write_gif)(file, every, rate)
+    write = _write_mp4 if file.suffix.lower() == ".mp4" else _write_gif
+    with replacing(file) as draft:
+        return write(draft, every, rate)
 
 
 def _write_gif(file: Path, pictures: Iterable[Picture], rate: float) -> int:

@@ -6,12 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Protocol
 
-from PIL import Image
-
 from gazelle.array_types import Picture
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
-from gazelle.viewer.film_files import FILMS, STILLS, writable, write_film
+from gazelle.viewer.film_files import FILMS, STILLS, writable, write_film, write_picture
 from gazelle.viewer.plan import TopView
 from gazelle.viewer.scene_camera import SceneCamera
 
@@ -83,7 +81,7 @@ def take_plan(
     """
     file = writable(path, STILLS)
     picture = TopView(simulation, world=world, size=size, scans=scans).look()
-    Image.fromarray(picture).save(file)
+    write_picture(file, picture)
     return picture
 
 

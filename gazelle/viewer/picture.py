@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from gazelle.errors import Error, did_you_mean
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
+from gazelle.viewer.film_files import write_picture
 
 _SUFFIXES = (".png", ".jpg", ".jpeg", ".webp")
 
@@ -46,5 +46,5 @@ def take_picture(
             f"'{file.name}' is not a picture's name", hint=did_you_mean(file.suffix, _SUFFIXES)
         )
     picture = simulation.render(View(look_at(eye, target), *size), world)
-    Image.fromarray(picture).save(file)
+    write_picture(file, picture)
     return picture

@@ -12,6 +12,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError, MissingExtraError, did_you_mean
+from gazelle.writing import replacing
 
 if TYPE_CHECKING:
     from gazelle.description import OccupancyMap
@@ -191,6 +192,7 @@ def _save(figure: Any, file: Path) -> None:
             f"a plot is written as {', '.join(PLOTS)}, not as '{file.suffix}'", file=str(file)
         )
     try:
-        figure.savefig(file, dpi=120)
+        with replacing(file) as draft:
+            figure.savefig(draft, dpi=120)
     except OSError as error:
         raise FormatError(f"cannot write it: {error.strerror}", file=str(file)) from error

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal, get_args
 
+from gazelle import writing
 from gazelle.description import Model, Parameters, World
 from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats.write.sdf import write_sdf
@@ -90,13 +91,12 @@ def write_text(file: Path, text: str) -> None:
     Raises:
         FormatError: It cannot be written.
     """
-    partial = file.with_name(f".{file.name}.part")
     try:
-        partial.write_text(text, encoding="utf-8")
-        partial.replace(file)
-    except (OSError, UnicodeError) as error:
-        partial.unlink(missing_ok=True)
-        raise FormatError(f"the file cannot be written: {error}", file=str(file)) from error
+        writing.write_text(file, text)
+    except OSError as error:
+        raise FormatError(f"it cannot be written: {error.strerror}", file=str(file)) from error
+    except UnicodeError as error:
+        raise FormatError(f"it cannot be written: {error}", file=str(file)) from error
 
 
 def _text(content: World | Model, kind: str, writing: Writing) -> str:

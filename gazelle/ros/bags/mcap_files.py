@@ -9,6 +9,7 @@ from gazelle.errors import MissingExtraError
 from gazelle.ros.bags.errors import BagError
 from gazelle.ros.bags.reader import BagReader
 from gazelle.ros.bags.records import Connection
+from gazelle.writing import replacing
 
 _METADATA = ("callerid", "latching", "md5sum")
 
@@ -34,17 +35,14 @@ def write_mcap(source: str, target: str) -> int:
     path = Path(target)
     if path.exists():
         raise BagError("there is such a file already", file=target, hint="give another name")
-    draft = path.with_name(f"{path.name}.part")
     reader = BagReader(source)
     try:
-        with draft.open("wb") as file:
+        with replacing(path) as draft, draft.open("wb") as file:
             count = _copy(reader, Writer(file))
-        draft.replace(path)
     except OSError as error:
         raise BagError(f"cannot write it: {error.strerror}", file=target) from error
     finally:
         reader.close()
-        draft.unlink(missing_ok=True)
     return count
 
 

@@ -16,6 +16,7 @@ from gazelle.ros.bags.writer import BagWriter
 from gazelle.ros.messages import load_message
 from gazelle.ros.time import Time
 from gazelle.ros.typed import class_for
+from gazelle.writing import replacing
 
 Keep = Callable[[str, Any, Time], bool]
 """Takes topic, message and time."""
@@ -80,25 +81,19 @@ def filter_bag(
 @contextmanager
 def _copying(target: Path, compression: str = "none") -> Iterator[Callable[[RawBagMessage], None]]:
     """Write a bag entry by entry; it gets its name when it is complete."""
-    partial = target.with_name(target.name + ".active")
     known: dict[int, Connection] = {}
-    try:
-        with partial.open("w+b") as stream:
-            writer = BagWriter(stream, compression=compression)
+    with replacing(target) as draft, draft.open("w+b") as stream:
+        writer = BagWriter(stream, compression=compression)
 
-            def copy(entry: RawBagMessage) -> None:
-                connection = known.get(entry.connection.id)
-                if connection is None:
-                    old = entry.connection
-                    connection = known[old.id] = writer.connect(old.topic, old.header)
-                writer.write(connection, entry.time, entry.data)
+        def copy(entry: RawBagMessage) -> None:
+            connection = known.get(entry.connection.id)
+            if connection is None:
+                old = entry.connection
+                connection = known[old.id] = writer.connect(old.topic, old.header)
+            writer.write(connection, entry.time, entry.data)
 
-            yield copy
-            writer.close()
-    except BaseException:
-        partial.unlink(missing_ok=True)
-        raise
-    partial.replace(target)
+        yield copy
+        writer.close()
 
 
 def recompress(path: str, compression: str, *, folder: str = "", force: bool = False) -> Path:

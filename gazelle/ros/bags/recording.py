@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import threading
 import time
@@ -124,9 +125,16 @@ class BagRecorder:
         )
         self.files: deque[Path] = deque()
         self.done = threading.Event()
+        self._failed: OSError | None = None
+        self._path_now = Path()
+        self._kept = ""
 
     def run(self, stop: threading.Event) -> None:
-        """Record until `stop` is set or a limit is reached."""
+        """Record until `stop` is set, a limit is reached, or there is no room on the disk.
+
+        Raises:
+            BagError: A bag cannot be written; what was written until then is kept.
+        """
         try:
             self._open()
             fixed = not (self._options.all_topics or self._options.regex or self._options.node)
@@ -145,6 +153,12 @@ class BagRecorder:
                 self._close()
             if self._begins is not None:
                 self._begins.close()
+            if self._failed is not None:
+                raise BagError(
+                    f"it cannot be written: {self._failed.strerror}",
+                    file=str(self._path_now),
+                    hint=self._kept,
+                ) from None
 
     # Topics ------------------------------------------------------------------------------
 
@@ -198,14 +212,22 @@ class BagRecorder:
         header = message._connection_header
         data = message._buff
         with self._lock:
-            if self._output is None or self._finished(topic):
+            if self._output is None or self._failed is not None or self._finished(topic):
                 return
             self._counts[topic] += 1
-            self._write(topic, header, now, data)
-            self._finished(topic)
             if header.get("latching") == "1" and self._options.repeat_latched:
                 self._latched[_key(topic, header)] = (header, data)
-            self._check_size()
+            try:
+                self._write(topic, header, now, data)
+                self._check_size()
+            except OSError as error:
+                self._fail(error)
+            self._finished(topic)
+
+    def _fail(self, error: OSError) -> None:
+        """End; a full disk would fail for each message that comes."""
+        self._failed = self._failed or error
+        self.done.set()
 
     def _write(self, topic: str, header: dict[str, str], now: int, data: bytes) -> None:
         output = self._output
@@ -234,7 +256,10 @@ class BagRecorder:
         with self._lock:
             output, limit = self._output, self._options.duration
             if output is not None and limit and time.monotonic() - output.began >= limit:
-                self._next()
+                try:
+                    self._next()
+                except OSError as error:
+                    self._fail(error)
 
     def _check_size(self) -> None:
         limit = self._options.size
@@ -259,9 +284,16 @@ class BagRecorder:
             stream = active.open("w+b")
         except OSError as error:
             raise BagError(f"cannot be written: {error.strerror}", file=str(active)) from None
-        writer = BagWriter(
-            stream, compression=self._options.compression, chunk_bytes=self._options.chunk_bytes
-        )
+        try:
+            writer = BagWriter(
+                stream, compression=self._options.compression, chunk_bytes=self._options.chunk_bytes
+            )
+            stream.flush()
+        except OSError as error:
+            with contextlib.suppress(OSError):
+                stream.close()
+            active.unlink()
+            raise BagError(f"cannot be written: {error.strerror}", file=str(active)) from None
         self._output = _Output(path, stream, writer, time.monotonic())
         self._say(f"Recording to '{path}'.")
         if self._begins is not None:
@@ -282,12 +314,34 @@ class BagRecorder:
         output, self._output = self._output, None
         if output is None:
             return
-        output.writer.close()
-        output.stream.close()
-        output.path.with_name(output.path.name + _ACTIVE).replace(output.path)
+        active = output.path.with_name(output.path.name + _ACTIVE)
+        try:
+            if self._failed is not None:
+                raise self._failed
+            output.writer.close()
+            output.stream.close()
+        except OSError as error:
+            self._fail(error)
+            if not self._rescue(output, active):
+                return
+        active.replace(output.path)
         self.files.append(output.path)
         while self._options.most_files and len(self.files) > self._options.most_files:
             self.files.popleft().unlink(missing_ok=True)
+
+    def _rescue(self, output: _Output, active: Path) -> bool:
+        """Make a whole bag of what was written; returns whether there was room for its index."""
+        self._path_now = output.path
+        with contextlib.suppress(OSError):
+            output.stream.close()
+        try:
+            with active.open("r+b") as stream:
+                output.writer.close_damaged(stream)
+        except OSError:
+            self._kept = f"'gazelle bag reindex {active}' makes a bag of what was written"
+            return False
+        self._kept = "what was written until then is kept"
+        return True
 
 
 def _key(topic: str, header: dict[str, str]) -> tuple[str, str, str]:

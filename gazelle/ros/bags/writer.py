@@ -51,10 +51,11 @@ class BagWriter:
         self._rows: dict[int, list[bytes]] = {}
         self._start = self._end = 0
         self._next_id = max(self.index.connections, default=-1) + 1
+        self._safe = (0, 0)
         if index is None:
             self._file.write(records.MAGIC)
         self._write_header(0)
-        self._file.seek(0, 2)
+        self._safe = (self._file.seek(0, 2), len(self.index.chunks))
 
     @property
     def size(self) -> int:
@@ -94,6 +95,21 @@ class BagWriter:
         if self._parts:
             self._write_chunk()
         self._file.flush()
+        self._safe = (self._file.tell(), len(self.index.chunks))
+
+    def close_damaged(self, file: IO[bytes]) -> None:
+        """Write the index behind the last chunk that is whole, where the rest found no room.
+
+        Args:
+            file: The same file, opened again: the buffer of the first holds what was not written.
+        """
+        self._file = file
+        self._parts, self._size, self._rows = [], 0, {}
+        end, chunks = self._safe
+        del self.index.chunks[chunks:]
+        file.truncate(end)
+        file.seek(0, 2)
+        self.close()
 
     def _write_chunk(self) -> None:
         content = b"".join(self._parts)

@@ -7,7 +7,6 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from gazelle.errors import RosError
@@ -19,6 +18,7 @@ from gazelle.ros.compat.tf2_ros import Buffer, TransformException, TransformList
 from gazelle.ros.names import split_arguments
 from gazelle.ros.tf.describe import as_dot
 from gazelle.ros.transformations import euler_from_quaternion
+from gazelle.writing import write_text
 
 _ECHO_USAGE = "tf_echo SOURCE_FRAME TARGET_FRAME [HZ]"
 _PATIENCE_S = 1.0
@@ -87,7 +87,7 @@ def frames(arguments: Sequence[str]) -> int:
     if process.shutdown.wait(_LISTEN_S):
         return 0
     listener.unregister()
-    Path("frames.gv").write_text(as_dot(buffer.tree, rospy.get_rostime().to_nsec()), "utf-8")
+    write_text("frames.gv", as_dot(buffer.tree, rospy.get_rostime().to_nsec()))
     program = shutil.which("dot")
     if program is None:
         _say("frames.gv is written; with 'dot' of graphviz there would be a frames.pdf, too")

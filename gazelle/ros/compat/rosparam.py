@@ -16,6 +16,7 @@ from gazelle.ros.compat.tool_errors import raising
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.values import parse_yaml, parse_yaml_documents
 from gazelle.ros.tools import params
+from gazelle.writing import write_text
 
 NS = "_ns"
 
@@ -171,7 +172,7 @@ def dump_params(filename: str | None, param: str, verbose: bool = False) -> None
     del verbose
     text = params.as_document(get_param(param))
     if filename:
-        Path(filename).write_text(text, encoding="utf-8")
+        write_text(filename, text)
     else:
         sys.stdout.write(text)
 

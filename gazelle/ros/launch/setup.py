@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from gazelle.ros.errors import ApiError, MarshalError
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.packages import Packages
 from gazelle.ros.launch.plan import Action, LaunchParameter, LaunchPlan
 from gazelle.ros.launch.programs import parameter_value
 from gazelle.ros.master.proxy import MasterProxy
+from gazelle.writing import write_text
 
 
 def prepare(plan: LaunchPlan, master: MasterProxy, packages: Packages) -> None:
@@ -50,7 +49,7 @@ def _act(action: Action, master: MasterProxy) -> None:
         value = {}
     text = yaml.safe_dump(value, allow_unicode=True)
     try:
-        Path(action.file or "").write_text(text, encoding="utf-8")
+        write_text(action.file or "", text)
     except OSError as error:
         raise _error(action, f"'{action.file}' cannot be written: {error.strerror}") from None
 

@@ -11,6 +11,7 @@ from typing import Any
 
 from gazelle.compat.gym.core import Step, Wrapper
 from gazelle.compat.gym.error import Error
+from gazelle.writing import write_text
 
 _PREFIX = "openaigym"
 
@@ -139,6 +140,6 @@ class Monitor(Wrapper):
             "videos": [],
             "env_info": {"env_id": getattr(self.spec, "id", None)},
         }
-        (self.directory / stats).write_text(json.dumps(figures), encoding="utf-8")
+        write_text(self.directory / stats, json.dumps(figures))
         name = f"{_PREFIX}.manifest.{self._infix}.manifest.json"
-        (self.directory / name).write_text(json.dumps(manifest), encoding="utf-8")
+        write_text(self.directory / name, json.dumps(manifest))

@@ -28,6 +28,7 @@ from gazelle.bridges.moveit.modules.moveit_commander.planning_scene_interface im
 )
 from gazelle.bridges.moveit.modules.moveit_commander.robot import RobotCommander
 from gazelle.errors import Error
+from gazelle.writing import write_text
 
 __all__ = ["MoveGroupCommandInterpreter", "MoveGroupInfoLevel"]
 
@@ -239,7 +240,7 @@ class MoveGroupCommandInterpreter:
             known = group.get_remembered_joint_values()
             lines.extend(f"{key} = {listed(values)}" for key, values in known.items())
         try:
-            file.write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
+            write_text(file, "".join(f"{line}\n" for line in lines))
         except OSError:
             return warn(f"Unable to save {file}")
         return OK

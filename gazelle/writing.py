@@ -1,0 +1,75 @@
+"""Files that are written whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+
+
+@contextlib.contextmanager
+def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Give a file to write, which takes the place of another once it is whole.
+
+    It lies beside the other, with the same suffix. After an error it is gone, and the other as it
+    was. What is no regular file, such as ``/dev/stdout``, is written directly.
+
+    Args:
+        path: The file that is to be there at the end; a link stays one.
+
+    Raises:
+        OSError: It cannot be written; the error names ``path``.
+    """
+    file = Path(os.path.realpath(path))
+    if file.exists() and not file.is_file():
+        with naming(path):
+            yield file
+        return
+    draft = file.with_name(f".{file.stem}.part{file.suffix}")
+    try:
+        with naming(path, draft):
+            yield draft
+            if file.exists():
+                shutil.copymode(file, draft)
+            draft.replace(file)
+    except BaseException:
+        draft.unlink(missing_ok=True)
+        raise
+
+
+@contextlib.contextmanager
+def naming(path: str | os.PathLike[str], draft: Path | None = None) -> Iterator[None]:
+    """Have errors of the system name a file, where they name none or only its draft.
+
+    Raises:
+        OSError: As in the block.
+    """
+    try:
+        yield
+    except OSError as error:
+        if error.filename is not None and error.filename not in {draft, str(draft)}:
+            raise
+        number = error.errno or errno.EIO
+        raise OSError(number, error.strerror or str(error), os.fspath(path)) from error
+
+
+def write_bytes(path: str | os.PathLike[str], data: bytes) -> None:
+    """Write a whole file or nothing.
+
+    Raises:
+        OSError: It cannot be written.
+    """
+    with replacing(path) as draft:
+        draft.write_bytes(data)
+
+
+def write_text(path: str | os.PathLike[str], text: str) -> None:
+    """Write a whole file in UTF-8 or nothing.
+
+    Raises:
+        OSError: It cannot be written.
+    """
+    write_bytes(path, text.encode())
