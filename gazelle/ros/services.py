@@ -23,6 +23,7 @@ from gazelle.ros.errors import (
     report,
 )
 from gazelle.ros.node_base import NodeBase
+from gazelle.ros.peer_reports import PEER_REPORTS
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.frames import frame
 from gazelle.ros.tcpros.service_links import (
@@ -136,7 +137,12 @@ class ServiceServer:
         """The answer to a request, both as they go over the wire."""
         try:
             request = self.service_class._request_class()
-            request.deserialize(data)
+            try:
+                request.deserialize(data)
+            except Exception as error:  # noqa: BLE001  # whatever the bytes lead to
+                peer = fields.get("callerid", "an unnamed client")
+                PEER_REPORTS.complain(f"service {self.name}", peer, error)
+                return bad_answer(f"error processing request: {error}")
             if hasattr(type(request), "_connection_header"):
                 request._connection_header = fields
             response = self._respond(request)

@@ -13,6 +13,7 @@ from gazelle.ros.limits import NetworkLimits
 from gazelle.ros.loop import EventLoop
 from gazelle.ros.messages.base import Message
 from gazelle.ros.node_base import NodeBase
+from gazelle.ros.peer_reports import PEER_REPORTS
 from gazelle.ros.publishing import LocalLink, Publication
 from gazelle.ros.raw import RawMessage
 from gazelle.ros.serial_queue import SerialQueue
@@ -251,7 +252,12 @@ class Subscription:
             if self._closed:
                 return
             message = self._make()
-            message.deserialize(data)
+            try:
+                message.deserialize(data)
+            except Exception as error:  # noqa: BLE001  # whatever the bytes lead to
+                peer = link.header.get("callerid", "an unnamed node")
+                PEER_REPORTS.complain(f"subscriber of {self.topic}", peer, error)
+                return
         if self._marks:
             message._connection_header = link.header
         if self._statistics is not None:

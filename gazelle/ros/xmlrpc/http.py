@@ -8,6 +8,7 @@ from gazelle.ros.limits import LIMITS, NetworkLimits
 REASONS = {
     200: "OK",
     400: "Bad Request",
+    403: "Forbidden",
     404: "Not Found",
     411: "Length Required",
     413: "Content Too Large",

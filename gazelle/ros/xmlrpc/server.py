@@ -9,9 +9,10 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.ros import net
-from gazelle.ros.errors import MarshalError, report
+from gazelle.ros.errors import MarshalError
 from gazelle.ros.limits import LIMITS, NetworkLimits
 from gazelle.ros.loop import READ, WRITE, EventLoop
+from gazelle.ros.peer_reports import PEER_REPORTS
 from gazelle.ros.xmlrpc.http import HttpError, HttpMessage, MessageReader, response
 from gazelle.ros.xmlrpc.long_documents import LONG_BYTES, BackgroundTasks, is_long
 from gazelle.ros.xmlrpc.reading import read_call
@@ -24,6 +25,8 @@ Prepare = Callable[[str, list[Any]], Step]
 """Checks the arguments of a call, on any thread."""
 
 _PATHS = frozenset({"/", "/RPC2"})
+_BROWSER = frozenset({"origin", "sec-fetch-site"})
+"""Headers that browsers put into what web pages send, and no ROS client knows."""
 _CHUNK = 65536
 _RETRY_ACCEPT = 0.2
 
@@ -158,9 +161,9 @@ def _answered(value: Any) -> bytes:
         return _failed(error)
 
 
-def _failed(error: Exception) -> bytes:
+def _failed(error: Exception, peer: str = "a caller") -> bytes:
     if not isinstance(error, (MarshalError, UnknownMethodError)):
-        report("an XML-RPC call", error)
+        PEER_REPORTS.complain("an XML-RPC call", peer, error)
     return write_fault(1, _fault_text(error))
 
 
@@ -177,6 +180,14 @@ def _fault_text(error: Exception) -> str:
     return f"{Exception if own else type(error)}:{error}"
 
 
+def _peer_of(sock: socket.socket) -> str:
+    """Return the host at the other end."""
+    try:
+        return str(sock.getpeername()[0])
+    except OSError:  # it has gone already
+        return "a caller"
+
+
 class _Connection:
     """One client's connection."""
 
@@ -184,6 +195,7 @@ class _Connection:
         self._server = server
         self._loop = loop
         self._sock = sock
+        self._peer = _peer_of(sock)
         self._reader = MessageReader(server.limits)
         self._outgoing = bytearray()
         self._closing = False
@@ -255,6 +267,8 @@ class _Connection:
         """Answer a request; False if that goes on beside the loop."""
         if message.first[0] != "POST":
             self._put(message, b"POST only", 501)
+        elif message.headers.keys() & _BROWSER:
+            self._put(message, b"Web pages may not call; use rosbridge", 403)
         elif message.first[1] not in _PATHS:
             self._put(message, b"No such page", 404)
         elif len(message.body) > LONG_BYTES:
@@ -284,7 +298,7 @@ class _Connection:
         try:
             value = step()
         except Exception as error:  # noqa: BLE001  # a bad call must not end the server
-            self._put(message, _failed(error))
+            self._put(message, _failed(error, self._peer))
             return
         if is_long(value):
             self._aside(lambda: self._write_long(message, value))
