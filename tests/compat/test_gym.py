@@ -311,3 +311,124 @@ def test_without_exec_there_is_no_gym():
         "import gazelle, importlib.util, sys; sys.exit(importlib.util.find_spec('gym') is not None)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    "name", ["box", "dict", "discrete", "multi_binary", "multi_discrete", "space", "tuple"]
+)
+def test_spaces_are_found_in_their_old_modules(name):
+    module = importlib.import_module(f"gazelle.compat.gym.spaces.{name}")
+    (space,) = module.__all__
+    assert getattr(module, space) is getattr(spaces, space)
+
+
+def test_the_old_shared_source_of_random_numbers():
+    prng = importlib.import_module("gazelle.compat.gym.spaces.prng")
+    prng.seed(1)
+    first = prng.np_random.rand()
+    prng.seed(1)
+    assert prng.np_random.rand() == first
+
+
+def test_seeds_of_neighbours_are_unlike():
+    assert seeding.hash_seed(1) == seeding.hash_seed(1) != seeding.hash_seed(2)
+    assert 0 <= seeding.hash_seed(3, max_bytes=2) < 2**16
+
+
+def test_frames_are_stacked_the_oldest_first():
+    env = wrappers.FrameStack(Count(), 3)
+    assert env.observation_space.shape == (3, 1)
+    assert env.reset().tolist() == [[0.0]] * 3
+    env.step(0)
+    assert env.step(0)[0].tolist() == [[0.0], [1.0], [2.0]]
+
+
+class Pair(Count):
+    """Observations are dictionaries."""
+
+    observation_space = spaces.Dict({"a": spaces.Discrete(9), "b": spaces.Discrete(9)})
+
+    def reset(self):
+        return {"a": 1, "b": 2}
+
+    def step(self, action):
+        return {"a": 3, "b": 4}, 0.0, False, {}
+
+
+def test_observations_are_chosen_by_name():
+    env = wrappers.FilterObservation(Pair(), ["b"])
+    assert env.reset() == {"b": 2}
+    assert env.step(0)[0] == {"b": 4}
+    assert list(env.observation_space.spaces) == ["b"]
+    with pytest.raises(error.Error, match="there are no observations"):
+        wrappers.FilterObservation(Pair(), ["c"])
+
+
+def test_observations_tell_the_time():
+    env = wrappers.TimeAwareObservation(Count())
+    assert env.reset().tolist() == [0.0, 0.0]
+    assert env.step(0)[0].tolist() == [1.0, 1.0]
+
+
+def test_steps_before_a_reset_are_refused():
+    with pytest.raises(error.ResetNeeded):
+        wrappers.OrderEnforcing(Count()).step(0)
+
+
+def test_several_environments_as_one():
+    registration.register("Counted-v3", entry_point=Count, kwargs={"end": 2})
+    env = gym.vector.make("Counted-v3", num_envs=2)
+    assert env.reset().tolist() == [[0.0], [0.0]]
+    env.step([0, 1])
+    seen, rewards, ends, infos = env.step([2, 1])
+    assert (rewards.tolist(), ends.tolist()) == ([2.0, 1.0], [True, True])
+    assert seen.tolist() == [[0.0], [0.0]]
+    assert infos[0]["terminal_observation"] == [2.0]
+    assert env.action_space.sample().shape == (2,)
+    env.seed(3)
+    env.close()
+    assert all(each.unwrapped.closed for each in env.envs)
+
+
+def test_what_gymnasium_registered_has_the_old_fields():
+    found = gym.make("CartPole-v1").spec
+    assert (found.timestep_limit, found.max_episode_steps, found.tags) == (500, 500, {})
+
+
+class Wrong(Count):
+    """Does not keep the rules in one place."""
+
+    def step(self, action):
+        return self.answer
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        ((1, 2, 3), "four values"),
+        (([0.0], "x", False, {}), "reward is a number"),
+        (([0.0], 1.0, 0, {}), "done is a bool"),
+        (([0.0], 1.0, False, None), "info is a dictionary"),
+        (([500.0], 1.0, False, {}), "observation of step"),
+    ],
+)
+def test_an_environment_is_checked(answer, said):
+    checker = importlib.import_module("gazelle.compat.gym.utils.env_checker")
+    env = Wrong()
+    env.observation_space = spaces.Box(0.0, 100.0, (1,))
+    env.reset = lambda: np.zeros(1, np.float32)
+    first = answer[0]
+    if isinstance(first, list):
+        answer = (np.array(first, np.float32), *answer[1:])
+    env.answer = answer
+    with pytest.raises(error.Error, match=said):
+        checker.check_env(env)
+
+
+def test_what_is_open_is_closed_at_the_end():
+    closer = importlib.import_module("gazelle.compat.gym.utils.closer").Closer(False)
+    first, second = Count(), Count()
+    closer.register(first)
+    closer.unregister(closer.register(second))
+    closer.close()
+    assert (first.closed, second.closed) == (True, False)

@@ -5,7 +5,7 @@ Spaces, errors and the environments that come with gym are Gymnasium's.
 
 from __future__ import annotations
 
-from gazelle.compat.gym import envs, error, logger, spaces, utils, wrappers
+from gazelle.compat.gym import envs, error, logger, spaces, utils, vector, wrappers
 from gazelle.compat.gym.core import (
     ActionWrapper,
     Env,
@@ -35,5 +35,6 @@ __all__ = [
     "spaces",
     "spec",
     "utils",
+    "vector",
     "wrappers",
 ]

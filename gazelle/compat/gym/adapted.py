@@ -49,9 +49,12 @@ class OldInterface(Env):
         return None if seed is None else [seed]
 
     def render(self, mode: str = "human") -> Any:
-        """A picture, if it was made with ``render_mode``."""
+        """Return a picture, where it can make one; there is no window, whatever the mode."""
         del mode
-        return self.env.render()
+        inner = self.env.unwrapped
+        if inner.render_mode is None and "rgb_array" in inner.metadata.get("render_modes", ()):
+            inner.render_mode = "rgb_array"
+        return inner.render()
 
     def close(self) -> None:
         """Give back what it holds."""

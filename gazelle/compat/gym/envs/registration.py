@@ -111,12 +111,20 @@ class EnvRegistry:
         """
         name = path.rpartition(":")[2]
         if name not in self.env_specs and ":" not in path and name in gymnasium.registry:
-            return OldInterface(gymnasium.make(name, **options))
+            env = OldInterface(gymnasium.make(name, **options))
+            env.spec = _as_old(gymnasium.spec(name))
+            return env
         return self.spec(path).make(**options)
 
     def all(self) -> Iterable[EnvSpec]:
         """All that are registered here."""
         return self.env_specs.values()
+
+
+def _as_old(spec: Any) -> EnvSpec:
+    """Return what Gymnasium has registered, with the fields that gym had."""
+    limit, goal = spec.max_episode_steps, spec.reward_threshold
+    return EnvSpec(spec.id, spec.entry_point, goal, spec.nondeterministic, limit, dict(spec.kwargs))
 
 
 def _load(entry_point: EntryPoint) -> Callable[..., Any]:

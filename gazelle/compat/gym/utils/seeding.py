@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import secrets
 
 import numpy as np
@@ -25,6 +26,12 @@ def np_random(seed: int | None = None) -> tuple[np.random.RandomState, int]:
     used = create_seed(seed)
     # NumPy's older generator, for scripts call its rand, randint and random_sample.
     return np.random.RandomState(used % _SEEDS), used
+
+
+def hash_seed(seed: int | None = None, max_bytes: int = 8) -> int:
+    """Return a seed of which neighbours give unlike numbers."""
+    digest = hashlib.sha512(str(create_seed(seed, max_bytes)).encode()).digest()
+    return int.from_bytes(digest[:max_bytes], "little")
 
 
 def create_seed(a: int | None = None, max_bytes: int = 8) -> int:

@@ -3,6 +3,12 @@
 from __future__ import annotations
 
 from gazelle.compat.gym.wrappers.monitor import Monitor
+from gazelle.compat.gym.wrappers.stacking import (
+    FilterObservation,
+    FrameStack,
+    OrderEnforcing,
+    TimeAwareObservation,
+)
 from gazelle.compat.gym.wrappers.time_limit import TimeLimit
 from gazelle.compat.gym.wrappers.transforms import (
     ClipAction,
@@ -15,10 +21,14 @@ from gazelle.compat.gym.wrappers.transforms import (
 
 __all__ = [
     "ClipAction",
+    "FilterObservation",
     "FlattenObservation",
+    "FrameStack",
     "Monitor",
+    "OrderEnforcing",
     "RecordEpisodeStatistics",
     "RescaleAction",
+    "TimeAwareObservation",
     "TimeLimit",
     "TransformObservation",
     "TransformReward",

@@ -1,0 +1,5 @@
+"""``MultiBinary``, where old scripts import it from."""
+
+from gymnasium.spaces import MultiBinary
+
+__all__ = ["MultiBinary"]

@@ -1,0 +1,5 @@
+"""``Space``, where old scripts import it from."""
+
+from gymnasium.spaces import Space
+
+__all__ = ["Space"]
