@@ -52,7 +52,7 @@ def package_name(folder: Path) -> str:
 def _name_in(manifest: bytes) -> str:
     """The name that a manifest says; empty where it says none, or is damaged before it."""
     name = _NameReader()
-    with suppress(_NameFoundError, expat.ExpatError, ValueError):
+    with suppress(_NameFoundError, expat.ExpatError, LookupError, ValueError):
         name.parser.Parse(manifest)
     return name.text.strip()
 

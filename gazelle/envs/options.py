@@ -202,6 +202,19 @@ def check_whole(name: str, value: object, least: int, most: int | None = None) -
         raise TaskError(f"{name} must be {most:,} at most, not {number:,}")
 
 
+def checked_mapping(name: str, value: object) -> Mapping[str, Any]:
+    """Return options by name; None are none.
+
+    Raises:
+        TaskError: They are no mapping.
+    """
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise TaskError(f"{name} must be a mapping of names to values, not {value!r}")
+    return value
+
+
 def check_up_to(name: str, value: object, most: float, unit: str) -> None:
     """Raise TaskError unless the value is a number from 0 on and not too large."""
     good = isinstance(value, int | float) and not isinstance(value, bool)

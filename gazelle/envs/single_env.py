@@ -12,7 +12,7 @@ from gazelle.array_types import Floats32
 from gazelle.envs.batched_task import BatchedTask, Info
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.errors import check_open
-from gazelle.envs.options import RENDER_MODES, check_name
+from gazelle.envs.options import RENDER_MODES, check_name, checked_mapping
 from gazelle.envs.vector_env import TaskVectorEnv
 
 
@@ -57,7 +57,7 @@ class TaskEnv(gym.Env[Any, Any]):
             TaskError: An option that does not exist.
             ClosedEnvError: The environment is closed.
         """
-        for name in options or {}:
+        for name in checked_mapping("reset options", options):
             check_name("reset option", name, [])
         if seed is not None:
             super().reset(seed=seed)

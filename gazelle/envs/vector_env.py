@@ -17,7 +17,7 @@ from gazelle.envs.batched_task import BatchedTask, BatchStep, Finals, Info
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.errors import ResetNeededError, check_open, check_ready
 from gazelle.envs.floor_plan import FloorPlan
-from gazelle.envs.options import RENDER_MODES, check_name
+from gazelle.envs.options import RENDER_MODES, check_name, checked_mapping
 from gazelle.errors import TaskError
 
 
@@ -97,7 +97,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
             ClosedEnvError: The environment is closed.
         """
         check_open("reset()", closed=self.closed)
-        given = options or {}
+        given = checked_mapping("reset options", options)
         for name in given:
             check_name("reset option", name, ["reset_mask"])
         worlds = _masked(given.get("reset_mask"), self.num_envs)

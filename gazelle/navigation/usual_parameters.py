@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from gazelle.array_types import Floats
+from gazelle.errors import SimulationError
 
 _SCAN = {"scan": {"data_type": "LaserScan", "marking": True, "clearing": True}}
 _COSTMAP = {
@@ -42,7 +43,13 @@ USUAL: Mapping[str, Any] = {
 
 
 def merged(usual: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
-    """Parameters over others, level by level."""
+    """Parameters over others, level by level.
+
+    Raises:
+        SimulationError: They are no mapping.
+    """
+    if not isinstance(given, Mapping):
+        raise SimulationError(f"parameters are a mapping of names to values, not {given!r}")
     found = dict(usual)
     for name, value in given.items():
         below = found.get(name)

@@ -17,6 +17,7 @@ from gazelle.description import Pose
 from gazelle.errors import PlanningError
 from gazelle.planning.constraints import rotation_vector
 from gazelle.planning.inverse import InverseKinematics
+from gazelle.planning.limits import checked_poses, checked_steps
 
 DEVIATION = 0.001
 """[m]."""
@@ -93,7 +94,11 @@ class CartesianPlanner:
         Args:
             poses: One after another.
             jumps: Where to cut it off.
+
+        Raises:
+            PlanningError: There are no poses, one is not finite, or the way is too long.
         """
+        poses = checked_poses(poses)
         points = [self._state[self._columns].copy()]
         here = self._pose(points[0])
         ways = [_steps(first, second, self._step) for first, second in _pairs(here, poses)]
@@ -175,7 +180,7 @@ def between(first: Pose, second: Pose, fraction: float) -> Pose:
 
 def _steps(first: Pose, second: Pose, step: float) -> list[Pose]:
     moved, turned = _apart(first, second)
-    count = max(1, math.ceil(moved / step), math.ceil(turned / (_TURN_PER_METRE * step)))
+    count = checked_steps(max(moved, turned / _TURN_PER_METRE) / step, step)
     return [between(first, second, number / count) for number in range(1, count)] + [second]
 
 

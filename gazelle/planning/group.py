@@ -244,7 +244,8 @@ class Group:
             constraints: That hold all along.
 
         Raises:
-            PlanningError: The step is not above zero.
+            PlanningError: The step is not above zero, there are no poses, one is not finite, or
+                the way has more steps than there may be.
         """
         plan, path = self._planner().follow(
             poses,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import operator
 from numbers import Real
 
@@ -21,6 +20,9 @@ VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")
 _FAR_FROM_UNIT = 100.0
 
 _MOST_STEPS = 2**31 - 1
+
+# Nanoseconds of three centuries fit into 64 bits [s].
+_LONGEST_RUN = 9e9
 
 # Characters of a value that a message shows.
 _LONGEST = 60
@@ -179,11 +181,13 @@ def duration(seconds: float) -> float:
         SimulationError: It is negative or not finite.
     """
     try:
-        possible = 0.0 <= seconds < math.inf
+        possible = 0.0 <= seconds <= _LONGEST_RUN
     except TypeError:
         raise SimulationError(f"cannot run for {seconds!r}: that is no time in seconds") from None
     if not possible:
-        raise SimulationError(f"cannot run for {seconds} s; time goes forward only, and ends")
+        raise SimulationError(
+            f"cannot run for {seconds} s; time goes forward only, and {_LONGEST_RUN:g} s at most"
+        )
     return seconds
 
 
@@ -194,10 +198,10 @@ def placeable(model: Model) -> Model:
         SimulationError: Its name or its pose cannot be.
     """
     name = model.name
-    if not name or "::" in name:
+    if not isinstance(name, str) or not name or "::" in name:
+        why = "'::' parts names" if name and isinstance(name, str) else "a name is text"
         raise SimulationError(
-            f"a model cannot be called '{name}': "
-            + ("'::' parts names" if name else "it is empty"),
+            f"a model cannot be called '{name}': {why}",
             source=model.source,
         )
     if not np.isfinite((*model.pose.position, *model.pose.quaternion)).all():

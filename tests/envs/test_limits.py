@@ -25,3 +25,13 @@ def test_what_no_machine_has_is_refused(task, count, options, text):
         gym.make_vec(
             f"gazelle/{task}-v0", count, vectorization_mode="vector_entry_point", **options
         )
+
+
+@pytest.mark.parametrize("options", [5, "reset_mask", ["reset_mask"], [], 0.5])
+def test_options_that_are_no_mapping_are_refused(options):
+    single = gym.make("gazelle/CartPoleStayUp-v0")
+    many = gym.make_vec("gazelle/CartPoleStayUp-v0", 2, vectorization_mode="vector_entry_point")
+    for env in (single, many):
+        with pytest.raises(TaskError, match="reset options must be a mapping of names to values"):
+            env.reset(options=options)
+        env.close()

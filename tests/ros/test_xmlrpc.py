@@ -9,7 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gazelle.package_folders import package_folders
+from gazelle.ros.compat.rospkg.manifest import InvalidManifest, parse_manifest_file
 from gazelle.ros.errors import FaultError, MarshalError, ProtocolError
+from gazelle.ros.launch.document import parse_element
+from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.xmlrpc.http import MessageReader, request, response
 from gazelle.ros.xmlrpc.reading import read_call, read_response
 from gazelle.ros.xmlrpc.writing import write_call, write_fault, write_response
@@ -81,6 +85,19 @@ def test_noise_is_no_http(noise):
     reader.feed(noise)
     with contextlib.suppress(ProtocolError):
         reader.next()
+
+
+@pytest.mark.parametrize("encoding", ["utf-7", "utf-32", "rot13", "idna", "nonsense", "mbcs"])
+def test_an_encoding_that_the_parser_refuses_is_one_error(encoding, tmp_path):
+    head = f"<?xml version='1.0' encoding='{encoding}'?>".encode()
+    with pytest.raises(MarshalError, match="not an XML-RPC document"):
+        read_call(head + b"<methodCall><methodName>x</methodName><params/></methodCall>")
+    with pytest.raises(LaunchError, match="the encoding cannot be read"):
+        parse_element(head + b"<launch/>", "x.launch")
+    (tmp_path / "package.xml").write_bytes(head + b"<package><name>x</name></package>")
+    with pytest.raises(InvalidManifest, match=r"package\.xml"):
+        parse_manifest_file(str(tmp_path))
+    assert list(package_folders(tmp_path))
 
 
 @pytest.mark.parametrize(

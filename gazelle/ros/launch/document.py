@@ -138,6 +138,10 @@ class _DocumentBuilder:
             self._parser.Parse(data, True)
         except expat.ExpatError as error:
             raise self._malformed(error, data) from None
+        except LaunchError:
+            raise
+        except (ValueError, LookupError) as error:
+            raise LaunchError(f"the encoding cannot be read: {error}", file=self._file) from None
         if self._root is None:
             raise LaunchError("there is no element in it", file=self._file)
         return self._root

@@ -72,7 +72,9 @@ def _read(document: bytes, root: str, limits: NetworkLimits) -> _Reader:
         reader.parser.Parse(b"", True)
     except expat.ExpatError as error:
         raise MarshalError(f"not well-formed XML: {error}") from None
-    except (RecursionError, UnicodeError, LookupError) as error:
+    except MarshalError:
+        raise
+    except (RecursionError, ValueError, LookupError) as error:  # an encoding that expat refuses
         raise MarshalError(f"not an XML-RPC document: {error}") from None
     return reader
 

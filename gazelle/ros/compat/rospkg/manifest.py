@@ -63,7 +63,7 @@ def parse_manifest_file(dirpath: str, manifest_name: str = PACKAGE_FILE) -> Mani
     try:
         data, _ = characters.plain_bytes(path.read_bytes(), characters.XML_COMMENT)
         root = ET.fromstring(data)  # noqa: S314  # expat bounds how far entities may grow
-    except (OSError, ET.ParseError) as error:
+    except (OSError, ET.ParseError, ValueError, LookupError) as error:
         raise InvalidManifest(f"[{path}] {error}") from None
 
     def text(tag: str) -> str:

@@ -1,0 +1,48 @@
+"""Limits of what a plan may be asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from gazelle.description import Pose
+from gazelle.errors import PlanningError
+
+MAX_STEPS = 100_000
+"""Steps of a Cartesian path."""
+
+
+def checked_poses(poses: object) -> list[Pose]:
+    """Return the poses of a path.
+
+    Raises:
+        PlanningError: There are none, or one is no pose or not finite.
+    """
+    given = list(poses) if isinstance(poses, Sequence) else []
+    if not given:
+        raise PlanningError(f"a path needs a list of one pose or more, not {poses!r}")
+    for number, pose in enumerate(given):
+        if not isinstance(pose, Pose):
+            raise PlanningError(f"pose {number} of a path is no gazelle.Pose: {pose!r}")
+        if not all(map(math.isfinite, (*pose.position, *pose.quaternion))):
+            raise PlanningError(f"pose {number} of a path must be finite, not {pose!r}")
+    return given
+
+
+def checked_steps(steps: float, step: float) -> int:
+    """Return a number of steps, rounded up, at least one.
+
+    Args:
+        steps: How many there are on a straight way.
+        step: How long each is, for the message [m].
+
+    Raises:
+        PlanningError: They are too many.
+    """
+    if not steps <= MAX_STEPS:
+        raise PlanningError(
+            f"a path would take {steps:.3g} steps of {step:g} m, more than the limit of "
+            f"{MAX_STEPS:,}",
+            hint="take longer steps, or nearer poses",
+        )
+    return max(1, math.ceil(steps))
