@@ -12,6 +12,8 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import Protocol
 
+_LEAST_LETTERS = 4  # of a word that is looked for in longer names
+
 
 class FilePlace(Protocol):
     """A place in a file: of a description, of a launch file."""
@@ -190,9 +192,21 @@ def _alike(one: str, other: str) -> bool:
 
 
 def closest_of(name: str, known: Iterable[str]) -> str | None:
-    """A hint that names the closest of the known names; None if none is close."""
-    close = _closest(str(name), sorted(known))
+    """Return a hint that names the closest of the known names; None if none is close.
+
+    A word of a longer name is close to it, as ``burger`` is to ``turtlebot3_burger``.
+    """
+    names = sorted(known)
+    close = _closest(str(name), names) or _longer(str(name), names)
     return None if close is None else f"did you mean '{close}'?"
+
+
+def _longer(name: str, known: Iterable[str]) -> str | None:
+    """Return the shortest name that has another as one of its words or several; None if none has."""
+    if len(name) < _LEAST_LETTERS:
+        return None
+    whole = re.compile(rf"(?<![a-z0-9]){re.escape(name)}(?![a-z0-9])", re.IGNORECASE)
+    return min((each for each in known if whole.search(each)), key=len, default=None)
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

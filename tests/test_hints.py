@@ -2,7 +2,7 @@
 
 import pytest
 
-from gazelle.errors import did_you_mean
+from gazelle.errors import closest_of, did_you_mean
 from gazelle.simulation import registry
 
 
@@ -41,3 +41,22 @@ def test_short_lists_count_every_word():
     assert did_you_mean("grup", known) == "did you mean 'group'?"
     assert did_you_mean("colision", ["collision", "visual"]) == "did you mean 'collision'?"
     assert did_you_mean("x", []) == "there are none"
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("burger", "turtlebot3_burger"),
+        ("Burger", "turtlebot3_burger"),
+        ("stage_1", "turtlebot3_stage_1"),
+        ("fetch", "fetch_arm"),
+        ("house", None),
+        ("bot", None),
+        ("art", None),
+    ],
+)
+def test_a_word_of_a_longer_name_is_close_to_it(name, meant):
+    known = ["turtlebot3_burger", "turtlebot3_stage_1", "turtlebot3_stage_10", "fetch_arm"]
+    known += ["turtlebot3_burger_for_autorace", "fetch_arm_and_base", "cartpole"]
+    hint = closest_of(name, known)
+    assert hint == (None if meant is None else f"did you mean '{meant}'?")

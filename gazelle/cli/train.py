@@ -97,6 +97,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Do it; returns the exit code."""
     _check(args)
+    sys.stderr.write(f"loading {args.task or args.resume or args.sweep} ...\n")
     from gazelle.training import choose_progress, resume, task_recipe, train, with_values
 
     if args.sweep is not None:

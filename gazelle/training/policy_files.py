@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.envs.contract import PolicyContract
-from gazelle.errors import TaskError, did_you_mean
+from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle.training.actor import Actor, load_actor
 from gazelle.training.contracts import CONTRACT, load_contract, run_contract
 from gazelle.training.importing import load_all
@@ -116,6 +116,12 @@ def load_policy(
         return run.policy_file(), contract
     if path.name in {"policy.npz", "best.npz"} and (path.parent / CONTRACT).is_file():
         return path, load_contract(path.parent / CONTRACT)
+    if not path.exists():
+        raise FormatError(
+            "there is no such file or folder",
+            file=str(path),
+            hint="expected the folder of a training run, or a policy that 'gazelle export' wrote",
+        )
     return path, load_contract(path.with_suffix(".json"))
 
 

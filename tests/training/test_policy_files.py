@@ -223,3 +223,9 @@ def test_wrong_wishes_are_refused(stage4, tmp_path):
     np.savez(tmp_path / "alone.npz")
     with pytest.raises(FormatError, match="no contract"):
         load_policy(tmp_path / "alone.npz")
+
+
+@pytest.mark.parametrize("name", ["nothing", "nothing.npz", "runs/nothing", "nothing.onnx"])
+def test_a_policy_that_is_not_there_is_said_so(name, tmp_path):
+    with pytest.raises(FormatError, match="no such file or folder"):
+        load_policy(tmp_path / name)
