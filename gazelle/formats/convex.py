@@ -2,8 +2,8 @@
 
 What is convex, or nearly, stays whole. Of the rest, what stands still is followed along its
 surface, polygon by polygon, however many that are (``patches``): a building, a bowl or a flight
-of stairs is where it looks to be. What moves is cut into few solid blocks, whose hulls fill
-little of the air around it (``blocks``). How far the pieces may be off is measured, and told.
+of stairs is where it looks to be. What moves is made of fewer pieces, merged from those within a
+bound of half a centimetre or a hundredth of the size (``bounded_pieces``).
 """
 
 from __future__ import annotations
@@ -18,15 +18,19 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.formats import piece_cache
-from gazelle.formats.blocks import Blocks, blocks_of
-from gazelle.formats.hull import Hull, Solid, convex_hull, hulls_of, spread_directions
+from gazelle.formats.bounded_pieces import pieces_within
+from gazelle.formats.hull import Hull, Solid, convex_hull, spread_directions
 from gazelle.formats.mesh import MeshData
+from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.patches import joined_flat, thick_patches
 from gazelle.formats.surface import WeldedSurface, clean, components
 
 CACHED = 256
 PROMISED = 0.01
 """How far pieces of what stands still are off its surface at most [m]."""
+MOVING = 0.005
+_SHARE = 0.01
+"""How far pieces of what moves are off its surface at most: a length [m], a share of the size."""
 SLOW = 0.02
 """Seconds from which on the pieces are kept on disk."""
 
@@ -37,22 +41,9 @@ _PATIENCE = 2.0
 _DENT = 0.01
 _DEEPEST_DENT = 0.01
 """Depth of dents that are filled: a share of the size, a length [m]."""
-_SIDES = (0.0125, 0.008)
-_LONGEST_SIDE = 0.04
-"""Cubes of the grids in which blocks are cut: shares of the size, a length [m]."""
-_FEW_BLOCKS = 24
-"""Blocks up to which the finer grid is tried."""
-_MOST_MOVING = 2000
-"""Solids along its surface that what moves may have."""
-_FEW_PATCHES = 128
-"""Solids up to which what moves is followed along its surface too."""
-_REACH = 0.07
-"""How far blocks reach beyond the surface at most, as a share of the size."""
-_MANY = 32
-"""Convex parts of what moves from which on they are not kept apart."""
 _ROUNDING = 1e-5
 """What counts as convex where all edges must be, as a share of the size."""
-_MOST_CORNERS = 20_000
+_MOST_CORNERS = 100_000
 """Vertices up to which it is asked whether dents are small."""
 _FIRST_LOOK = 256
 """Places that are looked at first."""
@@ -129,13 +120,13 @@ def _made(key: str, mesh: MeshData, *, static: bool) -> ConvexPieces:
         vertices.setflags(write=False)
         faces.setflags(write=False)
     size = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
-    promised = PROMISED if static else _promised(size)
+    promised = PROMISED if static else _bound(size)
     return ConvexPieces(tuple(MeshData(*solid) for solid in solids), whole, gap, promised, closed)
 
 
-def _promised(size: float) -> float:
-    """How far pieces of a mesh of this size that moves are off its surface at most [m]."""
-    return max(PROMISED, _REACH * size)
+def _bound(size: float) -> float:
+    """Return how far pieces of a mesh of this size that moves are off its surface at most [m]."""
+    return min(_SHARE * size, MOVING)
 
 
 def _cut(surface: WeldedSurface, *, static: bool) -> tuple[list[Solid], bool, float]:
@@ -143,29 +134,27 @@ def _cut(surface: WeldedSurface, *, static: bool) -> tuple[list[Solid], bool, fl
     if not len(surface.faces):
         return [], False, 0.0
     number = components(surface)
-    parts = int(number.max()) + 1
     closed = np.bincount(number, (surface.twins < 0).reshape(-1, 3).any(axis=1)) == 0
     volume = _volumes(surface, number)
-    whole = closed & _convex_parts(surface, number)
-    if static:
-        whole &= volume > 0.0  # what looks inwards all around is a room
-        whole[_with_cavities(surface, number, closed & (volume < 0.0))] = False
-    dent = min(_DENT * surface.size, _DEEPEST_DENT)
+    cavities, around = _cavities(surface, number, closed & (volume < 0.0))
+    if not static:  # what looks inwards and moves is no room
+        inverted = closed & (volume < 0.0) & ~cavities
+        surface, volume = _turned(surface, inverted[number]), np.where(inverted, -volume, volume)
+    whole = closed & _convex_parts(surface, number) & (volume > 0.0) & ~around
+    dent = min(_DENT * surface.size, _DEEPEST_DENT if static else MOVING)
     outwards = bool((volume >= 0.0).all())
-    if (parts == 1 and whole[0]) or (closed.all() and outwards and _is_convex(surface, dent)):
+    if whole.all() and len(whole) == 1:
+        return [(surface.vertices, surface.faces.astype(np.int32))], True, 0.0
+    if closed.all() and outwards and _is_convex(surface, dent):
         return [(surface.vertices, surface.faces.astype(np.int32))], True, dent
-    if not static and int(whole.sum()) > _MANY:
-        whole[:] = False  # bolts and the like, that a few blocks hold together
+    if not static:
+        solids, gap = pieces_within(surface, number, closed, whole, _bound(surface.size))
+        return solids, False, gap
     solids = _solids_of(surface, number, np.flatnonzero(whole))
     rest = ~whole[number]
     if not rest.any():
         return solids, False, _ROUNDING * surface.size
-    remains = surface.part(rest)
-    along = joined_flat(remains)
-    blocks = None if static or along.count <= _FEW_PATCHES else _blocks(remains, along.count)
-    if blocks is not None:
-        return solids + hulls_of(blocks.hulls), False, blocks.gap
-    patches = thick_patches(along, closed[number[rest]])
+    patches = thick_patches(joined_flat(surface.part(rest)), closed[number[rest]])
     return solids + patches.solids, False, patches.gap
 
 
@@ -180,22 +169,13 @@ def _solids_of(
     return [(part.vertices, part.faces.astype(np.int32)) for part in map(surface.part, rows)]
 
 
-def _blocks(surface: WeldedSurface, polygons: int) -> Blocks | None:
-    """Blocks, on a finer grid if few are enough.
-
-    None if they are farther from the surface than promised, and there is another way: its
-    polygons are not too many for what moves.
-    """
-    found: Blocks | None = None
-    patient, promised = polygons > _MOST_MOVING, _promised(surface.size)
-    for share in _SIDES:
-        finer = blocks_of(surface, min(share * surface.size, _LONGEST_SIDE), patient=patient)
-        if finer is None or (finer.gap > promised and (found is not None or not patient)):
-            break
-        found = finer
-        if len(found.hulls) > _FEW_BLOCKS:
-            break
-    return found
+def _turned(surface: WeldedSurface, rows: NDArray[np.bool_]) -> WeldedSurface:
+    """Return a surface with some of its faces turned over."""
+    if not rows.any():
+        return surface
+    faces, normals = surface.faces.copy(), surface.normals.copy()
+    faces[rows], normals[rows] = faces[rows, ::-1], -normals[rows]
+    return WeldedSurface(surface.vertices, faces, normals, surface.areas)
 
 
 def _volumes(surface: WeldedSurface, number: NDArray[np.intp]) -> Floats:
@@ -224,34 +204,52 @@ def _convex_parts(surface: WeldedSurface, number: NDArray[np.intp]) -> NDArray[n
     return np.asarray(reflex == 0)
 
 
-def _with_cavities(
+def _cavities(
     surface: WeldedSurface, number: NDArray[np.intp], inwards: NDArray[np.bool_]
-) -> NDArray[np.intp]:
-    """The parts that have one of those that look inwards inside of them."""
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Return which parts that look inwards lie within others, and which parts are around those."""
+    within, around = np.zeros(len(inwards), bool), np.zeros(len(inwards), bool)
     if not inwards.any():
-        return np.zeros(0, np.intp)
+        return within, around
     lows, highs = np.full((len(inwards), 3), np.inf), np.full((len(inwards), 3), -np.inf)
     corners = surface.vertices[surface.faces]
     np.minimum.at(lows, number, corners.min(axis=1))
     np.maximum.at(highs, number, corners.max(axis=1))
-    around = np.zeros(len(inwards), bool)
     for part in np.flatnonzero(inwards).tolist():
-        around |= (lows < lows[part]).all(axis=1) & (highs > highs[part]).all(axis=1)
-    return np.flatnonzero(around)
+        outer = (lows < lows[part]).all(axis=1) & (highs > highs[part]).all(axis=1)
+        within[part] = outer.any()
+        around |= outer
+    return within, around
 
 
 def _is_convex(surface: WeldedSurface, tolerance: float) -> bool:
     """Whether nothing of the surface lies deeper in its hull than this; too much to tell: no."""
     if len(surface.vertices) > _MOST_CORNERS:
         return False
+    _, first = np.unique(surface.faces, return_index=True)
     points = np.concatenate([surface.vertices[surface.faces].mean(axis=1), surface.vertices])
+    normals = np.concatenate([surface.normals, surface.normals[first // 3]])
     # what is deep in the hull of a few corners is deeper in that of all, which takes long
     few = surface.vertices[np.unique((_LOOKS @ surface.vertices.T).argmax(axis=1))]
     inner = convex_hull(few)
     if inner is not None and _is_deep(inner, points, tolerance):
         return False
     hull = convex_hull(surface.vertices)
-    return hull is not None and not _is_deep(hull, points, tolerance)
+    if hull is None:
+        return False
+    if len(points) * len(hull.offsets) > _MAX_PAIRS:  # most lie right below the hull
+        above = _below(surface, hull, points, normals)
+        points = points[(above > tolerance) & np.isfinite(above)]
+    return not _is_deep(hull, points, tolerance)
+
+
+def _below(surface: WeldedSurface, hull: Hull, points: Floats, ways: Floats) -> Floats:
+    """Return how far the hull of a surface is from points along ways [m]; infinite if on it."""
+    corners = surface.vertices[hull.faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(across, axis=1) / 2.0
+    around = WeldedSurface(surface.vertices, hull.faces, hull.normals, areas)
+    return first_hits(around, points, ways)[0]
 
 
 def _is_deep(hull: Hull, points: Floats, tolerance: float) -> bool:

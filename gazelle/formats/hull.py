@@ -28,7 +28,7 @@ class Hull:
             outside, shape (m, 3).
         normals: Unit vectors outwards, shape (m, 3).
         offsets: Distance of each face's plane from the origin along its normal, shape (m,); no
-            corner is beyond it.
+            corner is beyond it by more than four millionths of the size.
     """
 
     faces: Indices
@@ -52,8 +52,8 @@ def convex_hull(points: Floats) -> Hull | None:
     if faces is None:
         return None
     normals = builder.normals()
-    corners = points[np.unique(faces)]
-    return Hull(faces, normals, (corners @ normals.T).max(axis=0))
+    heights = np.einsum("ijk,ik->ij", points[faces], normals)
+    return Hull(faces, normals, heights.max(axis=1))
 
 
 def hulls_of(clouds: Sequence[Floats]) -> list[Solid]:

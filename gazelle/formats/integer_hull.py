@@ -73,6 +73,12 @@ class HullBuilder:
         rows: Indices = corners[corners[:, 0] >= 0].astype(np.intp)
         return rows
 
+    def used(self) -> Indices:
+        """Return the rows of the points that are corners of the last hull, rising, shape (n,)."""
+        corners = np.asarray(self.corner)[: self.faces]
+        rows: Indices = np.unique(corners[corners[:, 0] >= 0]).astype(np.intp)
+        return rows
+
     def normals(self) -> Floats:
         """Unit vectors out of the faces of the last hull, shape (m, 3)."""
         rows = np.asarray(self.corner)[: self.faces, 0] >= 0

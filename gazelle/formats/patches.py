@@ -80,9 +80,9 @@ def thick_patches(joined: Polygons, closed: NDArray[np.bool_]) -> Patches:
             joined.join(tolerance, notches=True)
             gap = math.hypot(tolerance, tolerance)  # across the plane, and in a notch
     rims = joined.rims()
-    depths = _depths(surface, rims, closed)
+    depths = depths_of(surface, rims, closed, skin_of(surface))
     corners = np.split(surface.vertices[rims.vertices], np.cumsum(rims.sizes)[:-1])
-    wide = _widths(surface, rims) > _ROUNDING * surface.size  # what is not has no hull
+    wide = widths_of(surface, rims) > _ROUNDING * surface.size  # what is not has no hull
     thickness = depths[:, None] * rims.normals
     solids = [prism(corners[row], thickness[row]) for row in np.flatnonzero(wide).tolist()]
     return Patches(solids, gap)
@@ -95,8 +95,8 @@ def _tolerances(size: float, count: int) -> Iterator[tuple[float, int]]:
     yield from ((FINE * 2.0**power, MOST_PATCHES) for power in range(32))
 
 
-def _widths(surface: WeldedSurface, rims: Rims) -> Floats:
-    """About how wide each polygon is at its middle [m], shape (k,); 0 if it has no three corners."""
+def widths_of(surface: WeldedSurface, rims: Rims) -> Floats:
+    """Return the width of each polygon at its middle, about [m]; 0 without three corners."""
     widths = np.zeros(len(rims.sizes))
     real = np.flatnonzero(rims.sizes)
     starts = (np.cumsum(rims.sizes) - rims.sizes)[real]
@@ -109,8 +109,20 @@ def _widths(surface: WeldedSurface, rims: Rims) -> Floats:
     return widths
 
 
-def _depths(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_]) -> Floats:
-    """How thick each solid is [m], shape (k,)."""
+def skin_of(surface: WeldedSurface) -> float:
+    """Return the thickness of what is open behind [m]."""
+    return float(np.clip(0.01 * surface.size, *_SKIN))
+
+
+def depths_of(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_], skin: float) -> Floats:
+    """Return the thickness of the solid behind each polygon [m], shape (k,).
+
+    Args:
+        surface: Whose polygons they are.
+        rims: The polygons.
+        closed: Whether each triangle belongs to the surface of a closed body, shape (m,).
+        skin: Thickness of what is open behind, at most [m].
+    """
     faces = np.arange(0, len(surface.faces), 1 + len(surface.faces) // _MOST_RAYS)
     of_rim, count = rims.rows, len(rims.sizes)
     middles = (
@@ -129,7 +141,6 @@ def _depths(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_]) -> Fl
     origins = np.concatenate([surface.vertices[surface.faces[faces]].mean(axis=1), inset])
     rows = np.concatenate([rims.owners[faces], of_rim[some]])
     distance, leaves = first_hits(surface, origins, -rims.normals[rows])
-    skin = float(np.clip(0.01 * surface.size, *_SKIN))
     body = closed[rims.faces][rows] & leaves
     room = np.minimum(distance / 2.0, np.where(body, _DEEPEST, skin))
     depths = np.full(count, _DEEPEST)

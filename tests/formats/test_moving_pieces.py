@@ -1,0 +1,92 @@
+"""Pieces of meshes that move stay within a bound of the triangles, whatever their shape and size."""
+
+import hollows
+import numpy as np
+import pytest
+import trimesh
+
+from gazelle.formats import convex
+from gazelle.formats.convex import decompose
+from gazelle.formats.mesh import MeshData
+
+
+@pytest.fixture(autouse=True)
+def _own_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    convex._MEMORY.clear()
+    yield
+    convex._MEMORY.clear()
+
+
+def data(*meshes):
+    whole = trimesh.util.concatenate(meshes)
+    return MeshData(np.asarray(whole.vertices, float), np.asarray(whole.faces, np.int32))
+
+
+def inside(pieces, points):
+    found = np.zeros(len(points), bool)
+    for piece in pieces.solids:
+        found |= convex.convex_hull(piece.vertices).depth(np.asarray(points, float)) > 0.0
+    return found
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("size", [0.1, 1.0, 4.0])
+@pytest.mark.parametrize("name", hollows.SHAPES)
+def test_pieces_keep_to_the_triangles(name, size):
+    mesh = hollows.made(name, size)
+    pieces = decompose(mesh, static=False)
+    bound = min(0.005, 0.01 * size)
+    assert pieces.promised == pytest.approx(bound)
+    assert pieces.gap <= pieces.promised * (1.0 + 1e-9)
+    assert hollows.protrusion(mesh, pieces) <= bound
+    assert hollows.uncovered(mesh, pieces) <= 1e-5 * size
+    assert 1 < len(pieces.solids) < 500
+
+
+@pytest.mark.parametrize("name", ["car body", "finger", "bracket", "mug"])
+def test_a_mesh_turned_inside_out_is_the_same_body(name):
+    mesh = hollows.made(name, 1.0)
+    turned = MeshData(mesh.vertices, np.ascontiguousarray(mesh.faces[:, ::-1]))
+    pieces = decompose(turned, static=False)
+    assert hollows.protrusion(mesh, pieces, 1000) <= 0.005
+    assert hollows.uncovered(mesh, pieces) <= 1e-5
+
+
+@pytest.mark.parametrize("size", [0.1, 1.0, 4.0])
+def test_a_sealed_cavity_stays_hollow(size):
+    inner = trimesh.creation.icosphere(subdivisions=2, radius=0.4)
+    inner.invert()
+    mesh = data(trimesh.creation.box((1, 1, 1)), inner)
+    pieces = decompose(MeshData(size * mesh.vertices, mesh.faces), static=False)
+    points = size * 0.37 * np.concatenate([np.eye(3), -np.eye(3), np.zeros((1, 3))])
+    assert not inside(pieces, points).any()
+    assert inside(pieces, size * np.array([[0.499, 0, 0], [0, 0.41, 0], [0.45, 0.45, 0.45]])).any()
+
+
+def test_sheets_bent_to_a_box_are_not_filled():
+    box = trimesh.creation.box((1, 1, 1))
+    box.update_faces(box.face_normals[:, 2] < 0.5)
+    for mesh in (data(box), data(box.subdivide().subdivide())):
+        pieces = decompose(mesh, static=False)
+        assert not inside(pieces, [[0, 0, 0], [0.48, 0.48, 0.48], [0.0, 0.48, -0.48]]).any()
+        assert inside(pieces, [[0.499, 0, 0], [0, 0, -0.499]]).all()
+
+
+def test_parts_are_merged_only_where_no_air_is_between():
+    for apart, count in ((0.09, 1), (0.2, 2)):
+        plates = [
+            trimesh.creation.box((1, 1, 0.1)).apply_translation((0, 0, apart * i)) for i in (0, 1)
+        ]
+        assert len(decompose(data(*plates), static=False).solids) == count
+
+
+@pytest.mark.long
+def test_what_needs_too_many_pieces_says_how_far_it_is_off(monkeypatch):
+    mesh = hollows.made("bowl", 1.0)
+    monkeypatch.setattr("gazelle.formats.bounded_pieces.MOST_PIECES", 60)
+    monkeypatch.setattr("gazelle.formats.bounded_pieces._FEW_PIECES", 60)
+    pieces = decompose(mesh, static=False)
+    assert len(pieces.solids) <= 60
+    assert pieces.gap > pieces.promised
+    assert hollows.protrusion(mesh, pieces, 1000) <= pieces.gap

@@ -1,0 +1,178 @@
+"""Hollow shapes as meshes, and how far convex pieces are off their triangles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import trimesh
+
+from gazelle.array_types import Floats
+from gazelle.formats.convex import ConvexPieces
+from gazelle.formats.hull import convex_hull
+from gazelle.formats.mesh import MeshData
+from gazelle.formats.mujoco_geometry import first_hits
+from gazelle.formats.probing import spread
+from gazelle.formats.surface import WeldedSurface, clean
+
+_WAYS = np.array([[0.577, 0.211, 0.788], [-0.3, 0.9, -0.32], [0.1, -0.5, 0.86]])
+_PAIRS = 400_000
+
+
+def extruded(outline: Floats, height: float) -> trimesh.Trimesh:
+    """Return a prism over a polygon, counter-clockwise, shape (n, 2)."""
+    count = len(outline)
+    caps = ears(outline)
+    faces = [(c, b, a) for a, b, c in caps]
+    faces += [(a + count, b + count, c + count) for a, b, c in caps]
+    for i in range(count):
+        j = (i + 1) % count
+        faces += [(i, j, j + count), (i, j + count, i + count)]
+    low, high = (np.column_stack([outline, np.full(count, z)]) for z in (0.0, height))
+    return trimesh.Trimesh(np.concatenate([low, high]), faces, process=False)
+
+
+def ears(outline: Floats) -> list[tuple[int, int, int]]:
+    """Return the triangles of a polygon, counter-clockwise, by clipping its ears."""
+    left, found = list(range(len(outline))), []
+    while len(left) > 3:
+        for place, tip in enumerate(left):
+            before, after = left[place - 1], left[(place + 1) % len(left)]
+            a, b, c = outline[[before, tip, after]]
+            if _turn(a, b, c) <= 0.0:
+                continue
+            rest = outline[[i for i in left if i not in {before, tip, after}]]
+            if not (
+                (_turn(a, b, rest) >= 0) & (_turn(b, c, rest) >= 0) & (_turn(c, a, rest) >= 0)
+            ).any():
+                break
+        found.append((before, tip, after))
+        left.remove(tip)
+    return [*found, (left[0], left[1], left[2])]
+
+
+def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
+    return (b[0] - a[0]) * (c[..., 1] - a[1]) - (b[1] - a[1]) * (c[..., 0] - a[0])
+
+
+def arc(x: float, y: float, radius: float, start: float, end: float, count: int) -> Floats:
+    """Return places on an arc, shape (count, 2)."""
+    angle = np.linspace(start, end, count)
+    return np.stack([x + radius * np.cos(angle), y + radius * np.sin(angle)], axis=1)
+
+
+def car() -> trimesh.Trimesh:
+    """A body with two wheel arches of 0.36 m."""
+    arches = [arc(x, 0.0, 0.36, math.pi, 0.0, 33) for x in (-1.4, 1.4)]
+    top = np.array([[2.3, 0.0], [2.3, 0.6], [1.9, 0.9], [-1.9, 0.9], [-2.3, 0.6], [-2.3, 0.0]])
+    return extruded(np.concatenate([*arches, top]), 1.9)
+
+
+def revolved(rim: list[tuple[float, float]] | Floats, sections: int = 48) -> trimesh.Trimesh:
+    """Return a body of revolution about z."""
+    return trimesh.creation.revolve(np.asarray(rim, float), sections=sections)
+
+
+def bowl() -> trimesh.Trimesh:
+    """Half a ball of radius 1.05 less one of radius 1."""
+    angle = np.linspace(0.0, np.pi / 2.0, 13)
+    way = np.stack([np.sin(angle), -np.cos(angle)], axis=1)
+    return revolved(np.concatenate([1.05 * way, way[::-1]]))
+
+
+def mug() -> trimesh.Trimesh:
+    """A vessel with a thick bottom."""
+    return revolved([(0, 0), (0.5, 0), (0.5, 1.2), (0.45, 1.2), (0.45, 0.1), (0, 0.1)])
+
+
+def gear(teeth: int = 16) -> trimesh.Trimesh:
+    """A wheel with rounded teeth, which two of the same mesh with."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 12 * teeth, endpoint=False)
+    radius = 1.0 + 0.08 * np.sin(teeth * angle)
+    return extruded(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1), 0.25)
+
+
+SHAPES: dict[str, Callable[[], trimesh.Trimesh]] = {
+    "car body": car,
+    "sleeve": lambda: trimesh.creation.annulus(0.3, 0.4, 0.8, sections=64),
+    "bowl": bowl,
+    "mug": mug,
+    "finger": lambda: extruded(
+        np.array([(0, 0), (1, 0), (1, 0.3), (0.62, 0.3), (0.5, 0.18), (0.38, 0.3), (0, 0.3)]), 0.3
+    ),
+    "torus": lambda: trimesh.creation.torus(1.0, 0.3, major_sections=48, minor_sections=24),
+    "gear": gear,
+    "bracket": lambda: extruded(
+        np.array([(0, 0), (1, 0), (1, 0.1), (0.1, 0.1), (0.1, 1), (0, 1)], float), 0.4
+    ),
+}
+
+
+def made(name: str, size: float) -> MeshData:
+    """Return a shape whose box has this diagonal [m]."""
+    mesh = SHAPES[name]()
+    mesh.apply_translation(-mesh.bounds.mean(axis=0))
+    mesh.apply_scale(size / float(np.linalg.norm(mesh.extents)))
+    return MeshData(np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int32))
+
+
+def protrusion(data: MeshData, pieces: ConvexPieces, count: int = 4000) -> float:
+    """Return how far the pieces of a closed mesh reach beyond its triangles at most [m].
+
+    About ``count`` places on the hulls of the pieces are looked at.
+    """
+    surface = clean(data.vertices, data.faces)
+    hulls = [_surface(piece.vertices) for piece in pieces.solids]
+    area = sum(float(hull.areas.sum()) for hull in hulls)
+    places = np.concatenate([spread(hull, math.sqrt(area / count))[0] for hull in hulls])
+    within = sum(
+        first_hits(surface, places, np.tile(way, (len(places), 1)))[1].astype(int) for way in _WAYS
+    )
+    return float(distances(surface, places[within < 2]).max(initial=0.0))
+
+
+def uncovered(data: MeshData, pieces: ConvexPieces, count: int = 2000) -> float:
+    """Return how far outside of all pieces a place on the triangles is at most [m]."""
+    surface = clean(data.vertices, data.faces)
+    places, _ = spread(surface, math.sqrt(float(surface.areas.sum()) / count))
+    nearest = np.full(len(places), np.inf)
+    for piece in pieces.solids:
+        hull = convex_hull(piece.vertices)
+        if hull is not None:
+            nearest = np.minimum(nearest, -hull.depth(places))
+    return max(0.0, float(nearest.max()))
+
+
+def distances(surface: WeldedSurface, points: Floats) -> Floats:
+    """Return the distance of each point from the nearest triangle [m], shape (n,)."""
+    rows = max(1, _PAIRS // len(surface.faces))
+    parts = [_nearest(surface, points[i : i + rows]) for i in range(0, len(points), rows)]
+    return np.concatenate(parts) if parts else np.zeros(0)
+
+
+def _nearest(surface: WeldedSurface, points: Floats) -> Floats:
+    corners = surface.vertices[surface.faces]
+    away = points[:, None] - corners[:, 0]
+    height = np.einsum("pfj,fj->pf", away, surface.normals)
+    inside = np.ones(height.shape, bool)
+    best = np.full(height.shape, np.inf)
+    for i in range(3):
+        start, edge = corners[:, i], corners[:, (i + 1) % 3] - corners[:, i]
+        off = points[:, None] - start
+        inwards = np.cross(surface.normals, edge)
+        inside &= np.einsum("pfj,fj->pf", off, inwards) >= 0.0
+        share = np.einsum("pfj,fj->pf", off, edge) / np.einsum("fj,fj->f", edge, edge)
+        off = off - np.clip(share, 0.0, 1.0)[..., None] * edge
+        best = np.minimum(best, np.einsum("pfj,pfj->pf", off, off))
+    return np.where(inside, np.abs(height), np.sqrt(best)).min(axis=1)
+
+
+def _surface(points: Floats) -> WeldedSurface:
+    """Return the hull of points as a surface."""
+    hull = convex_hull(points)
+    if hull is None:
+        raise ValueError("a piece has no hull")
+    corners = points[hull.faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return WeldedSurface(points, hull.faces, hull.normals, np.linalg.norm(across, axis=1) / 2.0)
