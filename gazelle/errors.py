@@ -167,7 +167,8 @@ def _closest(name: str, names: list[str]) -> str | None:
     """The name that is most like another; None if none is like it."""
     close = difflib.get_close_matches(name, names, n=5, cutoff=_CLOSE)
     if len(names) < _MANY:
-        return close[0] if close else None
+        swapped = (each for each in close if sorted(each) == sorted(name))
+        return next(swapped, close[0] if close else None)
     counts = Counter(word for each in names for word in set(_words(each)))
     common = {word for word, count in counts.items() if count > len(names) * _COMMON}
     for each in close:

@@ -60,3 +60,10 @@ def test_a_word_of_a_longer_name_is_close_to_it(name, meant):
     known += ["turtlebot3_burger_for_autorace", "fetch_arm_and_base", "cartpole"]
     hint = closest_of(name, known)
     assert hint == (None if meant is None else f"did you mean '{meant}'?")
+
+
+def test_a_name_of_the_same_letters_is_the_closest():
+    names = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    assert closest_of("iyx", names) == "did you mean 'ixy'?"
+    assert closest_of("izx", names) == "did you mean 'ixz'?"
+    assert closest_of("izy", names) == "did you mean 'iyz'?"

@@ -6,6 +6,7 @@ import math
 
 from gazelle.description import Box, Capsule, Cone, Cylinder, Ellipsoid, Parameters, Sphere
 from gazelle.formats import values
+from gazelle.formats.limits import LONGEST
 from gazelle.formats.reading import Reading
 
 LEAST = 1e-4
@@ -19,12 +20,14 @@ def extent(node: Parameters, value: float, what: str, reading: Reading) -> float
     """A length, radius or side: one of zero is a tenth of a millimetre, a sign is dropped.
 
     Raises:
-        FormatError: It is not finite.
+        FormatError: It is not finite, or too large.
     """
-    if value > 0.0 and math.isfinite(value):
+    if 0.0 < value <= LONGEST:
         return value
     if not math.isfinite(value):
         raise values.fail(node, f"{what} must be finite, found {value:g}")
+    if abs(value) > LONGEST:
+        raise values.fail(node, f"{what} must be {LONGEST:g} m at most, found {value:g}")
     taken = _taken(value)
     reading.fault(f"{what} must be greater than zero, found {value:g}: {taken:g} was taken", node)
     return taken

@@ -13,6 +13,9 @@ MAX_NODES = 100_000
 MAX_TRIANGLES = 10_000_000
 """Triangles of a mesh, each counted as often as it is put somewhere."""
 
+LONGEST = 1e10
+"""Greatest length of a shape [m]: what is farther away is broken for engines."""
+
 HEAVIEST = 1e15
 """Greatest mass [kg] or moment of inertia [kg m²]: squares of such are still numbers."""
 

@@ -28,6 +28,7 @@ _WORLD_SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
 _EXPANDED = {"robot", "sdf", "gazebo"}
 _MAP_SUFFIXES = (".yaml", ".yml")
+_SHORT = 60  # characters of a value that a message shows
 _BUNDLED_HINT = "'gazelle worlds' and 'gazelle robots' list what is bundled"
 
 
@@ -151,8 +152,9 @@ def path_text(path: object) -> str:
         ResolveError: It is none of them.
     """
     if not isinstance(path, str | os.PathLike):
+        shown = text if len(text := repr(path)) <= _SHORT else f"a {type(path).__name__}"
         raise ResolveError(
-            f"a file is found by its path, URI or name, not by {path!r}",
+            f"a file is found by its path, URI or name, not by {shown}",
             hint='such as "robot.urdf", "model://ground_plane" or "turtlebot3_world"',
         )
     return str(os.fspath(path))
@@ -309,6 +311,12 @@ def read_root(root: Parameters, reading: Reading) -> World:
         return sdf.read_sdf(root, reading)
     if root.tag == "gazebo:world":
         raise FormatError("worlds of Gazebo before 1.0 cannot be read", source=root.source)
+    if root.tag == "launch":
+        raise FormatError(
+            "this is a launch file, which describes no world",
+            source=root.source,
+            hint="'gazelle launch FILE' runs it",
+        )
     raise FormatError(
         f"expected <sdf> or <robot>, found <{root.tag}>",
         source=root.source,

@@ -33,22 +33,24 @@ class RequestQueue:
 
     Use it with ``with`` to own the state for several things at once.
 
+    Args:
+        nworld: Number of worlds that there are.
+
     Attributes:
         owner: Identifier of the thread that owns the state; 0 for nobody.
         waiting: What was asked for and is not done yet.
         closed: Whether nothing can be asked for any more.
         changes: How often it changed who listens, what is awake, or what there is.
-        nworld: Number of worlds that there are.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, nworld: int = 1) -> None:
         self.owner = 0
         self._lock = threading.RLock()
         self._depth = 0
         self.waiting: deque[tuple[Callable[[], Any], Future[Any]]] = deque()
         self.closed = False
         self.changes = 0
-        self.nworld = 1
+        self.nworld = nworld
         self._reason = ""
 
     @property

@@ -65,8 +65,7 @@ class Simulation(Closeable):
     Args:
         world: A description, or a file or bundled name to load one from.
         engine: ``mujoco``.
-        ground: Whether the file or description of a robot or model opens in a world with ground
-            and sun, as ``formats.open_world`` says. A world stays as it is.
+        ground: Whether a robot or model gets ground and sun, see ``formats.open_world``.
         nworld: Number of copies.
         seed: Decides all random numbers; world i's do not depend on ``nworld``.
         threads: Native threads; all processors if None. Results do not depend on it.
@@ -107,19 +106,17 @@ class Simulation(Closeable):
         namespace: str = "",
     ) -> None:
         loaded = formats.open_world(world, ground=ground)
-        self.requests = RequestQueue()
         self._engine = make_engine(
             engine, loaded, nworld, time_step=time_step, threads=threads, late=True
         )
-        self.requests.nworld = self._engine.nworld
+        self.requests = RequestQueue(self._engine.nworld)
         self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
         moved: object = self._engine
         self.native: SystemEngine | None = moved if isinstance(moved, SystemEngine) else None
         self.carrier: CarryingEngine | None = as_carrying_engine(self._engine)
         self.tables: TableEngine | None = moved if isinstance(moved, TableEngine) else None
-        self.seed, self.clock = seed_of(seed), Clock(self._engine.time_step)
-        self.paused = False
+        self.seed, self.clock, self.paused = seed_of(seed), Clock(self._engine.time_step), False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
         self._loads = Loads(self._engine, self.clock)
         self._shared_loads = shared(self._loads, self.requests)
@@ -134,8 +131,6 @@ class Simulation(Closeable):
             self.entities.adopt_all(loaded.models)
         if isinstance(self._engine, LateEngine):
             self._engine.prepare()
-
-    # -- what there is -----------------------------------------------------------------
 
     @property
     def engine(self) -> Engine:
@@ -342,12 +337,9 @@ class Simulation(Closeable):
         Args:
             view: From where and how; ``gazelle.sensors.look_at`` helps.
             world: Which world.
-
-        Raises:
-            SimulationError: There is no such world.
         """
-        which = inputs.one_world(world, self.nworld)
-        return self.requests.call(lambda: self._renderer.picture(self, view, which))
+        one = inputs.one_world(world, self.nworld)
+        return self.requests.call(lambda: self._renderer.picture(self, view, one))
 
     # -- saving and ending -------------------------------------------------------------
 

@@ -110,3 +110,13 @@ def test_a_link_that_is_too_far_away_is_refused(engine):
     world = World(models=(Model("m", links=(Link("l", gazelle.Pose(x=1e300)),)),))
     with pytest.raises(EngineError, match=r"link 'm::l' cannot be at .* too far away"):
         gazelle.Simulation(world, engine, threads=1)
+
+
+def test_a_launch_file_is_called_one():
+    with pytest.raises(FormatError, match=r"this is a launch file.*'gazelle launch FILE' runs it"):
+        formats.load_string("<launch/>")
+
+
+def test_what_is_no_file_is_named_by_its_kind():
+    with pytest.raises(FormatError, match="not by a World;"):
+        formats.load(formats.load("turtlebot3_world"))
