@@ -6,7 +6,7 @@ and it is found:   gazelle run my.world --ros --plugins examples
 
 from gazelle.description import Parameters
 from gazelle.rotations import rotate
-from gazelle.simulation import ModelPlugin, Odometry, Output, Robot, TwistInput
+from gazelle.simulation import ModelPlugin, Output, Placement, Robot, TwistInput
 
 
 class VelocityDrive(ModelPlugin):
@@ -19,7 +19,7 @@ class VelocityDrive(ModelPlugin):
         self._robot, self._simulation = robot, robot.simulation
         self._period, self._next = 1.0 / parameters.get("updateRate", 30.0), 0.0
         self._command = TwistInput(self._simulation.nworld, f"/{robot.name}/cmd_vel")
-        self._pose = Output(f"/{robot.name}/pose", Odometry, self._measure)
+        self._pose = Output(f"/{robot.name}/pose", Placement, robot.placement)
         robot.inputs["cmd_vel"], robot.outputs["pose"] = self._command, self._pose
 
     def on_update(self, time: float) -> None:
@@ -33,10 +33,3 @@ class VelocityDrive(ModelPlugin):
     def reset(self, worlds: object) -> None:  # noqa: ARG002  all worlds alike
         """Begin anew."""
         self._next = 0.0
-
-    def _measure(self) -> Odometry:
-        place, motion, now = (self._robot.placement(), self._robot.motion(), self._simulation.clock)
-        frames = ("world", self._robot.name)
-        return Odometry(
-            now.now_ns, *frames, place.position, place.quaternion, motion.linear, motion.angular
-        )

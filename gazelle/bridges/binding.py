@@ -236,8 +236,8 @@ class Binding:
             return True
         warnings.warn(
             SimulationWarning(
-                f"the service {service} is offered by another model already; "
-                "spawn this one in a namespace of its own"
+                f"the service {service} is offered by another plugin already; give this one, or its "
+                "model, a name or namespace of its own"
             ),
             stacklevel=3,
         )

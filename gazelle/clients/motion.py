@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 from typing import Any, Self
 
@@ -10,14 +11,17 @@ from gazelle.clients.poses import ModelState, read_state, twist_message
 from gazelle.closing import Closeable
 from gazelle.ros import Node, load_message
 
+_ZERO = (0.0, 0.0, 0.0)
+_UNKNOWN = (math.nan, math.nan, math.nan)
+
 
 class Driver(Closeable):
     """Commands one base and knows its pose; also a context manager, which stops it at the end.
 
     Args:
         node: Publishes and listens.
-        model: Its topics are ``/<model>/cmd_vel`` and ``/<model>/pose``, those of the example
-            plugin, unless they are given.
+        model: Its topics are ``/<model>/cmd_vel`` and ``/<model>/pose`` of ``geometry_msgs/Pose``, those
+            of the example plugin, unless they are given; velocities are not known then (nan).
         command_topic: Of ``geometry_msgs/Twist``.
         pose_topic: Of ``nav_msgs/Odometry``.
         linear: Speed of ``forward`` and the like [m/s].
@@ -42,9 +46,10 @@ class Driver(Closeable):
         self._publisher = node.advertise(
             command_topic or f"{space}/cmd_vel", load_message("geometry_msgs/Twist"), 1
         )
-        self._subscriber = node.subscribe(
-            self._pose_topic, load_message("nav_msgs/Odometry"), self._receive, 1
-        )
+        kind, take = ("nav_msgs/Odometry", self._receive)
+        if pose_topic is None:
+            kind, take = ("geometry_msgs/Pose", self._receive_pose)
+        self._subscriber = node.subscribe(self._pose_topic, load_message(kind), take, 1)
 
     @property
     def state(self) -> ModelState:
@@ -96,6 +101,11 @@ class Driver(Closeable):
         self.stop()
         self._publisher.close()
         self._subscriber.close()
+
+    def _receive_pose(self, message: Any) -> None:
+        place = read_state(message, twist_message(_ZERO, _ZERO))
+        self._state = ModelState(place.position, place.quaternion, _UNKNOWN, _UNKNOWN)
+        self._arrived.set()
 
     def _receive(self, message: Any) -> None:
         self._state = read_state(message.pose.pose, message.twist.twist)

@@ -1,5 +1,6 @@
 """One running set of worlds: clock, requests, spawn and delete, sensors, plugins and ports."""
 
+from gazelle.engines import Placement
 from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.clock import Clock, Schedule, Stopwatch
 from gazelle.simulation.faults import Fault
@@ -44,6 +45,7 @@ __all__ = [
     "Odometry",
     "Output",
     "PhysicsProperties",
+    "Placement",
     "Ports",
     "Recorder",
     "Replay",

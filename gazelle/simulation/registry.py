@@ -77,7 +77,10 @@ def find(plugin: description.Plugin) -> type[BasePlugin] | None:
         _warn(plugin, f": {row.missing}")
     elif row is None and stem not in _missing:
         _missing.add(stem)
-        hint = f"{_nearest(f'lib{stem}.so')}'gazelle plugins' lists those that are"
+        hint = (
+            f"{_nearest(f'lib{stem}.so')}'gazelle plugins' lists those that are, and docs/plugins.md, "
+            "'Your own', shows how to write it in Python"
+        )
         _warn(plugin, f" is not supported and is left out; {hint}")
     return None
 

@@ -8,6 +8,7 @@ import pytest
 import gazelle
 from gazelle import formats
 from gazelle.errors import PluginWarning
+from gazelle.simulation import Placement
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 BOX = """<sdf version="1.6"><world name="w">
@@ -44,6 +45,7 @@ def test_the_example_plugin_drives_its_model_and_publishes_its_pose():
         assert box.pose.x == pytest.approx(0.5 * 2 * 0.97, abs=0.05)
         assert box.pose.yaw == pytest.approx(0.4, abs=0.02)
         assert len(poses) == pytest.approx(60, abs=2)
+        assert isinstance(poses[-1], Placement)  # geometry_msgs/Pose on a graph
 
 
 def test_the_example_plugin_is_short():
