@@ -78,8 +78,8 @@ STATES: dict[str, list[State]] = {
         ),
     ],
     "eval": [
-        State("eval POLICY --task TurtleBot3Stage1 --episodes 200000", 2.5),
-        State("eval POLICY --task TurtleBot3Stage1 --episodes 200000 --workers 2", 4.0),
+        State("eval POLICY --task TurtleBot3Stage1 --episodes 200000", 2.0),
+        State("eval POLICY --task TurtleBot3Stage1 --episodes 200000 --workers 2", 3.0),
     ],
     "new": [State("new task FOLDER/mine", ATHWART)],
     "study": [
@@ -140,7 +140,12 @@ def run(*, seed):
     time.sleep(100)
     return {}
 """
-LAUNCH = '<launch><node pkg="tf" type="static_transform_publisher" name="a" args="0 0 0 0 0 0 a b 100"/></launch>'
+LAUNCH = """
+<launch>
+  <node pkg="tf" type="static_transform_publisher" name="a" args="0 0 0 0 0 0 a b 100"
+    launch-prefix="/bin/sh -c 'exec sleep 100'" />
+</launch>
+"""
 
 
 @pytest.fixture(scope="module")
