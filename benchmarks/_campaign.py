@@ -148,8 +148,7 @@ def _without_older(claim: Claim, seeds: Sequence[int], oldest: str) -> Claim:
     """Drop trials before a commit once all seeds have newer ones."""
     if not seeds_since(claim, oldest).issuperset(seeds):
         return claim
-    trials = tuple(trial for trial in claim.trials if is_since(trial.commit, oldest))
-    return replace(claim, trials=trials)
+    return _since(claim, oldest)
 
 
 @contextlib.contextmanager
@@ -163,3 +162,32 @@ def _alone(file: Path) -> Iterator[None]:
         yield
     finally:
         os.close(folder)
+
+
+def take(file: Path, other: Path, oldest: str) -> list[Claim]:
+    """Enter what another checkout measured at a commit or later; return the claims that changed.
+
+    Where both have a seed, the other one's trial is taken. Trials of before that commit go with
+    the first newer one.
+    """
+    changed = []
+    with _alone(file):
+        claims = read_claims(file)
+        for claim in read_claims(other).claims:
+            here = claims.find(claim.key) or replace(claim, trials=())
+            new = _since(claim, oldest)
+            if new.trials:
+                taken = _since(here, oldest)
+                for trial in new.trials:
+                    taken = taken.with_trial(trial)
+                if taken != here:
+                    changed.append(taken)
+                    claims = claims.with_claim(taken)
+        claims.write(file)
+    return changed
+
+
+def _since(claim: Claim, oldest: str) -> Claim:
+    """Return a claim without its trials of before a commit."""
+    trials = tuple(trial for trial in claim.trials if is_since(trial.commit, oldest))
+    return replace(claim, trials=trials)

@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from _campaign import Campaign, record, seeds_since
+from _campaign import Campaign, record, seeds_since, take
 from _checkout import clean_commit, commit, commits
 from _claim_table import table
 from _verify import CHEAP, seed_of, verify, within, worth_verifying
@@ -128,7 +128,11 @@ def main() -> None:
         out = args.out or Path(spare)
         if args.verify:
             raise SystemExit(0 if verified(args, out) else 1)
-        print(table(measured(args, out), long=True), end="")
+        if args.take is not None:
+            found = take(CLAIMS_FILE, args.take, args.since or commit())
+        else:
+            found = measured(args, out)
+        print(table(found, long=True), end="")
 
 
 def arguments() -> argparse.Namespace:
@@ -153,6 +157,12 @@ def arguments() -> argparse.Namespace:
         "--since",
         metavar="COMMIT",
         help="with --write: leave alone what was measured at this commit or later (default: now)",
+    )
+    add(
+        "--take",
+        type=Path,
+        metavar="FILE",
+        help="instead of measuring, enter what another checkout's claims.yaml has --since COMMIT",
     )
     add(
         "--verify",

@@ -137,6 +137,21 @@ def test_trials_of_older_commits_stay_until_all_seeds_are_measured_again(
         assert [each.commit for each in found.trials] == left
 
 
+def test_what_another_checkout_measured_is_taken(campaign, tmp_path, monkeypatch):
+    monkeypatch.setattr(campaign, "is_since", lambda commit, _: commit != "old")
+    here, there = tmp_path / "claims.yaml", tmp_path / "others.yaml"
+    untouched = replace(claim(trial(0, "old")), train="gazelle train Other", task="Other")
+    mine = claim(trial(0, "old"), trial(1, "mine"), trial(2, "mine"), trial(9, "old"))
+    theirs = claim(trial(0, "theirs"), trial(2, "theirs", success=4), trial(7, "old"))
+    first = replace(untouched, train="gazelle train New", task="New", trials=(trial(0, "theirs"),))
+    replace(read_claims(), claims=(mine, untouched)).write(here)
+    replace(read_claims(), claims=(theirs, untouched, first)).write(there)
+    taken = claim(trial(0, "theirs"), trial(1, "mine"), trial(2, "theirs", success=4))
+    assert campaign.take(here, there, "oldest") == [taken, first]
+    assert set(read_claims(here).claims) == {taken, first, untouched}
+    assert campaign.take(here, there, "oldest") == []
+
+
 def test_a_first_figure_takes_the_place_of_the_line_that_says_why_there_is_none(tmp_path):
     before = replace(read_claims(), unverified={"Task": "not tried", "Other": "neither"})
     after = before.with_claim(claim(trial(0)))
