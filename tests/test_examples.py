@@ -19,7 +19,6 @@ def test_something(numbers):
 
 def drawn(folder, profile):
     (folder / "conftest.py").write_text((HERE / "conftest.py").read_text())
-    (folder / "missing.py").write_text((HERE / "missing.py").read_text())
     (folder / "test_it.py").write_text(TEST)
     env = {key: value for key, value in os.environ.items() if key != "GAZELLE_EXAMPLES"}
     env |= {"GAZELLE_EXAMPLES": profile} if profile else {}
