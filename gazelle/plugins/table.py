@@ -68,6 +68,7 @@ _SENSORS = (
                "camera:ThermalCameraPlugin"),
     _simulated("gazebo_ros_depth_camera", "pictures, depths and points", "depth_camera:DepthCameraPlugin"),
     _simulated("gazebo_ros_openni_kinect", "the same of a Kinect", "depth_camera:KinectPlugin"),
+    _simulated("realsense_gazebo_plugin", "Intel's RealSense: colour, depth, infrared, points", "realsense:RealSense"),
     _simulated("hector_gazebo_ros_sonar", "Hector's sonar", "hector_sonar:HectorSonar"),
     _simulated("plugin_ros_imu plugin_ros_imu_native", "the IMU of SJTU's quadrotor", "drone_sensors:DroneImu"),
     _simulated("plugin_ros_sonar", "the sonar of SJTU's quadrotor", "drone_sensors:DroneSonar"),

@@ -38,11 +38,13 @@ class BasePlugin:
             step, None means never. Set it in the class or in ``load``.
         only_publishes: Whether ``active`` is true exactly while somebody listens to an output, so
             that it need not be asked at every step.
+        handle: Name that the file gives it; known in ``load``.
         belongs_into: Tag of the element of a world that names plugins of this kind.
     """
 
     update_rate: float | None = None
     only_publishes: bool = False
+    handle: str = ""
     belongs_into: ClassVar[str] = ""
 
     @property

@@ -106,6 +106,7 @@ def _start(
         if found is None or not _fits(found, element, name, plugin):
             return
         loaded = cast("Any", found())
+        loaded.handle = plugin.name
         loaded.load(entity, plugin.parameters)
     except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
         ports.back_to(opened)
