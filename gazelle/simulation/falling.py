@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.description import Model
 from gazelle.engines import Engine
-from gazelle.errors import SimulationWarning, describe
+from gazelle.errors import EngineError, SimulationWarning, describe
 from gazelle.rotations import conjugate, rotate
 
 _PERIOD_NS = 500_000_000
@@ -73,7 +73,10 @@ class FallWatch:
         ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
         origins = np.vstack([radius * ring for radius in _RINGS])
         down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
-        hits = self._engine.cast_rays(name, rotate(back, origins), rotate(back, down), worlds)
+        try:
+            hits = self._engine.cast_rays(name, rotate(back, origins), rotate(back, down), worlds)
+        except EngineError:  # the plane has no below
+            return True
         return bool(np.isfinite(hits.distance).any())
 
     def _cause(self, model: Model) -> str:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import itertools
+import math
+from collections.abc import Iterator
 
 import numpy as np
 from PIL import Image
 
 from gazelle.array_types import Floats, Picture
+from gazelle.errors import EngineError
 from gazelle.rendering import LiveScene, PinholeLens
+from gazelle.rotations import conjugate, rotate
 from gazelle.sensors import look_at
 from gazelle.simulation import Simulation
 from gazelle.simulation.inputs import one_world
@@ -21,6 +25,7 @@ _FINER = 2  # drawn so many times larger, and made smaller: smooth edges
 _FOV = 0.9  # horizontal [rad]
 _MARGIN = 1.06
 _ASIDE = np.array([-0.45, -0.75, 0.75])  # from where a whole world is looked at
+_NEAR = 0.4  # what is met so near to a model's middle belongs to it [m]
 _BEHIND = np.array([-1.6, -1.0, 1.1])  # from where a model is followed [m]
 
 
@@ -30,7 +35,7 @@ class SceneCamera:
     Args:
         simulation: What to look at.
         eye: Where the camera is [m]; by default where it sees the whole world, or behind the
-            model that it follows. While it follows, in the frame that moves with the model.
+            model that it follows, or beside it where something is in the way at the beginning. While it follows, in the frame that moves with the model.
         target: What it looks at [m], likewise.
         follow: Name of a model that the camera goes along with, without turning.
         world: Which world of a batch.
@@ -87,16 +92,57 @@ class SceneCamera:
         fine = Image.fromarray(frames.color[0])
         return np.asarray(fine.reduce(_FINER), np.uint8)
 
+    def _clear_way(self, middle: Floats) -> Floats:
+        """Return from where the model that is followed is seen now, relative to it [m].
+
+        The first of ``_ways`` along which nothing but the model is met, at the beginning.
+        """
+        simulation = self._simulation
+        robot, engine = simulation.robots[self._follow], simulation.engine
+        ways = list(_ways())
+        first = robot.first_link
+        if first is None:
+            return ways[0]
+        target = robot.placement(self._world).position[0] + middle
+        place = engine.link_placement(first.name, self._world)
+        back = conjugate(place.quaternion[0])
+        eyes = target + np.array(ways)
+        lengths = np.linalg.norm(ways, axis=1)
+        origins = rotate(back, eyes - place.position[0])
+        directions = rotate(back, -np.array(ways) / lengths[:, None])
+        try:
+            hits = engine.cast_rays(first.name, origins, directions, self._world)
+        except EngineError:  # the plane has rays of one height only
+            return ways[0]
+        clear = (hits.distance[0] >= lengths - _NEAR) & ~hits.from_inside[0]
+        return ways[int(np.argmax(clear))]
+
     def _usual(self, eye: Place | None, target: Place | None) -> tuple[Floats, Floats]:
         """Eye and target, where they are not given from the size of what there is to see."""
         if self._follow:
-            middle, away = np.array([0.0, 0.0, 0.1]), _BEHIND
+            middle = np.array([0.0, 0.0, 0.1])
+            away = self._simulation.requests.call(lambda: self._clear_way(middle))
         else:
             low, high = extent_of_world(self._simulation.world)
             middle = (low + high) / 2.0
             away = _ASIDE * distance_to_see((high - low) / 2.0, _ASIDE, self._lens)
         seen = middle if target is None else np.array(target)
         return (seen + away if eye is None else np.array(eye)), seen
+
+
+def _ways() -> Iterator[Floats]:
+    """Yield where a model may be looked at from, relative to it [m], what is usual first."""
+    for share, lift in ((1.0, 0.0), (1.0, 0.8), (0.5, 0.0), (0.5, 0.8), (0.3, 1.0)):
+        for eighth in (0, 1, -1, 2, -2, 3, -3, 4):
+            turn = math.pi / 4.0 * eighth
+            x, y, z = _BEHIND.tolist()
+            yield share * np.array(
+                [
+                    x * math.cos(turn) - y * math.sin(turn),
+                    x * math.sin(turn) + y * math.cos(turn),
+                    z + lift,
+                ]
+            )
 
 
 def distance_to_see(half: Floats, away: Floats, lens: PinholeLens) -> float:

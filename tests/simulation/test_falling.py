@@ -62,6 +62,12 @@ def test_each_model_is_named_and_the_world_it_fell_out_of():
             sim.run(3.0)
 
 
+def test_nothing_falls_in_the_plane():
+    with gazelle.Simulation(world(model("box")), "planar", threads=1) as sim:
+        sim.robots["box"].set_pose((0.0, 0.0, -50.0))
+        sim.run(1.0)
+
+
 def test_what_has_ground_below_does_not_count_as_fallen():
     high = model("high", "0 0 60 0 0 0")
     with warnings.catch_warnings(), gazelle.Simulation(world(FLOOR, high), threads=1) as sim:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
-from gazelle import assets
+from gazelle import assets, formats
 from gazelle.cli.main import main
 from gazelle.errors import Error, RosError
 from gazelle.rendering import PinholeLens
@@ -54,6 +54,25 @@ def test_a_robot_is_seen_to_move_and_is_followed(engine):
             SceneCamera(sim, follow="nobody")
         with pytest.raises(Error, match="no world"):
             SceneCamera(sim, world=1)
+
+
+WALL = """<sdf version="1.7"><model name="wall"><static>1</static><link name="l">
+<pose>{0} 0 1 0 0 0</pose><collision name="c"><geometry><box><size>{1} 9 2</size></box></geometry>
+</collision><visual name="v"><geometry><box><size>{1} 9 2</size></box></geometry></visual></link>
+</model></sdf>"""
+
+
+@pytest.mark.parametrize(("x", "thick"), [(-0.6, 0.1), (-1.5, 1.0), (-3.0, 4.0)])
+def test_a_camera_that_follows_looks_from_where_nothing_is_in_the_way(x, thick):
+    with Simulation("empty", threads=1) as sim:
+        robot = sim.spawn("turtlebot3_burger")
+        sim.spawn(formats.load_model_string(WALL.format(x, thick)))
+        camera = SceneCamera(sim, size=(240, 160), follow="turtlebot3_burger")
+        with_it = camera.look()
+        robot.set_pose((0.0, 0.0, -5.0))
+        camera._follow = ""
+        gone = np.abs(camera.look().astype(int) - with_it).max(axis=2) > 25
+        assert gone[60:100, 90:150].mean() > 0.05
 
 
 def test_a_camera_follows_models_that_come_and_go():
