@@ -96,7 +96,6 @@ ADVICE = {
     "moveit_python": _SOURCE.format("moveit_python"),
     "pcl": "it is C++: sensor_msgs.point_cloud2 and ros_numpy read clouds",
     "py_trees_ros": _SOURCE.format("py_trees_ros"),
-    "resource_retriever": "package:// is rospkg.RosPack().get_path(PACKAGE) and what follows it",
     "roswtf": "'gazelle node info' and 'gazelle topic info' say who speaks with whom",
     "sound_play": _SOURCE.format("audio_common"),
 }
