@@ -33,6 +33,7 @@ _TIME_STEP = 0.002
 _MOTOR = 200.0  # [N m], as the robot's file says
 _MOST = (SPEED, 10.0, 2.0 * np.pi, TILTED, 100.0, 100.0)  # bounds of what is seen, as published
 _ACTIONS = (3, 5)
+LONGEST_HOLD = 25  # up to which steps with one command are counted
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,10 +43,12 @@ class MovingCubeSettings(DynamicsSettings):
     Attributes:
         n_actions: 3 as published, or 5 with those that openai_ros decodes beyond them.
         failure_reward: Reward of the step in which it tilts too far.
+        shows_hold: Whether the number of steps with the present command is observed, too.
     """
 
     n_actions: int = 3
     failure_reward: float = 10.0
+    shows_hold: bool = False
 
     def __post_init__(self) -> None:
         # A zero-argument super() does not work in a dataclass with slots.
@@ -54,6 +57,8 @@ class MovingCubeSettings(DynamicsSettings):
             raise TaskError(f"n_actions must be 3 or 5, not {self.n_actions!r}")
         if not np.isfinite(self.failure_reward):
             raise TaskError(f"failure_reward must be finite, not {self.failure_reward!r}")
+        if not isinstance(self.shows_hold, bool):
+            raise TaskError(f"shows_hold must be True or False, not {self.shows_hold!r}")
 
 
 class MovingCubeTask(SimulationTask):
@@ -74,22 +79,29 @@ class MovingCubeTask(SimulationTask):
         self._cube = simulation.spawn(assets.robot("moving_cube"), pose=Pose(z=HALF_SIDE))
         self._wheel = self._cube.joints["inertia_wheel_roll_joint"]
         self._wheel.add_motor(_MOTOR)
-        most = np.array(_MOST, np.float32)
-        self.observation_space = gym.spaces.Box(-most, most, dtype=np.float32)
+        least, most = np.negative(_MOST), np.array(_MOST)
+        if settings.shows_hold:
+            least, most = np.append(least, 0.0), np.append(most, LONGEST_HOLD)
+        self.observation_space = gym.spaces.Box(
+            least.astype(np.float32), most.astype(np.float32), dtype=np.float32
+        )
         self.action_space = gym.spaces.Discrete(settings.n_actions)
         self._failure = settings.failure_reward
+        self._shows_hold = settings.shows_hold
         super().__init__(
             simulation,
             control_period=CONTROL_PERIOD,
             max_episode_steps=settings.max_episode_steps,
         )
         self.memory["speed"] = np.full(nworld, FIRST_SPEED)
+        self.memory["held"] = np.zeros(nworld)
         self.memory["place"] = np.zeros(nworld)
         self.memory["start"] = np.zeros((nworld, 1))
 
     def start(self, worlds: Worlds) -> None:
         """It rests on the floor, its wheel spinning slowly."""
         self.memory["speed"][worlds] = FIRST_SPEED
+        self.memory["held"][worlds] = 0.0
         self.memory["place"][worlds] = 0.0
         yaw = self.memory["start"][worlds] = self.draw(-START_YAW, START_YAW, worlds)
         self._cube.set_pose((0.0, 0.0, HALF_SIDE), yaw=yaw[:, 0], worlds=worlds)
@@ -102,16 +114,20 @@ class MovingCubeTask(SimulationTask):
         return start
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """Wheel's speed, y, roll, pitch, speed along y and yaw, rounded as published."""
+        """Return the wheel's speed, y, roll, pitch, speed along y and yaw, rounded as published."""
         placement, motion = self._cube.placement(worlds), self._cube.motion(worlds)
         roll, pitch, yaw = roll_pitch_yaw(placement.quaternion).T
         y = placement.position[:, 1]
         tenths = rounded(np.column_stack((y, roll, pitch, motion.linear[:, 1], yaw)), 1)
-        return np.column_stack((rounded(self._wheel.velocities(worlds)[:, 0], 0), tenths))
+        seen = np.column_stack((rounded(self._wheel.velocities(worlds)[:, 0], 0), tenths))
+        if not self._shows_hold:
+            return seen
+        held = self.memory["held"] if worlds is None else self.memory["held"][worlds]
+        return np.column_stack((seen, held))
 
     def act(self, actions: NDArray[np.int64]) -> None:
-        """The wheel's speed is set, or changed by a step."""
-        speed = self.memory["speed"]
+        """Set the wheel's speed, or change it by a step."""
+        speed, held = self.memory["speed"], self.memory["held"]
         asked = (
             np.full(self.nworld, SPEED),
             np.full(self.nworld, -SPEED),
@@ -119,12 +135,14 @@ class MovingCubeTask(SimulationTask):
             speed + SPEED_STEP,
             speed - SPEED_STEP,
         )
-        speed[:] = np.clip(np.choose(actions, asked), -SPEED, SPEED)
+        now = np.clip(np.choose(actions, asked), -SPEED, SPEED)
+        held[:] = np.where(now == speed, np.minimum(held + 1.0, LONGEST_HOLD), 0.0)
+        speed[:] = now
         self._wheel.drive(speed)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
         """Way and speed along y, less for yaw; another reward where it tilts too far."""
-        _, y, _, pitch, speed, yaw = rounded(observation, 1).T
+        _, y, _, pitch, speed, yaw = rounded(observation[:, : len(_MOST)], 1).T
         failed = (np.abs(pitch) > TILTED) | (np.abs(yaw) > TILTED)
         way = rounded(WEIGHT * (y - self.memory["place"]), 0)
         turned = rounded(-WEIGHT * np.abs(np.sin(yaw)), 0)

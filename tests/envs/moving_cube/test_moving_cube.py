@@ -125,7 +125,27 @@ def test_five_actions_add_and_take_speed_within_bounds():
         np.testing.assert_array_equal(step.observation[:, 0], wanted)
 
 
-@pytest.mark.parametrize("options", [{"n_actions": 4}, {"failure_reward": np.nan}, {"n_action": 3}])
+def test_steps_with_the_same_command_are_shown_if_asked_for():
+    shown, plain = (begun(2, n_actions=5, shows_hold=shows) for shows in (True, False))
+    np.testing.assert_array_equal(shown.observe(None)[:, 6], 0.0)
+    held = []
+    for first in [STOP, STOP, BACKWARD, *[FORWARD] * 30, 3, 4]:  # it is no faster than 50
+        actions = np.array([first, STOP])
+        seen, published = (task.advance(actions).observation for task in (shown, plain))
+        np.testing.assert_array_equal(seen[:, :6], published)
+        held.append(seen[:, 6])
+    both = np.transpose(held)
+    assert both[0].tolist() == [0, 1, 0, *range(25), *[25] * 6, 0]
+    assert both[1].tolist() == [*range(26), *[25] * 9]
+    shown.begin(np.array([1]))
+    assert shown.observe(None)[:, 6].tolist() == [0, 0]
+    assert shown.observe(np.array([0]))[:, 6].tolist() == [0]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"n_actions": 4}, {"failure_reward": np.nan}, {"n_action": 3}, {"shows_hold": 1}],
+)
 def test_options_that_cannot_be_are_refused(options):
     with pytest.raises(gazelle.TaskError):
         gym.make(ID, **options)
