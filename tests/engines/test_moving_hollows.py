@@ -1,5 +1,7 @@
 """Hollow meshes that move hold, let through and let turn what their triangles do."""
 
+from dataclasses import replace
+
 import hollows
 import numpy as np
 import pytest
@@ -8,6 +10,8 @@ import trimesh
 
 from gazelle.description import Cylinder, Mesh, Pose
 from gazelle.engines import make_engine
+from gazelle.errors import EngineWarning
+from gazelle.formats import bounded_pieces, convex
 from gazelle.formats.mesh import MeshData
 
 
@@ -56,6 +60,19 @@ def test_a_piston_slides_through_a_sleeve_with_little_play(size, tmp_path):
     engine = make_engine("mujoco", scenes.world(scenes.ground(), sleeve, piston), threads=1)
     engine.step(2000)
     assert height(engine, "piston") == pytest.approx(tall / 4.0, abs=0.01)
+
+
+def test_a_mesh_that_needs_too_many_pieces_is_named_once(tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr(convex, "_MEMORY", {})
+    monkeypatch.setattr(bounded_pieces, "MOST_PIECES", 5)
+    monkeypatch.setattr(bounded_pieces, "_FEW_PIECES", 5)
+    data = hollows.made("car body", 1.0)
+    one, other = (body("car", data, tmp_path, pose=Pose(x=x, z=1.0)) for x in (0.0, 2.0))
+    world = scenes.world(one, replace(other, name="other"))
+    with pytest.warns(EngineWarning, match=r"'car.stl' collides up to [\d.]+ m beside") as told:
+        make_engine("mujoco", world, threads=1)
+    assert len(told) == 1
 
 
 @pytest.mark.long

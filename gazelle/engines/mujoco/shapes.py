@@ -102,9 +102,10 @@ class ShapeBuilder:
         if ground is not None:
             return [self._ground_geom(shape, ground, pose, source)]
         pieces = decompose(load_mesh(shape), static=static)
-        if pieces.gap > pieces.promised:
+        key = (_key_of(shape), static)
+        if pieces.gap > pieces.promised and key not in self.pieces:
             _warn_of_gap(shape, pieces.gap, source)
-        return self._piece_geoms((_key_of(shape), static), pieces, pose)
+        return self._piece_geoms(key, pieces, pose)
 
     def data_options(self, data: MeshData, pose: Pose, *, static: bool) -> list[dict[str, Any]]:
         """Arguments of ``add_geom`` for a mesh that is in no file; ``static`` as in ``options``."""
