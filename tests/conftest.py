@@ -18,6 +18,9 @@ from hypothesis import settings
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# ONNX Runtime reports its use to its makers, and leaves files, where this is not set before its import.
+os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1")
+
 # Ten thousand tests and the libraries that they import are millions of objects, and none of them is
 # garbage. Looking for some among them took a third of the time in which the tests are collected, in
 # every process, and half a second in each full search after that.

@@ -84,12 +84,12 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _world(gazebo: Gazebo, options: argparse.Namespace) -> int:
+    if options.pause is not None:  # before all else, as Gazebo does
+        (gazebo.pause if options.pause else gazebo.unpause)()
     if options.reset_all:
         gazebo.reset_simulation()
     if options.reset_models:
         gazebo.reset_world()
-    if options.pause is not None:
-        (gazebo.pause if options.pause else gazebo.unpause)()
     steps = options.multi_step or int(options.step)
     if steps:
         if not gazebo.physics.paused:

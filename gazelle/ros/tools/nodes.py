@@ -151,6 +151,8 @@ def nodes_on(graph: GraphInspector, machine: str) -> list[str]:
 
 
 def _addresses(host: str) -> set[str]:
+    if host == "localhost":  # RFC 6761; a machine without /etc/hosts does not know it
+        return {"127.0.0.1", "::1"}
     return {str(each[4][0]) for each in socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)}
 
 

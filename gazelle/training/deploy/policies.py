@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -127,6 +128,8 @@ class _ArrayBrain:
 
 class _OnnxBrain:
     def __init__(self, file: Path) -> None:
+        # Else it reports each use to its makers, and keeps an identity and a queue in the home folder.
+        os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1")
         try:
             import onnxruntime  # type: ignore[import-untyped]
         except ModuleNotFoundError as error:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -270,6 +273,27 @@ def test_an_onnx_file_drives_too(tmp_path, straight_on):
     file.write_bytes(b"nonsense")
     with pytest.raises(FormatError, match="not a policy"):
         open_policy(file)
+
+
+@pytest.mark.long
+def test_onnx_runtime_leaves_nothing_and_reports_nothing(tmp_path, straight_on):
+    from gazelle.training import load_actor
+    from gazelle.training.onnx_graph import onnx_model
+
+    file = tmp_path / "robot.onnx"
+    file.write_bytes(onnx_model(load_actor(straight_on)).SerializeToString())
+    file.with_suffix(".json").write_text(straight_on.with_suffix(".json").read_text())
+    home = tmp_path / "home"
+    home.mkdir()
+    hidden = {"ORT_DISABLE_TELEMETRY", "XDG_CACHE_HOME"}
+    env = {name: value for name, value in os.environ.items() if name not in hidden}
+    script = "from gazelle.training.deploy import open_policy; import sys; open_policy(sys.argv[1])"
+    subprocess.run(
+        [sys.executable, "-c", script, str(file)],
+        env=env | {"HOME": str(home), "TMPDIR": str(home)},
+        check=True,
+    )
+    assert list(home.rglob("*")) == []
 
 
 def test_a_policy_without_velocities_is_refused(tmp_path, straight_on):
