@@ -7,7 +7,7 @@ import warnings
 from typing import TextIO
 
 from gazelle.errors import Error, GazelleWarning
-from gazelle.interrupts import interruptible
+from gazelle.interrupts import end_process, interruptible, requested
 from gazelle.ros.builtin.registry import main_of
 from gazelle.ros.builtin.registry import package as built_in
 from gazelle.ros.errors import NodeClosedError
@@ -48,4 +48,7 @@ def _show_warning(
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    code = main(sys.argv[1:])
+    if requested():
+        end_process(code)
+    sys.exit(code)
