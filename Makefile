@@ -39,7 +39,7 @@ help:
 	@echo "make lint       ruff (check and format) and mypy in strict mode"
 	@echo "make bench      the benchmark of the environments"
 	@echo "make checked    kernels' tests with checked indices, then with sanitizers (gcc)"
-	@echo "make wheel      wheels for Linux and macOS into dist, with Zig's C compiler"
+	@echo "make wheel      wheels for Linux, macOS and Windows into dist, with Zig's C compiler"
 	@echo "make clean      remove .venv and caches"
 
 $(VENV)/bin/python:
@@ -89,9 +89,10 @@ checked: $(ALL)
 	GAZELLE_NATIVE=sanitize ASAN_OPTIONS=detect_leaks=0 \
 		LD_PRELOAD="$$(gcc -print-file-name=libasan.so) $$(gcc -print-file-name=libubsan.so)" $(ON_KERNELS)
 
+# TARGETS names platforms of tools/compiling/wheels.py; without it all are built.
 wheel: $(ALL)
-	$(PIP) install --quiet --constraint constraints.txt build
-	$(VENV)/bin/python tools/compiling/wheels.py dist
+	$(PIP) install --quiet --constraint constraints.txt abi3audit auditwheel build twine ziglang
+	$(VENV)/bin/python tools/compiling/wheels.py dist $(TARGETS)
 
 clean:
 	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

@@ -12,5 +12,6 @@ from extensions import BuildModules, BuildSources, extensions
 compiling = {"build_ext", "bdist_wheel", "editable_wheel", "build", "install", "develop"}
 setup(
     ext_modules=extensions() if compiling & set(sys.argv) else [],
+    options={"bdist_wheel": {"py_limited_api": "cp311"}},
     cmdclass={"build_ext": BuildModules, "build_py": BuildSources},
 )

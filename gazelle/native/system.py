@@ -4,6 +4,9 @@
 
 import cython
 
+HEAP_TYPE = 1 << 9
+"""Py_TPFLAGS_HEAPTYPE: a class that is made at run time, as the stable ABI makes all."""
+
 
 @cython.cclass
 class System:
@@ -26,6 +29,7 @@ class System:
         least: Fewer rows are not worth a thread.
 
     Raises:
+        TypeError: A subclass is compiled without Python's stable ABI.
         ValueError: ``rows`` is less than 1, or ``rate`` than 0.
     """
 
@@ -38,6 +42,11 @@ class System:
     ) -> None:
         if rows < 1 or not rate >= 0.0:
             raise ValueError(f"a system has {rows} rows, and is updated {rate} times a second")
+        if not type(self).__flags__ & HEAP_TYPE:  # the end of such an object would free its class
+            raise TypeError(
+                f"{type(self).__name__} is compiled without Py_LIMITED_API=0x030B0000, which "
+                "Gazelle's own modules use"
+            )
         self.rows, self.rate, self.divisible, self.due = rows, rate, divisible, due
         self.late, self.least = False, 1
 

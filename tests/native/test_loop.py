@@ -7,12 +7,13 @@ import os
 import shutil
 import subprocess
 import sys
-import sysconfig
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
+from extensions import LIMITED_API
+from setuptools.command.build_ext import get_abi3_suffix
 
 from gazelle import native
 from gazelle.native.loop import SystemLoop
@@ -23,28 +24,32 @@ BUILD = """
 from setuptools import Extension, setup
 from Cython.Build import cythonize
 setup(name="mixing", ext_modules=cythonize(Extension("mixing", ["mixing.py"],
+    define_macros={macros!r}, py_limited_api=True,
     extra_compile_args=["-O0", "-g0"]), language_level=3, include_path=[{root!r}],
     compiler_directives={{"cdivision": True}}),
     script_args=["build_ext", "--inplace", "-q"])
 """
 
 
-@pytest.fixture(scope="module")
-def mixing(tmp_path_factory):
+def built(folder, macros):
     """The kernel module beside this file, compiled where Gazelle is."""
-    folder = tmp_path_factory.mktemp("mixing")
     source = HERE / "mixing.py"
     if native.BUILD != "python":
         if not any(map(shutil.which, ("cc", "gcc", "clang", "cl"))):
             pytest.skip("no C compiler")
         shutil.copy(source, folder)
-        text = BUILD.format(root=str(Path(native.__file__).parents[2]))
+        text = BUILD.format(root=str(Path(native.__file__).parents[2]), macros=macros)
         subprocess.run([sys.executable, "-c", text], cwd=folder, check=True, capture_output=True)
-        source = folder / f"mixing{sysconfig.get_config_var('EXT_SUFFIX')}"
+        source = folder / f"mixing{get_abi3_suffix()}"
     spec = importlib.util.spec_from_file_location("mixing", source)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="module")
+def mixing(tmp_path_factory):
+    return built(tmp_path_factory.mktemp("mixing"), [("Py_LIMITED_API", LIMITED_API)])
 
 
 class Threads:
@@ -171,3 +176,12 @@ def test_the_fastest_build_that_runs_here_is_chosen():
 
 def test_an_unknown_build_is_refused_by_name():
     assert "GAZELLE_NATIVE is one of baseline, avx2" in outcome("fastest").stderr
+
+
+@pytest.mark.long
+@pytest.mark.skipif(native.BUILD == "python", reason="Python runs the sources")
+def test_a_system_without_the_stable_abi_is_refused(tmp_path):
+    kind = built(tmp_path, []).Mix
+    words = np.zeros(1, np.uint64)
+    with pytest.raises(TypeError, match="Mix is compiled without Py_LIMITED_API"):
+        kind(words, words, 0, 1, 0.0, True)

@@ -70,3 +70,8 @@ def is_x86() -> bool:
 def is_macos() -> bool:
     """Whether what is built is for macOS."""
     return "macos" in zig_target()
+
+
+def is_windows() -> bool:
+    """Whether what is built is for Windows."""
+    return "windows" in zig_target()

@@ -13,6 +13,7 @@ import sysconfig
 from pathlib import Path
 
 import compilers
+import windows_python
 from Cython.Build import cythonize
 from setuptools import Extension
 from setuptools.command.build_ext import build_ext
@@ -41,6 +42,9 @@ CHECKED = {"boundscheck": True, "initializedcheck": True}
 PRECISE = ["-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math"]
 FAST = ["-O3", *PRECISE, "-g0", "-DNDEBUG", "-DCYTHON_WITHOUT_ASSERTIONS"]
 QUIET = ["-Wno-unused-function", "-Wno-unreachable-code", "-Wno-unused-variable"]
+LIMITED_API = "0x030B0000"
+"""Python's stable ABI of 3.11: modules work with that version and all later ones."""
+
 BUILDS = {
     "baseline": FAST,
     "avx2": [*FAST, "-mavx2"],
@@ -117,6 +121,8 @@ def _built(module: Extension, build: str) -> Extension:
         sources=list(module.sources),
         depends=[*module.depends, *map(str, (ROOT / home).glob("*.h"))],
         include_dirs=[str(home), "gazelle/native"],
+        define_macros=[("Py_LIMITED_API", LIMITED_API)],
+        py_limited_api=True,
         extra_compile_args=[build],
     )
 
@@ -154,6 +160,8 @@ class BuildModules(build_ext):
         if unix:
             self._choose_compiler()
         self.force = True  # what is up to date is known by its ingredients, not by its age
+        if compilers.is_windows() and unix:
+            self._use_windows_python()
         every, folder = self.extensions, self.build_temp
         for build in dict.fromkeys(each.extra_compile_args[0] for each in every):
             chosen = [each for each in every if each.extra_compile_args[0] == build]
@@ -186,7 +194,7 @@ class BuildModules(build_ext):
     def _ingredients(self, ext: Extension) -> str:
         """A digest of everything that decides what is compiled."""
         words = [self._version, sys.version, ext.name, *ext.extra_compile_args]
-        words += [*ext.extra_link_args, *self._command]
+        words += [*ext.extra_link_args, *self._command, str(ext.define_macros)]
         digest = hashlib.sha256("\0".join(words).encode())
         headers = [path for folder in ext.include_dirs for path in Path(folder).glob("*.h")]
         for path in [*map(Path, ext.sources), *sorted(headers)]:
@@ -204,19 +212,38 @@ class BuildModules(build_ext):
         ending = ["-shared"]
         if compilers.is_macos():  # where Zig's linker of 0.17 crashes on bundles
             ending = ["-shared" if zig else "-bundle", "-undefined", "dynamic_lookup"]
-        self.compiler.set_executables(
-            compiler_so=[*command, "-fPIC", "-fwrapv"], linker_so=[*command, *ending]
-        )
+        code = ["-fwrapv"] if compilers.is_windows() else ["-fPIC", "-fwrapv"]
+        self.compiler.set_executables(compiler_so=[*command, *code], linker_so=[*command, *ending])
         self._compiler = f"zig-{compilers.zig_target()}" if zig else "system"
         self._command = [*command, *ending]
         shown = subprocess.run([*command, "--version"], check=True, capture_output=True, text=True)
         # What follows tells where it is installed: pip has another folder for Zig's each time.
         self._version = shown.stdout.partition("\n")[0]
 
-    def copy_extensions_to_source(self) -> None:
-        """Put them beside their sources, for an editable installation."""
+    def _use_windows_python(self) -> None:
+        """Compile for Windows on another system."""
+        folder = Path("build", "windows").resolve()
+        library, headers = windows_python.import_library(folder), windows_python.headers(folder)
         for each in self.extensions:
-            Path(*each.name.split(".")[:-1]).mkdir(exist_ok=True)
+            each.include_dirs.insert(0, str(headers))
+            each.extra_objects.append(str(library))
+
+    def get_ext_filename(self, fullname: str) -> str:
+        """Name a module as the system that it is for does."""
+        name = super().get_ext_filename(fullname)
+        return re.sub(r"(\.abi3)?\.so$", ".pyd", name) if compilers.is_windows() else name
+
+    def copy_extensions_to_source(self) -> None:
+        """Put them beside their sources, for an editable installation.
+
+        Modules of an earlier build under other names go: Python would prefer some of them.
+        """
+        for each in self.extensions:
+            *packages, name = each.name.split(".")
+            home = Path(*packages)
+            home.mkdir(exist_ok=True)
+            for old in [*home.glob(f"{name}.*so"), *home.glob(f"{name}.*pyd")]:
+                old.unlink()
         super().copy_extensions_to_source()
 
 

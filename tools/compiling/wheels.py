@@ -1,53 +1,86 @@
-"""Build the wheels of a release with Zig's C compiler, whatever machine this is.
+"""Build the wheels of a release with Zig's C compiler, and check them.
 
-    python tools/compiling/wheels.py dist
+    python tools/compiling/wheels.py dist                          # all
+    python tools/compiling/wheels.py dist x86_64-linux-gnu.2.17    # of one platform
 
-From a source distribution, which is made first, each in a folder of its own. macOS's are made
-but cannot be run here; Windows's need Python's import library and are made on Windows.
+They are built from a source distribution, which is made first. Each serves Python 3.11 and all
+later versions, as modules use the stable ABI. Those for macOS, Windows and aarch64 are built but
+cannot be run here.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
 import subprocess
 import sys
-import sysconfig
 import tarfile
 import tempfile
 from pathlib import Path
 
+import wheel_checks
+
 ROOT = Path(__file__).parents[2]
 
 TARGETS = {
-    "x86_64-linux-gnu.2.17": ("manylinux_2_17_x86_64", "x86_64-linux-gnu.so"),
-    "aarch64-linux-gnu.2.17": ("manylinux_2_17_aarch64", "aarch64-linux-gnu.so"),
-    "x86_64-macos.11.0": ("macosx_11_0_x86_64", "darwin.so"),
-    "aarch64-macos.11.0": ("macosx_11_0_arm64", "darwin.so"),
+    "x86_64-linux-gnu.2.17": "manylinux_2_17_x86_64",
+    "aarch64-linux-gnu.2.17": "manylinux_2_17_aarch64",
+    "x86_64-macos.11.0": "macosx_11_0_x86_64",
+    "aarch64-macos.11.0": "macosx_11_0_arm64",
+    "x86_64-windows-gnu": "win_amd64",
 }
-"""Of Zig's targets the platform that pip knows, and how modules' names end."""
+"""Zig's targets, and the platforms that pip knows."""
 
 
-def main(folder: Path) -> None:
-    """Write a source distribution and all wheels to a folder."""
+def main() -> None:
+    """Write a source distribution and wheels to a folder."""
+    parser = argparse.ArgumentParser(description="Build wheels, and check them.")
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("targets", nargs="*", default=list(TARGETS), metavar="TARGET")
+    options = parser.parse_args()
+    unknown = sorted(set(options.targets) - set(TARGETS))
+    if unknown:
+        parser.error(f"{', '.join(unknown)}: the targets are {', '.join(TARGETS)}")
+    folder = options.folder.resolve()
     folder.mkdir(exist_ok=True)
-    _run("build", "--sdist", "--outdir", str(folder), str(ROOT), environment={})
-    (source,) = sorted(folder.glob("*.tar.gz"), key=lambda path: path.stat().st_mtime)[-1:]
-    for target, (platform, ending) in TARGETS.items():
-        suffix = f".{sysconfig.get_config_var('SOABI').rsplit('-', 3)[0]}-{ending}"
-        with tempfile.TemporaryDirectory() as place:
-            with tarfile.open(source) as archive:
-                archive.extractall(place, filter="data")
-            (tree,) = Path(place).iterdir()
-            _run(
-                *["build", "--wheel", "--outdir", str(folder), str(tree)],
-                f"--config-setting=--build-option=--plat-name={platform}",
-                environment={"GAZELLE_TARGET": target, "SETUPTOOLS_EXT_SUFFIX": suffix},
-            )
+    source = _made(folder, "*.tar.gz", "--sdist", str(ROOT))
+    with tempfile.TemporaryDirectory() as place:
+        with tarfile.open(source) as archive:
+            archive.extractall(place, filter="data")
+        (tree,) = Path(place).iterdir()
+        _share_what_is_compiled(tree)
+        wheels = [_wheel(folder, tree, target) for target in options.targets]
+        for wheel in wheels:
+            wheel_checks.check(wheel, [str(ROOT), place])
+    subprocess.run(
+        [sys.executable, "-m", "twine", "check", "--strict", source, *wheels], check=True
+    )
 
 
-def _run(*words: str, environment: dict[str, str]) -> None:
-    subprocess.run([sys.executable, "-m", *words], env=os.environ | environment, check=True)
+def _share_what_is_compiled(tree: Path) -> None:
+    """C is made once for all platforms, and what is up to date is not compiled again."""
+    (tree / "build").mkdir(exist_ok=True)
+    for name in ("cython", "compiled"):
+        kept = ROOT / "build" / name
+        kept.mkdir(parents=True, exist_ok=True)
+        (tree / "build" / name).symlink_to(kept, target_is_directory=True)
+
+
+def _wheel(folder: Path, tree: Path, target: str) -> Path:
+    platform = f"--config-setting=--build-option=--plat-name={TARGETS[target]}"
+    ending = f"*-{TARGETS[target]}.whl"
+    return _made(folder, ending, "--wheel", platform, str(tree), GAZELLE_TARGET=target)
+
+
+def _made(folder: Path, ending: str, *words: str, **environment: str) -> Path:
+    """Run ``build``, and return what it has written to a folder."""
+    for old in folder.glob(f"gazelle-{ending}"):
+        old.unlink()
+    command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(folder), *words]
+    subprocess.run(command, env=os.environ | environment, check=True)
+    (made,) = folder.glob(f"gazelle-{ending}")
+    return made
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]).resolve())
+    main()
