@@ -100,7 +100,7 @@ class Campaign:
     out: Path
     """Folder of the runs."""
     keep: bool
-    """Whether the runs stay there."""
+    """True to keep the runs there."""
 
     def results(
         self, claims: Sequence[Claim], done: dict[tuple[str, str, str], set[int]]

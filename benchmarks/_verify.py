@@ -32,7 +32,7 @@ class Comparison:
 
     @property
     def below(self) -> bool:
-        """Whether the rate falls below the interval."""
+        """Return True if the rate falls below the interval."""
         return self.expected is not None and self.trial.rate.value < self.expected[0]
 
     def __str__(self) -> str:

@@ -28,7 +28,7 @@ _SAME_S = 0.5
 _DEAF_S = 1.5
 """A main thread that runs no handler for so long is inside a library, and cannot be interrupted [s]."""
 _LOOKS = 30
-"""How often to look within that time, so that a process that was paused is not taken for deaf."""
+"""Checks within that time, so that a process that was paused is not taken for stuck."""
 _LOST_S = 0.7
 """An exception that was swallowed, as in a destructor, is raised again after this time [s]."""
 _HEARD = 128
@@ -209,7 +209,7 @@ class _Listener:
 
     @property
     def asked(self) -> bool:
-        """Whether there was a request."""
+        """True after a request to end."""
         return self._number is not None
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""What runs the tests notices what they leave behind, and what is skipped where nothing may be."""
+"""The test runner reports files left behind, and skips where none are allowed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def skipped():
 
 
 def ended(monkeypatch, names, status):
-    """How a run ends whose tests leave files in their temporary folder, and where that was."""
+    """Run tests that leave files in their temporary folder; return the result and the folder."""
     folders = []
 
     def run(_, folder):

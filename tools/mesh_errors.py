@@ -1,4 +1,4 @@
-"""How far convex pieces of hollow meshes are off their triangles; the table of decision 020.
+"""Distances of convex pieces of hollow meshes from their triangles; the table of decision 020.
 
 Every shape of `tests/hollows.py` is cut up at three sizes, as what moves and as what stands still.
 Beyond and short are how far the pieces reach beyond the triangles and stay short of them at most,

@@ -50,9 +50,9 @@ class Step:
     """One thing to measure or to test."""
 
     name: str
-    """What it is."""
+    """Name of the part."""
     command: Sequence[str]
-    """What runs it."""
+    """Command of the part."""
     judge: Callable[[str], tuple[bool, str]] = lambda output: (True, last_line(output))
     """Returns of its output whether it is good, and a summary of one line."""
     environment: dict[str, str] = field(default_factory=dict)

@@ -190,7 +190,7 @@ def _report(error: Exception) -> None:
 
 
 def _is_out_of_memory(error: BaseException | None) -> bool:
-    """Whether an error, or what it came of, is a want of memory, whatever the library calls it."""
+    """Return True if an error or one of its causes says that memory ran out, in the words of any library."""
     while error is not None:
         text = str(error).lower()
         if isinstance(error, MemoryError) or any(sign in text for sign in _NO_MEMORY):

@@ -30,7 +30,7 @@ _MANY_POLYGONS = 3000
 _TOO_MANY_POLYGONS = 5000
 """Polygons up to which they are merged as they are, and above which they are joined coarsely."""
 _FINE, _COARSE = 0.25, 0.7
-"""How far joined polygons may be from flat, as a share of the bound."""
+"""Largest deviation of joined polygons from a plane, as a share of the bound."""
 
 
 def pieces_within(

@@ -30,7 +30,7 @@ PROMISED = 0.01
 """How far pieces of what stands still are off its surface at most [m]."""
 MOVING = 0.005
 _SHARE = 0.01
-"""How far pieces of what moves are off its surface at most: a length [m], a share of the size."""
+"""Largest distance of the pieces of a moving mesh from its surface: a length [m], and a share of its size."""
 SLOW = 0.02
 """Seconds from which on the pieces are kept on disk."""
 

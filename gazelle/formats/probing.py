@@ -21,7 +21,7 @@ _COARSE = 60.0
 _ALONG = 20_000
 """Places along all edges that are bent inwards, about, at most."""
 _INSET = 0.02
-"""How far from corners the places beside them are, as a share of the way to the middle."""
+"""Distance of probes from the corners beside them, as a share of the way to the middle."""
 _SHARPEST = 0.2
 """Cosine of half the turn at an edge from which on places are not moved farther out."""
 _TURNS = (0.7548776662466927, 0.5698402909980532)

@@ -32,7 +32,7 @@ PACKAGE_VARIABLE = "ROS_PACKAGE_PATH"
 NEIGHBOUR_LEVELS = 4
 
 _PACKAGED = ("*/models/", "*/models/*/")
-"""Where bundled packages have their models."""
+"""Folders of bundled packages that hold models."""
 _NETWORK = ("http://", "https://", "fuel://", "ftp://")
 
 

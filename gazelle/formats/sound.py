@@ -108,7 +108,7 @@ def check_inertia(inertia: Inertia, node: Parameters) -> None:
 
 
 def _is_positive(i: Inertia) -> bool:
-    """Whether a tensor is positive definite (Sylvester's criterion), and not out of all bounds."""
+    """Return True if a tensor is positive definite (Sylvester's criterion) and within the limits."""
     if not all(abs(each) <= HEAVIEST for each in (i.ixx, i.iyy, i.izz, i.ixy, i.ixz, i.iyz)):
         return False
     minor = i.ixx * i.iyy - i.ixy * i.ixy

@@ -1,4 +1,4 @@
-"""What ``librealsense_gazebo_plugin.so`` does: the cameras of an Intel RealSense under its names."""
+"""Plugin ``librealsense_gazebo_plugin.so``: the cameras of an Intel RealSense under its names."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What peers do wrong, told to the log in one line each and not too often."""
+"""Log of peers' faults, one line each and limited in rate."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _MOST = 256
 
 @dataclass(slots=True)
 class _Account:
-    """What was said of a peer."""
+    """Reports on one peer."""
 
     said: float
     untold: int = 0

@@ -92,7 +92,7 @@ class Schedule:
 
     @property
     def rate(self) -> float:
-        """How often it is due [Hz]; 0 for every step."""
+        """Rate at which it is due [Hz]; 0 for every step."""
         return self._rate
 
     @rate.setter

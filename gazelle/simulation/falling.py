@@ -14,7 +14,7 @@ from gazelle.rotations import conjugate, rotate
 
 _PERIOD_NS = 500_000_000
 _DEPTH = 10.0
-"""How far below its start a model is before it may have fallen out of the world [m]."""
+"""Least distance below its start of a model that may have fallen out of the world [m]."""
 
 _RINGS = (2.0, 5.0)
 """Radii around the model at which ground below it counts [m]; the model itself is narrower."""

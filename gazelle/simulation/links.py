@@ -19,7 +19,7 @@ from gazelle.simulation.retuning import set_parameters
 from gazelle.simulation.running_state import RunningState
 
 _CLOSE = 1e-3
-"""What does not count as being elsewhere [m or rad]."""
+"""Tolerance within which a pose counts as the one that was asked for [m or rad]."""
 
 
 class LinkHandle:

@@ -93,7 +93,7 @@ class Claim:
 
     @property
     def of_recipe(self) -> bool:
-        """Whether the training is that of the task's recipe, without an option."""
+        """True if the training is that of the task's recipe, without an option."""
         return self.train == training_command(self.task)
 
     @property

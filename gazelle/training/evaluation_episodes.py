@@ -56,7 +56,7 @@ class EvaluationPart:
     episodes: int
     """How many are counted."""
     seed: int
-    """What the seeds of its rounds follow from."""
+    """Seed from which the seeds of its rounds are derived."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ pytestmark = [
 ]
 
 PROCESSOR_S = 2.0
-"""What a command may spend on its end; the wall clock belongs to whatever runs beside it."""
+"""Limit of processor time for the end of a command; the wall clock depends on other programs."""
 WALL_S = 30.0
 MARK = "GAZELLE_TEST_ENDING"
 
@@ -202,7 +202,7 @@ class Running:
 
     @property
     def processor(self):
-        """What the process itself spent [s], also when it has ended and nobody has heard of it."""
+        """Return the processor time of the process itself [s], also after its end."""
         return spent(Path(f"/proc/{self.process.pid}"))[1]
 
     @property
@@ -211,7 +211,7 @@ class Running:
         return os.waitid(os.P_PID, self.process.pid, options) is not None
 
     def there(self):
-        """Whether it has come to its state."""
+        """Return True once it has reached its state."""
         sign = self.state.sign
         if isinstance(sign, float):
             found = [spent(each) for each in Path("/proc").glob("[0-9]*")]

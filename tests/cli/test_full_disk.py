@@ -39,7 +39,7 @@ def gazelle(folder, *words, most=1000, background=False, **more):
 
 
 def one_error(done, file):
-    """What must be said: one line, of which file."""
+    """Check that one line is printed that names the file."""
     (line,) = [each for each in done.stderr.splitlines() if "error" in each.lower()]
     assert line.startswith("gazelle: error: "), done.stderr
     assert "File too large" in line, done.stderr

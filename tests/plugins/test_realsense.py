@@ -28,7 +28,7 @@ def robot(tags="", parts=tuple(KINDS), prefix="front_", name="front"):
 
 
 def seen_by(model):
-    """What each topic publishes, by the topic."""
+    """Return the messages of each topic, by its name."""
     found = {}
     with gazelle.Simulation(formats.load_string(WALL)) as sim:
         spawned = sim.spawn(model, namespace="/")

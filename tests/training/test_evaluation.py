@@ -248,7 +248,7 @@ def test_the_fleet_is_evaluated_in_any_number(episodes):
 
 
 def drawn_by_trainings(seed, **options):
-    """What copies of the task begin with that are trained in: alone, and in two shards."""
+    """Return the starts of a training's copies of the task: alone, and in two shards."""
     blueprint = Blueprint(task="test/Dice-v0", sizes=(8, 8), options=options)
     plain = TaskCopies(make_task("test/Dice-v0", 16, **options)).reset(seed)
     shards = [Shard(blueprint, number).reset(seed) for number in range(2)]

@@ -44,7 +44,7 @@ def shares(rng, mean, deviation, shape):
     ],
 )
 def test_95_of_100_new_seeds_lie_within(seeds, mean, deviation, most):
-    """Where seeds differ 95 %; where they do not, 97 to 99 %, as nobody can know that they do not."""
+    """Coverage is 95 % where seeds differ, and 97 to 99 % where they do not, which no sample can show."""
     rng = np.random.default_rng(3)
     episodes, draws = 1000, 2000
     counts = rng.binomial(episodes, shares(rng, mean, deviation, (draws, seeds + 1)))

@@ -73,5 +73,5 @@ def is_macos() -> bool:
 
 
 def is_windows() -> bool:
-    """Whether what is built is for Windows."""
+    """Return True if the build is for Windows."""
     return "windows" in zig_target()

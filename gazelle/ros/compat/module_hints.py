@@ -1,4 +1,4 @@
-"""What to do about modules that a ROS 1 machine has and this one may not.
+"""Hints for modules that a ROS 1 machine has and this one may lack.
 
 One table for what pip brings under the same or another name, one for what nobody sells.
 """

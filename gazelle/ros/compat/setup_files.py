@@ -1,4 +1,4 @@
-"""Where a ``setup.py`` says that a catkin package's Python code is.
+"""Python code of catkin packages, as their ``setup.py`` names it.
 
 The file is read and never run. What it computes is not known then, and the usual layout is taken
 (http://docs.ros.org/en/noetic/api/catkin/html/user_guide/setup_dot_py.html).

@@ -1,4 +1,4 @@
-"""What has another name in Python 2."""
+"""Modules and functions that have another name in Python 2."""
 
 from __future__ import annotations
 
