@@ -186,6 +186,7 @@ class BuildModules(build_ext):
             shutil.copyfile(kept, wanted)
             return
         super().build_extension(ext)
+        wanted.with_suffix(".lib").unlink(missing_ok=True)  # Zig writes it beside, for Windows
         kept.parent.mkdir(parents=True, exist_ok=True)
         ingredients.unlink(missing_ok=True)  # should this end half-way
         shutil.copyfile(wanted, kept)
