@@ -51,7 +51,9 @@ CHANGING = {
         ),
         *("set_pose", "set_twist"),
     },
-    LinkHandle: {"apply_wrench", "clear_wrenches", "set_pose", "set_properties", "set_twist"},
+    LinkHandle: {
+        *("apply_wrench", "approach", "clear_wrenches", "set_pose", "set_properties", "set_twist"),
+    },
     JointHandle: {
         *("add_motor", "apply_effort", "clear_efforts", "drive", "set_position"),
         *("set_properties", "set_velocity"),

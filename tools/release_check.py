@@ -95,9 +95,9 @@ def steps(since: str | None = None) -> list[Step]:
 
 def recipe_step(train: str, since: str | None = None) -> Step:
     """Return the step that trains with three seeds and writes the success rates."""
-    before = {claim.key: claim for claim in committed().claims if claim.train == train}
 
     def judge(_: str) -> tuple[bool, str]:
+        before = {claim.key: claim for claim in committed().claims if claim.train == train}
         after = [claim for claim in read_claims().claims if claim.train == train]
         pairs = [(before.get(claim.key, claim), claim) for claim in after]
         return (

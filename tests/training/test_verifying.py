@@ -63,6 +63,7 @@ def outcomes(verifying, monkeypatch, tmp_path):
             return trial(seed, reached[seed])
 
         campaign = sys.modules["_campaign"]
+        monkeypatch.setattr(verifying, "commit", lambda: "0" * 12)
         monkeypatch.setattr(campaign, "evaluated", result)
         home = tmp_path / "home" / "run"
         monkeypatch.setattr(

@@ -8,8 +8,8 @@ one of KDL's negative codes (orocos_kdl, solveri.hpp).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.array_types import Floats
 from gazelle.ros.compat.PyKDL.arrays import Jacobian, JntArray
 from gazelle.ros.compat.PyKDL.chain import Chain
 from gazelle.ros.compat.PyKDL.difference import diff
@@ -23,8 +23,6 @@ _RELAXED, _TIGHTENED = 5.0, 0.3
 _DAMPING = 1e-3
 _STUCK, _NO_GAIN = 1e6, 1e-4
 """Of the damping and the share of the error that a step took away: there is nothing more to gain."""
-
-Floats = NDArray[np.float64]
 
 
 def _frames(chain: Chain, positions: Floats, count: int) -> list[Frame]:
