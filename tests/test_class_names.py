@@ -22,6 +22,7 @@ GIVEN_BY_ROS = frozenset(
         "Duration",
         "Frame",
         "Group",
+        "Joint",
         "Master",
         "MasterProxy",
         "Node",

@@ -1,6 +1,7 @@
 """What the documentation shows works as typed."""
 
 import importlib
+import os
 import re
 import subprocess
 import sys
@@ -29,6 +30,7 @@ def test_the_python_of_a_page_runs(page, tmp_path):
     done = subprocess.run(
         [sys.executable, "-c", python_of(page)],
         cwd=tmp_path,
+        env={**os.environ, "TMPDIR": str(tmp_path)},
         capture_output=True,
         text=True,
         timeout=120,
@@ -43,6 +45,7 @@ def test_an_example_runs_in_an_empty_folder(example, tmp_path):
     done = subprocess.run(
         [sys.executable, str(example)],
         cwd=tmp_path,
+        env={**os.environ, "TMPDIR": str(tmp_path)},
         capture_output=True,
         text=True,
         timeout=120,

@@ -20,7 +20,7 @@ _UPWARD = 0.7
 
 
 @dataclass(frozen=True, slots=True)
-class SpawnPlace:
+class SpawnedModel:
     """Result of `spawn_where_free`.
 
     Attributes:
@@ -56,7 +56,9 @@ def spawn_numbered(simulation: Simulation, model: Model, pose: Pose | None = Non
     return simulation.spawn(replace(model, name=name), pose=pose, namespace=namespace)
 
 
-def spawn_where_free(simulation: Simulation, model: Model, pose: Pose | None = None) -> SpawnPlace:
+def spawn_where_free(
+    simulation: Simulation, model: Model, pose: Pose | None = None
+) -> SpawnedModel:
     """Spawn a model as `spawn_numbered` does, or at the nearest free place around.
 
     Args:
@@ -69,7 +71,7 @@ def spawn_where_free(simulation: Simulation, model: Model, pose: Pose | None = N
     """
     robot = spawn_numbered(simulation, model, pose)
     if not _penetrates(simulation, robot):
-        return SpawnPlace(robot)
+        return SpawnedModel(robot)
     wanted = (pose or Pose()) * model.pose
     for x, y in _offsets():
         there = _shifted(wanted, x, y)
@@ -79,9 +81,9 @@ def spawn_where_free(simulation: Simulation, model: Model, pose: Pose | None = N
             free = replace(model, name=robot.name, pose=Pose())
             simulation.delete(robot.name)
             robot = simulation.spawn(free, pose=there, namespace=robot.namespace)
-            return SpawnPlace(robot, moved_to=(there.position[0], there.position[1]))
+            return SpawnedModel(robot, moved_to=(there.position[0], there.position[1]))
     robot.set_pose(wanted.position, wanted.quaternion)
-    return SpawnPlace(robot, stuck=True)
+    return SpawnedModel(robot, stuck=True)
 
 
 def _shifted(pose: Pose, x: float, y: float) -> Pose:

@@ -7,13 +7,13 @@ from typing import Protocol
 from gazelle.description import Parameters
 
 
-class _Named(Protocol):
+class _Namespaced(Protocol):
     namespace: str
 
 
 class _Host(Protocol):
     @property
-    def ports(self) -> _Named:
+    def ports(self) -> _Namespaced:
         """Of the world."""
 
 

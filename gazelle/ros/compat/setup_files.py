@@ -42,7 +42,7 @@ def python_code(folder: Path) -> PythonCode:
     except OSError:
         return PythonCode()
     try:
-        reader = _Reader(folder)
+        reader = _SetupReader(folder)
         reader.execute(ast.parse(source).body)
         found = reader.found
     except (SyntaxError, ValueError, RecursionError, MemoryError):  # one for Python 2, say
@@ -69,7 +69,7 @@ class _Unknown:
 _UNKNOWN = _Unknown()
 
 
-class _Reader:
+class _SetupReader:
     """Follows the statements of a file as far as their values stand in it.
 
     Attributes:
