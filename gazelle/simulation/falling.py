@@ -7,7 +7,6 @@ import warnings
 
 import numpy as np
 
-from gazelle.array_types import Floats
 from gazelle.description import Model
 from gazelle.engines import Engine
 from gazelle.errors import EngineError, SimulationWarning, describe
@@ -32,15 +31,12 @@ class FallWatch:
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
         self._period = 0
-        self._blind: bool | None = (
-            None  # whether the engine has no below; None before the first look
-        )
         self._warned: set[str] = set()
 
     def look(self, now_ns: int) -> None:
         """Look for models that fall, once in half a simulated second."""
         period = now_ns // _PERIOD_NS
-        if period == self._period or self._blind:
+        if period == self._period:
             return
         self._period = period
         models = [
@@ -50,10 +46,6 @@ class FallWatch:
         ]
         if not models:
             return
-        if self._blind is None:
-            self._blind = self._below(models[0], 0) is None
-            if self._blind:  # heights never change in the plane
-                return
         places = self._engine.link_placements([_first_link(model) for model in models])
         starts = np.array([(model.pose * model.links[0].pose).z for model in models])
         heights = places.position[:, :, 2]
@@ -76,21 +68,16 @@ class FallWatch:
 
     def _has_ground(self, model: Model, world: int) -> bool:
         """Return whether there is something below a model or beside that."""
-        below = self._below(model, world)
-        return below is None or bool(np.isfinite(below).any())
-
-    def _below(self, model: Model, world: int) -> Floats | None:
-        """Return distances down from rings around a model [m], None where there is no below."""
         name, worlds = _first_link(model), np.array([world])
-        back = conjugate(self._engine.link_placements((name,), worlds).quaternion[0, 0])
+        back = conjugate(self._engine.link_placement(name, worlds).quaternion[0])
         ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
         origins = np.vstack([radius * ring for radius in _RINGS])
         down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
         try:
             hits = self._engine.cast_rays(name, rotate(back, origins), rotate(back, down), worlds)
-        except EngineError:  # the planar engine
-            return None
-        return hits.distance
+        except EngineError:  # the plane has no below
+            return True
+        return bool(np.isfinite(hits.distance).any())
 
     def _cause(self, model: Model) -> str:
         if not _collides(model):

@@ -74,12 +74,3 @@ def test_what_has_ground_below_does_not_count_as_fallen():
         warnings.simplefilter("error")
         sim.run(5.0)
         assert sim.robots["high"].pose.z < 1.0
-
-
-def test_the_plane_has_no_below_and_is_not_watched(monkeypatch):
-    with gazelle.Simulation("turtlebot3_stage_4", "planar") as sim:
-        sim.run(0.6)
-        looks = []
-        monkeypatch.setattr(sim._engine, "link_placements", lambda *a: looks.append(a))
-        sim.run(2.0)
-    assert looks == []
