@@ -112,23 +112,11 @@ class DeadReckoning:
         self.tables = ReckoningTables.empty(len(angles), 1)
         self.tables.angles[:, 0] = angles
         self.restart()
-        self._own: ReckoningGroup | None = None
 
     def join(self, tables: ReckoningTables) -> None:
         """Keep all that in other tables of one pair from now on."""
         tables.take_over(self.tables)
         self.tables = tables
-        self._own = None
-
-    def advance(self, rates: Floats | None = None) -> None:
-        """Go on to now; see ``ReckoningTables.advance``.
-
-        Args:
-            rates: Turning rates by another instrument [rad/s], shape (nworld,).
-        """
-        if self._own is None:
-            self._own = ReckoningGroup([self])
-        self._own.advance(None if rates is None else rates[:, None])
 
     def restart(self) -> None:
         """Let the next interval begin now."""

@@ -5,7 +5,7 @@ Tags, defaults and rules are those of gazebo_ros_pkgs 2.9 (Noetic).
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,23 +13,19 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
-from gazelle.native.system import System
 from gazelle.plugins.dead_reckoning import DeadReckoning, ReckoningGroup, RolledOdometry
 from gazelle.plugins.frames import frames_output, joint_transforms
 from gazelle.plugins.odometry import (
     POSE_VARIANCE,
     OdometryOutputs,
     OdometrySource,
+    OdometrySystem,
     TrueOdometry,
-    measure_wanted,
 )
-from gazelle.plugins.publishing import Published
-from gazelle.plugins.wheel_motors import WheelGroup, WheelMotors, wheels_together
+from gazelle.plugins.wheel_motors import WheelMotors, Wheels, WheelSystem
 from gazelle.simulation import (
-    BasePlugin,
     JointStates,
     ModelPlugin,
-    Odometry,
     Output,
     Robot,
     Transforms,
@@ -37,6 +33,7 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
+from gazelle.simulation.plugin_system import Published
 
 
 class DiffDrive(ModelPlugin):
@@ -62,6 +59,7 @@ class DiffDrive(ModelPlugin):
         self.radius = parameters.get("wheelDiameter", 0.15) / 2.0
         self.acceleration = parameters.get("wheelAcceleration", 0.0)
         self.from_encoders = _source(parameters) == "encoder"
+        self.system = EncoderDrives if self.from_encoders else WheelSystem
         if self.separation <= 0.0 or self.radius <= 0.0:
             raise SimulationError(
                 "wheelSeparation and wheelDiameter must be positive", source=parameters.source
@@ -115,51 +113,7 @@ class DiffDrive(ModelPlugin):
                 absolute(namespace, "joint_states"), JointStates, self._read_wheels, queue_size=1000
             )
             published.append(robot.outputs["joint_states"])
-        self._published = tuple(published)
-
-    def kind(self) -> Hashable | None:
-        """All drives that count the turns of their wheels, and all that do not."""
-        return "DiffDrive", self.from_encoders
-
-    @classmethod
-    def together(cls, plugins: Sequence[DiffDrive]) -> System | BasePlugin:
-        """The wheels of many robots; what they are told and remember is in tables of all then."""
-        if plugins[0].from_encoders:
-            return EncoderDrives(plugins)
-        eager = bool(plugins[0].update_rate)
-        return wheels_together([each.motors for each in plugins], eager=eager)
-
-    @property
-    def is_heard(self) -> bool:
-        """Whether anybody listens to what is published."""
-        for output in self._published:  # noqa: SIM110  asked at every step, and ``any`` is slow
-            if output.wanted:
-                return True
-        return False
-
-    @classmethod
-    def measure_together(cls, plugins: Sequence[DiffDrive]) -> list[Odometry | None]:
-        """The odometry of all robots that somebody listens to."""
-        return measure_wanted([each.odometry for each in plugins])
-
-    def publish_measured(self, measured: Odometry | None = None) -> None:
-        """Publish, an odometry that was measured already."""
-        for output in self._published:
-            if output is self.odometry:
-                self.odometry.publish(measured)
-            else:
-                output.publish()
-
-    def system(self) -> System | None:
-        """The law alone, while nobody listens and nothing else is to be done."""
-        return None if self.from_encoders or self.is_heard else self.motors.system()
-
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
-        """Drive the wheels and publish the odometry."""
-        if self.from_encoders:
-            self.reckoning.advance()
-        self.motors.drive()
-        self.publish_measured()
+        self.published = tuple(published)
 
     def _angles(self) -> Floats:
         return np.concatenate([wheel.positions() for wheel in self._wheels], axis=1)
@@ -212,18 +166,19 @@ class DiffDrive(ModelPlugin):
         self.reckoning.last_ns = int(state["reckoned_ns"])
 
 
-class EncoderDrives(BasePlugin):
-    """Some drives that count the turns of their wheels.
+class EncoderDrives(OdometrySystem[DiffDrive]):
+    """Drives that count the turns of their wheels.
 
     Args:
-        drives: At least one.
+        plugins: The drives.
     """
 
-    def __init__(self, drives: Sequence[DiffDrive]) -> None:
-        self._rolled = ReckoningGroup([each.reckoning for each in drives])
-        self._wheels = WheelGroup([each.motors for each in drives])
+    def __init__(self, plugins: Sequence[DiffDrive]) -> None:
+        super().__init__(plugins)
+        self._rolled = ReckoningGroup([each.reckoning for each in plugins])
+        self._wheels = Wheels([each.motors for each in plugins])
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
+    def update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Count and drive."""
         self._rolled.advance()
         self._wheels.tell()

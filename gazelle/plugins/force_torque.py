@@ -39,7 +39,7 @@ class ForceTorqueSensor(Noisy, Publishing):
             namespace=namespace,
             prefix=FramePrefix.OWN,
         )
-        self._published.append(output)
+        self.published.append(output)
 
     def _measure(self) -> WrenchValue:
         wrench = self._engine.joint_wrench(self._joint)

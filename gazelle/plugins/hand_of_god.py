@@ -11,12 +11,11 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.plugins.frames import frames_output
 from gazelle.plugins.heard_frames import HeardFrames
-from gazelle.plugins.publishing import Publishing
 from gazelle.rotations import conjugate, multiply
-from gazelle.simulation import FramePrefix, Input, Robot, Transform, Transforms
+from gazelle.simulation import FramePrefix, Input, ModelPlugin, Robot, Transform, Transforms
 
 
-class HandOfGod(Publishing):
+class HandOfGod(ModelPlugin):
     """Draws a weightless link to the frame ``<frameId>_desired``, without swinging.
 
     The frame may be given in any other that tf connects with ``world``. Until it is known where
@@ -24,7 +23,6 @@ class HandOfGod(Publishing):
     """
 
     update_rate = 0.0
-    only_publishes = False
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the link, listen to tf."""
@@ -41,23 +39,22 @@ class HandOfGod(Publishing):
             "/tf_static", Transforms, self._hear_static, queue_size=100
         )
         actual = f"{self._name}_actual"
-        robot.outputs[actual] = frames_output(self._tell, prefix=FramePrefix.NONE)
-        self._published.append(robot.outputs[actual])
+        self._actual = robot.outputs[actual] = frames_output(self._tell, prefix=FramePrefix.NONE)
 
     @property
     def active(self) -> bool:
         """Whether there are frames, or anybody listens."""
-        return self._frames.any or super().active
+        return self._frames.any or self._actual.wanted
 
     def _hear_static(self, transforms: Transforms, worlds: Worlds | None) -> None:
         self._frames.hear(transforms, worlds, static=True)
 
-    def on_update(self, time: float) -> None:
+    def on_update(self, time: float) -> None:  # noqa: ARG002  it draws at every step
         """Draw, and tell where the link is."""
         if self._frames.any:
             known, position, quaternion = self._frames.find(f"{self._name}_desired", "world")
             self._draw(known[:, None], position, quaternion)
-        super().on_update(time)
+        self._actual.publish()
 
     def _draw(self, known: NDArray[np.bool_], position: Floats, quaternion: Floats) -> None:
         engine, name = self._simulation.engine, self._link.name

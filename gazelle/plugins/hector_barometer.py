@@ -7,7 +7,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Parameters
 from gazelle.plugins.frames import placed
-from gazelle.plugins.hector_body import OnBody
+from gazelle.plugins.hector_body import SampledOnBody, SampleSystem
 from gazelle.plugins.hector_imu import rate_of
 from gazelle.simulation import Output, Robot
 from gazelle.simulation.values import AltimeterValue, PointValue
@@ -16,10 +16,10 @@ from gazelle.simulation.values import AltimeterValue, PointValue
 _TOP, _EXPONENT = 44330.0, 5.263157
 
 
-class HectorBarometer(OnBody):
+class HectorBarometer(SampledOnBody):
     """Publishes the height of a body as a place, and its altitude with the air's pressure."""
 
-    _sample: Floats | None = None
+    system = SampleSystem
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the body, open the ports."""
@@ -36,19 +36,13 @@ class HectorBarometer(OnBody):
         altitude = Output("", AltimeterValue, self._altitude, frame=frame, queue_size=10)
         self.open_output(parameters, altimeter, altitude)
 
-    def on_update(self, time: float) -> None:
-        """Measure once for both outputs, and publish."""
-        self._sample = self._measure()
-        super().on_update(time)
-        self._sample = None
-
-    def _measure(self) -> Floats:
-        """Height [m], shape (nworld, 1)."""
+    def measure(self) -> Floats:
+        """Return the height [m], shape (nworld, 1)."""
         interval = self._interval.since(self._simulation.clock.now_ns)
         return self._error.apply(placed(self._frame).position[:, 2:], interval)
 
     def _height(self) -> Floats:
-        return self._measure() if self._sample is None else self._sample
+        return self.measure() if self.sample is None else self.sample
 
     def _place(self) -> PointValue:
         height = self._height()

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from typing import Any
 
 from gazelle.description import Parameters
 from gazelle.plugins.hector_errors import Interval, SensorErrors
 from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
-from gazelle.simulation import Output, Robot, absolute, namespace_of
+from gazelle.simulation import Output, PublisherSystem, Robot, absolute, namespace_of
 
 
 class OnBody(Noisy, Publishing):
@@ -45,4 +46,28 @@ class OnBody(Noisy, Publishing):
         """Publish on a topic."""
         output.topic = self.full(parameters, topic)
         self._robot.outputs[topic.strip("/")] = output
-        self._published.append(output)
+        self.published.append(output)
+
+
+class SampledOnBody(OnBody):
+    """A sensor on a body whose outputs publish one sample.
+
+    Attributes:
+        sample: What they publish now; None outside of an update.
+    """
+
+    sample: Any = None
+
+    @abstractmethod
+    def measure(self) -> Any:
+        """Return a new sample."""
+
+
+class SampleSystem(PublisherSystem[SampledOnBody]):
+    """Sensors on bodies that measure once for several outputs."""
+
+    def publish(self, plugin: SampledOnBody, measured: Any) -> None:
+        """Measure for all outputs of one sensor, and publish them."""
+        plugin.sample = plugin.measure()
+        super().publish(plugin, measured)
+        plugin.sample = None

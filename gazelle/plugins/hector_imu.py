@@ -61,7 +61,7 @@ class HectorImu(Noisy, Publishing):
             output = robot.outputs[name.strip("/")] = Output(
                 absolute(namespace, name), kind, produce, frame=frame, queue_size=10
             )
-            self._published.append(output)
+            self.published.append(output)
         calibrate = parameters.get("serviceName", f"{topic}/calibrate")
         robot.services[calibrate.strip("/")] = Service(
             absolute(namespace, calibrate), None, None, self._calibrate

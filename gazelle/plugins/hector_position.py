@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, SphericalCoordinates
 from gazelle.plugins.frames import placed
-from gazelle.plugins.hector_body import OnBody
+from gazelle.plugins.hector_body import OnBody, SampledOnBody, SampleSystem
 from gazelle.plugins.hector_imu import rate_of
 from gazelle.plugins.hector_status import FLAGS, flags_of, status_of
 from gazelle.rotations import conjugate, rotate
@@ -32,13 +32,13 @@ def _origin(robot: Robot, parameters: Parameters) -> GeoReference:
     return GeoReference(origin.latitude, origin.longitude, origin.elevation, heading)
 
 
-class HectorGps(OnBody):
+class HectorGps(SampledOnBody):
     """Publishes where a body is on Earth, and its velocity north, west and up.
 
     The world's x axis points ``referenceHeading`` degrees east of north.
     """
 
-    _sample: tuple[Floats, Floats] | None = None
+    system = SampleSystem
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find the body, open the ports."""
@@ -93,14 +93,8 @@ class HectorGps(OnBody):
     def _flags(self) -> dict[str, bool]:
         return flags_of(self._status, self._service)
 
-    def on_update(self, time: float) -> None:
-        """Measure once for both outputs, and publish."""
-        self._sample = self._measure()
-        super().on_update(time)
-        self._sample = None
-
-    def _measure(self) -> tuple[Floats, Floats]:
-        """Position and velocity in the world; the velocity's drift moves the position's."""
+    def measure(self) -> tuple[Floats, Floats]:
+        """Return position and velocity in the world; the velocity's drift moves the position's."""
         interval = self._interval.since(self._simulation.clock.now_ns)
         velocity = self._velocity.apply(self._frame[0].motion().linear, interval)
         position = self._position.apply(placed(self._frame).position, interval)
@@ -109,7 +103,7 @@ class HectorGps(OnBody):
         return position, velocity
 
     def _locate(self) -> Fix:
-        place, _ = self._sample or self._measure()
+        place, _ = self.sample or self.measure()
         latitude, longitude, altitude = self._on_earth(place)
         now_ns, variance = self._simulation.clock.now_ns, self._position.variance
         return Fix(now_ns, latitude, longitude, altitude, variance, self._status, self._service)
@@ -128,7 +122,7 @@ class HectorGps(OnBody):
 
     def _move(self) -> VectorValue:
         now_ns = self._simulation.clock.now_ns
-        _, velocity = self._sample or self._measure()
+        _, velocity = self.sample or self.measure()
         heading = self._reference[:, 3]
         x, y, z = velocity.T
         north = np.cos(heading) * x + np.sin(heading) * y

@@ -44,7 +44,7 @@ class ImuSensor(Noisy, PublishingPlugin, SensorPlugin):
             self._measure,
             frame=parameters.get("frameName", sensor.description.name),
         )
-        self._published.append(output)
+        self.published.append(output)
 
     def _orientation(self) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
         values = self._sensor.measure()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from itertools import accumulate
 
 import numpy as np
@@ -15,6 +15,7 @@ from gazelle.simulation import (
     JointHandle,
     JointStates,
     Output,
+    PublisherSystem,
     Robot,
     absolute,
     namespace_of,
@@ -38,42 +39,42 @@ class JointStatePublisher(Publishing):
         self._names = tuple(name for name in names if name)
         self.joints: list[JointHandle] = [robot.joints[name] for name in self._names]
         kinds = {robot.joint_description(name).type for name in self._names}
-        self._alike = bool(kinds) and not kinds & _WITHOUT_AXIS
+        if kinds and not kinds & _WITHOUT_AXIS:
+            self.system = JointStateSystem
         self._simulation = robot.simulation
         self.update_rate = parameters.get("updateRate", 100.0)
         namespace = namespace_of(robot, parameters, robot.name)
-        self._output = robot.outputs["joint_states"] = Output(
+        self.output = robot.outputs["joint_states"] = Output(
             absolute(namespace, "joint_states"), JointStates, self._measure, queue_size=1000
         )
-        self._published.append(self._output)
+        self.published.append(self.output)
 
-    def kind(self) -> Hashable | None:
-        """All, where the engine looks at many joints at once."""
-        alike = self._alike and self._simulation.tables is not None
-        return "JointStatePublisher" if alike else None
+    def _measure(self) -> JointStates:
+        positions = [joint.positions()[:, :1] for joint in self.joints]
+        velocities = [joint.velocities()[:, :1] for joint in self.joints]
+        return self.states(np.concatenate(positions, axis=1), np.concatenate(velocities, axis=1))
 
-    @classmethod
-    def measure_together(
-        cls, plugins: Sequence[JointStatePublisher]
-    ) -> list[tuple[Floats, Floats]]:
-        """Positions and velocities of the joints of all."""
+    def states(self, positions: Floats, velocities: Floats) -> JointStates:
+        """Return the states of its joints by name."""
+        return JointStates(self._simulation.clock.now_ns, self._names, positions, velocities)
+
+
+class JointStateSystem(PublisherSystem[JointStatePublisher]):
+    """Publishers whose joints are read in one look."""
+
+    def measure(self, plugins: Sequence[JointStatePublisher]) -> list[JointStates]:
+        """Return the joint states of each plugin."""
         group = JointArray([joint for each in plugins for joint in each.joints])
         positions, velocities = group.positions(), group.velocities()
         ends = accumulate(len(each.joints) for each in plugins)
         parts = [
             slice(end - len(each.joints), end) for end, each in zip(ends, plugins, strict=True)
         ]
-        return [(positions[:, part], velocities[:, part]) for part in parts]
+        return [
+            each.states(positions[:, part], velocities[:, part])
+            for each, part in zip(plugins, parts, strict=True)
+        ]
 
-    def publish_measured(self, measured: tuple[Floats, Floats] | None) -> None:
-        """Publish what was measured of the joints."""
-        if self._output.wanted:
-            self._output.hand(self._states(*measured) if measured else self._measure())
-
-    def _measure(self) -> JointStates:
-        positions = [joint.positions()[:, :1] for joint in self.joints]
-        velocities = [joint.velocities()[:, :1] for joint in self.joints]
-        return self._states(np.concatenate(positions, axis=1), np.concatenate(velocities, axis=1))
-
-    def _states(self, positions: Floats, velocities: Floats) -> JointStates:
-        return JointStates(self._simulation.clock.now_ns, self._names, positions, velocities)
+    def publish(self, plugin: JointStatePublisher, measured: JointStates) -> None:
+        """Publish what was measured of one plugin's joints."""
+        plugin.output.hand(measured)

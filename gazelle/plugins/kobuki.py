@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,10 +14,9 @@ from gazelle.plugins.command_timeout import CommandGroup, CommandTimeout
 from gazelle.plugins.dead_reckoning import DeadReckoning, ReckoningGroup, RolledOdometry
 from gazelle.plugins.gyros import Gyros
 from gazelle.plugins.kobuki_sensors import Bumpers, Cliffs, sensor_of
-from gazelle.plugins.odometry import OdometryOutputs, measure_wanted
+from gazelle.plugins.odometry import OdometryOutputs, OdometrySystem
 from gazelle.sensors import ImuModel, ImuReading
 from gazelle.simulation import (
-    BasePlugin,
     Input,
     JointArray,
     JointStates,
@@ -65,6 +64,7 @@ class Kobuki(ModelPlugin):
             raise SimulationError(
                 "wheel_separation and wheel_diameter must be positive", source=parameters.source
             )
+        self.system = KobukiSystem
         self.half, self.radius = separation / 2.0, radius
         self._names = tuple(
             parameters.require(f"{side}_wheel_joint_name", str) for side in ("left", "right")
@@ -80,7 +80,6 @@ class Kobuki(ModelPlugin):
         command = robot.inputs["cmd_vel"] = TwistInput(nworld, "")
         longest = parameters.require("velocity_command_timeout", float)
         self.command = CommandTimeout(self._clock, command, longest)
-        self._own: KobukiGroup | None = None
         self._open_ports(robot, parameters)
 
     def _open_ports(self, robot: Robot, parameters: Parameters) -> None:
@@ -99,6 +98,8 @@ class Kobuki(ModelPlugin):
         self.odometry = OdometryOutputs(robot, topic, measure, namespace, framed=framed)
         self._cliffs.open(robot)
         self._bumpers.open(robot)
+        outputs = self._states, self._imu_data, self.odometry, self._cliffs, self._bumpers
+        self.published = outputs
         self._namespace = namespace
         self._name_topics(_PREFIX)
         robot.settings["base_prefix"] = Setting(
@@ -125,48 +126,15 @@ class Kobuki(ModelPlugin):
         """Keep in which worlds motors turn, and what the gyro measured, in other arrays."""
         power[:], felt[:] = self.power, self.felt
         self.power, self.felt = power, felt
-        self._own = None
 
-    def kind(self) -> Hashable | None:
-        """All of them."""
-        return "Kobuki"
-
-    @classmethod
-    def together(cls, plugins: Sequence[Kobuki]) -> BasePlugin:
-        """The wheels of many; all that changes is kept in tables of all from then on."""
-        return KobukiGroup(plugins)
-
-    @property
-    def is_heard(self) -> bool:
-        """Whether anybody listens to what it publishes."""
-        return (
-            self.odometry.wanted
-            or self._states.wanted
-            or self._imu_data.wanted
-            or self._cliffs.wanted
-            or self._bumpers.wanted
-        )
-
-    @classmethod
-    def measure_together(cls, plugins: Sequence[Kobuki]) -> list[Odometry | None]:
-        """The odometry of all robots that somebody listens to."""
-        return measure_wanted([each.odometry for each in plugins])
-
-    def publish_measured(self, measured: Odometry | None = None) -> None:
-        """Publish, an odometry that was measured already."""
+    def publish(self, measured: Odometry | None) -> None:
+        """Publish, with the odometry as it was measured."""
         self._states.publish()
         if self._imu_data.wanted:
             self._imu_data.hand(self._reading(self.felt.copy()))
         self.odometry.publish(measured)
-        self._cliffs.tell()
-        self._bumpers.tell()
-
-    def on_update(self, time: float) -> None:
-        """Drive, count and tell."""
-        if self._own is None:
-            self._own = KobukiGroup([self])
-        self._own.on_update(time)
-        self.publish_measured()
+        self._cliffs.publish()
+        self._bumpers.publish()
 
     def _feel(self) -> ImuReading:
         return self._reading(self.imu.current())
@@ -209,26 +177,27 @@ class Kobuki(ModelPlugin):
         self.command.restart(int(state["times"][1]))
 
 
-class KobukiGroup(BasePlugin):
-    """Drives some bases, and counts how far they roll.
+class KobukiSystem(OdometrySystem[Kobuki]):
+    """Kobukis, whose motors, wheel counts and gyros are those of all.
 
     Args:
-        bases: At least one.
+        plugins: The bases.
     """
 
-    def __init__(self, bases: Sequence[Kobuki]) -> None:
-        clock, nworld = bases[0].reckoning.clock, len(bases[0].power)
-        self._commands = CommandGroup(clock, [each.command for each in bases], nworld)
-        self._rolled = ReckoningGroup([each.reckoning for each in bases])
-        self._gyros = Gyros([each.imu for each in bases], nworld)
-        self._power = np.zeros((nworld, len(bases)), np.bool_)
-        for part, each in enumerate(bases):
+    def __init__(self, plugins: Sequence[Kobuki]) -> None:
+        super().__init__(plugins)
+        clock, nworld = plugins[0].reckoning.clock, len(plugins[0].power)
+        self._commands = CommandGroup(clock, [each.command for each in plugins], nworld)
+        self._rolled = ReckoningGroup([each.reckoning for each in plugins])
+        self._gyros = Gyros([each.imu for each in plugins], nworld)
+        self._power = np.zeros((nworld, len(plugins)), np.bool_)
+        for part, each in enumerate(plugins):
             each.join(self._power[:, part], self._gyros.values[:, part])
-        self._half = np.array([each.half for each in bases])
-        self._radius = np.array([each.radius for each in bases])
-        self._wheels = JointArray([wheel for each in bases for wheel in each.wheels])
+        self._half = np.array([each.half for each in plugins])
+        self._radius = np.array([each.radius for each in plugins])
+        self._wheels = JointArray([wheel for each in plugins for wheel in each.wheels])
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
+    def update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Feel, count and drive."""
         self._gyros.measure()
         self._rolled.advance(self._gyros.values[..., 6])
@@ -239,3 +208,7 @@ class KobukiGroup(BasePlugin):
         wanted[..., 0] = (forward - across) / self._radius
         wanted[..., 1] = (forward + across) / self._radius
         self._wheels.drive(wanted.reshape(len(wanted), -1))
+
+    def publish(self, plugin: Kobuki, measured: Odometry | None) -> None:
+        """Publish all outputs of one base."""
+        plugin.publish(measured)

@@ -64,7 +64,7 @@ class Cliffs:
         """Whether anybody listens."""
         return any(output.wanted for output in self._outputs)
 
-    def tell(self) -> None:
+    def publish(self) -> None:
         """Look, and publish where something changed."""
         if not self.wanted:
             return
@@ -119,7 +119,7 @@ class Bumpers:
         """Whether anybody listens."""
         return any(output.wanted for output in self._outputs)
 
-    def tell(self) -> None:
+    def publish(self) -> None:
         """Feel, and publish what changed."""
         if not self.wanted:
             return

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -13,7 +13,8 @@ from gazelle.array_types import Floats
 from gazelle.engines import Motion, Placement
 from gazelle.plugins.frames import frames_output
 from gazelle.rotations import seen_on_ground
-from gazelle.simulation import Odometry, Output, Robot, Transform, Transforms
+from gazelle.simulation import Odometry, Output, PluginSystem, Robot, Transform, Transforms
+from gazelle.simulation.plugin_system import Published
 from gazelle.simulation.values import SixNumbers
 
 POSE_VARIANCE: SixNumbers = (1e-5, 1e-5, 1e12, 1e12, 1e12, 1e-3)
@@ -140,6 +141,35 @@ class OdometryOutputs:
             self._odom.hand(odometry)
         if self._frame is not None and self._frame.wanted:
             self._frame.hand(as_transforms(odometry))
+
+
+class OdometryPlugin(Protocol):
+    """A plugin that publishes an odometry, and may publish more."""
+
+    published: Sequence[Published]
+
+    @property
+    def odometry(self) -> OdometryOutputs | None:
+        """The odometry, if it is published."""
+
+
+D = TypeVar("D", bound=OdometryPlugin)
+
+
+class OdometrySystem(PluginSystem[D]):
+    """Plugins whose odometry is measured at once."""
+
+    def measure(self, plugins: Sequence[D]) -> Sequence[Odometry | None]:
+        """Return the odometry of each plugin where anybody has subscribed to that."""
+        return measure_wanted([each.odometry for each in plugins])
+
+    def publish(self, plugin: D, measured: Odometry | None) -> None:
+        """Publish all outputs of one plugin, with its odometry as it was measured."""
+        for output in plugin.published:
+            if isinstance(output, OdometryOutputs):
+                output.publish(measured)
+            else:
+                output.publish()
 
 
 def measure_wanted(outputs: Sequence[OdometryOutputs | None]) -> list[Odometry | None]:

@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.engines import Motion, Placement
-from gazelle.plugins.frames import Frame, placed, relative
+from gazelle.plugins.frames import Frame, relative
 from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
 from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.sensors import NoiseModel
-from gazelle.simulation import FramePrefix, Output, Robot, absolute, namespace_of
+from gazelle.simulation import (
+    FramePrefix,
+    LinkArray,
+    Output,
+    PublisherSystem,
+    Robot,
+    absolute,
+    namespace_of,
+)
 from gazelle.simulation.values import TruePose
 
 _INERTIAL = frozenset({"", "world", "/world", "map", "/map"})
@@ -28,7 +36,7 @@ class P3D(Noisy, Publishing):
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the tags, find body and frame, open the port."""
-        self._robot = robot
+        self._robot, self.system = robot, P3DSystem
         body = parameters.require("bodyName", str)
         topic = parameters.require("topicName", str)
         self._body = robot.frame(body)
@@ -52,7 +60,7 @@ class P3D(Noisy, Publishing):
             namespace=namespace,
             prefix=FramePrefix.OWN,
         )
-        self._published.append(self._output)
+        self.published.append(self._output)
 
     def _make_noise(self, robot: Robot, body: str, stddev: float) -> None:
         simulation = robot.simulation
@@ -61,36 +69,44 @@ class P3D(Noisy, Publishing):
         self._noise = NoiseModel(noise, simulation.seed, name, simulation.nworld, 6)
         self._noises = {"noise": self._noise}
 
-    def kind(self) -> Hashable | None:
-        """All that see bodies from the world, where the engine looks at many links at once."""
-        alike = self._frame is None and self._robot.simulation.tables is not None
-        return "P3D" if alike else None
+    @property
+    def frames(self) -> list[Frame]:
+        """The body, and the frame that it is seen from if that is not the world."""
+        return [self._body] if self._frame is None else [self._body, self._frame]
 
-    @classmethod
-    def measure_together(cls, plugins: Sequence[P3D]) -> list[tuple[Placement, Motion]]:
-        """Where the bodies of all are, and how they move."""
-        engine = plugins[0].robot.simulation.tables
-        if engine is None:
-            raise TypeError("the engine looks at one link at a time")
-        links = tuple(each.body[0].name for each in plugins)
-        place, motion = engine.link_placements(links), engine.link_motions(links)
-        at = np.array([each.body[1].position for each in plugins])
-        turn = np.array([each.body[1].quaternion for each in plugins])
-        position = place.position + rotate(place.quaternion, at)
-        quaternion = multiply(place.quaternion, np.broadcast_to(turn, place.quaternion.shape))
-        return [
-            (
-                Placement(position[:, i], quaternion[:, i]),
-                Motion(motion.linear[:, i], motion.angular[:, i]),
+    def _measure(self) -> TruePose:
+        return poses_of([self])[0]
+
+    def seen(self, place: Sequence[Placement], motion: Sequence[Motion]) -> TruePose:
+        """Return what is published, with new noise.
+
+        Args:
+            place: Of its ``frames``.
+            motion: Of the frames' links.
+        """
+        at, moves = place[0], motion[0]
+        if self._frame is not None:
+            back = conjugate(place[1].quaternion)
+            moves = Motion(
+                rotate(back, moves.linear - motion[1].linear),
+                rotate(back, moves.angular - motion[1].angular),
             )
-            for i in range(len(plugins))
-        ]
-
-    def publish_measured(self, measured: tuple[Placement, Motion] | None) -> None:
-        """Publish what was measured of the body."""
-        if self._output.wanted:
-            place, motion = measured or (placed(self._body), self._body[0].motion())
-            self._output.hand(self._seen(place, motion))
+            at = relative(place[1], at)
+        turn = np.broadcast_to(self._turn, at.quaternion.shape)
+        twist = np.concatenate((moves.linear, moves.angular), axis=1)
+        twist = self._noise.apply(twist, 0.0)
+        six = (self._variance,) * 6
+        return TruePose(
+            self._robot.simulation.clock.now_ns,
+            self._frame_name,
+            self._child,
+            at.position + self._offset,
+            multiply(turn, at.quaternion),
+            twist[:, :3],
+            twist[:, 3:],
+            six,
+            six,
+        )
 
     @property
     def robot(self) -> Robot:
@@ -98,40 +114,36 @@ class P3D(Noisy, Publishing):
         return self._robot
 
     @property
-    def body(self) -> Frame:
-        """What it looks at."""
-        return self._body
+    def output(self) -> Output[TruePose]:
+        """What it publishes."""
+        return self._output
 
-    def _measure(self) -> TruePose:
-        return self._seen(placed(self._body), self._body[0].motion())
 
-    def _seen(self, place: Placement, motion: Motion) -> TruePose:
-        """What is published of a body, with new noise."""
-        if self._frame is not None:
-            place, motion = self._seen_from_frame(place, motion)
-        turn = np.broadcast_to(self._turn, place.quaternion.shape)
-        twist = np.concatenate((motion.linear, motion.angular), axis=1)
-        twist = self._noise.apply(twist, 0.0)
-        six = (self._variance,) * 6
-        return TruePose(
-            self._robot.simulation.clock.now_ns,
-            self._frame_name,
-            self._child,
-            place.position + self._offset,
-            multiply(turn, place.quaternion),
-            twist[:, :3],
-            twist[:, 3:],
-            six,
-            six,
-        )
+class P3DSystem(PublisherSystem[P3D]):
+    """Publishers whose bodies are looked up at once."""
 
-    def _seen_from_frame(self, place: Placement, motion: Motion) -> tuple[Placement, Motion]:
-        frame = self._frame
-        if frame is None:
-            return place, motion
-        origin, own = placed(frame), frame[0].motion()
-        back = conjugate(origin.quaternion)
-        moved = Motion(
-            rotate(back, motion.linear - own.linear), rotate(back, motion.angular - own.angular)
-        )
-        return relative(origin, place), moved
+    def measure(self, plugins: Sequence[P3D]) -> list[TruePose]:
+        """Return the pose that each plugin publishes."""
+        return poses_of(plugins)
+
+    def publish(self, plugin: P3D, measured: TruePose) -> None:
+        """Publish what was measured of one body."""
+        plugin.output.hand(measured)
+
+
+def poses_of(plugins: Sequence[P3D]) -> list[TruePose]:
+    """Return the pose that each plugin publishes."""
+    frames = [frame for each in plugins for frame in each.frames]
+    links = LinkArray(plugins[0].robot.simulation, [link for link, _ in frames])
+    place, motion = links.placements(), links.motions()
+    at = np.array([pose.position for _, pose in frames])
+    turn = np.array([pose.quaternion for _, pose in frames])
+    shape = place.position.shape
+    position = place.position + rotate(place.quaternion, np.broadcast_to(at, shape))
+    quaternion = multiply(place.quaternion, np.broadcast_to(turn, place.quaternion.shape))
+    places = iter([Placement(position[:, i], quaternion[:, i]) for i in range(len(frames))])
+    motions = iter([Motion(motion.linear[:, i], motion.angular[:, i]) for i in range(len(frames))])
+    return [
+        each.seen([next(places) for _ in each.frames], [next(motions) for _ in each.frames])
+        for each in plugins
+    ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,12 +11,9 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.engines.planar.twist_commands import TwistCommands
-from gazelle.errors import SimulationError
-from gazelle.native.system import System
 from gazelle.plugins.command_timeout import CommandGroup, CommandTimeout
-from gazelle.plugins.odometry import OdometryOutputs, TrueOdometry, measure_wanted
+from gazelle.plugins.odometry import OdometryOutputs, OdometrySystem, TrueOdometry
 from gazelle.simulation import (
-    BasePlugin,
     ModelPlugin,
     Odometry,
     Robot,
@@ -25,7 +22,6 @@ from gazelle.simulation import (
     namespace_of,
 )
 from gazelle.simulation.clock import Schedule
-from gazelle.simulation.running_state import RunningState
 
 
 class PlanarMove(ModelPlugin):
@@ -50,6 +46,7 @@ class PlanarMove(ModelPlugin):
         timeout = parameters.get("cmdTimeout", -1.0)
         longest = timeout if timeout >= 0.0 else math.inf
         self.command = CommandTimeout(self._clock, self._command, longest)
+        self.system = SlidingSystem if math.isinf(longest) else PatientSystem
         frame = parameters.get("odometryFrame", "odom")
         base = parameters.get("robotBaseFrame", "base_footprint")
         rate = parameters.get("odometryRate", 20.0)
@@ -57,43 +54,13 @@ class PlanarMove(ModelPlugin):
         odometry = absolute(namespace, parameters.get("odometryTopic", "odom"))
         measure = TrueOdometry(robot, frame, base)
         self.odometry = OdometryOutputs(robot, odometry, measure, namespace)
-
-    def kind(self) -> Hashable | None:
-        """All, where the engine moves many at once; in native code those that go on for ever."""
-        simulation = self._robot.simulation
-        for_ever = math.isinf(self.command.longest)
-        together = simulation.tables is not None or (simulation.native is not None and for_ever)
-        return ("PlanarMove", for_ever) if together else None
-
-    @classmethod
-    def together(cls, plugins: Sequence[PlanarMove]) -> System | BasePlugin:
-        """The commands of many bases; they are kept in arrays of all from then on."""
-        simulation = plugins[0].robot.simulation
-        told = [each.command for each in plugins]
-        commands = CommandGroup(simulation.clock, told, simulation.nworld)
-        names = [each.robot.name for each in plugins]
-        if simulation.native is None:
-            return SlidingGroup(simulation, names, commands)
-        law = TwistCommands(commands.linear, commands.angular)
-        simulation.native.model_table(names).command(law)
-        return law
+        if self._schedule is not None:
+            self.published = (self.odometry,)
 
     @property
     def robot(self) -> Robot:
         """What moves."""
         return self._robot
-
-    @property
-    def is_heard(self) -> bool:
-        """Whether anybody listens to the odometry."""
-        return self._schedule is not None and self.odometry.wanted
-
-    @classmethod
-    def measure_together(cls, plugins: Sequence[PlanarMove]) -> list[Odometry | None]:
-        """The odometry of those that publish it now."""
-        due = [each.odometry for each in plugins if each.is_due]
-        measured = iter(measure_wanted(due))
-        return [next(measured) if each.is_due else None for each in plugins]
 
     @property
     def is_due(self) -> bool:
@@ -106,19 +73,11 @@ class PlanarMove(ModelPlugin):
             schedule.done(last_ns)
         return schedule.is_due(now_ns)
 
-    def publish_measured(self, measured: Odometry | None = None) -> None:
-        """Publish the odometry when it is time to."""
+    def publish(self, measured: Odometry | None) -> None:
+        """Publish the odometry, as it was measured, when it is time to."""
         if self._schedule is not None and self.is_due:
             self._schedule.done(self._clock.now_ns)
             self.odometry.publish(measured)
-
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
-        """Move, and publish when it is time to."""
-        self.command.clear_old()
-        twist = self._command.linear.copy()
-        twist[:, 2] = self._command.angular[:, 2]
-        self._robot.simulation.engine.set_ground_motion(self._robot.name, twist)
-        self.publish_measured()
 
     def reset(self, worlds: Worlds | None) -> None:
         """Begin anew."""
@@ -137,29 +96,58 @@ class PlanarMove(ModelPlugin):
             self._schedule.done(self._clock.now_ns)
 
 
-class SlidingGroup(BasePlugin):
-    """Sets the velocities of some models at every step.
+class SlidingSystem(OdometrySystem[PlanarMove]):
+    """Bases that slide as they are told.
 
     Args:
-        simulation: Has them.
-        models: Their names.
-        commands: What they are told.
+        plugins: The bases.
     """
 
-    def __init__(
-        self, simulation: RunningState, models: Sequence[str], commands: CommandGroup
-    ) -> None:
-        self._simulation, self._models, self._commands = simulation, tuple(models), commands
+    def __init__(self, plugins: Sequence[PlanarMove]) -> None:
+        super().__init__(plugins)
+        self._simulation = plugins[0].robot.simulation
+        self._models = tuple(each.robot.name for each in plugins)
+        told = [each.command for each in plugins]
+        self.commands = CommandGroup(self._simulation.clock, told, self._simulation.nworld)
+        native = self._simulation.native
+        if native is not None:
+            law = TwistCommands(self.commands.linear, self.commands.angular)
+            native.model_table(self._models).command(law)
+            self.kernel = law
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
+    def update(self, time: float) -> None:  # noqa: ARG002  commands hold for ever
         """Move."""
-        engine = self._simulation.tables
-        if engine is None:
-            raise SimulationError("the engine moves one model at a time")
-        self._commands.clear_old()
-        twist = self._commands.linear.copy()
-        twist[:, :, 2] = self._commands.angular[:, :, 2]
-        if len(self._models) == 1:  # a single one is moved faster by itself
-            self._simulation.engine.set_ground_motion(self._models[0], twist[:, 0])
+        twist = self.commands.linear.copy()
+        twist[:, :, 2] = self.commands.angular[:, :, 2]
+        tables = self._simulation.tables
+        if tables is not None and len(self._models) > 1:
+            tables.set_ground_motions(self._models, twist)
+            return
+        for part, name in enumerate(self._models):
+            self._simulation.engine.set_ground_motion(name, twist[:, part])
+
+    def measure(self, plugins: Sequence[PlanarMove]) -> list[Odometry | None]:
+        """Return the odometry of those that publish it now."""
+        due = [each for each in plugins if each.is_due]
+        measured = iter(super().measure(due))
+        return [next(measured) if each.is_due else None for each in plugins]
+
+    def publish(self, plugin: PlanarMove, measured: Odometry | None) -> None:
+        """Publish the odometry of one base."""
+        plugin.publish(measured)
+
+
+class PatientSystem(SlidingSystem):
+    """Bases that stand when they were told nothing for too long."""
+
+    def __init__(self, plugins: Sequence[PlanarMove]) -> None:
+        super().__init__(plugins)
+        self._law, self.kernel = self.kernel, None
+
+    def update(self, time: float) -> None:
+        """Forget old commands, and move."""
+        self.commands.clear_old()
+        if self._law is None:
+            super().update(time)
         else:
-            engine.set_ground_motions(self._models, twist)
+            self._law.bring(0, self._simulation.nworld * self._law.rows, 0)

@@ -1,44 +1,19 @@
-"""What plugins that only publish have in common: they sleep until somebody listens."""
+"""Plugins that only publish, and need no updates while nobody has subscribed."""
 
 from __future__ import annotations
 
-from typing import Protocol
-
-from gazelle.simulation import BasePlugin, ModelPlugin
-
-
-class Published(Protocol):
-    """What is published at every update: an output, or several that go together."""
-
-    @property
-    def wanted(self) -> bool:
-        """Whether anybody listens."""
-
-    def publish(self) -> None:
-        """Hand a new value to all who listen."""
+from gazelle.simulation import BasePlugin, ModelPlugin, PublisherSystem
+from gazelle.simulation.plugin_system import Published
 
 
 class PublishingPlugin(BasePlugin):
-    """Publishes its outputs at its rate, and needs no updates while nobody listens."""
+    """Publisher of its outputs at its rate."""
 
-    only_publishes = True
+    system = PublisherSystem
 
     def __init__(self) -> None:
-        self._published: list[Published] = []
-
-    @property
-    def active(self) -> bool:
-        """Whether anybody listens."""
-        for output in self._published:  # noqa: SIM110  asked at every step, and ``any`` is slow
-            if output.wanted:
-                return True
-        return False
-
-    def on_update(self, time: float) -> None:  # noqa: ARG002  values carry their own stamps
-        """Publish."""
-        for output in self._published:
-            output.publish()
+        self.published: list[Published] = []
 
 
 class Publishing(PublishingPlugin, ModelPlugin):
-    """A publisher of a model."""
+    """Publisher of a model."""

@@ -37,7 +37,7 @@ class ResultantForce(Publishing):
             namespace=namespace,
             prefix=FramePrefix.OWN,
         )
-        self._published.append(output)
+        self.published.append(output)
 
     def _measure(self) -> WrenchValue:
         name = self._link.name

@@ -12,7 +12,7 @@ The model becomes kinematic: it pushes others, nothing pushes it. Tags::
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,7 @@ from gazelle.errors import SimulationError
 from gazelle.native.system import System
 from gazelle.plugins.splines import PoseSpline
 from gazelle.rotations import conjugate, multiply, yaw_of
-from gazelle.simulation import ModelPlugin, Robot
+from gazelle.simulation import ModelPlugin, PluginSystem, Robot
 
 _SAME = 1e-12  # how far components of quaternions may be apart to be taken as equal
 
@@ -50,7 +50,7 @@ class ScriptedMotion(ModelPlugin):
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
         """Read the script and take hold of the model."""
-        self.robot = robot
+        self.robot, self.system = robot, ScriptSystem
         self.loop = parameters.get("loop", False)
         self.spin = np.asarray(parameters.numbers("angular_velocity", (0.0, 0.0, 0.0)))
         self.times, self.positions, self.quaternions = _waypoints(parameters)
@@ -62,7 +62,6 @@ class ScriptedMotion(ModelPlugin):
         self._epoch = np.full(robot.simulation.nworld, robot.simulation.time)
         robot.simulation.engine.make_kinematic(robot.name)
         self._path = self._plain_path()
-        self._bound = -1  # revision of the engine whose body the path carries
 
     def _plain_path(self) -> PathFollower | None:
         """What carries the model by itself in a plane; None if it does not stay upright."""
@@ -83,26 +82,12 @@ class ScriptedMotion(ModelPlugin):
             legs, start, spin=float(self.spin[2]), loop=self.loop, epoch=self._epoch
         )
 
-    def kind(self) -> Hashable | None:
-        """Each script is a system of its own."""
-        return None if self.system() is None else self.robot.name
-
-    @classmethod
-    def together(cls, plugins: Sequence[ScriptedMotion]) -> System:
-        """The path of a script."""
-        system = plugins[0].system()
-        if system is None:
-            raise SimulationError("this script is not followed in native code")
-        return system
-
-    def system(self) -> System | None:
-        """The path alone, where it is one in the plane."""
+    def bind(self) -> System | None:
+        """Return the path that carries the model by itself; None where Python puts it."""
         engine = self.robot.simulation.native
         if engine is None or self._path is None:
             return None
-        if self._bound != engine.revision:
-            engine.follow(self.robot.name, self._path)
-            self._bound = engine.revision
+        engine.follow(self.robot.name, self._path)
         return self._path
 
     def _rates(self) -> tuple[Floats, Floats]:
@@ -130,8 +115,8 @@ class ScriptedMotion(ModelPlugin):
             self.robot.name, *self._placed(elapsed), worlds
         )
 
-    def on_update(self, time: float) -> None:
-        """Put the model where the script says."""
+    def move(self, time: float) -> None:
+        """Put the model where the script says at a time [s]."""
         self.robot.simulation.engine.set_model_placement(
             self.robot.name, *self._placed(time - self._epoch)
         )
@@ -179,6 +164,24 @@ class ScriptedMotion(ModelPlugin):
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._epoch[:] = state["epoch"]
+
+
+class ScriptSystem(PluginSystem[ScriptedMotion]):
+    """One script, which the engine follows where it is a path in the plane.
+
+    Args:
+        plugins: One.
+    """
+
+    single = True
+
+    def __init__(self, plugins: Sequence[ScriptedMotion]) -> None:
+        super().__init__(plugins)
+        self.kernel = plugins[0].bind()
+
+    def update(self, time: float) -> None:
+        """Put the model where its script says."""
+        self.plugins[0].move(time)
 
 
 def _waypoints(parameters: Parameters) -> tuple[Floats, Floats, Floats]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,16 +18,13 @@ from gazelle.plugins.odometry import (
     POSE_VARIANCE,
     OdometryOutputs,
     OdometrySource,
+    OdometrySystem,
     TrueOdometry,
-    measure_wanted,
 )
-from gazelle.plugins.publishing import Published
 from gazelle.simulation import (
-    BasePlugin,
     JointArray,
     JointStates,
     ModelPlugin,
-    Odometry,
     Output,
     Robot,
     Transforms,
@@ -35,6 +32,7 @@ from gazelle.simulation import (
     absolute,
     namespace_of,
 )
+from gazelle.simulation.plugin_system import Published
 
 _JOINTS = (
     ("steeringJoint", "front_steering_joint"),
@@ -118,6 +116,7 @@ class TricycleDrive(ModelPlugin):
                 source=parameters.source,
             )
         self.from_encoders = source in ("encoder", "0")
+        self.system = CountingTricycles if self.from_encoders else TricycleSystem
         self.reckoning = DeadReckoning(
             self._clock,
             parameters.get("encoderWheelSeparation", 0.5),
@@ -125,7 +124,6 @@ class TricycleDrive(ModelPlugin):
             self.joints[2:],
         )
         self.update_rate = parameters.get("updateRate", 100.0)
-        self._own: TricycleGroup | None = None
         self._open_ports(robot, parameters)
 
     def _open_ports(self, robot: Robot, parameters: Parameters) -> None:
@@ -145,7 +143,7 @@ class TricycleDrive(ModelPlugin):
                 states, JointStates, self._read_joints, queue_size=1000
             )
             published.append(robot.outputs["joint_states"])
-        self._published = tuple(published)
+        self.published = tuple(published)
 
     def _odometry_source(self, parameters: Parameters) -> OdometrySource:
         frame = parameters.get("odometryFrame", "odom")
@@ -157,39 +155,6 @@ class TricycleDrive(ModelPlugin):
     def keep_in(self, linear: Floats, angular: Floats) -> None:
         """Keep commands in other arrays, shape (nworld, 3) each."""
         self._command.keep_in(linear, angular)
-        self._own = None
-
-    def kind(self) -> Hashable | None:
-        """All that count the turns of their wheels, and all that do not."""
-        return "TricycleDrive", self.from_encoders
-
-    @classmethod
-    def together(cls, plugins: Sequence[TricycleDrive]) -> BasePlugin:
-        """The wheels of many robots; commands and odometry are kept in tables of all from then on."""
-        return TricycleGroup(plugins)
-
-    @property
-    def is_heard(self) -> bool:
-        """Whether anybody listens to what is published."""
-        return any(output.wanted for output in self._published)
-
-    @classmethod
-    def measure_together(cls, plugins: Sequence[TricycleDrive]) -> list[Odometry | None]:
-        """The odometry of all robots that somebody listens to."""
-        return measure_wanted([each.odometry for each in plugins])
-
-    def publish_measured(self, measured: Odometry | None = None) -> None:
-        """Publish, an odometry that was measured already."""
-        self.odometry.publish(measured)
-        for output in self._published[1:]:
-            output.publish()
-
-    def on_update(self, time: float) -> None:
-        """Drive, steer and publish."""
-        if self._own is None:
-            self._own = TricycleGroup([self])
-        self._own.on_update(time)
-        self.publish_measured()
 
     def _wheel_frames(self) -> Transforms:
         return joint_transforms(self._robot, map(self._robot.joint_description, self._names))
@@ -220,38 +185,39 @@ class TricycleDrive(ModelPlugin):
         self.reckoning.last_ns = int(state["last_time"])
 
 
-class TricycleGroup(BasePlugin):
-    """Drives and steers some tricycles, and counts how far their wheels roll.
+class TricycleSystem(OdometrySystem[TricycleDrive]):
+    """Tricycles, whose wheels drive, steer and count.
 
     Args:
-        drives: At least one.
+        plugins: The tricycles.
     """
 
-    def __init__(self, drives: Sequence[TricycleDrive]) -> None:
-        self._rolled = ReckoningGroup([each.reckoning for each in drives])
-        self._from_encoders = drives[0].from_encoders
-        limits = [each.limits for each in drives]
+    def __init__(self, plugins: Sequence[TricycleDrive]) -> None:
+        super().__init__(plugins)
+        self._rolled = ReckoningGroup([each.reckoning for each in plugins])
+        limits = [each.limits for each in plugins]
         self._radius = np.array([each.radius for each in limits])
         self._acceleration = np.array([each.acceleration for each in limits])
         self._deceleration = np.array([each.deceleration for each in limits])
         self._speed_tolerance = np.array([each.speed_tolerance for each in limits])
         self._steering_speed = np.array([each.steering_speed for each in limits])
         self._angle_tolerance = np.array([each.angle_tolerance for each in limits])
-        self._steering = JointArray([each.joints[0] for each in drives])
-        self._wheels = JointArray([each.joints[1] for each in drives])
+        self._steering = JointArray([each.joints[0] for each in plugins])
+        self._wheels = JointArray([each.joints[1] for each in plugins])
         self._linear, self._angular = np.zeros((2, *self._rolled.tables.pose.shape))
-        for part, each in enumerate(drives):
+        for part, each in enumerate(plugins):
             each.keep_in(self._linear[:, part], self._angular[:, part])
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
+    def update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Count, drive and steer."""
         interval = self._rolled.interval()
-        if self._from_encoders:
-            self._rolled.advance()
-        else:
-            self._rolled.restart()
+        self._count()
         self._drive(interval)
         self._steer()
+
+    def _count(self) -> None:
+        """Let the next interval begin."""
+        self._rolled.restart()
 
     def _drive(self, interval: Floats) -> None:
         target = self._linear[..., 0] / self._radius
@@ -274,3 +240,11 @@ class TricycleGroup(BasePlugin):
             lack = target - self._steering.positions()
             pace = np.where(np.abs(lack) < self._angle_tolerance, 0.0, np.sign(lack))
             self._steering.drive(pace * self._steering_speed, ~placed)
+
+
+class CountingTricycles(TricycleSystem):
+    """Tricycles whose odometry is what their wheels have rolled."""
+
+    def _count(self) -> None:
+        """Add up what the wheels have rolled."""
+        self._rolled.advance()

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from enum import Enum
 from typing import Any
 
 from gazelle.array_types import Worlds
 from gazelle.description.source import Source
 from gazelle.errors import SimulationError
-from gazelle.native.system import System
-from gazelle.plugins.odometry import OdometryOutputs, measure_wanted
-from gazelle.plugins.wheel_motors import WheelMotors, wheels_together
-from gazelle.simulation import BasePlugin, JointHandle, ModelPlugin, Odometry, Robot, TwistInput
+from gazelle.plugins.odometry import OdometryOutputs
+from gazelle.plugins.wheel_motors import WheelMotors, WheelSystem
+from gazelle.simulation import JointHandle, ModelPlugin, Robot, TwistInput
 
 
 class Side(Enum):
@@ -32,11 +31,9 @@ class WheeledDrive(ModelPlugin):
         motors: Of the wheels.
     """
 
+    system = WheelSystem
     odometry: OdometryOutputs | None = None
     motors: WheelMotors
-
-    def __init__(self) -> None:
-        self._settled = -1  # the command whose speeds the motors already have
 
     def drive(
         self,
@@ -86,50 +83,13 @@ class WheeledDrive(ModelPlugin):
     def tell(self, odometry: OdometryOutputs) -> None:
         """Publish the odometry at every update."""
         self.odometry = odometry
-
-    @property
-    def active(self) -> bool:
-        """Whether it has a rate of its own, there is a new command, or anybody listens."""
-        return bool(self.update_rate) or self._settled != self._command.revision or self.is_heard
-
-    def kind(self) -> Hashable | None:
-        """All of them."""
-        return "WheeledDrive"
-
-    @classmethod
-    def together(cls, plugins: Sequence[WheeledDrive]) -> System | BasePlugin:
-        """The wheels of many robots; commands are kept in tables of all from then on."""
-        eager = bool(plugins[0].update_rate)
-        return wheels_together([each.motors for each in plugins], eager=eager)
-
-    @property
-    def is_heard(self) -> bool:
-        """Whether anybody listens to the odometry."""
-        return self.odometry is not None and self.odometry.wanted
-
-    @classmethod
-    def measure_together(cls, plugins: Sequence[WheeledDrive]) -> list[Odometry | None]:
-        """The odometry of all robots that somebody listens to."""
-        return measure_wanted([each.odometry for each in plugins])
-
-    def publish_measured(self, measured: Odometry | None = None) -> None:
-        """Publish the odometry, which may have been measured already."""
-        if self.odometry is not None:
-            self.odometry.publish(measured)
-
-    def on_update(self, time: float) -> None:  # noqa: ARG002  values carry their own stamps
-        """Drive the wheels and publish."""
-        if self._settled != self._command.revision:
-            self._settled = self._command.revision
-            self.motors.drive()
-        self.publish_measured()
+        self.published = (odometry,)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """The motors forgot their speeds: give them the command anew."""
+        """Give the motors the command again: they forgot their speeds."""
         self.motors.forget(worlds)
-        self._settled = -1
 
     def restore(self, state: Any) -> None:
-        """Give the motors the command anew."""
+        """Give the motors the command again."""
         del state
         self.reset(None)

@@ -8,6 +8,7 @@ from gazelle.simulation.joint_array import JointArray
 from gazelle.simulation.joint_motion import JointMotion
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.known_plugins import KnownPlugin
+from gazelle.simulation.link_array import LinkArray
 from gazelle.simulation.links import LinkHandle
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
@@ -18,6 +19,7 @@ from gazelle.simulation.plugin import (
     VisualPlugin,
     WorldPlugin,
 )
+from gazelle.simulation.plugin_system import PluginSystem, PublisherSystem
 from gazelle.simulation.ports import FramePrefix, Input, Output, Ports, Service, TwistInput
 from gazelle.simulation.recording import Recorder
 from gazelle.simulation.registry import register
@@ -40,13 +42,16 @@ __all__ = [
     "JointMotion",
     "JointStates",
     "KnownPlugin",
+    "LinkArray",
     "LinkHandle",
     "ModelPlugin",
     "Odometry",
     "Output",
     "PhysicsProperties",
     "Placement",
+    "PluginSystem",
     "Ports",
+    "PublisherSystem",
     "Recorder",
     "Replay",
     "Robot",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.native.joint_system import JointSystem
-from gazelle.native.system import System
+from gazelle.simulation.plugin_system import PluginSystem, Published
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +36,16 @@ class BasePlugin:
     Attributes:
         update_rate: Calls of ``on_update`` a simulated second [Hz]; 0 means every physics
             step, None means never. Set it in the class or in ``load``.
-        only_publishes: Whether ``active`` is true exactly while somebody listens to an output, so
-            that it need not be asked at every step.
+        system: What updates all plugins that name it and are due together, in place of their
+            ``on_update``; None for none. Set it in the class or in ``load``.
+        published: Outputs that the system publishes.
         handle: Name that the file gives it; known in ``load``.
         belongs_into: Tag of the element of a world that names plugins of this kind.
     """
 
     update_rate: float | None = None
-    only_publishes: bool = False
+    system: type[PluginSystem[Any]] | None = None
+    published: Sequence[Published] = ()
     handle: str = ""
     belongs_into: ClassVar[str] = ""
 
@@ -51,14 +53,6 @@ class BasePlugin:
     def active(self) -> bool:
         """Whether it needs its updates now; one that only publishes needs them when heard."""
         return True
-
-    def system(self) -> System | None:
-        """What does the same as ``on_update`` in native code; None if Python has a say in it.
-
-        It is asked before steps are made, and then updated instead of this plugin. Only engines
-        that run systems ask: ``Simulation.native``.
-        """
-        return None
 
     def carried(self) -> Carried | None:
         """What does the same as ``on_update`` within steps, and until when.
@@ -70,51 +64,6 @@ class BasePlugin:
 
     def catch_up(self) -> None:
         """What ``carried`` gave made steps."""
-
-    def kind(self) -> Hashable | None:
-        """Equal for plugins of one class that ``together`` makes one of; None for none.
-
-        It is asked when somebody subscribed to an output or ended that, and when models came or
-        went, not between. What such plugins do must not depend on each other. Those that only
-        publish are not put together: they are asked to ``measure_together`` and ``publish_measured``.
-        """
-        return None
-
-    @classmethod
-    def together(cls, plugins: Sequence[Any]) -> System | BasePlugin:
-        """What does the work of plugins of one kind that are due together, in the place of each.
-
-        A system, whose ``rows`` are the plugins, or a plugin, which is updated when they are due
-        and ``active``, and asked for nothing else. What is to be reset, saved and restored stays
-        with the plugins, such as in columns of arrays of all. One plugin is put together, too.
-
-        Args:
-            plugins: At least one, in the order they were loaded.
-        """
-        raise NotImplementedError(f"{cls.__name__} says kind() and lacks together()")
-
-    @property
-    def is_heard(self) -> bool:
-        """Whether somebody listens to what it publishes beside what ``together`` does.
-
-        Then ``publish_measured`` follows that. It may change when somebody subscribed.
-        """
-        return False
-
-    @classmethod
-    def measure_together(cls, plugins: Sequence[Any]) -> Sequence[Any]:
-        """What each plugin's ``publish_measured`` is given: measured at once, after all acted.
-
-        Where it fails, each is given None.
-        """
-        return [None] * len(plugins)
-
-    def publish_measured(self, measured: Any) -> None:
-        """Publish to those who listen, when it is time to.
-
-        Args:
-            measured: Its part of ``measure_together``.
-        """
 
     def on_update(self, time: float) -> None:
         """Act; called at ``update_rate``.

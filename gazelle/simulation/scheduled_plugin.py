@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.native.system import System
 from gazelle.simulation.base_plugin import BasePlugin, Carried
-from gazelle.simulation.clock import Schedule
+from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.plugin_errors import warn_of_fault
+from gazelle.simulation.plugin_system import PluginSystem
 from gazelle.simulation.requests import RequestQueue
 
 T = TypeVar("T")
@@ -31,14 +31,12 @@ class ScheduledPlugin:
     schedule: Schedule | None
     requests: RequestQueue | None = None
     detached: bool = False
-    group: tuple[ScheduledPlugin, ...] = ()
-    """In whose place it is."""
     alone: bool = False
-    """Whether it is updated by itself, whatever its kind, as it failed together with others."""
+    """Whether it is a system by itself, whatever its kind, as it failed together with others."""
 
     def members(self) -> list[int]:
-        """What tells it, or those in whose place it is, from others."""
-        return [id(each) for each in self.group or (self,)]
+        """Return its identity, as a system returns those of its plugins."""
+        return [id(self)]
 
     def detach(self, error: Exception, when: str) -> None:
         """Go on without it."""
@@ -47,22 +45,53 @@ class ScheduledPlugin:
             self.requests.changes += 1
         warn_of_fault(self.plugin, title(self.name, self.owner), f"{when} and is detached", error)
 
-    def update(self, time: float) -> None:
-        """Let it act, if it needs to [s]."""
-        if self._ask(lambda: self.plugin.active, "when asked"):
-            self._ask(lambda: self.plugin.on_update(time), f"at {time:g} s")
+    def part(self) -> None:
+        """Be a system by itself from now on."""
+        self.alone = True
+        if self.requests is not None:
+            self.requests.changes += 1
 
-    def system(self) -> System | None:
-        """What is updated in its place now."""
-        return self._ask(self.plugin.system, "when asked for its system")
+    def is_active(self, clock: Clock) -> bool:
+        """Return whether an update has anything to do."""
+        return self._ask(lambda: self.plugin.active, f"at {clock.now:g} s") is True
+
+    def update(self, clock: Clock) -> None:
+        """Let it act, if it is due and has anything to do."""
+        schedule = self.schedule
+        if schedule is None or clock.now_ns < schedule.due_ns:
+            return
+        try:
+            if not self.plugin.active:
+                return
+            self.plugin.on_update(clock.now)
+        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+            self.detach(error, f"at {clock.now:g} s")
+            return
+        schedule.done(clock.now_ns)
 
     @property
-    def rests(self) -> bool:
-        """Whether it has no update until somebody subscribes, or models come or go."""
-        plugin = self.plugin
-        if self.schedule is None:
-            return True
-        return plugin.only_publishes and self._ask(lambda: not plugin.active, "when asked") is True
+    def is_subscribed(self) -> bool:
+        """Whether anything that its system publishes has subscribers."""
+        return self._ask(self._has_subscribers, "when asked") is True
+
+    @property
+    def needs_system(self) -> bool:
+        """Whether its system has anything to do for it."""
+        kind = self.plugin.system
+        return kind is not None and (kind.acts or self.is_subscribed)
+
+    def _has_subscribers(self) -> bool:
+        return any(output.wanted for output in self.plugin.published)
+
+    def publish(self, system: PluginSystem[Any], measured: Any) -> None:
+        """Publish what was measured for it."""
+        self._ask(lambda: system.publish(self.plugin, measured), "when publishing")
+
+    def measure(self, system: PluginSystem[Any]) -> None:
+        """Measure for it alone, and publish that."""
+        self._ask(
+            lambda: system.publish(self.plugin, system.measure([self.plugin])[0]), "when publishing"
+        )
 
     def carried(self) -> Carried | None:
         """What does its work within steps, and until when [ns]."""
@@ -76,18 +105,6 @@ class ScheduledPlugin:
     def may_be_carried(self) -> bool:
         """Whether it is worth asking."""
         return type(self.plugin).carried is not BasePlugin.carried
-
-    def kind(self) -> Hashable | None:
-        """What it has in common with those that are updated together with it."""
-        return self._ask(self.plugin.kind, "when asked for its kind")
-
-    def is_heard(self) -> bool:
-        """Whether somebody listens to what it publishes."""
-        return self._ask(lambda: self.plugin.is_heard, "when asked") is True
-
-    def publish_measured(self, measured: Any) -> None:
-        """Publish what was measured for it."""
-        self._ask(lambda: self.plugin.publish_measured(measured), "when publishing")
 
     def reset(self, worlds: NDArray[np.intp] | None) -> None:
         """Let it begin anew."""
@@ -113,40 +130,6 @@ class ScheduledPlugin:
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
             self.detach(error, when)
             return None
-
-
-def due_with(entry: ScheduledPlugin) -> Hashable | None:
-    """Equal for plugins of one kind that are due together; None for those updated alone."""
-    kind = None if entry.alone else entry.kind()
-    if kind is None or entry.schedule is None:
-        return None
-    return type(entry.plugin), kind, entry.schedule.rate, entry.schedule.due_ns
-
-
-def share_schedule(entries: Sequence[ScheduledPlugin]) -> Schedule:
-    """One schedule for all, that of the first."""
-    schedule = (entries[0].schedule or Schedule(0.0)).copy()
-    for entry in entries:
-        entry.schedule = schedule
-    return schedule
-
-
-def part_schedule(entries: Iterable[ScheduledPlugin], shared: Schedule) -> None:
-    """Give each that still has a shared schedule one of its own."""
-    for entry in entries:
-        if entry.schedule is shared:
-            entry.schedule = shared.copy()
-
-
-def publish_together(entries: Sequence[ScheduledPlugin]) -> None:
-    """Measure for all at once, and let each publish; they are of one class."""
-    plugins = [entry.plugin for entry in entries]
-    try:
-        measured = type(plugins[0]).measure_together(plugins)
-    except Exception:  # noqa: BLE001  each measures by itself, so that it is seen whose fault it is
-        measured = [None] * len(plugins)
-    for entry, value in zip(entries, measured, strict=True):
-        entry.publish_measured(value)
 
 
 def title(name: str, owner: str) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,9 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
-from gazelle.simulation.plugin_groups import with_groups
-from gazelle.simulation.publisher_groups import group_publishers
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
+from gazelle.simulation.scheduled_systems import ScheduledSystem, make_systems
 from gazelle.simulation.sensor_groups import PythonGroup, group_sensors
 from gazelle.simulation.sensors import SampledSensor
 
@@ -50,22 +48,25 @@ class StepPlan:
         awake = [unit for unit in sensors if unit.awake]
         # Sensors first: asking for their kind may change the engine.
         self.sensors, self.groups = group_sensors(awake, native=native and not followed)
-        entries, self._publishers = group_publishers([each for each in plugins if not each.rests])
-        grouped, self._plugin_groups = with_groups(entries, nworld, native=native)
-        self.plugins = grouped
-        alone = [each for each in grouped if isinstance(each, ScheduledPlugin)]
-        self.late = [entry for entry in alone if entry.may_be_carried]
-        self.early = [entry for entry in alone if not entry.may_be_carried]
+        due = [each for each in plugins if each.schedule is not None]
+        self.plugins = make_systems(due, nworld)
+        self.late = [
+            each
+            for each in self.plugins
+            if isinstance(each, ScheduledPlugin) and each.may_be_carried
+        ]
+        late = {id(each) for each in self.late}
+        self.early = [each for each in self.plugins if id(each) not in late]
         self.settled: tuple[list[System], list[Schedule]] | None = None
-        if native and not alone:
-            self.settled = with_systems(self.plugins)[:2]
+        if native:
+            systems, schedules, others = with_kernels(self.plugins)
+            self.settled = None if others else (systems, schedules)
 
     def release(self) -> None:
         """Let everything be updated by itself again."""
-        for each in self._plugin_groups:
-            each.release()
-        for publisher in self._publishers:
-            publisher.release()
+        for each in self.plugins:
+            if isinstance(each, ScheduledSystem):
+                each.release()
         for group in self.groups:
             group.release()
         for unit in self.sensors:
@@ -73,37 +74,25 @@ class StepPlan:
                 unit.release()
 
 
-class Updated(Protocol):
-    """What may be updated by a system."""
-
-    @property
-    def schedule(self) -> Schedule | None:
-        """When it is due; None for never."""
-
-    def system(self) -> System | None:
-        """What is updated in its place now."""
+Scheduled = ScheduledPlugin | ScheduledSystem
 
 
-E = TypeVar("E", bound=Updated)
-
-
-def with_systems(
-    plugins: Iterable[E],
-) -> tuple[list[System], list[Schedule], list[E]]:
-    """The systems that are updated in place of plugins, their schedules, and the other plugins."""
-    systems: list[System] = []
+def with_kernels(
+    plugins: Iterable[Scheduled],
+) -> tuple[list[System], list[Schedule], list[Scheduled]]:
+    """Return the kernels that engines update in place of systems, their schedules, and all else."""
+    kernels: list[System] = []
     schedules: list[Schedule] = []
-    others: list[E] = []
-    for entry in plugins:
-        schedule = entry.schedule
-        system = None if schedule is None else entry.system()
-        if schedule is None or system is None:
-            others.append(entry)
+    others: list[Scheduled] = []
+    for each in plugins:
+        kernel = each.kernel if isinstance(each, ScheduledSystem) else None
+        if kernel is None or each.schedule is None:
+            others.append(each)
             continue
-        systems.append(system)
-        schedules.append(schedule)
-    set_due(systems, schedules)
-    return systems, schedules, others
+        kernels.append(kernel)
+        schedules.append(each.schedule)
+    set_due(kernels, schedules)
+    return kernels, schedules, others
 
 
 def set_due(systems: Iterable[System], schedules: Iterable[Schedule]) -> None:
@@ -112,21 +101,10 @@ def set_due(systems: Iterable[System], schedules: Iterable[Schedule]) -> None:
         system.rate, system.due = schedule.rate, schedule.due_ns
 
 
-def update_plugins(plugins: Iterable[ScheduledPlugin], clock: Clock) -> None:
-    """Run all plugins that are due, in the order they were loaded."""
-    now_ns = clock.now_ns
-    for entry in tuple(plugins):
-        schedule = entry.schedule
-        if schedule is None or now_ns < schedule.due_ns:
-            continue
-        try:
-            if not entry.plugin.active:
-                continue
-            entry.plugin.on_update(clock.now)
-        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
-            entry.detach(error, f"at {clock.now:g} s")
-            continue
-        schedule.done(now_ns)
+def update_plugins(plugins: Iterable[Scheduled], clock: Clock) -> None:
+    """Run all plugins and systems that are due, in the order in which they were loaded."""
+    for each in tuple(plugins):
+        each.update(clock)
 
 
 def update_sensors(sensors: Iterable[SampledSensor | PythonGroup], now_ns: int) -> None:
@@ -137,22 +115,19 @@ def update_sensors(sensors: Iterable[SampledSensor | PythonGroup], now_ns: int) 
 
 
 def steps_to_next(
-    plugins: Iterable[ScheduledPlugin],
+    plugins: Iterable[Scheduled],
     sensors: Iterable[SampledSensor | PythonGroup],
     clock: Clock,
     most: int,
 ) -> int:
     """Physics steps until something is due, ``most`` at most."""
     soonest = clock.now_ns + most * clock.step_ns
-    for entry in plugins:
-        schedule = entry.schedule
+    for each in plugins:
+        schedule = each.schedule
         if schedule is None or schedule.due_ns >= soonest:
             continue
-        try:
-            if entry.plugin.active:
-                soonest = schedule.due_ns
-        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
-            entry.detach(error, f"at {clock.now:g} s")
+        if each.is_active(clock):
+            soonest = schedule.due_ns
     for sensor in sensors:
         if sensor.schedule.due_ns < soonest and sensor.awake:
             soonest = sensor.schedule.due_ns

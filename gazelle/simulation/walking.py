@@ -19,16 +19,16 @@ from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.falling import FallWatch
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
-from gazelle.simulation.plugin_groups import PluginGroup
 from gazelle.simulation.robot import RobotHost
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.stepping import (
+    Scheduled,
     StepPlan,
     set_due,
     steps_to_next,
     update_plugins,
     update_sensors,
-    with_systems,
+    with_kernels,
 )
 
 CLOSED = "the simulation is closed"
@@ -163,8 +163,8 @@ class StepLoop:
         self._look_back()
         return steps
 
-    def _update_plugins(self) -> Sequence[ScheduledPlugin]:
-        """Run plugins that are due from Python; returns those that are not run by systems."""
+    def _update_plugins(self) -> Sequence[Scheduled]:
+        """Run what is due from Python; returns what is not run by the engine."""
         simulation, asked = self._simulation, set[int]()
         while True:
             plan = self._renew()
@@ -172,10 +172,9 @@ class StepLoop:
                 self._systems, self._schedules = plan.settled
                 set_due(self._systems, self._schedules)
                 return ()
-            others: Sequence[ScheduledPlugin | PluginGroup] = plan.early
+            plugins: list[Scheduled] = list(plan.early)
             if simulation.native is not None:
-                self._systems, self._schedules, others = with_systems(plan.plugins)
-            plugins = [each for each in others if isinstance(each, ScheduledPlugin)]
+                self._systems, self._schedules, plugins = with_kernels(plan.plugins)
             fresh = plugins
             if asked:
                 fresh = [each for each in plugins if asked.isdisjoint(each.members())]

@@ -138,8 +138,8 @@ def test_a_force_torque_sensor_bears_the_weight_of_what_hangs_on_it(kind):
 def test_what_nobody_hears_is_not_computed():
     with simulate(block(plugin=P3D)) as sim:
         entry = sim.plugins[0]
-        assert not entry.plugin.active
+        assert not entry.needs_system
         end = sim.robots["cube"].outputs["truth"].subscribe(lambda value: None)
-        assert entry.plugin.active
+        assert entry.needs_system
         end()
-        assert not entry.plugin.active
+        assert not entry.needs_system

@@ -11,7 +11,7 @@ import gazelle
 from gazelle import formats
 from gazelle.description import Pose
 from gazelle.errors import PluginWarning
-from gazelle.simulation import BasePlugin, JointArray, ModelPlugin, TwistInput, register
+from gazelle.simulation import JointArray, ModelPlugin, PluginSystem, TwistInput, register
 
 SOLID = """<inertial><mass>{0}</mass><inertia><ixx>{1}</ixx><iyy>{1}</iyy><izz>{1}</izz><ixy>0</ixy><ixz>0</ixz>
 <iyz>0</iyz></inertia></inertial>"""
@@ -122,7 +122,7 @@ def yard(plugin, *, together=True, nworld=1):
 
 def part(sim):
     for entry in [] if sim.together else sim.entities.plugins:
-        entry.plugin.kind = lambda: None
+        entry.alone = True
 
 
 def moving(sim):
@@ -229,19 +229,6 @@ def test_many_do_together_what_each_does_alone(kind, acts):
     same_together_and_alone(KINDS[kind], acts)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_no_plugin_is_updated_alone(kind, monkeypatch):
-    with yard(KINDS[kind]) as sim:
-        for each in sim.entities.plugins:
-            monkeypatch.setattr(each.plugin, "on_update", None)
-        for _ in range(10):  # some stand when they were told nothing for a while
-            for each in moving(sim):
-                next(iter(each.inputs.values())).send(0.4)
-            sim.run(0.1)
-        assert moving(sim)[0].position[0, 0] > 0.1
-        assert not any(entry.detached for entry in sim.entities.plugins)
-
-
 def test_odometry_of_all_is_looked_up_at_once(monkeypatch):
     looks, stamps = [], []
     with yard(KINDS["skid"], nworld=2) as sim:
@@ -291,29 +278,19 @@ class Scooter(ModelPlugin):
         for wheel in self.wheels:
             wheel.add_motor(5.0)
         self.broken = False
-
-    def kind(self):
-        return "Scooter"
-
-    @classmethod
-    def together(cls, plugins):
-        return Scooters(plugins)
-
-    def on_update(self, time):
-        for wheel in self.wheels:
-            wheel.drive(self.command.linear[:, 0] / 0.05)
+        self.system = Scooters
 
 
-class Scooters(BasePlugin):
+class Scooters(PluginSystem):
     def __init__(self, plugins):
-        self.plugins = plugins
+        super().__init__(plugins)
         self.joints = JointArray([wheel for each in plugins for wheel in each.wheels])
         shape = (2, len(plugins[0].command.linear), len(plugins), 3)
         self.linear, angular = np.zeros(shape)
         for part, each in enumerate(plugins):
             each.command.keep_in(self.linear[:, part], angular[:, part])
 
-    def on_update(self, time):
+    def update(self, time):
         if any(each.broken for each in self.plugins):
             raise RuntimeError("a wheel is off")
         self.joints.drive(np.repeat(self.linear[..., 0] / 0.05, 2, axis=1))
@@ -335,16 +312,18 @@ def test_a_drive_of_a_user_takes_part(acts):
     same_together_and_alone(SCOOTER, acts)
 
 
-def test_what_fails_together_goes_on_alone_with_one_warning():
+def test_a_row_that_fails_is_detached_alone():
     with yard(SCOOTER) as sim:
         sim.run(0.1)
         sim.entities.plugins[1].plugin.broken = True
         moving(sim)[0].inputs["speed"].send(0.3)
-        with pytest.warns(
-            PluginWarning, match="all are updated alone: RuntimeError: a wheel is off"
-        ) as said:
+        with pytest.warns(PluginWarning, match="RuntimeError: a wheel is off") as said:
             sim.run(0.5)
-        assert len(said) == 1
+        assert [str(each.message).partition(":")[0] for each in said] == [
+            "plugin 'drive' of 'r0' failed when updated with others, and all are updated alone",
+            "plugin 'drive' of 'r1' failed at 0.1 s and is detached",
+        ]
+        assert [entry.detached for entry in sim.entities.plugins] == [False, True, False]
         assert abs(moving(sim)[0].motion().linear[0]).max() > 0.2
 
 

@@ -8,7 +8,7 @@ from gazelle import formats
 from gazelle.description import Pose
 from gazelle.errors import PluginWarning, SimulationWarning
 from gazelle.sensors import LidarModel
-from gazelle.simulation import ModelPlugin, register
+from gazelle.simulation import ModelPlugin, PluginSystem, register
 
 WHEEL = """<link name='{0}'><pose>0 {1} .05 -1.5708 0 0</pose><collision name='c'><geometry><cylinder>
 <radius>.05</radius><length>.02</length></cylinder></geometry></collision></link><joint name='{0}_joint'
@@ -204,17 +204,23 @@ def test_a_command_before_and_after_native_steps_reaches_the_motors():
         assert own.motion().linear[0, 0] == pytest.approx(0.3)
 
 
-class Herd(ModelPlugin):
-    """Says that it can be grouped, and cannot."""
+class Herding(PluginSystem):
+    """A system that is made of one plugin only."""
 
+    def __init__(self, plugins):
+        (self.plugin,) = plugins
+        super().__init__(plugins)
+
+    def update(self, time):
+        self.plugin.calls += 1
+
+
+class Herd(ModelPlugin):
+    """Names a system that cannot be made of many."""
+
+    system = Herding
     update_rate = 10.0
     calls = 0
-
-    def kind(self):
-        return "herd"
-
-    def on_update(self, time):
-        Herd.calls += 1
 
 
 def test_plugins_that_cannot_make_their_system_are_updated_alone():
@@ -224,9 +230,10 @@ def test_plugins_that_cannot_make_their_system_are_updated_alone():
         for number in (20, 21):
             text = robot(number).replace("<plugin name='drive'", f"{plugin}<plugin name='drive'")
             sim.spawn(formats.load_string(f"<sdf version='1.7'>{text}</sdf>").models[0])
-        with pytest.warns((SimulationWarning, PluginWarning), match="together"):
+        with pytest.warns((SimulationWarning, PluginWarning), match="when their system was made"):
             sim.run(0.5)
-        assert Herd.calls == 2 * 5
+        herd = [each.plugin.calls for each in sim.plugins if isinstance(each.plugin, Herd)]
+        assert herd == [5, 5]
 
 
 @pytest.mark.long

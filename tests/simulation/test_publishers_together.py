@@ -37,7 +37,7 @@ def yard(*, together=True, nworld=2, rate=20):
     sim = gazelle.Simulation(formats.load_string(text), "mujoco", seed=5, nworld=nworld)
     if not together:
         for entry in sim.entities.plugins:
-            entry.plugin.kind = lambda: None
+            entry.alone = True
     for i, each in enumerate(sim.robots.values()):
         each.set_twist((0.1 * i, 0.2, 0.0), (0.3, 0.1 * i, 1.0))
     return sim

@@ -6,7 +6,7 @@ import pytest
 
 import gazelle
 from gazelle import formats
-from gazelle.simulation import ModelPlugin, Output, register
+from gazelle.simulation import ModelPlugin, Output, PublisherSystem, register
 
 WORLD = """<sdf version="1.6"><world name="w"><model name="m"><static>1</static><link name="l"/>
 <plugin name="teller" filename="libteller.so"/></model></world></sdf>"""
@@ -16,27 +16,17 @@ ENGINES = ("mujoco", "planar")
 class Teller(ModelPlugin):
     """Publishes a number at each of its updates."""
 
+    system = PublisherSystem
     update_rate = 0.0
-    only_publishes = True
 
     def load(self, robot, parameters):
-        self.asked = self.told = 0
-        self._count = robot.outputs["count"] = Output("/count", int, lambda: self.told)
+        self.told = 0
+        self._count = robot.outputs["count"] = Output("/count", int, self._tell)
+        self.published = (self._count,)
 
-    @property
-    def active(self):
-        self.asked += 1
-        return self._count.wanted
-
-    def on_update(self, time):
+    def _tell(self):
         self.told += 1
-        self._count.publish()
-
-
-class Asked(Teller):
-    """The same, which has to be asked."""
-
-    only_publishes = False
+        return self.told
 
 
 @pytest.fixture(params=ENGINES)
@@ -48,37 +38,29 @@ def run(request):
     return make
 
 
-def test_it_is_asked_once_and_no_more_until_somebody_listens(run):
+def test_it_publishes_only_while_somebody_listens(run):
     with run(Teller) as sim:
         teller = sim.plugins[0].plugin
-        for _ in range(20):
-            sim.step()
-        assert teller.asked == 1
+        sim.step(20)
+        assert teller.told == 0
         heard = []
         end = sim.robots["m"].outputs["count"].subscribe(heard.append)
         sim.step(3)
         assert heard == [1, 2, 3]
         end()
-        asked = teller.asked
         sim.step(3)
         assert teller.told == 3
-        sim.step(3)
-        assert teller.asked == asked + 1
 
 
-def test_who_may_be_active_for_other_reasons_is_asked_at_every_step(run):
-    with run(Asked) as sim:
-        teller = sim.plugins[0].plugin
-        for _ in range(20):
-            sim.step()
-        assert teller.asked >= 20
-
-
-def test_one_that_cannot_say_whether_it_is_active_is_detached(run):
+def test_one_that_cannot_say_whether_it_is_subscribed_is_detached(run):
     class Broken(Teller):
         @property
-        def active(self):
+        def published(self):
             raise RuntimeError("no idea")
+
+        @published.setter
+        def published(self, outputs):
+            pass
 
     with run(Broken) as sim:
         with pytest.warns(gazelle.errors.PluginWarning, match="no idea"):
@@ -93,7 +75,7 @@ def test_a_burger_without_listeners_leaves_python_nothing_to_ask(engine):
     with gazelle.Simulation("empty", engine=engine) as sim:
         robot = sim.spawn("turtlebot3_burger")
         sim.run(seconds=0.1)
-        due = [each.plugin for each in sim.plugins if not each.rests]
+        due = [each.plugin for each in sim.plugins if each.needs_system]
         assert [type(each).__name__ for each in due] == ["DiffDrive"]
         heard = []
         robot.outputs["imu"].subscribe(heard.append)

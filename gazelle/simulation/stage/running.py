@@ -49,11 +49,6 @@ class StageRunner(WorldPlugin):
         acting = self._bind()
         return acting or not self._is_native()
 
-    def system(self) -> System | None:
-        """None: what is native is bound to the engine's own steps."""
-        self._bind()
-        return None
-
     def on_update(self, time: float) -> None:  # noqa: ARG002  controllers look at the clock
         """Ask the controllers; write down what drives are told if somebody records."""
         for controller in self._fleet.controllers:
