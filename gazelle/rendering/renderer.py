@@ -8,8 +8,8 @@ import numpy as np
 
 from gazelle.array_types import Bytes, Floats, Floats32, Ints32, Ints64, Worlds
 from gazelle.description import World
-from gazelle.engines.planar.worker_pool import WorkerPool
 from gazelle.errors import EngineError
+from gazelle.native.worker_pool import WorkerPool
 from gazelle.rendering import columns as c
 from gazelle.rendering.lamps import SUN, lighting_of, table_of
 from gazelle.rendering.lens import PinholeLens

@@ -11,7 +11,6 @@ from typing import Any
 import cython
 import numpy as np
 from cython.cimports.gazelle.engines.planar.beams import Beams, Candidates
-from cython.cimports.gazelle.engines.planar.hashed_noise import normal, stream
 from cython.cimports.gazelle.engines.planar.near_bodies import meet_bodies
 from cython.cimports.gazelle.engines.planar.scan_columns import (
     ASTRAY,
@@ -23,6 +22,7 @@ from cython.cimports.gazelle.engines.planar.scan_columns import (
 )  # fmt: skip
 from cython.cimports.gazelle.engines.planar.viewpoint import Viewpoint
 from cython.cimports.gazelle.native.elementary import cos, sin
+from cython.cimports.gazelle.native.hashed_noise import normal, stream
 from cython.cimports.gazelle.native.system import System
 from numpy.typing import NDArray
 

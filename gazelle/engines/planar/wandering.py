@@ -8,7 +8,7 @@ from typing import Any
 
 import cython
 from cython.cimports.gazelle.engines.planar.bodies import Bodies
-from cython.cimports.gazelle.engines.planar.hashed_noise import stream, uniform
+from cython.cimports.gazelle.native.hashed_noise import stream, uniform
 from cython.cimports.gazelle.native.system import System
 
 from gazelle.array_types import Floats, Ints64

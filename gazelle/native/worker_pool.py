@@ -114,7 +114,7 @@ class WorkerPool:
     def _ready(self, count: int) -> list[_Worker]:
         """So many threads, started if they are not there yet."""
         while len(self._workers) < count:
-            self._workers.append(_Worker(f"planar_{len(self._workers)}"))
+            self._workers.append(_Worker(f"worker_{len(self._workers)}"))
         return self._workers[:count]
 
     def close(self) -> None:

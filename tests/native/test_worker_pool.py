@@ -5,12 +5,12 @@ import threading
 
 import pytest
 
-from gazelle.engines.planar.worker_pool import WorkerPool
 from gazelle.errors import EngineError
+from gazelle.native.worker_pool import WorkerPool
 
 
-def planar_threads():
-    return [each for each in threading.enumerate() if each.name.startswith("planar_")]
+def worker_threads():
+    return [each for each in threading.enumerate() if each.name.startswith("worker_")]
 
 
 @pytest.fixture
@@ -54,17 +54,17 @@ def test_an_error_comes_after_all_have_ended_and_harms_nobody(pool, who):
 @pytest.mark.long
 def test_threads_end_when_it_is_closed_or_forgotten():
     gc.collect()  # pools that other tests have forgotten
-    before = len(planar_threads())
+    before = len(worker_threads())
     for closed in (True, False):
         pool = WorkerPool(3)
         pool.share(lambda *part: part, 30, 10)
-        assert len(planar_threads()) == before + 2
+        assert len(worker_threads()) == before + 2
         if closed:
             pool.close()
             assert pool.share(lambda *part: part[2], 30, 10) == [0, 1, 2]
         del pool
         gc.collect()
-        assert len(planar_threads()) == before
+        assert len(worker_threads()) == before
 
 
 def test_nobody_is_no_crew():
