@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from gazelle.description import Collision, Link, Pose
-from gazelle.engines.mujoco.collision_model import CollisionBody
+from gazelle.engines.collision import CollisionBody
 from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene_objects import AttachedObject, scaled
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats
 from gazelle.description import Pose, Vector3
-from gazelle.engines.mujoco.collision_model import CollisionBody, CollisionModel, Shape
+from gazelle.engines.collision import CollisionBody, CollisionModel, Shape, collision_model
 from gazelle.errors import PlanningError, did_you_mean
 from gazelle.planning.allowed_collisions import AllowedCollisionMatrix
 from gazelle.planning.joint_group import JointModelGroup
@@ -362,7 +362,7 @@ class PlanningScene:
             ignored |= {(name, link) for link in (held.link, *held.touch_links)}
         if group is not None:
             ignored |= _pairs_at_rest(names, self._moving(group))
-        return CollisionModel(bodies, obstacles, sorted(ignored), self._padding)
+        return collision_model(bodies, obstacles, sorted(ignored), self._padding)
 
     def _moving(self, group: JointModelGroup) -> set[str]:
         """Links that move with a group, and what they hold."""

@@ -19,7 +19,7 @@ from gazelle.description import (
     Pose,
     Sphere,
 )
-from gazelle.engines.mujoco.collision_model import Shape
+from gazelle.engines.collision import Shape
 from gazelle.errors import PlanningError
 from gazelle.formats import MeshData, Octree
 

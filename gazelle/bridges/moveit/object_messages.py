@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.bridges.conversions import set_point
 from gazelle.bridges.moveit.frames import pose_message, pose_of_message
 from gazelle.description import Box, Cone, Cylinder, Plane, Pose, Sphere
-from gazelle.engines.mujoco.collision_model import Shape
+from gazelle.engines.collision import Shape
 from gazelle.errors import PlanningError
 from gazelle.formats import MeshData
 from gazelle.planning import SceneObject

@@ -1,76 +1,26 @@
-"""Which bodies of a tree touch what, without time or forces: MuJoCo's collision functions alone."""
+"""Collision models by MuJoCo's collision functions alone, without time or forces."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 
 import mujoco
 
 from gazelle.array_types import Floats
-from gazelle.description import Geometry, Pose, Vector3
+from gazelle.description import Pose
+from gazelle.engines.collision import BodyContact, CollisionBody
 from gazelle.engines.mujoco.process import settle
 from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.formats import MeshData
 
-Shape = Geometry | MeshData
 _OWN = "/"
 """Before the names of bodies, as MuJoCo has a body named world itself."""
 
 _HINGE, _SLIDE = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE
 
 
-@dataclass(frozen=True, slots=True)
-class CollisionBody:
-    """A body with shapes, that hangs on another one.
-
-    Attributes:
-        name: Unique.
-        parent: Name of the body that it hangs on; empty for the base of the robot.
-        pose: In the parent's frame.
-        shapes: With their poses in its own frame.
-        axis: Of the joint that holds it, in its frame; None where it is fixed.
-        slides: Whether it moves along the axis, rather than about it.
-    """
-
-    name: str
-    parent: str = ""
-    pose: Pose = field(default_factory=Pose)
-    shapes: tuple[tuple[Shape, Pose], ...] = ()
-    axis: Vector3 | None = None
-    slides: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class BodyContact:
-    """Two bodies that touch.
-
-    Attributes:
-        first: A name.
-        second: A name.
-        depth: How far they are within each other [m], padding counted.
-        point: Where, in the world frame [m].
-        normal: From the first to the second, in the world frame.
-    """
-
-    first: str
-    second: str
-    depth: float
-    point: Vector3
-    normal: Vector3
-
-
-class CollisionModel:
-    """A robot and what stands around it.
-
-    Bodies that are fixed to each other are not checked against each other; nor are obstacles.
-
-    Args:
-        bodies: Of the robot, parents first.
-        obstacles: What stands still; their parents and axes do not count.
-        ignored: Pairs of names that may touch.
-        padding: By name: at which distance from obstacles it counts as touching [m].
-    """
+class MujocoCollisionModel:
+    """A robot and the obstacles around it; see ``gazelle.engines.collision_model``."""
 
     def __init__(
         self,
@@ -131,12 +81,7 @@ class CollisionModel:
                 handle.add_geom(margin=self._margin, **geom)
 
     def place(self, positions: Floats, base: Sequence[float] | None = None) -> None:
-        """Move the robot.
-
-        Args:
-            positions: Of the joints in the order of their bodies [m or rad], shape (joints,).
-            base: Position and quaternion (x, y, z, w) of the base; as it is if None.
-        """
+        """Move the robot; see ``CollisionModel.place``."""
         data = self._data
         data.qpos[7:] = positions
         if base is not None:
@@ -146,7 +91,7 @@ class CollisionModel:
         mujoco.mj_collision(self._model, data)
 
     def touches(self, positions: Floats) -> bool:
-        """Whether anything touches, with the joints at some positions, shape (joints,)."""
+        """Return whether anything touches with the joints at some positions, shape (joints,)."""
         data = self._data
         data.qpos[7:] = positions
         mujoco.mj_kinematics(self._model, data)
@@ -158,7 +103,7 @@ class CollisionModel:
         return bool(self.contacts())
 
     def contacts(self) -> list[BodyContact]:
-        """What touches, as the robot was placed last: of each pair where it is deepest."""
+        """Return the contacts of the last placement: of each pair the deepest."""
         found: dict[tuple[str, str], BodyContact] = {}
         owners = self._model.geom_bodyid
         for number in range(self._data.ncon):
@@ -174,7 +119,7 @@ class CollisionModel:
         return list(found.values())
 
     def _allowance(self, first: str, second: str) -> float:
-        """At which distance two bodies count as touching; a robot's own parts have no padding."""
+        """Return the distance at which two bodies touch; a robot's own parts have no padding."""
         if not {first, second} & self._still:
             return 0.0
         return self._padding.get(first, 0.0) + self._padding.get(second, 0.0)
