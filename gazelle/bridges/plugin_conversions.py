@@ -23,6 +23,7 @@ from gazelle.simulation.values import (
     EmergencyStop,
     Flags,
     JointPath,
+    LinkName,
     LinkPair,
     Number,
     PathRequest,
@@ -97,4 +98,13 @@ add_service(
     LinkPair,
     bool,
     ServiceCodec("gazebo_ros_link_attacher/Attach", _link_pair, lambda answer: {"ok": answer}),
+)
+add_service(
+    LinkName,
+    bool,
+    ServiceCodec(
+        "gazebo_ros_link_attacher/SetStatic",
+        lambda request: LinkName(request.model_name, request.link_name),
+        lambda answer: {"ok": answer},
+    ),
 )

@@ -16,6 +16,7 @@ import shutil
 import sys
 import textwrap
 import warnings
+from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -78,11 +79,15 @@ def _judge(file: str, args: argparse.Namespace) -> list[Problem]:
 
 
 def _show(file: str, found: list[Problem]) -> None:
-    """Print the findings about one file: those with one advice together, by their lines."""
+    """Print the findings about one file: those with one advice together, by their lines.
+
+    What a macro or an include repeats is one line.
+    """
     for key in dict.fromkeys(map(_advice, found)):
         alike = [each for each in found if _advice(each) == key]
-        for each in sorted(alike, key=lambda each: (each.file or "", each.line or 0)):
-            _write(_line(each), "  ")
+        alike.sort(key=lambda each: (each.file or "", each.line or 0))
+        for line, times in Counter(map(_line, alike)).items():
+            _write(line if times == 1 else f"{line} ({times} times)", "  ")
         for name, more in (("why", alike[0].why), ("hint", alike[0].hint)):
             if more:
                 _write(f"  {name}: {more}", "    ")

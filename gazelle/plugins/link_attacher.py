@@ -6,11 +6,15 @@ from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import Error
 from gazelle.simulation import LinkHandle, Service, Simulation, WorldPlugin
-from gazelle.simulation.values import LinkPair
+from gazelle.simulation.values import LinkName, LinkPair
 
 
 class LinkAttacher(WorldPlugin):
-    """Answers ``attach`` and ``detach``: whether it could be done."""
+    """Answers ``attach``, ``detach`` and ``setstatic``: whether it could be done.
+
+    ``setstatic`` is that of a fork: it takes a model's weight and motion, whatever its flag says.
+    The fork lets others pass through the model as well; here they go on colliding.
+    """
 
     def load(self, simulation: Simulation, parameters: Parameters) -> None:  # noqa: ARG002  it has no tags
         """Open the services."""
@@ -19,6 +23,9 @@ class LinkAttacher(WorldPlugin):
             simulation.ports.services[name] = Service(
                 f"/link_attacher_node/{name}", LinkPair, bool, answer
             )
+        simulation.ports.services["setstatic"] = Service(
+            "/link_attacher_node/setstatic", LinkName, bool, self._lay_to_rest
+        )
 
     def _attach(self, pair: LinkPair, worlds: Worlds | None) -> bool:
         try:
@@ -32,6 +39,17 @@ class LinkAttacher(WorldPlugin):
         try:
             parent, child = self._links(pair)
             self._simulation.engine.detach(parent.name, child.name, worlds)
+        except Error:
+            return False
+        return True
+
+    def _lay_to_rest(self, name: LinkName, worlds: Worlds | None) -> bool:
+        try:
+            robot = self._simulation.robots[name.model]
+            robot.frame(name.link)
+            for link in robot.links.values():
+                link.set_properties(gravity=0.0, worlds=worlds)
+            robot.set_twist((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), worlds)
         except Error:
             return False
         return True

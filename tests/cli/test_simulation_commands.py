@@ -82,6 +82,29 @@ def test_check_of_a_good_file(cli):
     assert (code, out) == (0, "turtlebot3_stage_1: ok\nturtlebot3_burger: ok\n")
 
 
+def test_what_a_macro_repeats_is_one_line(cli, tmp_path):
+    inertial = (
+        "<inertial><mass value='1'/>"
+        "<inertia ixx='1' iyy='{}' izz='{}' ixy='0' ixz='0' iyz='0'/></inertial></link>"
+    )
+    wheel = (
+        f"<link name='w${{n}}'>{inertial.format(0.1, 0.1)}"
+        "<joint name='j${n}' type='continuous'><parent link='b'/><child link='w${n}'/></joint>"
+    )
+    file = tmp_path / "robot.urdf.xacro"
+    file.write_text(
+        "<robot name='r' xmlns:xacro='http://www.ros.org/wiki/xacro'>"
+        f"<link name='b'>{inertial.format(1, 1)}\n"
+        f"<xacro:macro name='wheel' params='n'>{wheel}</xacro:macro>\n"
+        "<xacro:wheel n='1'/><xacro:wheel n='2'/><xacro:wheel n='3'/></robot>"
+    )
+    _, out, _ = cli("check", "--files-only", str(file))
+    assert [line for line in out.splitlines() if "(3 times)" in line] == [
+        line for line in out.splitlines() if "inertia-triangle" in line
+    ]
+    assert out.count("inertia-triangle") == 1
+
+
 def test_check_names_file_and_line_and_fails(cli, tmp_path):
     file = tmp_path / "bad.urdf"
     file.write_text(

@@ -176,6 +176,47 @@ def test_plugins_that_name_missing_joints_are_found():
     assert found[0].hint == "did you mean 'wheel_left_joint'?"
 
 
+@pytest.mark.parametrize("legacy", [None, "true", "false"])
+def test_a_left_wheel_on_the_right_is_found(legacy):
+    """<legacyMode> of ROS Kinetic exchanged the wheels; since Melodic it has no effect."""
+    given = {} if legacy is None else {"legacyMode": legacy}
+    burger = scenes.burger()
+    swapped = scenes.drive_plugin(
+        leftJoint="wheel_right_joint", rightJoint="wheel_left_joint", **given
+    )
+    for plugin, expected in ((scenes.drive_plugin(**given), 0), (swapped, 1)):
+        model = dataclasses.replace(burger, plugins=(plugin,))
+        found = [f for f in lint(World(models=(model,))) if f.rule == "wheels-swapped"]
+        assert len(found) == expected
+        assert all("legacyMode" in f.hint for f in found)
+
+
+def test_a_robot_that_drives_backwards_has_its_left_on_the_other_side():
+    def turned(joint):
+        axes = tuple(dataclasses.replace(axis, xyz=(0.0, 0.0, -1.0)) for axis in joint.axes)
+        return dataclasses.replace(joint, axes=axes)
+
+    burger = scenes.burger()
+    model = dataclasses.replace(burger, joints=tuple(map(turned, burger.joints)))
+    assert "wheels-swapped" in rules(World(models=(model,)))
+    plugin = scenes.drive_plugin(leftJoint="wheel_right_joint", rightJoint="wheel_left_joint")
+    model = dataclasses.replace(model, plugins=(plugin,))
+    assert "wheels-swapped" not in rules(World(models=(model,)))
+
+
+@pytest.mark.parametrize("moments", [(1.0, 0.1, 0.1), (0.0, 0.1, 0.1), (9.0, 9.0, 9.0)])
+@pytest.mark.parametrize("lines", ["", "\n"])
+def test_one_link_has_one_finding_on_its_inertia(tmp_path, moments, lines):
+    ixx, iyy, izz = moments
+    file = tmp_path / "robot.urdf"
+    file.write_text(
+        f"<robot name='r'><link name='l'><inertial>{lines}<mass value='1'/>{lines}"
+        f"<inertia ixx='{ixx}' iyy='{iyy}' izz='{izz}' ixy='0' ixz='0' iyz='0'/></inertial>"
+        "<collision><geometry><box size='.1 .1 .1'/></geometry></collision></link></robot>"
+    )
+    assert len(formats.check(file)) == 1
+
+
 def test_heavy_collision_meshes_are_found(tmp_path):
     import trimesh
 

@@ -5,7 +5,7 @@ import pytest
 from models import block, plugin, simulate
 
 from gazelle.errors import PluginWarning, SimulationError
-from gazelle.simulation.values import LinkPair, Push
+from gazelle.simulation.values import LinkName, LinkPair, Push
 
 FORCE = plugin("libgazebo_ros_force.so", bodyName="core", topicName="push")
 F3D = plugin("libgazebo_ros_f3d.so", bodyName="core", topicName="felt", frameName="map")
@@ -218,6 +218,20 @@ def test_a_disabled_link_stays_until_it_is_pushed():
 
 ATTACHER = plugin("libgazebo_ros_link_attacher.so")
 OTHER = block(gravity=False).replace('"cube"', '"other"').replace("0 0 0.5", "1 0 0.5")
+
+
+def test_a_model_is_laid_to_rest_in_the_worlds_that_are_asked():
+    with simulate(block(), ATTACHER, ground=False, nworld=2) as sim:
+        cube = sim.robots["cube"]
+        rest = sim.ports.services["setstatic"]
+        assert rest.topic == "/link_attacher_node/setstatic"
+        cube.set_twist((1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        assert rest.call(LinkName("cube", "core"), np.array([1]))
+        sim.run(seconds=0.5)
+        assert cube.position[0] == pytest.approx([0.5, 0.0, 0.5 - 9.8 * 0.125], abs=0.01)
+        assert cube.position[1] == pytest.approx([0.0, 0.0, 0.5], abs=1e-9)
+        assert not rest.call(LinkName("nobody", "core"))
+        assert not rest.call(LinkName("cube", "nothing"))
 
 
 def test_links_are_joined_and_parted_in_the_worlds_that_are_asked():

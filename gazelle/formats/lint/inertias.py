@@ -46,9 +46,15 @@ def lint(world: World) -> Iterator[Diagnostic]:
                 place.link.source,
             )
             continue
-        yield from _triangle(name, inertial)
-        yield from _compared_with_shape(name, place.link, inertial)
+        yield from _strangest(name, place.link, inertial)
     yield from _mass_ratios(world)
+
+
+def _strangest(name: str, link: Link, inertial: Inertial) -> Iterator[Diagnostic]:
+    """One finding on a link at most; none where the reader has replaced the inertia, and said so."""
+    if inertial.written is None:
+        found = [*_triangle(name, inertial), *_compared_with_shape(name, link, inertial)]
+        yield from found[:1]
 
 
 def principal_moments(inertia: Inertia) -> tuple[float, float, float]:

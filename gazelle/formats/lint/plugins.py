@@ -1,10 +1,10 @@
-"""Plugins that name joints and links which are not there."""
+"""Plugins that name joints and links which are not there, or those of the other side."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gazelle.description import Model, Parameters, World
+from gazelle.description import Model, Parameters, Plugin, Vector3, World
 from gazelle.errors import did_you_mean
 from gazelle.formats.lint.diagnostic import Diagnostic
 
@@ -28,6 +28,11 @@ _JOINT_TAGS = frozenset(
         "right_wheel_joint_name",
     }
 )
+_WHEEL_PAIRS = (
+    ("leftJoint", "rightJoint"),
+    ("leftFrontJoint", "rightFrontJoint"),
+    ("leftRearJoint", "rightRearJoint"),
+)
 _LINK_TAGS = frozenset({"bodyName", "linkName", "palm_link", "gripper_link"})
 
 
@@ -40,6 +45,8 @@ def lint(world: World) -> Iterator[Diagnostic]:
                 for tag in plugin.parameters.children:
                     yield from _missing(plugin.name, tag, "joint", _JOINT_TAGS, joints)
                     yield from _missing(plugin.name, tag, "link", _LINK_TAGS, links)
+                for pair in _WHEEL_PAIRS:
+                    yield from _swapped(plugin, pair, placed.model)
 
 
 def _names(top: Model, model: Model) -> tuple[set[str], set[str]]:
@@ -69,3 +76,35 @@ def _missing(
                 did_you_mean(name, known),
                 tag.source,
             )
+
+
+def _swapped(plugin: Plugin, tags: tuple[str, str], model: Model) -> Iterator[Diagnostic]:
+    """Find a left wheel on the right.
+
+    Wheels that turn forwards by a positive speed have their left end where their axis points to.
+    """
+    names = [plugin.parameters.get(tag, "") for tag in tags]
+    wheels = [_axle(model, name) for name in names]
+    if wheels[0] is None or wheels[1] is None:
+        return
+    (left, axis), (right, other) = wheels[0], wheels[1]
+    apart = sum((a - b) * c for a, b, c in zip(left, right, axis, strict=True))
+    if apart < 0.0 < sum(a * b for a, b in zip(axis, other, strict=True)):
+        yield Diagnostic(
+            "wheels-swapped",
+            f"plugin '{plugin.name}': <{tags[0]}> names '{names[0]}', which is on the right, and "
+            f"<{tags[1]}> '{names[1]}', on the left",
+            "the robot turns right where it is to turn left",
+            "exchange the two names; <legacyMode> has no effect here, nor since ROS Melodic",
+            plugin.source,
+        )
+
+
+def _axle(model: Model, name: str) -> tuple[Vector3, Vector3] | None:
+    """Return position and axis of a joint in the model's frame; None if it is not of this model."""
+    joint = next((each for each in model.joints if each.name == name and each.axes), None)
+    link = joint and next((each for each in model.links if each.name == joint.child), None)
+    if joint is None or link is None:
+        return None
+    frame = link.pose * joint.pose
+    return frame.position, frame.rotate(joint.axes[0].xyz)

@@ -23,6 +23,19 @@ class Push:
 
 
 @dataclass(frozen=True, slots=True)
+class LinkName:
+    """Link of any model.
+
+    Attributes:
+        model: Name of the model.
+        link: Name of the link of it.
+    """
+
+    model: str
+    link: str
+
+
+@dataclass(frozen=True, slots=True)
 class LinkPair:
     """Two links of any models, to be joined or parted.
 

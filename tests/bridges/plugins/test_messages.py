@@ -221,6 +221,9 @@ def test_links_are_attached_by_the_service_of_its_own_package():
         assert not graph.client.call("/link_attacher_node/detach", kind, **names).ok
         assert graph.client.call("/link_attacher_node/attach", kind, **names).ok
         assert graph.client.call("/link_attacher_node/detach", kind, **names).ok
+        fixed = {"model_name": "cube", "link_name": "core", "set_static": True}
+        kind = "gazebo_ros_link_attacher/SetStatic"
+        assert graph.client.call("/link_attacher_node/setstatic", kind, **fixed).ok
 
 
 def test_a_cup_is_switched_by_empty_services_and_tells_whether_it_holds():
