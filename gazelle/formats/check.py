@@ -72,7 +72,7 @@ def check(
         else:
             judged = [_problem_of(finding) for finding in lint(read_path(file, reading))]
     except Error as error:
-        name = error.file or os.fspath(path)
+        name = error.file or (os.fspath(path) if isinstance(path, str | os.PathLike) else None)
         problems.append(
             Problem("error", error.message, name, error.line, error.element, error.hint)
         )

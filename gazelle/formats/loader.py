@@ -29,6 +29,7 @@ _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
 _EXPANDED = {"robot", "sdf", "gazebo"}
 _MAP_SUFFIXES = (".yaml", ".yml")
 _SHORT = 60  # characters of a value that a message shows
+_LONGEST_NAME, _LONGEST_PATH = 255, 4095  # bytes, on every system that Gazelle runs on
 _BUNDLED_HINT = "'gazelle worlds' and 'gazelle robots' list what is bundled"
 
 
@@ -151,13 +152,20 @@ def path_text(path: object) -> str:
     Raises:
         ResolveError: It is none of them.
     """
+    hint = 'such as "robot.urdf", "model://ground_plane" or "turtlebot3_world"'
     if not isinstance(path, str | os.PathLike):
         shown = text if len(text := repr(path)) <= _SHORT else f"a {type(path).__name__}"
-        raise ResolveError(
-            f"a file is found by its path, URI or name, not by {shown}",
-            hint='such as "robot.urdf", "model://ground_plane" or "turtlebot3_world"',
-        )
-    return str(os.fspath(path))
+    else:
+        text = str(os.fspath(path))
+        if text.lstrip().startswith("<"):
+            shown, hint = "its text", "load_string() and load_model_string() read text"
+        elif len(text) > _LONGEST_PATH or any(
+            len(part.encode()) > _LONGEST_NAME for part in text.split("/")
+        ):
+            shown = f"{len(text):,} characters"
+        else:
+            return text
+    raise ResolveError(f"a file is found by its path, URI or name, not by {shown}", hint=hint)
 
 
 def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:

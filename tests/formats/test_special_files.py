@@ -117,6 +117,23 @@ def test_a_launch_file_is_called_one():
         formats.load_string("<launch/>")
 
 
-def test_what_is_no_file_is_named_by_its_kind():
-    with pytest.raises(FormatError, match="not by a World;"):
-        formats.load(formats.load("turtlebot3_world"))
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (World(models=(Model("m", links=(Link("l"),)),)), "not by a World;"),
+        (
+            "<robot name='r'>" + "<link name='l'/>" * 500 + "</robot>",
+            "not by its text; load_string",
+        ),
+        ("\n<sdf version='1.6'/>", "not by its text; load_string"),
+        ("x" * 300, "not by 300 characters;"),
+        ("y/" * 3000, "not by 6,000 characters;"),
+        (["robot.urdf"], r"not by \['robot.urdf'\];"),
+    ],
+)
+def test_what_is_no_file_is_named_by_its_kind(given, said):
+    with pytest.raises(FormatError, match=said) as caught:
+        formats.load(given)
+    assert len(str(caught.value)) < 200
+    (problem,) = formats.check(given)
+    assert problem.message == caught.value.message
