@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.engines import Contacts, Engine, TableEngine, TouchTable, as_table_engine
-from gazelle.sensors.model import NoisySensor
+from gazelle.sensors.model import FromPython, NoisySensor
 
 # Values of one contact: two names, position, normal, depth, force, torque.
 _WIDTH = 15
@@ -142,7 +142,7 @@ class ContactModel(NoisySensor):
         return float(self._names.index(name))
 
 
-class ContactGroup:
+class ContactGroup(FromPython):
     """Contact sensors of many robots, measured at once: forces are computed once for all.
 
     Args:

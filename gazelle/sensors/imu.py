@@ -11,7 +11,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Imu, Pose
 from gazelle.engines import Engine, Motion, Placement, TableEngine, as_table_engine
 from gazelle.rotations import conjugate, cross, multiply, rotate
-from gazelle.sensors.model import NoisySensor
+from gazelle.sensors.model import FromPython, NoisySensor
 from gazelle.sensors.noise import JoinedNoise
 
 
@@ -114,7 +114,7 @@ class ImuModel(NoisySensor):
         return ImuReading(stamp, values[..., :4], values[..., 4:7], values[..., 7:])
 
 
-class ImuGroup:
+class ImuGroup(FromPython):
     """IMUs of many robots, measured at once: the coming step is made once for all.
 
     Args:

@@ -11,6 +11,7 @@ from gazelle.array_types import Floats, UInts64
 from gazelle.engines import RangeRays, SystemEngine, TableEngine
 from gazelle.native.system import System
 from gazelle.sensors.lidar_ranges import LidarNoise, LidarSystem, RangeLaw, measure
+from gazelle.sensors.model import FromPython
 
 _SHARE = 2000  # ranges that are worth a thread
 
@@ -55,8 +56,13 @@ class LidarGroup:
         self._engine.update(self._system)
         return measured
 
+    def measure_all(self, interval: float) -> Floats:  # noqa: ARG002  there are no drifts
+        """Measure now, shape (nworld, n, samples); a new array each time."""
+        measured = self.measure()
+        return measured.reshape(-1, self._count, measured.shape[1])
+
     @property
-    def system(self) -> System:
+    def kernel(self) -> System:
         """What measures in turn; its last measurement is ``latest``."""
         return self._system
 
@@ -68,7 +74,7 @@ class LidarGroup:
         return measured.reshape(shape), stamp.reshape(shape[:2])
 
 
-class CastLidars:
+class CastLidars(FromPython):
     """Lidars with as many beams and the same law, whose rays an engine casts in one call.
 
     Args:

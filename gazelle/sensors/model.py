@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise
+from gazelle.native.system import System
 from gazelle.sensors.noise import NoiseModel
 from gazelle.states import restore_all, states_of
 
@@ -57,6 +58,14 @@ class ScanningModel(SensorModel, Protocol):
 class MeasuredTogether(Protocol):
     """Some sensors of one kind in every world."""
 
+    @property
+    def kernel(self) -> System | None:
+        """What measures them within an engine's steps; None where only Python does."""
+
+    @property
+    def latest(self) -> tuple[NDArray[Any], NDArray[np.int64]]:
+        """What the kernel measured last, shape (nworld, n, channels), and when, (nworld, n) [ns]."""
+
     def measure_all(self, interval: float) -> NDArray[Any]:
         """Measure now, shape (nworld, n, channels): the bits of each by itself.
 
@@ -71,7 +80,7 @@ class GroupedModel(SensorModel, Protocol):
 
     @property
     def by_system(self) -> bool:
-        """Whether what measures many is a system that the engine updates between its steps."""
+        """Whether what measures many has a kernel, which the engine updates in its steps."""
 
     def kind(self) -> Hashable | None:
         """Equal for those that ``together`` takes now; None for one that is measured alone."""
@@ -79,6 +88,21 @@ class GroupedModel(SensorModel, Protocol):
     @classmethod
     def together(cls, models: Sequence[Any]) -> MeasuredTogether:
         """What measures some of one kind; they share its tables from then on."""
+
+
+class FromPython:
+    """Sensors that are measured by Python only."""
+
+    kernel: System | None = None
+
+    @property
+    def latest(self) -> tuple[NDArray[Any], NDArray[np.int64]]:
+        """Raise an error: there is no kernel that measures.
+
+        Raises:
+            TypeError: Always.
+        """
+        raise TypeError(f"{type(self).__name__} has no kernel")
 
 
 class NoisySensor:

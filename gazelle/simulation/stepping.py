@@ -12,7 +12,7 @@ from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.inputs import chosen
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.scheduled_systems import ScheduledSystem, make_systems
-from gazelle.simulation.sensor_groups import PythonGroup, group_sensors
+from gazelle.simulation.sensor_groups import SensorGroup, group_sensors
 from gazelle.simulation.sensors import SampledSensor
 
 
@@ -70,7 +70,7 @@ class StepPlan:
         for group in self.groups:
             group.release()
         for unit in self.sensors:
-            if isinstance(unit, PythonGroup):
+            if isinstance(unit, SensorGroup):
                 unit.release()
 
 
@@ -107,7 +107,7 @@ def update_plugins(plugins: Iterable[Scheduled], clock: Clock) -> None:
         each.update(clock)
 
 
-def update_sensors(sensors: Iterable[SampledSensor | PythonGroup], now_ns: int) -> None:
+def update_sensors(sensors: Iterable[SampledSensor | SensorGroup], now_ns: int) -> None:
     """Measure with all sensors that are awake and due."""
     for sensor in tuple(sensors):
         if now_ns >= sensor.schedule.due_ns and sensor.awake:
@@ -116,7 +116,7 @@ def update_sensors(sensors: Iterable[SampledSensor | PythonGroup], now_ns: int) 
 
 def steps_to_next(
     plugins: Iterable[Scheduled],
-    sensors: Iterable[SampledSensor | PythonGroup],
+    sensors: Iterable[SampledSensor | SensorGroup],
     clock: Clock,
     most: int,
 ) -> int:

@@ -269,7 +269,7 @@ class StepLoop:
         if native is None:
             self._engine.step(count)
             return
-        systems = [*self._systems, *(each.system for each in groups)]
+        systems = [*self._systems, *(each.kernel for each in groups if each.kernel is not None)]
         native.run(systems, count, self._simulation.clock.now_ns)
         for schedule, system in zip(self._schedules, self._systems, strict=True):
             schedule.follow(system.due)
