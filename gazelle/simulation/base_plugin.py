@@ -3,31 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
-from gazelle.native.joint_system import JointSystem
 from gazelle.simulation.plugin_system import PluginSystem, Published
-
-
-@dataclass(frozen=True, slots=True)
-class Carried:
-    """What does a plugin's work within steps.
-
-    Attributes:
-        system: Brought by each of them; None while there is nothing to do.
-        until_ns: When the plugin has to be updated from Python [ns]; infinite for never.
-        lasting: Whether this holds, and ``catch_up`` may wait, until the plugin says otherwise
-            (``CarriedPlugins.stir``). Else the plugin is asked again after some steps.
-    """
-
-    system: JointSystem | None
-    until_ns: float
-    lasting: bool = False
 
 
 class BasePlugin:
@@ -53,17 +35,6 @@ class BasePlugin:
     def active(self) -> bool:
         """Whether it needs its updates now; one that only publishes needs them when heard."""
         return True
-
-    def carried(self) -> Carried | None:
-        """What does the same as ``on_update`` within steps, and until when.
-
-        It is asked before steps are made where ``Simulation.carrier`` is an engine; ``on_update`` is
-        called instead where it is None, and from that time on. After the steps follows ``catch_up``.
-        """
-        return None
-
-    def catch_up(self) -> None:
-        """What ``carried`` gave made steps."""
 
     def on_update(self, time: float) -> None:
         """Act; called at ``update_rate``.

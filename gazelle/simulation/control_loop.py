@@ -19,10 +19,10 @@ from gazelle.control.joint_law import JointLaw
 from gazelle.control.limits import JointLimits
 from gazelle.description import Model
 from gazelle.errors import ControlWarning
-from gazelle.simulation.base_plugin import Carried
 from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.joint_hardware import JointHardware
 from gazelle.simulation.plugin import ModelPlugin
+from gazelle.simulation.plugin_system import InStep, PluginSystem
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.scheduled_plugin import make_scheduled
 from gazelle.simulation.simulated_hardware import (
@@ -60,6 +60,7 @@ class ControlLoop(ModelPlugin):
             namespace: Of its topics.
         """
         self._robot, self._clock = robot, robot.simulation.clock
+        self.system = ControlSystem
         self.hardware = hardware
         self.manager = ControllerManager(
             hardware,
@@ -67,7 +68,7 @@ class ControlLoop(ModelPlugin):
             call=self._call,
             namespace=namespace,
             measure=self._measure,
-            settle=self._settle,
+            settle=self.settle,
         )
         self.manager.now_ns = self._clock.now_ns
         self.stopped: Bools = np.zeros(hardware.nworld, bool)
@@ -87,7 +88,7 @@ class ControlLoop(ModelPlugin):
         self.hardware = self.manager.hardware = hardware
         self._told = False
 
-    # -- what steps carry --------------------------------------------------------------
+    # -- what is done in steps --------------------------------------------------------------
 
     def _call(self, work: Callable[[], R], /) -> R:
         """Do work between two steps, that may change what has to be done in them."""
@@ -101,14 +102,14 @@ class ControlLoop(ModelPlugin):
     def _stir(self) -> None:
         """Python takes over what native code has in hand."""
         if self._handed or self._resting:
-            self._robot.simulation.loop.carried.stir(self)
+            self._robot.simulation.loop.in_step.invalidate(self)
         self._resting = False
         if self._handed:
             self._handed = False
             self._catch_up()
 
-    def _settle(self) -> None:
-        """Know what native code did so far."""
+    def settle(self) -> None:
+        """Take over what native code did so far."""
         if self._handed:
             requests = self._robot.simulation.requests
             if requests.owner == get_ident():
@@ -183,8 +184,8 @@ class ControlLoop(ModelPlugin):
         self._written_ns = now
         self.hardware.write(time, since / NANOSECONDS)
 
-    def carried(self) -> Carried | None:
-        """All of ``on_update`` in native code, until somebody wants to know."""
+    def in_step(self) -> InStep | None:
+        """Return all of ``on_update`` in native code, and until when that is good."""
         self._stir()
         hardware = self.hardware
         if not isinstance(hardware, JointHardware) or self._restarts:
@@ -195,8 +196,8 @@ class ControlLoop(ModelPlugin):
         if not (laws or self.active):
             # A class of a user's own may have more to do than it lets see when it is asked.
             self._resting = type(hardware) is JointHardware
-            return Carried(None, math.inf, lasting=True) if self._resting else None
-        cycle = hardware.carried
+            return InStep(None, math.inf, lasting=True) if self._resting else None
+        cycle = hardware.in_step
         if cycle is None:
             return None
         self._stop_emergency()
@@ -207,16 +208,12 @@ class ControlLoop(ModelPlugin):
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
         self._handed = True
         # Without controllers nobody says when there is nothing left to do.
-        return Carried(cycle, self.manager.wake_ns(), bool(laws) and self.manager.patient)
+        return InStep(cycle, self.manager.wake_ns(), bool(laws) and self.manager.patient)
 
     @property
     def _control_ns(self) -> int:
         """The period of control [ns]."""
         return self._clock.step_ns if self._period_ns is None else self._period_ns
-
-    def catch_up(self) -> None:
-        """Know what was done in native code."""
-        self._settle()
 
     def _catch_up(self) -> None:
         if self._carrying is None:
@@ -247,7 +244,7 @@ class ControlLoop(ModelPlugin):
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Of hardware and controllers."""
-        self._settle()
+        self.settle()
         times = [-1 if each is None else each for each in (self._updated_ns, self._written_ns)]
         return {
             "times": np.array(times, np.int64),
@@ -269,6 +266,33 @@ class ControlLoop(ModelPlugin):
         self.manager.restore(_below("controllers/", state))
 
 
+class ControlSystem(PluginSystem[ControlLoop]):
+    """Controllers of one robot, in native code as long as nothing is done to them.
+
+    Args:
+        plugins: One.
+    """
+
+    single = True
+
+    @property
+    def active(self) -> bool:
+        """Whether there is a controller, or a joint that has to be held."""
+        return self.plugins[0].active
+
+    def update(self, time: float) -> None:
+        """Read, control, write."""
+        self.plugins[0].on_update(time)
+
+    def in_step(self) -> InStep | None:
+        """Return the control cycle, and until when it is good."""
+        return self.plugins[0].in_step()
+
+    def settle(self) -> None:
+        """Take over what native code did."""
+        self.plugins[0].settle()
+
+
 def _or_never(time_ns: int | None) -> int:
     return -1 if time_ns is None else time_ns
 
@@ -288,6 +312,8 @@ def add_controllers(robot: Robot) -> ControllerManager:
     setup = HardwareSetup(namespace, joints, robot.description)
     loop = ControlLoop()
     loop.begin(robot, JointHardware(robot, setup), robot.description, namespace)
-    robot.simulation.plugins.append(make_scheduled(loop, "controllers", robot.name))
+    robot.simulation.plugins.append(
+        make_scheduled(loop, "controllers", robot.name, robot.simulation.requests)
+    )
     robot.add_manager(namespace, loop.manager)
     return loop.manager

@@ -243,7 +243,7 @@ class JointHardware(SimulatedHardware):
         )
 
     @property
-    def carried(self) -> ControlCycle | None:
+    def in_step(self) -> ControlCycle | None:
         """What an engine may take into its steps; None while Python has to act on joints."""
         own = type(self)
         if own.read is not JointHardware.read or own.write is not JointHardware.write:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
+from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
 
 P = TypeVar("P")
@@ -19,6 +21,22 @@ class Published(Protocol):
 
     def publish(self) -> None:
         """Publish a new value to all subscribers."""
+
+
+@dataclass(frozen=True, slots=True)
+class InStep:
+    """Work of a system that engines do within their steps, for some time.
+
+    Attributes:
+        kernel: Updated in each step; None while there is nothing to do.
+        until_ns: When Python has to update the system [ns]; infinite for never.
+        lasting: Whether this holds, and ``settle`` may wait, until something is done to the system
+            (``SystemsInStep.invalidate``). Else the system is asked again after some steps.
+    """
+
+    kernel: JointSystem | None
+    until_ns: float
+    lasting: bool = False
 
 
 class PluginSystem(Generic[P]):
@@ -57,6 +75,16 @@ class PluginSystem(Generic[P]):
         Args:
             time: Simulated time [s].
         """
+
+    def in_step(self) -> InStep | None:
+        """Return what engines do in place of ``update`` from now on; None for nothing.
+
+        Only for a system whose ``kernel`` is not always good; called before steps are made.
+        """
+        return None
+
+    def settle(self) -> None:
+        """Take over what was done in steps by what ``in_step`` gave."""
 
     def measure(self, plugins: Sequence[P]) -> Sequence[Any]:
         """Return what ``publish`` gets for some rows, measured at once after ``update``.

@@ -7,10 +7,10 @@ from typing import Protocol
 
 from gazelle.description import World
 from gazelle.engines import CarryingEngine, Engine, SystemEngine, TableEngine
-from gazelle.simulation.carried_plugins import CarriedPlugins
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.requests import RequestQueue
+from gazelle.simulation.systems_in_step import SystemsInStep
 
 
 class RunningState(Protocol):
@@ -56,11 +56,11 @@ class StepMaker(Protocol):
 
     Attributes:
         followers: Called after every step, before sensors measure.
-        carried: The plugins whose work steps do.
+        in_step: The plugins whose work steps do.
     """
 
     followers: list[Callable[[], None]]
-    carried: CarriedPlugins
+    in_step: SystemsInStep
 
     def release(self) -> None:
         """Let everything be updated by itself, until a new plan is made."""

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.simulation.base_plugin import BasePlugin, Carried
+from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.plugin_system import PluginSystem
@@ -92,19 +92,6 @@ class ScheduledPlugin:
         self._ask(
             lambda: system.publish(self.plugin, system.measure([self.plugin])[0]), "when publishing"
         )
-
-    def carried(self) -> Carried | None:
-        """What does its work within steps, and until when [ns]."""
-        return self._ask(self.plugin.carried, "when asked for its system")
-
-    def catch_up(self) -> None:
-        """Steps were made with it."""
-        self._ask(self.plugin.catch_up, "after steps")
-
-    @property
-    def may_be_carried(self) -> bool:
-        """Whether it is worth asking."""
-        return type(self.plugin).carried is not BasePlugin.carried
 
     def reset(self, worlds: NDArray[np.intp] | None) -> None:
         """Let it begin anew."""

@@ -9,7 +9,7 @@ from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.grouping import of_one_kind, with_replacements
 from gazelle.simulation.plugin_errors import warn_of_fault
-from gazelle.simulation.plugin_system import PluginSystem
+from gazelle.simulation.plugin_system import InStep, PluginSystem
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin, title
 
 
@@ -42,6 +42,37 @@ class ScheduledSystem:
         """What engines update in its place; None while Python has a part in it."""
         return None if self._subscribed or self._parted else self._system.kernel
 
+    @property
+    def may_act_in_step(self) -> bool:
+        """Whether it is worth calling ``in_step``."""
+        return type(self._system).in_step is not PluginSystem.in_step
+
+    def in_step(self) -> InStep | None:
+        """Return what engines do in its place, and until when."""
+        if self._subscribed or self._parted or self._gone:
+            return None
+        try:
+            return self._system.in_step()
+        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+            self._fail(error, "when asked for its kernel")
+            return None
+
+    def settle(self) -> None:
+        """Take over what was done in steps."""
+        try:
+            self._system.settle()
+        except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
+            self._fail(error, "after steps")
+
+    @property
+    def plugins(self) -> Sequence[object]:
+        """The rows."""
+        return self._system.plugins
+
+    @property
+    def _gone(self) -> bool:
+        return self._entries[0].detached and len(self._entries) == 1
+
     def members(self) -> list[int]:
         """Return the identities of its plugins."""
         return [id(each) for each in self._entries]
@@ -54,6 +85,8 @@ class ScheduledSystem:
 
     def is_active(self, clock: Clock) -> bool:
         """Return whether an update has anything to do."""
+        if self._gone:
+            return False
         if self._subscribed or self._parted:
             return True
         if self._system.kernel is not None:

@@ -50,12 +50,9 @@ class StepPlan:
         self.sensors, self.groups = group_sensors(awake, native=native and not followed)
         due = [each for each in plugins if each.schedule is not None]
         self.plugins = make_systems(due, nworld)
-        self.late = [
-            each
-            for each in self.plugins
-            if isinstance(each, ScheduledPlugin) and each.may_be_carried
-        ]
-        late = {id(each) for each in self.late}
+        made = [each for each in self.plugins if isinstance(each, ScheduledSystem)]
+        self.late = [each for each in made if each.may_act_in_step]
+        late = set(map(id, self.late))
         self.early = [each for each in self.plugins if id(each) not in late]
         self.settled: tuple[list[System], list[Schedule]] | None = None
         if native:

@@ -13,14 +13,13 @@ import numpy as np
 from gazelle.engines import CarryingEngine, DivergenceError, Engine
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
-from gazelle.simulation.carried_plugins import CarriedPlugins
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.falling import FallWatch
 from gazelle.simulation.faults import FaultLog
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.robot import RobotHost
-from gazelle.simulation.scheduled_plugin import ScheduledPlugin
+from gazelle.simulation.scheduled_systems import ScheduledSystem
 from gazelle.simulation.stepping import (
     Scheduled,
     StepPlan,
@@ -30,6 +29,7 @@ from gazelle.simulation.stepping import (
     update_sensors,
     with_kernels,
 )
+from gazelle.simulation.systems_in_step import SystemsInStep
 
 CLOSED = "the simulation is closed"
 
@@ -58,7 +58,7 @@ class StepLoop:
     Attributes:
         cut: Whether the last steps ended for the sake of others, with nothing due.
         followers: Called after every step, before sensors measure.
-        carried: The plugins whose work steps do.
+        in_step: Systems that act within steps.
     """
 
     def __init__(
@@ -78,7 +78,7 @@ class StepLoop:
         self._plan = StepPlan((), (), 1)
         self._planned: tuple[int, bool, int, int] | None = None
         self._systems: list[System] = []
-        self.carried = CarriedPlugins()
+        self.in_step = SystemsInStep()
         self._schedules: list[Schedule] = []
         self._most = 1
         self._asked = -math.inf  # when others asked for something last, by the wall clock [s]
@@ -146,8 +146,8 @@ class StepLoop:
             most = 1
         # Nothing is due within a single step: nobody need be asked.
         steps = 1 if most == 1 else steps_to_next(plugins, plan.sensors, clock, most)
-        if steps > 1 and self.carried.systems:
-            steps = min(steps, self._steps_carried())
+        if steps > 1 and self.in_step.kernels:
+            steps = min(steps, self._steps_in_step())
         if loads.any:
             steps = min(steps, loads.steps_until(clock) or steps)
         try:
@@ -180,8 +180,9 @@ class StepLoop:
                 fresh = [each for each in plugins if asked.isdisjoint(each.members())]
             update_plugins(fresh, simulation.clock)
             if simulation.native is None and plan.late:
-                late = self._not_carried(asked)
-                update_plugins([each for each in late if id(each) not in asked], simulation.clock)
+                late = self._not_in_step(asked)
+                fresh = [each for each in late if asked.isdisjoint(each.members())]
+                update_plugins(fresh, simulation.clock)
                 plugins += late
             # One of them may have woken a sensor, let others come or go, or changed the engine.
             if simulation.requests.closed or self._is_settled():
@@ -189,12 +190,12 @@ class StepLoop:
             for each in plugins:
                 asked.update(each.members())
 
-    def _not_carried(self, updated: set[int]) -> list[ScheduledPlugin]:
-        """Of the plugins that steps may carry those that Python updates now."""
+    def _not_in_step(self, updated: set[int]) -> list[ScheduledSystem]:
+        """Return those that may act in steps, and that Python updates now."""
         if self._simulation.carrier is None:
-            self.carried.release()
+            self.in_step.release()
             return self._plan.late
-        return self.carried.ask(self._simulation.clock.now_ns, self._holds(), updated)
+        return self.in_step.ask(self._simulation.clock.now_ns, self._holds(), updated)
 
     def _holds(self) -> Hashable:
         """What plugins go by that say what carries them, besides what is done to them."""
@@ -206,19 +207,19 @@ class StepLoop:
         """Whether what was asked before plugins were updated holds still."""
         if self._planned != self._now():
             return False
-        return self._simulation.carrier is None or self.carried.is_current(self._holds())
+        return self._simulation.carrier is None or self.in_step.is_current(self._holds())
 
-    def _steps_carried(self) -> int:
+    def _steps_in_step(self) -> int:
         """Steps until Python has to update what is carried now."""
-        clock, soonest = self._simulation.clock, self.carried.soonest_ns
+        clock, soonest = self._simulation.clock, self.in_step.soonest_ns
         return clock.steps_to(int(soonest)) if math.isfinite(soonest) else sys.maxsize
 
     def _carry(self, carrier: CarryingEngine, count: int) -> None:
         """Make steps that bring systems of controllers."""
         try:
-            carrier.carry(self.carried.systems, count, self._simulation.clock.now_ns)
+            carrier.carry(self.in_step.kernels, count, self._simulation.clock.now_ns)
         finally:
-            self.carried.catch_up()
+            self.in_step.settle()
 
     def _look_back(self) -> None:
         """After steps: move what follows, measure, tell who listens, look for what falls."""
@@ -243,7 +244,7 @@ class StepLoop:
                 # What follows moves before sensors measure, so that Python comes between.
                 followed=bool(self.followers),
             )
-            self.carried.plan(self._plan.late)
+            self.in_step.plan(self._plan.late)
             # Asking who can be grouped may change the engine.
             self._planned = *now[:3], -1 if native is None else native.revision
         return self._plan
@@ -263,7 +264,7 @@ class StepLoop:
         """Make steps, and update systems whenever they are due."""
         native = self._simulation.native
         groups = self._plan.groups
-        if self.carried.systems and self._simulation.carrier is not None:
+        if self.in_step.kernels and self._simulation.carrier is not None:
             self._carry(self._simulation.carrier, count)
             return
         if native is None:

@@ -35,13 +35,13 @@ TRAJECTORY = {
 def asked(monkeypatch):
     """Counts how often robots are asked who carries them."""
     counts = []
-    before = ControlLoop.carried
+    before = ControlLoop.in_step
 
     def count(loop):
         counts.append(loop)
         return before(loop)
 
-    monkeypatch.setattr(ControlLoop, "carried", count)
+    monkeypatch.setattr(ControlLoop, "in_step", count)
     return counts
 
 
