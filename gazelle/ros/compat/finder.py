@@ -41,6 +41,7 @@ def own_modules() -> frozenset[str]:
         "__init__",
         "commands",
         "finder",
+        "import_errors",
         "message_modules",
         "module_hints",
         "cfg_modules",
@@ -180,13 +181,14 @@ def _known(package: str) -> bool:
     return any(has_definitions(package, kind) for kind in _KINDS) or has_cfg(package)
 
 
+LOADERS = (AliasLoader, MessageLoader, CfgLoader, PackageLoader)
 _finder = RosFinder()
 _uses = 0
 _hidden: dict[str, ModuleType] = {}
 
 
 def _is_ours(name: str) -> bool:
-    """Whether a module's name is one that this finder would answer at the top level."""
+    """Return True for a name below one that this finder answers at the top level."""
     top = name.partition(".")[0]
     return top in own_modules() or top in bundled_packages()
 
@@ -232,11 +234,10 @@ def uninstall() -> None:
         return
     sys.meta_path.remove(_finder)
     namesakes.restore()
-    ours = (AliasLoader, MessageLoader, CfgLoader, PackageLoader)
     for name, module in list(sys.modules.items()):
         loader = getattr(getattr(module, "__spec__", None), "loader", None)
         alias = _is_alias(name, getattr(module, "__name__", ""))
-        if alias or isinstance(loader, ours):
+        if alias or isinstance(loader, LOADERS):
             del sys.modules[name]
     sys.modules.update(_hidden)
     _hidden.clear()

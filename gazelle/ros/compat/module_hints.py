@@ -11,7 +11,6 @@ PIP = {
     "PySide2": "PySide2",
     "baselines": "'gazelle[train]', whose stable_baselines3 took its place",
     "bson": "pymongo",
-    "catkin": "catkin_pkg",
     "catkin_pkg": "catkin_pkg",
     "cbor": "cbor",
     "cv2": "opencv-python-headless",
@@ -19,7 +18,7 @@ PIP = {
     "distro": "distro",
     "docutils": "docutils",
     "em": "empy==3.3.4",
-    "evdev": "evdev",
+    "evdev": "evdev-binary",
     "gnupg": "python-gnupg",
     "h5py": "h5py",
     "joblib": "joblib",
@@ -27,7 +26,7 @@ PIP = {
     "lxml": "lxml",
     "matplotlib": "'gazelle[plots]'",
     "mock": "mock",
-    "netifaces": "netifaces",
+    "netifaces": "netifaces2",
     "networkx": "networkx",
     "nose": "nose",
     "numba": "numba",
@@ -59,7 +58,7 @@ PIP = {
     "transforms3d": "transforms3d",
     "trimesh": "trimesh",
     "twisted": "twisted",
-    "urdf_parser_py": "urdf-parser-py",
+    "urdf_parser_py": "urdfdom-py",
     "usb": "pyusb",
     "vcstools": "vcstools",
     "yaml": "pyyaml",
@@ -88,6 +87,7 @@ ADVICE = {
     ),
     "camera_info_manager": _SOURCE.format("camera_info_manager_py"),
     "diagnostic_updater": _SOURCE.format("diagnostics, https://github.com/ros/diagnostics,"),
+    "catkin": "it is of ROS's build tool: rospkg, which is here, finds packages and their files",
     "flexbe_core": _SOURCE.format("flexbe_behavior_engine"),
     "genmsg": "definitions are read without it: import PACKAGE.msg is enough",
     "interactive_markers": _SOURCE.format(
@@ -113,19 +113,30 @@ def module_hint(name: str) -> str | None:
     top, _, rest = name.partition(".")
     if top in PIP:
         return f"pip install {PIP[top]}"
-    if top in ADVICE:
-        return ADVICE[top]
+    advice = _longest(name)
+    if advice is not None:
+        return advice
     if top.endswith(("_msgs", "_srvs", "_interfaces")) or rest.partition(".")[0] in _KINDS:
         return f"the definitions of '{top}' are not bundled: put the package on ROS_PACKAGE_PATH"
     return None
 
 
-def hint_of_error(error: BaseException) -> str | None:
-    """Return what to do about an exception of an import; None for others."""
-    if not isinstance(error, ImportError) or not error.name:
-        return None
-    if isinstance(error, ModuleNotFoundError):
-        return module_hint(error.name)
-    if error.name.endswith("PyKDL"):
+def attribute_hint(module: str, name: str) -> str | None:
+    """Return what to do about something that a module of Gazelle lacks; None where nothing is known.
+
+    Args:
+        module: Its public name, such as ``gym.wrappers``.
+        name: What was to be imported.
+    """
+    if module == "PyKDL":
         return "Gazelle's PyKDL has frames, chains and kinematics; dynamics are not there"
+    return _longest(f"{module}.{name}")
+
+
+def _longest(name: str) -> str | None:
+    """Return the advice about a name with dots, or about the longest part of it that has some."""
+    while name:
+        if name in ADVICE:
+            return ADVICE[name]
+        name = name.rpartition(".")[0]
     return None

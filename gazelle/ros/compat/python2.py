@@ -5,9 +5,11 @@ What changed is from https://docs.python.org/3.0/whatsnew/3.0.html.
 
 from __future__ import annotations
 
+import linecache
 import re
 import traceback
 from dataclasses import dataclass
+from pathlib import Path
 
 _STATEMENTS = (
     (re.compile(r"^\s*print\s+(?![=(.,)\]])(?P<rest>.+?)(?:,\s*)?$"), "print is a function"),
@@ -90,7 +92,7 @@ def explain(error: BaseException, source: str) -> list[Python2Finding]:
     """
     if isinstance(error, SyntaxError):
         return _statements(error, source)
-    advice = _advice(error)
+    advice = _advice(error) or _beside(error)
     if not advice:
         return []
     frames = traceback.extract_tb(error.__traceback__)
@@ -129,6 +131,23 @@ def _advice(error: BaseException) -> str:
         if name in _FROM_ITERTOOLS:
             return f"write {_FROM_ITERTOOLS[name]} for {name}"
     return ""
+
+
+def _beside(error: BaseException) -> str:
+    """Return advice on a module that lies beside the one that imports it: Python 2 looked there."""
+    frames = list(traceback.walk_tb(error.__traceback__))
+    if not frames or not isinstance(error, ModuleNotFoundError) or not error.name:
+        return ""
+    frame, line = frames[-1]
+    file = Path(frame.f_code.co_filename)
+    top = error.name.partition(".")[0]
+    modules = {file.with_name(f"{top}.py"), file.with_name(top) / "__init__.py"} - {file}
+    if not frame.f_globals.get("__package__") or not any(each.is_file() for each in modules):
+        return ""
+    statement = linecache.getline(str(file), line).split("#")[0].split()
+    named = statement[:1] == ["from"]
+    start = f"from .{statement[1]} import ..." if named else f"from . import {top}"
+    return f"Python 2 looked beside this module first, where {top} is: write '{start}'"
 
 
 def advice_text(findings: list[Python2Finding]) -> str:

@@ -16,7 +16,7 @@ from pathlib import Path
 from gazelle.errors import RosError, did_you_mean
 from gazelle.ros.builtin.on_path import offer
 from gazelle.ros.compat.finder import install
-from gazelle.ros.compat.module_hints import hint_of_error
+from gazelle.ros.compat.import_errors import import_fault
 from gazelle.ros.compat.python2 import advice_text, explain
 
 _PACKAGE = str(Path(__file__).parents[2])
@@ -31,7 +31,7 @@ def run_script(
     """Run a script, with ROS 1's modules importable, as the main module of this process.
 
     What the script raises is printed with its traceback, as Python does; for what is written for
-    Python 2 there is one line that says what to change.
+    Python 2, and for what cannot be imported, there is one line that says what to do.
 
     Args:
         path: The script.
@@ -43,7 +43,7 @@ def run_script(
         Its exit code.
 
     Raises:
-        RosError: It cannot be read, or is written for Python 2.
+        RosError: It cannot be read, is written for Python 2, or imports what is not there.
     """
     file = Path(path)
     try:
@@ -78,7 +78,7 @@ def run_named(
         Its exit code. A program that is no Python script takes the place of this process.
 
     Raises:
-        RosError: It cannot be read, the package has no such program, or it is written for Python 2.
+        RosError: As `run_script`, or the package has no such program.
     """
     from gazelle.ros.builtin import registry
     from gazelle.ros.launch.packages import Packages, is_python
@@ -152,15 +152,12 @@ def _execute(source: bytes, file: Path, main: types.ModuleType, *, debug: bool) 
         # Our own frames in front tell the user nothing.
         inner = trace.tb_next if trace is not None and not debug else trace
         traceback.print_exception(type(error), error, inner)
-        hint = hint_of_error(error)
-        if hint is not None:
-            sys.stderr.write(f"hint: {hint}\n")
         return INTERRUPTED if isinstance(error, KeyboardInterrupt) else 1
     return 0
 
 
 def _explain(error: BaseException, source: bytes, file: Path) -> None:
-    """One line instead of a traceback if the script is written for Python 2."""
+    """Raise one line instead of a traceback for what is Python 2, or an import that fails."""
     findings = explain(error, source.decode("utf-8", "replace"))
     if findings:
         said = error.msg if isinstance(error, SyntaxError) else str(error)
@@ -170,6 +167,9 @@ def _explain(error: BaseException, source: bytes, file: Path) -> None:
             line=findings[0].line,
             hint=advice_text(findings),
         ) from None
+    fault = import_fault(error)
+    if fault is not None:
+        raise fault from None
 
 
 @contextlib.contextmanager

@@ -1,12 +1,12 @@
 """A script that imports what is not there is told what to do."""
 
-import builtins
 import os
 import sys
 
 import pytest
 
 import gazelle.ros as ros
+from gazelle.errors import RosError
 from gazelle.ros.compat.finder import own_modules
 from gazelle.ros.compat.module_hints import ADVICE, PIP, module_hint
 from gazelle.ros.compat.script import run_script
@@ -33,30 +33,78 @@ def run(monkeypatch):
         ("from serial.tools import list_ports", "pip install pyserial"),
         ("import em", "pip install empy==3.3.4"),
         ("from catkin_pkg.package import parse_package", "pip install catkin_pkg"),
-        ("from urdf_parser_py.urdf import URDF", "pip install urdf-parser-py"),
+        ("from urdf_parser_py.urdf import URDF", "pip install urdfdom-py"),
         ("from pykdl_utils.kdl_kinematics import KDLKinematics", "kdl_parser_py"),
         ("import smach_ros", "executive_smach"),
         ("from foo_msgs.msg import Foo", "'foo_msgs' are not bundled"),
         ("from python_qt_binding import QtGui", "gazelle view"),
-        ("from PyKDL import ChainDynParam", "dynamics are not there"),
+        ("import netifaces", "pip install netifaces2"),
+        ("import catkin", "rospkg"),
+        ("import rospyy", "did you mean 'rospy'?"),
+        ("import no_such_module_at_all", "ROS_PACKAGE_PATH"),
     ],
 )
-def test_the_last_line_says_what_to_do(run, tmp_path, capsys, monkeypatch, line, hint):
+def test_a_missing_module_is_one_line_that_says_what_to_do(run, tmp_path, monkeypatch, line, hint):
     missing = line.split()[1].split(".")[0]
-    real = builtins.__import__
+    monkeypatch.setitem(sys.modules, missing, None)
+    script = tmp_path / "script.py"
+    script.write_text(f"\n{line}")
+    with pytest.raises(RosError, match=f"there is no module '{missing}") as caught:
+        run(str(script))
+    assert hint in caught.value.hint
+    assert (caught.value.file, caught.value.line) == (str(script), 2)
 
-    def without(name, *rest, **more):
-        if name.split(".")[0] == missing and missing != "PyKDL":
-            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-        return real(name, *rest, **more)
 
+@pytest.mark.parametrize(
+    ("line", "message", "hint"),
+    [
+        ("from PyKDL import ChainDynParam", "'PyKDL' has no 'ChainDynParam'", "dynamics are not"),
+        ("from std_msgs.msg import Strng", "'std_msgs.msg' has no 'Strng'", "'String'"),
+        ("import std_msgs.srv", "no module 'std_msgs.srv'", "no definitions of services"),
+        ("import tf.transformation", "no module 'tf.transformation'", "'transformations'"),
+        ("from gym.core import Rapper", "'gym.core' has no 'Rapper'", "'Wrapper'"),
+        ("import json.nothing", "no module 'json.nothing'", "'json' has no module 'nothing'"),
+    ],
+)
+def test_what_a_module_lacks_is_one_line(run, tmp_path, line, message, hint):
     script = tmp_path / "script.py"
     script.write_text(line)
-    monkeypatch.setattr(builtins, "__import__", without)
-    assert run(str(script)) == 1
-    last = capsys.readouterr().err.splitlines()[-1]
-    assert last.startswith("hint: ")
-    assert hint in last
+    with pytest.raises(RosError, match=message) as caught:
+        run(str(script))
+    assert hint in caught.value.hint
+
+
+@pytest.mark.parametrize("debug", [False, True])
+def test_other_failures_keep_their_traceback(run, tmp_path, capsys, debug):
+    script = tmp_path / "script.py"
+    script.write_text("import no_such_module_at_all" if debug else "from json import nothing")
+    assert run(str(script), debug=debug) == 1
+    assert "Traceback" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("statement", "advice"),
+    [
+        ("import sibling", "write 'from . import sibling'"),
+        ("import sibling as other  # from here", "write 'from . import sibling'"),
+        ("from sibling import X", "write 'from .sibling import ...'"),
+        ("from folder.inner import X", "write 'from .folder.inner import ...'"),
+        ("import folder", "write 'from . import folder'"),
+    ],
+)
+def test_a_module_beside_the_importing_one_is_python_2(run, tmp_path, statement, advice):
+    package = tmp_path / "some_package_of_mine"
+    for file in ("__init__.py", "sibling.py", "folder/__init__.py", "folder/inner.py"):
+        (package / file).parent.mkdir(exist_ok=True)
+        (package / file).write_text("X = 1")
+    (package / "user.py").write_text(f"\n\n{statement}")
+    script = tmp_path / "script.py"
+    script.write_text("import some_package_of_mine.user")
+    with pytest.raises(RosError, match="written for Python 2") as caught:
+        run(str(script))
+    sys.modules.pop("some_package_of_mine")
+    assert advice in caught.value.hint
+    assert (caught.value.file, caught.value.line) == (str(package / "user.py"), 3)
 
 
 @pytest.mark.parametrize("name", ["no_such_module_at_all", "foo.bar"])
