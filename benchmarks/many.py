@@ -12,12 +12,16 @@ from __future__ import annotations
 import argparse
 import os
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 import gazelle
 from gazelle import formats
-from gazelle.simulation import TwistInput
+from gazelle.description import Parameters
+from gazelle.simulation import JointArray, ModelPlugin, PluginSystem, TwistInput, register
 
 ROBOTS = 100
 WINDOWS = 5
@@ -82,6 +86,43 @@ SKID = f"""<plugin name='p' filename='libgazebo_ros_skid_steer_drive.so'>{TAGS}<
 </plugin>"""
 
 
+USERS = "<plugin name='p' filename='libbench_rollers.so'/>"
+
+
+class Rollers(PluginSystem["Roller"]):
+    """A drive as a user writes it, in NumPy: one for all robots."""
+
+    def __init__(self, plugins: Sequence[Roller]) -> None:
+        super().__init__(plugins)
+        linear, angular = np.zeros((2, len(plugins[0].command.linear), len(plugins), 3))
+        for row, each in enumerate(plugins):
+            each.command.keep_in(linear[:, row], angular[:, row])
+        self._linear, self._angular = linear, angular
+        self._wheels = JointArray([wheel for each in plugins for wheel in each.wheels])
+
+    def update(self, time: float) -> None:  # noqa: ARG002  commands hold for ever
+        """Turn the wheels as fast as the commands say."""
+        turning = self._angular[..., 2:] * (-0.12, 0.12)
+        speeds = (self._linear[..., :1] + turning) / 0.075
+        self._wheels.drive(speeds.reshape(len(speeds), -1))
+
+
+class Roller(ModelPlugin):
+    """A robot with the drive of a user."""
+
+    system, update_rate = Rollers, 50.0
+
+    def load(self, robot: gazelle.Robot, parameters: Parameters) -> None:  # noqa: ARG002
+        """Put motors on the wheels, open ``cmd_vel``."""
+        self.command = robot.inputs["cmd_vel"] = TwistInput(robot.simulation.nworld, "cmd_vel")
+        self.wheels = [robot.joints[f"{name}_joint"] for name in CORNERS[:2]]
+        for wheel in self.wheels:
+            wheel.add_motor(5.0)
+
+
+register("libbench_rollers.so", Roller)
+
+
 @dataclass(frozen=True)
 class Case:
     """What each robot has.
@@ -114,6 +155,7 @@ CASES = (
     Case("p3d, 50 Hz", plugin=P3D),
     Case("IMU plugin, 50 Hz", plugin=IMU_PLUGIN),
     Case("diff drive, 50 Hz", plugin=DIFF, wheels=2, heard=False),
+    Case("a user's diff drive, 50 Hz", plugin=USERS, wheels=2, heard=False),
     Case("diff drive, odometry heard", plugin=DIFF, wheels=2),
     Case("skid steer, 50 Hz", plugin=SKID, wheels=4, heard=False),
     Case("skid steer, odometry heard", plugin=SKID, wheels=4),
@@ -180,9 +222,8 @@ def running(count: int, case: Case, how: str) -> gazelle.Simulation:
             output.subscribe(lambda _: None)
         set_off(robot, case)
     for entry in sim.entities.plugins:
-        plugin: Any = entry.plugin
         if how == "alone":
-            plugin.kind = lambda: None
+            entry.alone = True
         elif how == "bare":
             entry.schedule = None  # it gave the wheels their motors
     sim.run(1.0)
