@@ -18,6 +18,7 @@ PACKAGE = Path(gazelle.__file__).parent
 ORDER = (
     "assets",
     "native",
+    "geometry",
     "description",
     "formats",
     "engines",

@@ -1,7 +1,4 @@
-"""Convex hulls: of points in space, and in the plane.
-
-The hull in the plane is Andrew's monotone chain (1979).
-"""
+"""Convex hulls of points in space."""
 
 from __future__ import annotations
 
@@ -77,32 +74,3 @@ def spread_directions(count: int) -> Floats:
     z = 1.0 - (2.0 * np.arange(count) + 1.0) / count
     ring = np.sqrt(1.0 - z * z)
     return np.stack([ring * np.cos(turn), ring * np.sin(turn), z], axis=1)
-
-
-def planar_hull(points: Floats) -> Indices:
-    """The corners of the hull of points in the plane, shape (n, 2), counter-clockwise."""
-    order = np.lexsort((points[:, 1], points[:, 0]))
-    rows = [(float(points[i, 0]), float(points[i, 1]), int(i)) for i in order]
-    lower, upper = _chain(rows), _chain(rows[::-1])
-    return np.array(lower[:-1] + upper[:-1], dtype=np.intp)
-
-
-def _chain(rows: list[tuple[float, float, int]]) -> list[int]:
-    chain: list[tuple[float, float, int]] = []
-    for row in rows:
-        while len(chain) >= 2 and _turn(chain[-2], chain[-1], row) <= 0.0:
-            chain.pop()
-        chain.append(row)
-    return [index for _, _, index in chain]
-
-
-def _turn(
-    a: tuple[float, float, int], b: tuple[float, float, int], c: tuple[float, float, int]
-) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-
-
-def planar_area(points: Floats) -> float:
-    """Area of a polygon, shape (n, 2), positive if counter-clockwise (shoelace formula)."""
-    x, y = points[:, 0], points[:, 1]
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2.0

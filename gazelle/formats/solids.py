@@ -32,7 +32,7 @@ from gazelle.description import (
 )
 from gazelle.formats.mesh import load_mesh
 from gazelle.formats.patches import prism
-from gazelle.formats.polygon import convex_polygons
+from gazelle.geometry.polygons import convex_polygons
 
 WATER = 1000.0
 """The density that SDF takes where a file gives none [kg/m³]."""

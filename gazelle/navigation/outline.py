@@ -20,8 +20,8 @@ from gazelle.description import (
     Pose,
     Sphere,
 )
-from gazelle.formats.hull import planar_hull
 from gazelle.formats.mesh import bounds
+from gazelle.geometry.polygons import planar_hull
 
 _ROUND = 12
 """Corners in place of a circle."""

@@ -10,9 +10,9 @@ import numpy as np
 from gazelle.array_types import Bools, Floats
 from gazelle.description import Link, Model, Pose, World
 from gazelle.description.occupancy import FREE, OCCUPIED, OccupancyMap
-from gazelle.engines.planar.cuts import Levels, parts_of
-from gazelle.engines.planar.shapes import PlanarPart
+from gazelle.engines.sections import Levels, parts_of
 from gazelle.errors import SimulationError
+from gazelle.geometry.planar_part import PlanarPart
 
 _MOST_CELLS = 16_384
 """Along a side of a map; more would be gigabytes."""

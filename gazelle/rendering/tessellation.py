@@ -18,6 +18,7 @@ from gazelle.description import (
     Polyline,
     Sphere,
 )
+from gazelle.geometry.polygons import convex_polygons
 
 SIDES = 32
 """Of round shapes, about their axis."""
@@ -128,7 +129,6 @@ def quadrangles(corners: Floats) -> TriangleMesh:
 def polyline(shape: Polyline) -> TriangleMesh:
     """Prisms on outlines."""
     from gazelle.formats.patches import prism
-    from gazelle.formats.polygon import convex_polygons
 
     pieces = []
     for corners in convex_polygons(shape.outlines):

@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 from gazelle.description import Mesh
 from gazelle.formats import convex, load_mesh, piece_cache
 from gazelle.formats.convex import convex_pieces, decompose
-from gazelle.formats.hull import convex_hull, hulls_of, planar_area, planar_hull
+from gazelle.formats.hull import convex_hull, hulls_of
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.surface import clean, components
+from gazelle.geometry.polygons import planar_area, planar_hull
 
 
 @pytest.fixture(autouse=True)

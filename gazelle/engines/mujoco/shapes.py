@@ -37,6 +37,7 @@ from gazelle.engines.mujoco.cones import cone_mesh
 from gazelle.engines.mujoco.mesh_frames import SHELL, inertia_of
 from gazelle.errors import EngineWarning, located
 from gazelle.formats.ground import Ground
+from gazelle.geometry.polygons import convex_polygons
 
 if TYPE_CHECKING:
     from gazelle.formats.convex import ConvexPieces
@@ -313,7 +314,6 @@ def _polyline(
     builder: ShapeBuilder, shape: Polyline, pose: Pose, _: Source | None
 ) -> list[dict[str, Any]]:
     from gazelle.formats.patches import prism
-    from gazelle.formats.polygon import convex_polygons
 
     geoms = []
     for number, corners in enumerate(convex_polygons(shape.outlines)):

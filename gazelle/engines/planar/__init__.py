@@ -11,7 +11,7 @@ __path__ = search_path([str(Path(__file__).parent)])
 from gazelle.engines.planar.engine import PlanarEngine
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Body, Drive, Fleet
-from gazelle.engines.planar.shapes import PlanarPart
+from gazelle.geometry.planar_part import PlanarPart
 
 __all__ = [
     "Body",

@@ -6,10 +6,10 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from gazelle.description import Model, Pose
-from gazelle.engines.planar.cuts import Levels, parts_of
 from gazelle.engines.planar.fleet import Body, Drive
-from gazelle.engines.planar.shapes import PlanarPart
 from gazelle.engines.planar.skeleton import Skeleton, skeleton_of
+from gazelle.engines.sections import Levels, parts_of
+from gazelle.geometry.planar_part import PlanarPart
 
 STEP = 0.01
 """How high a step is that robots still drive over [m]."""

@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.description import Model, World
 from gazelle.engines.planar.anatomy import Anatomies, body_of, levels_of, statics_of
-from gazelle.engines.planar.cuts import Levels
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.shapes import joined, primitives_of
 from gazelle.engines.planar.stage_layout import StageLayout, layout_of
 from gazelle.engines.planar.wheels import driven, rolling
+from gazelle.engines.sections import Levels
 
 
 @dataclass(frozen=True, slots=True)

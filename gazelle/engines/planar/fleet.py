@@ -17,8 +17,9 @@ from gazelle.engines.planar.bodies import Bodies
 from gazelle.engines.planar.grid_cells import put_back, relink, relink_some
 from gazelle.engines.planar.moving import Moving, Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
-from gazelle.engines.planar.shapes import PlanarPart, Table, pieces_of, primitives_of
+from gazelle.engines.planar.shapes import Table, pieces_of, primitives_of
 from gazelle.errors import EngineError
+from gazelle.geometry.planar_part import PlanarPart
 from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
 from gazelle.native.worker_pool import WorkerPool

@@ -14,10 +14,10 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import World
 from gazelle.engines.planar.anatomy import Anatomy
 from gazelle.engines.planar.build import FleetInput, PlanarLayout, build, rolling_bases
-from gazelle.engines.planar.cuts import LEVEL
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.rolling import Joints
 from gazelle.engines.planar.system_steps import SystemSteps
+from gazelle.engines.sections import LEVEL
 from gazelle.errors import EngineError, did_you_mean
 
 T = TypeVar("T")

@@ -11,7 +11,8 @@ import numpy as np
 from gazelle.array_types import Floats, Ints32
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.clearing import Clearing, clearing_of, corners_of, listed
-from gazelle.engines.planar.shapes import PlanarPart, Table, primitives_of
+from gazelle.engines.planar.shapes import Table, primitives_of
+from gazelle.geometry.planar_part import PlanarPart
 
 _FEW = 100  # primitives up to which all in one cell are drawn faster than they are looked for
 _MARGIN = 1e-9  # by which cells are larger than they are [m]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,44 +12,8 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
 from gazelle.errors import EngineError
-
-Point = tuple[float, float]
-
-
-@dataclass(frozen=True, slots=True)
-class PlanarPart:
-    """Something that stands on its outline, in the frame of its body or of the world.
-
-    Attributes:
-        points: Corners [m]; of a circle its centre alone.
-        radius: Of a circle [m]; 0 for a polygon or lines.
-        closed: Whether the last corner is joined to the first, solid inside.
-        low: Lowest height [m].
-        high: Highest height [m].
-        glow: What a laser gets back from it; negative: no ray meets it.
-        solid: Whether bodies bump into it.
-        tag: A number of the user's, found again in what rays met.
-    """
-
-    points: tuple[Point, ...]
-    radius: float = 0.0
-    closed: bool = True
-    low: float = -math.inf
-    high: float = math.inf
-    glow: float = 1.0
-    solid: bool = True
-    tag: int = 0
-
-    @classmethod
-    def circle(cls, x: float, y: float, radius: float, **others: float) -> PlanarPart:
-        """A circle."""
-        return cls(((x, y),), radius, **others)  # type: ignore[arg-type]
-
-    @classmethod
-    def box(cls, width: float, depth: float, x: float = 0.0, y: float = 0.0) -> PlanarPart:
-        """A rectangle about (x, y), ``width`` along x [m]."""
-        w, d = width / 2.0, depth / 2.0
-        return cls(((x - w, y - d), (x + w, y - d), (x + w, y + d), (x - w, y + d)))
+from gazelle.geometry.planar_part import PlanarPart
+from gazelle.geometry.polygons import Point, ccw, convex
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,21 +151,3 @@ def slimness(polygon: Floats) -> float:
     aside = np.abs(along[:, 0] * arm[:, 1] - along[:, 1] * arm[:, 0])
     length = np.hypot(along[:, 0], along[:, 1])
     return float((aside / np.maximum(length, 1e-300)).min())
-
-
-def ccw(points: Floats) -> Floats:
-    """The corners of a polygon counter-clockwise."""
-    ends = np.roll(points, -1, axis=0)
-    twice_area = float((points[:, 0] * ends[:, 1] - points[:, 1] * ends[:, 0]).sum())
-    return points if twice_area >= 0.0 else points[::-1]
-
-
-def convex(points: Floats) -> Sequence[Floats]:
-    """Convex polygons that together cover a polygon, which is counter-clockwise."""
-    before, after = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
-    if (before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0] >= -1e-12).all():
-        return [points]
-    from gazelle.formats.polygon import convex_polygons
-
-    outline = tuple((float(x), float(y)) for x, y in points)
-    return [ccw(np.asarray(piece, np.float64)) for piece in convex_polygons((outline,))]

@@ -19,8 +19,9 @@ from gazelle.description import (
 )
 from gazelle.engines.planar.fans import Fan, Mount
 from gazelle.engines.planar.fleet import Body, Drive
-from gazelle.engines.planar.shapes import PlanarPart, Table
+from gazelle.engines.planar.shapes import Table
 from gazelle.engines.planar.stage_walls import parts_of, table_of
+from gazelle.geometry.planar_part import PlanarPart
 
 _FINEST = 1e-6
 """Least field of view [rad] and reach [m] of a fan."""

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StageBitmap, StagePose
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.shapes import PlanarPart, Raster, Table, primitives_of
+from gazelle.engines.planar.shapes import Raster, Table, primitives_of
 from gazelle.formats.terrain import rectangles
+from gazelle.geometry.planar_part import PlanarPart
 
 _TOUCH = 1e-9
 """In Stage bodies meet, and sensors see, also at the very heights where bodies end [m]."""

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines.planar.shapes import Point, ccw, convex
+from gazelle.geometry.polygons import Point, ccw, convex
 
 NO_FACES: Floats = np.zeros((0, 4, 3))
 

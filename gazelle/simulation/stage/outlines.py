@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StagePose
-from gazelle.engines.planar.shapes import PlanarPart
 from gazelle.engines.planar.stage_walls import bitmap_lines, blocks_of
+from gazelle.geometry.planar_part import PlanarPart
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,8 @@
-"""Collision shapes cut at the heights that matter: those of the lidars and of the bases.
+"""Level sections of collision shapes, at the heights of lidars and of robots' bases.
 
-What stands upright - boxes, cylinders, extruded outlines - keeps its outline at all of its
-heights. All else is cut level: once at the height of each lidar, for its rays, and once, or
-as a whole for what moves, where robots would bump into it.
+Upright shapes - boxes, cylinders, extruded outlines - keep their outline at all of their
+heights. All others are cut level: once at the height of each lidar, for its rays, and once, or
+as a whole if they move, where robots collide with them.
 """
 
 from __future__ import annotations
@@ -27,9 +27,10 @@ from gazelle.description import (
     Pose,
     Sphere,
 )
-from gazelle.engines.planar.shapes import PlanarPart, Point
-from gazelle.engines.planar.solids import Solid, cut, solid_of
+from gazelle.engines.triangle_solids import Solid, cut, solid_of
 from gazelle.errors import EngineWarning
+from gazelle.geometry.planar_part import PlanarPart
+from gazelle.geometry.polygons import Point, convex_polygons, planar_hull
 
 LEVEL = 1e-3  # how far a ray may be off the height of a cut [m]
 _UPRIGHT = 1e-9
@@ -92,8 +93,6 @@ def _upright(collision: Collision, pose: Pose, glow: float) -> Iterator[PlanarPa
         ring = ((-w, -d), (w, -d), (w, d), (-w, d))
         yield _prism(ring, pose, -h, h, glow)
     elif isinstance(shape, Polyline):
-        from gazelle.formats.polygon import convex_polygons
-
         for polygon in convex_polygons(shape.outlines):
             corners = [(float(x), float(y)) for x, y in polygon]
             yield _prism(corners, pose, 0.0, shape.height, glow)
@@ -157,8 +156,6 @@ def _cut(solid: Solid, levels: Levels, glow: float, *, moving: bool) -> list[Pla
         return parts
     if not moving:
         return parts + _lines(cut(solid, (low + high) / 2.0), bottom, top, -1.0, solid=True)
-    from gazelle.formats.hull import planar_hull
-
     rims = [cut(solid, height).reshape(-1, 2) for height in np.linspace(low, high, 7)[1:-1]]
     between = solid[0][(heights >= low) & (heights <= high), :2]
     points = np.vstack((*rims, between))

@@ -1,4 +1,7 @@
-"""Outlines in the plane as convex polygons, by slabs between their corners."""
+"""Polygons in the plane: area, orientation, convex hull, convex parts.
+
+The hull is Andrew's monotone chain (1979); convex parts are slabs between corners.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.array_types import Floats
-from gazelle.formats.hull import planar_area, planar_hull
+from gazelle.array_types import Floats, Indices
 
-Outline = Sequence[tuple[float, float]]
+Point = tuple[float, float]
+Outline = Sequence[Point]
 
 
 def convex_polygons(outlines: Sequence[Outline]) -> list[Floats]:
-    """Convex polygons, shape (n, 2), counter-clockwise, that cover what outlines enclose.
+    """Return convex polygons, shape (n, 2), counter-clockwise, that cover outlines.
 
     What is inside of two outlines is a hole: inside is where a way out crosses an odd
     number of them. An outline is closed whether or not its last point is its first.
@@ -45,7 +48,7 @@ class _Slab:
 
 
 def _edges(outlines: Sequence[Outline]) -> Floats:
-    """All edges that are not level, lower end first, shape (n, 2, 2)."""
+    """Return all edges that are not level, lower end first, shape (n, 2, 2)."""
     found = []
     for outline in outlines:
         points = np.asarray(outline, np.float64).reshape(-1, 2)
@@ -61,7 +64,7 @@ def _edges(outlines: Sequence[Outline]) -> Floats:
 
 
 def _slab(edges: Floats, low: float, high: float) -> list[Floats]:
-    """The trapezoids between two levels, from left to right."""
+    """Return the trapezoids between two levels, from left to right."""
     crossing = edges[(edges[:, 0, 1] <= low) & (edges[:, 1, 1] >= high)]
     rise = crossing[:, 1, 1] - crossing[:, 0, 1]
     slope = (crossing[:, 1, 0] - crossing[:, 0, 0]) / rise
@@ -80,7 +83,7 @@ def _slab(edges: Floats, low: float, high: float) -> list[Floats]:
 
 
 def _grown(part: _Slab, below: list[_Slab], size: float) -> _Slab:
-    """A part of the slab below with this one added, if both together are convex."""
+    """Return a part of the slab below with this one added, if both are convex together."""
     for other in below:
         both = np.concatenate([other.corners, part.corners])
         hull = both[planar_hull(both)]
@@ -89,3 +92,51 @@ def _grown(part: _Slab, below: list[_Slab], size: float) -> _Slab:
             other.corners, other.top = hull, part.top
             return other
     return part
+
+
+def ccw(points: Floats) -> Floats:
+    """Return the corners of a polygon in counter-clockwise order."""
+    ends = np.roll(points, -1, axis=0)
+    twice_area = float((points[:, 0] * ends[:, 1] - points[:, 1] * ends[:, 0]).sum())
+    return points if twice_area >= 0.0 else points[::-1]
+
+
+def convex(points: Floats) -> Sequence[Floats]:
+    """Return convex polygons that together cover a counter-clockwise polygon."""
+    before, after = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
+    if (before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0] >= -1e-12).all():
+        return [points]
+    outline = tuple((float(x), float(y)) for x, y in points)
+    return [ccw(np.asarray(piece, np.float64)) for piece in convex_polygons((outline,))]
+
+
+def planar_hull(points: Floats) -> Indices:
+    """Return the corners of the hull of points, shape (n, 2), counter-clockwise."""
+    order = np.lexsort((points[:, 1], points[:, 0]))
+    rows = [(float(points[i, 0]), float(points[i, 1]), int(i)) for i in order]
+    lower, upper = _chain(rows), _chain(rows[::-1])
+    return np.array(lower[:-1] + upper[:-1], dtype=np.intp)
+
+
+def _chain(rows: list[tuple[float, float, int]]) -> list[int]:
+    chain: list[tuple[float, float, int]] = []
+    for row in rows:
+        while len(chain) >= 2 and _turn(chain[-2], chain[-1], row) <= 0.0:
+            chain.pop()
+        chain.append(row)
+    return [index for _, _, index in chain]
+
+
+def _turn(
+    a: tuple[float, float, int], b: tuple[float, float, int], c: tuple[float, float, int]
+) -> float:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def planar_area(points: Floats) -> float:
+    """Return the area of a polygon, shape (n, 2), by the shoelace formula.
+
+    It is positive if the corners are counter-clockwise.
+    """
+    x, y = points[:, 0], points[:, 1]
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2.0

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gazelle.formats.hull import planar_area, planar_hull
-from gazelle.formats.polygon import convex_polygons
+from gazelle.geometry.polygons import convex_polygons, planar_area, planar_hull
 
 SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
 HOLE = [(1, 1), (3, 1), (3, 3), (1, 3)]

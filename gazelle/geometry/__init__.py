@@ -1,0 +1,1 @@
+"""Geometry without robotics: polygons, outlines of bitmaps, parts of a plane."""
