@@ -314,12 +314,98 @@ def test_without_exec_there_is_no_gym():
 
 
 @pytest.mark.parametrize(
-    "name", ["box", "dict", "discrete", "multi_binary", "multi_discrete", "space", "tuple"]
+    "line",
+    [
+        "from gym import Env, GoalEnv, VERSION, vector, version",
+        "from gym.core import Env, Space, Wrapper",
+        "from gym.envs.classic_control import AcrobotEnv, CartPoleEnv, PendulumEnv",
+        "from gym.envs.classic_control.cartpole import CartPoleEnv",
+        "from gym.envs import classic_control, toy_text",
+        "from gym.envs.registration import EnvSpec, env_id_re, load, make, register, registry, spec",
+        "from gym.envs.toy_text.frozen_lake import FrozenLakeEnv",
+        "from gym.error import DoubleWrapperError, InvalidFrame, Unregistered, UnsupportedMode",
+        "from gym.logger import DEBUG, MIN_LEVEL, debug, setLevel, set_level",
+        "from gym.spaces import box, np_random, utils",
+        "from gym.spaces.box import Box",
+        "from gym.spaces.dict_space import Dict",
+        "from gym.spaces.tuple_space import Tuple",
+        "from gym.spaces.utils import flatdim, flatten, flatten_space, unflatten",
+        "from gym.utils import EzPickle, colorize, ezpickle, json_utils",
+        "from gym.utils.colorize import colorize",
+        "from gym.utils.ezpickle import EzPickle",
+        "from gym.utils.json_utils import json_encode_np",
+        "from gym.utils.seeding import RNG, RandomNumberGenerator, create_seed, hash_seed",
+        "from gym.vector import AsyncVectorEnv, SyncVectorEnv, VectorEnvWrapper, utils",
+        "from gym.vector.sync_vector_env import SyncVectorEnv",
+        "from gym.vector.utils.spaces import batch_space",
+        "from gym.version import VERSION",
+        "from gym.wrappers import FlattenDictWrapper, LazyFrames, frame_stack, monitoring",
+        "from gym.wrappers.clip_action import ClipAction",
+        "from gym.wrappers.frame_stack import FrameStack, LazyFrames",
+        "from gym.wrappers.monitor import Monitor",
+        "from gym.wrappers.monitoring import Monitor",
+        "from gym.wrappers.normalize import NormalizeObservation, RunningMeanStd",
+        "from gym.wrappers.record_episode_statistics import RecordEpisodeStatistics",
+        "from gym.wrappers.time_limit import TimeLimit",
+        "import gym.wrappers.filter_observation, gym.spaces.multi_discrete",
+    ],
 )
-def test_spaces_are_found_in_their_old_modules(name):
-    module = importlib.import_module(f"gazelle.compat.gym.spaces.{name}")
-    (space,) = module.__all__
-    assert getattr(module, space) is getattr(spaces, space)
+def test_names_are_found_in_their_old_modules(line):
+    names: dict[str, object] = {}
+    with ros.install():
+        exec(line, names)
+    first = line.partition("import")[2].split(",")[0].split(".")[0].strip()
+    assert names[first] is not None
+    assert not any(name == "gym" or name.startswith("gym.") for name in sys.modules)
+
+
+def test_one_thing_is_one_thing_wherever_it_is_imported_from():
+    with ros.install():
+        for place in ("gym.spaces.box", "gym.spaces"):
+            assert importlib.import_module(place).Box is gymnasium.spaces.Box
+        for place in ("gym.wrappers.frame_stack", "gym.wrappers"):
+            assert importlib.import_module(place).FrameStack is wrappers.FrameStack
+
+
+@pytest.mark.parametrize("name", ["AcrobotEnv", "CartPoleEnv", "PendulumEnv", "FrozenLakeEnv"])
+def test_classes_of_gyms_own_environments_have_the_old_interface(name):
+    env = getattr(importlib.import_module("gazelle.compat.gym.envs.own"), name)()
+    assert type(env).__name__ == name
+    assert env.reset() in env.observation_space
+    assert len(env.step(env.action_space.sample())) == 4
+
+
+def test_inner_environments_of_gymnasium_have_the_old_interface():
+    """Scripts take off the time limit, and seed what is within it."""
+    env = gym.make("CartPole-v0")
+    assert env._max_episode_steps == 200
+    for each in (env, env.env, env.unwrapped):
+        each.seed(3)
+        assert each.reset() == pytest.approx(gym.make("CartPole-v0").unwrapped.env.reset(seed=3)[0])
+        assert len(each.step(0)) == 4
+    assert gym.spec("CartPole-v0").timestep_limit == 200
+    assert gym.spec("CartPole-v0").make().spec.id == "CartPole-v0"
+
+
+def test_observations_are_brought_to_mean_0_and_variance_1():
+    env = wrappers.NormalizeObservation(Count(end=1000))
+    env.reset()
+    seen = np.array([env.step(0)[0] for _ in range(500)])
+    # The 501 numbers from 0 to 500 have the mean 250 and the variance (501² - 1) / 12.
+    assert seen[-1] == pytest.approx((500 - 250) / np.sqrt((501**2 - 1) / 12), rel=1e-3)
+
+
+def test_rewards_are_divided_by_the_spread_of_returns():
+    env = wrappers.NormalizeReward(Count(end=10**6), gamma=0.0)
+    env.reset()
+    rewards = [env.step(place % 3)[1] for place in range(3000)]
+    assert np.std(rewards[-300:]) == pytest.approx(1.0, rel=0.01)
+
+
+def test_entries_of_observations_become_a_row():
+    env = wrappers.FlattenDictWrapper(Pair(), ["b", "a"])
+    assert env.observation_space.shape == (2,)
+    assert env.reset().tolist() == [2, 1]
 
 
 def test_the_old_shared_source_of_random_numbers():
@@ -360,7 +446,7 @@ def test_observations_are_chosen_by_name():
     assert env.reset() == {"b": 2}
     assert env.step(0)[0] == {"b": 4}
     assert list(env.observation_space.spaces) == ["b"]
-    with pytest.raises(error.Error, match="there are no observations"):
+    with pytest.raises(error.Error, match="there is no observation 'c'"):
         wrappers.FilterObservation(Pair(), ["c"])
 
 

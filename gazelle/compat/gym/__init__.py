@@ -15,11 +15,14 @@ from gazelle.compat.gym.core import (
     Wrapper,
 )
 from gazelle.compat.gym.envs.registration import make, register, spec
+from gazelle.compat.gym.places import PLACES, finding
 from gazelle.compat.gym.spaces import Space
 
-__version__ = "0.21.0"
+VERSION = __version__ = "0.21.0"
 
 __all__ = [
+    "PLACES",
+    "VERSION",
     "ActionWrapper",
     "Env",
     "GoalEnv",
@@ -38,3 +41,5 @@ __all__ = [
     "vector",
     "wrappers",
 ]
+
+__getattr__ = finding("")

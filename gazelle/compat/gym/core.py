@@ -10,10 +10,21 @@ from collections.abc import Mapping
 from typing import Any
 
 import gymnasium
-from gymnasium.spaces import Dict
+from gymnasium.spaces import Dict, Space
 
 from gazelle.closing import Closeable
 from gazelle.compat.gym.error import Error
+
+__all__ = [
+    "ActionWrapper",
+    "Env",
+    "GoalEnv",
+    "ObservationWrapper",
+    "RewardWrapper",
+    "Space",
+    "Step",
+    "Wrapper",
+]
 
 Step = tuple[Any, Any, bool, dict[str, Any]]
 """Observation, reward, whether the episode is over, and what else there is to say."""

@@ -9,8 +9,21 @@ from gymnasium.logger import error, warn
 
 DEBUG, INFO, WARN, ERROR = logging.DEBUG, logging.INFO, logging.WARNING, logging.ERROR
 DISABLED = 50
+MIN_LEVEL = WARN
 
-__all__ = ["DEBUG", "DISABLED", "ERROR", "INFO", "WARN", "error", "info", "set_level", "warn"]
+__all__ = [
+    "DEBUG",
+    "DISABLED",
+    "ERROR",
+    "INFO",
+    "MIN_LEVEL",
+    "WARN",
+    "debug",
+    "error",
+    "info",
+    "set_level",
+    "warn",
+]
 
 _log = logging.getLogger("gym")
 
@@ -19,6 +32,11 @@ def set_level(level: int) -> None:
     """Say only what is at least this important: ``DEBUG``, ``INFO``, ``WARN``, ``ERROR``, ``DISABLED``."""
     gymnasium.logger.min_level = level
     _log.setLevel(level)
+
+
+def debug(text: str, *arguments: object) -> None:
+    """Say something that only authors want to know, with ``%`` for the arguments."""
+    _log.debug(text, *arguments)
 
 
 def info(text: str, *arguments: object) -> None:

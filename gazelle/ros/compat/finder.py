@@ -96,6 +96,22 @@ class AliasLoader(importlib.abc.Loader):
             module.__dict__["__getattr__"] = _importing(name, kinds)
 
 
+class CopyLoader(importlib.abc.Loader):
+    """Loads a module that has what another one has.
+
+    Args:
+        place: The other one; a substitute names it in its table ``PLACES``.
+    """
+
+    def __init__(self, place: str) -> None:
+        self._place = place
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Fill the module."""
+        names = vars(importlib.import_module(self._place)).items()
+        module.__dict__.update({name: value for name, value in names if name[:2] != "__"})
+
+
 def _importing(package: str, kinds: Collection[str]) -> Callable[[str], ModuleType]:
     """A package's ``__getattr__``: its definitions are no files beside it, as Python thinks."""
 
@@ -172,6 +188,11 @@ def _below_a_substitute(package: str, fullname: str) -> ModuleSpec | None:
     parent = sys.modules.get(package)
     if home is None or getattr(parent, "__name__", "") != f"{home}.{package}":
         return None
+    places, name = getattr(parent, "PLACES", {}), fullname.partition(".")[2]
+    if name in places:
+        return ModuleSpec(fullname, CopyLoader(places[name]), is_package=True)
+    if name.rpartition(".")[0] in places:  # what is in a copy is in the table, too
+        return None
     if importlib.util.find_spec(f"{home}.{fullname}") is None:
         return None
     return ModuleSpec(fullname, AliasLoader(home))
@@ -181,7 +202,7 @@ def _known(package: str) -> bool:
     return any(has_definitions(package, kind) for kind in _KINDS) or has_cfg(package)
 
 
-LOADERS = (AliasLoader, MessageLoader, CfgLoader, PackageLoader)
+LOADERS = (AliasLoader, CopyLoader, MessageLoader, CfgLoader, PackageLoader)
 _finder = RosFinder()
 _uses = 0
 _hidden: dict[str, ModuleType] = {}

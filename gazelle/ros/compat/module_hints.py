@@ -73,6 +73,10 @@ _ARM = (
     "do the same"
 )
 
+_PICTURES = "the old gym here makes no pictures and films: 'gazelle film' does"
+_ATARI = "pip install ale-py, and take Gymnasium's"
+_MUJOCO = "pip install gymnasium-robotics, which has its successors"
+
 ADVICE = {
     **dict.fromkeys(
         ("bondpy", "smclib"), _SOURCE.format("bond_core, https://github.com/ros/bond_core,")
@@ -90,6 +94,29 @@ ADVICE = {
     "catkin": "it is of ROS's build tool: rospkg, which is here, finds packages and their files",
     "flexbe_core": _SOURCE.format("flexbe_behavior_engine"),
     "genmsg": "definitions are read without it: import PACKAGE.msg is enough",
+    "gym.envs.algorithmic": "gym took it out in 0.20",
+    "gym.envs.atari": _ATARI,
+    "gym.envs.box2d": "pip install 'gymnasium[box2d]'; gym.make finds its environments",
+    "gym.envs.classic_control.rendering": _PICTURES,
+    "gym.envs.mujoco": _MUJOCO,
+    "gym.envs.robotics": _MUJOCO,
+    "gym.utils.play": "'gazelle view' lets people drive",
+    "gym.wrappers.AtariPreprocessing": _ATARI,
+    "gym.wrappers.atari_preprocessing": _ATARI,
+    "gym.wrappers.monitoring.video_recorder": _PICTURES,
+    **dict.fromkeys(
+        (
+            "gym.wrappers.GrayScaleObservation",
+            "gym.wrappers.PixelObservationWrapper",
+            "gym.wrappers.RecordVideo",
+            "gym.wrappers.ResizeObservation",
+            "gym.wrappers.gray_scale_observation",
+            "gym.wrappers.pixel_observation",
+            "gym.wrappers.record_video",
+            "gym.wrappers.resize_observation",
+        ),
+        _PICTURES,
+    ),
     "interactive_markers": _SOURCE.format(
         "interactive_markers, https://github.com/ros-visualization/interactive_markers,"
     ),

@@ -16,7 +16,7 @@ from gazelle.compat.gym.error import Error, UnregisteredEnv
 from gazelle.compat.gym.wrappers.time_limit import TimeLimit
 from gazelle.errors import did_you_mean
 
-_NAME = re.compile(r"(?:[\w:-]+/)?[\w:.-]+-v\d+")
+env_id_re = re.compile(r"^(?:[\w:-]+/)?([\w:.-]+)-v(\d+)$")
 EntryPoint = str | Callable[..., Any]
 
 
@@ -58,7 +58,7 @@ class EnvSpec:
         """
         if self.entry_point is None:
             raise Error(f"'{self.id}' has no entry point")
-        made = _load(self.entry_point)(**{**self.kwargs, **options})
+        made = load(self.entry_point)(**{**self.kwargs, **options})
         env: Env = OldInterface(made) if isinstance(made, gymnasium.Env) else made
         env.unwrapped.spec = self
         if self.max_episode_steps is None:
@@ -82,7 +82,7 @@ class EnvRegistry:
         Raises:
             Error: The name does not end in ``-v`` and a number.
         """
-        if _NAME.fullmatch(id) is None:
+        if env_id_re.fullmatch(id) is None:
             raise Error(f"'{id}' is no name of an environment: they end in -v0, -v1 ...")
         limit = options.pop("timestep_limit", None)
         if options.get("max_episode_steps") is None:
@@ -90,7 +90,10 @@ class EnvRegistry:
         self.env_specs[id] = EnvSpec(id, **options)
 
     def spec(self, path: str) -> EnvSpec:
-        """What is registered under a name; ``module:name`` imports the module first.
+        """Return what is registered under a name, here or with Gymnasium.
+
+        Args:
+            path: The name, or ``module:name`` to import the module first.
 
         Raises:
             UnregisteredEnv: Nothing is.
@@ -98,6 +101,8 @@ class EnvRegistry:
         module, colon, name = path.rpartition(":")
         if colon:
             importlib.import_module(module)
+        if name not in self.env_specs and name in gymnasium.registry:
+            return _as_old(gymnasium.registry[name])
         if name not in self.env_specs:
             hint = did_you_mean(name, [*self.env_specs, *gymnasium.registry])
             raise UnregisteredEnv(f"no environment '{name}' is registered; {hint}")
@@ -109,11 +114,6 @@ class EnvRegistry:
         Raises:
             UnregisteredEnv: There is none of that name.
         """
-        name = path.rpartition(":")[2]
-        if name not in self.env_specs and ":" not in path and name in gymnasium.registry:
-            env = OldInterface(gymnasium.make(name, **options))
-            env.spec = _as_old(gymnasium.spec(name))
-            return env
         return self.spec(path).make(**options)
 
     def all(self) -> Iterable[EnvSpec]:
@@ -127,7 +127,12 @@ def _as_old(spec: Any) -> EnvSpec:
     return EnvSpec(spec.id, spec.entry_point, goal, spec.nondeterministic, limit, dict(spec.kwargs))
 
 
-def _load(entry_point: EntryPoint) -> Callable[..., Any]:
+def load(entry_point: EntryPoint) -> Callable[..., Any]:
+    """Return what an entry point names.
+
+    Raises:
+        Error: It has no colon.
+    """
     if not isinstance(entry_point, str):
         return entry_point
     module, _, attributes = entry_point.partition(":")

@@ -16,6 +16,9 @@ from gymnasium.spaces import (
     unflatten,
 )
 
+from gazelle.compat.gym.places import finding
+from gazelle.compat.gym.spaces.prng import np_random, seed
+
 __all__ = [
     "Box",
     "Dict",
@@ -27,5 +30,9 @@ __all__ = [
     "flatdim",
     "flatten",
     "flatten_space",
+    "np_random",
+    "seed",
     "unflatten",
 ]
+
+__getattr__ = finding("spaces")

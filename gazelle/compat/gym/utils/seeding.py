@@ -9,6 +9,7 @@ import numpy as np
 
 from gazelle.compat.gym.error import Error
 
+RandomNumberGenerator = RNG = np.random.RandomState
 _SEEDS = 2**32
 
 

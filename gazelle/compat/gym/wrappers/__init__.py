@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from gazelle.compat.gym.places import finding
 from gazelle.compat.gym.wrappers.monitor import Monitor
+from gazelle.compat.gym.wrappers.normalize import NormalizeObservation, NormalizeReward
 from gazelle.compat.gym.wrappers.stacking import (
     FilterObservation,
+    FlattenDictWrapper,
     FrameStack,
+    LazyFrames,
     OrderEnforcing,
     TimeAwareObservation,
 )
@@ -22,9 +26,13 @@ from gazelle.compat.gym.wrappers.transforms import (
 __all__ = [
     "ClipAction",
     "FilterObservation",
+    "FlattenDictWrapper",
     "FlattenObservation",
     "FrameStack",
+    "LazyFrames",
     "Monitor",
+    "NormalizeObservation",
+    "NormalizeReward",
     "OrderEnforcing",
     "RecordEpisodeStatistics",
     "RescaleAction",
@@ -33,3 +41,5 @@ __all__ = [
     "TransformObservation",
     "TransformReward",
 ]
+
+__getattr__ = finding("wrappers")

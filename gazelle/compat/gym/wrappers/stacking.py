@@ -4,13 +4,27 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from gymnasium.spaces import Box, Dict
 
 from gazelle.compat.gym.core import ObservationWrapper, Step, Wrapper
 from gazelle.compat.gym.error import Error, ResetNeeded
+from gazelle.errors import did_you_mean
+
+
+class LazyFrames(np.ndarray[Any, Any]):
+    """Frames as one array; gym joins them when they are used, here they are joined at once.
+
+    Args:
+        frames: Arrays of equal shapes.
+    """
+
+    def __new__(cls, frames: Iterable[Any], lz4_compress: bool = False) -> Self:  # noqa: FBT001, FBT002
+        """Join the frames along a new first axis."""
+        del lz4_compress
+        return np.stack(list(frames)).view(cls)
 
 
 class FrameStack(ObservationWrapper):
@@ -36,12 +50,32 @@ class FrameStack(ObservationWrapper):
         """Begin an episode; the first observation stands in every place."""
         first = self.env.reset(**options)
         self.frames.extend([first] * self.num_stack)
-        return np.stack(self.frames)
+        return LazyFrames(self.frames)
 
     def observation(self, observation: Any) -> Any:
         """Return the last observations with this one."""
         self.frames.append(observation)
-        return np.stack(self.frames)
+        return LazyFrames(self.frames)
+
+
+class FlattenDictWrapper(ObservationWrapper):
+    """Some entries of observations that are dictionaries, as one row of numbers.
+
+    Args:
+        env: Any environment with such observations.
+        dict_keys: Names of the entries, in their order in the row.
+    """
+
+    def __init__(self, env: Any, dict_keys: Iterable[str]) -> None:
+        super().__init__(env)
+        self.dict_keys = list(dict_keys)
+        spaces = [_entry(self.observation_space, key) for key in self.dict_keys]
+        size = sum(int(np.prod(each.shape or ())) for each in spaces)
+        self.observation_space = Box(-np.inf, np.inf, (size,), np.float32)
+
+    def observation(self, observation: Any) -> Any:
+        """Return the entries one after the other."""
+        return np.concatenate([np.ravel(observation[key]) for key in self.dict_keys])
 
 
 class FilterObservation(ObservationWrapper):
@@ -55,13 +89,10 @@ class FilterObservation(ObservationWrapper):
     def __init__(self, env: Any, filter_keys: Iterable[str] | None = None) -> None:
         super().__init__(env)
         inner = self.observation_space
-        if not isinstance(inner, Dict):
-            raise Error("FilterObservation needs observations in a gym.spaces.Dict")
-        self._kept = list(inner.spaces if filter_keys is None else filter_keys)
-        unknown = [key for key in self._kept if key not in inner.spaces]
-        if unknown:
-            raise Error(f"there are no observations {unknown}; there are {list(inner.spaces)}")
-        self.observation_space = Dict({key: inner.spaces[key] for key in self._kept})
+        if filter_keys is None:
+            filter_keys = inner.spaces if isinstance(inner, Dict) else ()
+        self._kept = list(filter_keys)
+        self.observation_space = Dict({key: _entry(inner, key) for key in self._kept})
 
     def observation(self, observation: Any) -> Any:
         """Return the entries that stay."""
@@ -117,3 +148,16 @@ class OrderEnforcing(Wrapper):
         if not self._has_reset:
             raise ResetNeeded("call reset() before step()")
         return super().step(action)
+
+
+def _entry(space: Any, key: str) -> Any:
+    """Return one space of a dictionary of them.
+
+    Raises:
+        Error: It is none, or has no such space.
+    """
+    if not isinstance(space, Dict):
+        raise Error(f"this needs observations in a gym.spaces.Dict, not in {space}")
+    if key not in space.spaces:
+        raise Error(f"there is no observation '{key}'; {did_you_mean(key, space.spaces)}")
+    return space.spaces[key]

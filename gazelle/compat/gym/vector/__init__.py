@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from gymnasium.vector.utils import batch_space, concatenate, create_empty_array
 
-from gazelle.compat.gym.core import Env
+from gazelle.compat.gym.core import Env, Wrapper
 from gazelle.compat.gym.envs.registration import make as make_one
 from gazelle.compat.gym.error import Error
+from gazelle.compat.gym.places import finding
 
 
 class VectorEnv(Env):
@@ -74,6 +75,10 @@ class VectorEnv(Env):
         return concatenate(space, observations, rows)
 
 
+class VectorEnvWrapper(Wrapper):
+    """A vector environment around another one, which answers whatever this one does not."""
+
+
 SyncVectorEnv = AsyncVectorEnv = VectorEnv
 """Both step in this process: results are the same."""
 
@@ -82,3 +87,6 @@ def make(id: str, num_envs: int = 1, asynchronous: bool = True, **options: Any) 
     """Return several environments of a name as one."""
     del asynchronous
     return VectorEnv([lambda: make_one(id, **options) for _ in range(num_envs)])
+
+
+__getattr__ = finding("vector")

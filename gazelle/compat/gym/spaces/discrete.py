@@ -1,5 +1,0 @@
-"""``Discrete``, where old scripts import it from."""
-
-from gymnasium.spaces import Discrete
-
-__all__ = ["Discrete"]

@@ -1,5 +1,0 @@
-"""``Space``, where old scripts import it from."""
-
-from gymnasium.spaces import Space
-
-__all__ = ["Space"]

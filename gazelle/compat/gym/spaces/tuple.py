@@ -1,5 +1,0 @@
-"""``Tuple``, where old scripts import it from."""
-
-from gymnasium.spaces import Tuple
-
-__all__ = ["Tuple"]
