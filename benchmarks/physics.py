@@ -254,7 +254,7 @@ def stepping(count: int, *, moving: bool) -> Callable[[], float]:
     sim = gazelle.Simulation(grid(count, moving=moving), time_step=STEP)
     if moving:
         for i in range(count):
-            sim.engine.set_model_motion(f"box{i}", (0.2, 0.1, 0.0), (0.0, 0.0, 0.0))
+            sim.engine.models[f"box{i}"].set_motion((0.2, 0.1, 0.0), (0.0, 0.0, 0.0))
     sim.step(200)
 
     def work() -> float:

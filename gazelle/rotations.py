@@ -89,6 +89,15 @@ def _multiply_one(p: Floats, q: Floats) -> Floats:
     return np.array(product).reshape((1,) * (max(p.ndim, q.ndim) - 1) + (4,))
 
 
+def unit(q: Floats) -> Floats:
+    """Return quaternions of length one; zero becomes the identity, as in Gazebo."""
+    norm: Floats = np.sqrt(np.einsum("...i,...i->...", q, q))[..., None]
+    if norm.all():
+        return q / norm
+    whole = np.where(norm > 0.0, q, (0.0, 0.0, 0.0, 1.0))
+    return whole / np.where(norm > 0.0, norm, 1.0)
+
+
 def conjugate(q: Floats) -> Floats:
     """Inverse rotations of unit quaternions (x, y, z, w), shape (..., 4)."""
     turned: Floats = q * _BACK

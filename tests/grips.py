@@ -47,7 +47,7 @@ def gripper():
 
 def creep(engine, model, seconds):
     """How far a model moves in a minute [mm], by what it does in some seconds."""
-    start = engine.model_placement(model).position[0].copy()
+    start = engine.models[model].placement().position[0].copy()
     engine.step(round(seconds / engine.time_step))
-    way = engine.model_placement(model).position[0] - start
+    way = engine.models[model].placement().position[0] - start
     return float(np.linalg.norm(way)) * 1000.0 * 60.0 / seconds

@@ -196,16 +196,19 @@ class Everything:
 
     def _of_engine(self):
         engine = self.sim.engine
-        for name in ("peek", "snapshot", "history", "link_names", "joint_names", "world"):
+        for name in ("peek", "snapshot", "history", "world"):
             assert name not in CHANGES
             yield Reading(f"sim.engine.{name}", engine, name)
         link, joint = self.robot.links[self.link].name, self.robot.joints[self.joint].name
-        for name, argument in (
-            *((n, link) for n in ("link_placement", "link_motion", "link_acceleration")),
-            *((n, joint) for n in ("joint_position", "joint_velocity", "joint_wrench")),
-            ("model_placement", self.robot.name),
+        for table, key, names in (
+            ("links", link, ("placement", "motion", "acceleration")),
+            ("joints", joint, ("position", "velocity", "wrench")),
+            ("models", self.robot.name, ("placement",)),
         ):
-            yield Reading(f"sim.engine.{name}", engine, name, (argument,))
+            yield Reading(f"sim.engine.{table}.names", getattr(engine, table), "names")
+            for name in names:
+                row = getattr(engine, table)[key]
+                yield Reading(f"sim.engine.{table}[...].{name}", row, name, ())
 
 
 def arrays_in(value, depth=4):

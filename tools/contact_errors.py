@@ -66,13 +66,13 @@ def sliding(step: float) -> Result:
     """A box thrown at 4 m/s, mu 0.5: its way, beside Euler's half step, and its hop."""
     engine = engine_of(scenes.box("box", (0.2, 0.2, 0.1), mu=0.5, pose=Pose(z=0.05)), step=step)
     engine.step(round(0.3 / step))
-    start = engine.model_placement("box").position[0].copy()
-    engine.set_model_motion("box", (4.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    start = engine.models["box"].placement().position[0].copy()
+    engine.models["box"].set_motion((4.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     highest, far = start[2], 16.0 / G
     for _ in range(round(1.0 / step)):
         engine.step()
-        highest = max(highest, engine.model_placement("box").position[0, 2])
-    way = engine.model_placement("box").position[0, 0] - start[0]
+        highest = max(highest, engine.models["box"].placement().position[0, 2])
+    way = engine.models["box"].placement().position[0, 0] - start[0]
     cost = timed(engine, 0.5)
     return f"{percent(way / far)}, hop {1000.0 * (highest - start[2]):.3f} mm", cost
 
@@ -82,7 +82,7 @@ def rolling(step: float) -> Result:
     engine = engine_of(scenes.ball(pose=Pose(z=0.1)), step=step, slope=0.2)
     cost = timed(engine, 2.0)
     far = 5.0 / 7.0 * G * math.sin(0.2) * 2.0
-    return percent(float(engine.model_placement("ball").position[0, 0]) / far), cost
+    return percent(float(engine.models["ball"].placement().position[0, 0]) / far), cost
 
 
 def gripping(step: float, contacts: str | None = None) -> Result:
@@ -90,7 +90,7 @@ def gripping(step: float, contacts: str | None = None) -> Result:
     thing = scenes.box("thing", (0.05, 0.05, 0.05), mass=0.5, mu=0.8, pose=Pose(z=0.5))
     engine = engine_of(gripper(), thing, step=step, contacts=contacts)
     for side in ("left", "right"):
-        engine.set_joint_effort(f"g::{side}_joint", 0.5 * G / 0.8)
+        engine.joints[f"g::{side}_joint"].set_effort(0.5 * G / 0.8)
     return creep(engine, ["thing"])
 
 
@@ -116,9 +116,9 @@ def stacking(step: float) -> Result:
 def creep(engine: Engine, names: list[str]) -> Result:
     """How far the worst of some models moves in a minute, by what it does in 10 s."""
     engine.step(round(2.0 / engine.time_step))
-    before = [engine.model_placement(name).position[0].copy() for name in names]
+    before = [engine.models[name].placement().position[0].copy() for name in names]
     cost = timed(engine, 10.0)
-    after = [engine.model_placement(name).position[0] for name in names]
+    after = [engine.models[name].placement().position[0] for name in names]
     worst = max(float(np.linalg.norm(a - b)) for a, b in zip(after, before, strict=True))
     return f"{6000.0 * worst:.3f} mm a minute", cost
 
@@ -136,17 +136,17 @@ def driving(
         for side, sign in (("left", -1.0), ("right", 1.0)):
             joint = f"{robot.name}::wheel_{side}_joint"
             engine.add_motor(joint, 10.0)
-            engine.set_motor_velocity(joint, (linear + sign * angular * 0.08) / 0.033)
+            engine.joints[joint].set_motor_velocity((linear + sign * angular * 0.08) / 0.033)
         engine.step(round(1.0 / step))
-        start, before, turned = engine.link_placement(base), 0.0, 0.0
+        start, before, turned = engine.links[base].placement(), 0.0, 0.0
         before, cost = yaw(start.quaternion[0]), 0.0
         seconds = 10.0 / linear if linear else 20.0 * math.pi / angular
         for _ in range(round(seconds / 0.1)):
             cost = timed(engine, 0.1)
-            now = yaw(engine.link_placement(base).quaternion[0])
+            now = yaw(engine.links[base].placement().quaternion[0])
             turned += math.remainder(now - before, 2.0 * math.pi)
             before = now
-        way = engine.link_placement(base).position[0] - start.position[0]
+        way = engine.links[base].placement().position[0] - start.position[0]
         if angular:
             asked = angular * round(seconds / 0.1) * 0.1
             return f"{percent(turned / asked)}", cost

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from gazelle.description import World
 from gazelle.engines.carrying import CarryingEngine, as_carrying_engine
-from gazelle.engines.changes import changes_of
 from gazelle.engines.engine import PARAMETERS, DivergenceError, Engine
 from gazelle.engines.history import CHANGES, Call
 from gazelle.engines.late_engine import LateEngine
@@ -37,7 +36,6 @@ __all__ = [
     "Wrench",
     "as_carrying_engine",
     "as_table_engine",
-    "changes_of",
     "engine_names",
     "make_engine",
     "register_engine",

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from inspect import getattr_static
 from typing import Protocol, cast, runtime_checkable
 
-from gazelle.array_types import Bools, Floats
 from gazelle.engines.engine import Engine
 from gazelle.native.joint_system import JointSystem
 
@@ -39,18 +38,6 @@ class CarryingEngine(Protocol):
 
     def push_joints(self, system: JointSystem) -> None:
         """Let act what a bound system says."""
-
-    def place_joints(
-        self, joints: tuple[str, ...], position: Floats, velocity: Floats, chosen: Bools
-    ) -> None:
-        """Put many joints somewhere, to their limits at most, as ``set_joint_position`` does one.
-
-        Args:
-            joints: Scoped names, each with one axis.
-            position: [m or rad], shape (nworld, joints).
-            velocity: That they are given [m/s or rad/s], likewise.
-            chosen: Which of them are put, likewise.
-        """
 
     def carry(self, systems: Sequence[JointSystem], count: int, now_ns: int) -> None:
         """Advance every world, and bring bound systems at the beginning of every step.

@@ -12,12 +12,14 @@ from typing import Protocol
 
 from numpy.typing import ArrayLike
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Model, World
 from gazelle.engines.history import Call
-from gazelle.engines.motion import Hits, Motion, Placement
+from gazelle.engines.motion import Hits
 from gazelle.engines.range_rays import RangeRays
-from gazelle.engines.reactions import Contacts, Wrench
+from gazelle.engines.reactions import Contacts
+from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
+from gazelle.engines.table import Table
 from gazelle.errors import EngineError
 
 
@@ -77,12 +79,16 @@ class Engine(Protocol):
         """The world that runs, with what was spawned and without what was deleted."""
 
     @property
-    def link_names(self) -> tuple[str, ...]:
-        """Scoped names, ``model::link``."""
+    def links(self) -> Table[LinkRow, LinkRows]:
+        """Links of all models, by scoped name, ``model::link``."""
 
     @property
-    def joint_names(self) -> tuple[str, ...]:
-        """Scoped names, ``model::joint``, of joints that can move."""
+    def joints(self) -> Table[JointRow, JointRows]:
+        """Joints of all models that can move, by scoped name, ``model::joint``."""
+
+    @property
+    def models(self) -> Table[ModelRow, ModelRows]:
+        """Models, by name."""
 
     def step(self, count: int = 1) -> None:
         """Advance every world by ``count`` physics steps.
@@ -94,152 +100,6 @@ class Engine(Protocol):
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no forces."""
-
-    def link_placement(self, link: str, worlds: Worlds | None = None) -> Placement:
-        """Where a link is."""
-
-    def link_placements(self, links: Sequence[str], worlds: Worlds | None = None) -> Placement:
-        """Where many links are at once: shapes (n, links, 3) and (n, links, 4)."""
-
-    def link_motion(self, link: str, worlds: Worlds | None = None) -> Motion:
-        """How a link moves."""
-
-    def link_acceleration(self, link: str, worlds: Worlds | None = None) -> Motion:
-        """How a link's motion changes in the next physics step [m/s², rad/s²].
-
-        Contacts, joints and commands are taken as they are now; nothing moves.
-        """
-
-    def model_placement(self, model: str, worlds: Worlds | None = None) -> Placement:
-        """Where a model's frame is: it moves with the canonical link."""
-
-    def planar_pose(self, model: str, worlds: Worlds | None = None) -> Floats:
-        """Where a model's frame is, seen from above: x, y [m] and heading [rad], shape (n, 3)."""
-
-    def set_model_placement(
-        self, model: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Move a model rigidly, joints as they are; a static model too.
-
-        Args:
-            model: Name.
-            position: [m], shape (3,) or (n, 3).
-            quaternion: (x, y, z, w), shape (4,) or (n, 4).
-            worlds: Which worlds.
-        """
-
-    def set_model_motion(
-        self, model: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Give all links of a model the velocity of one rigid body, joints at rest.
-
-        Args:
-            model: Name.
-            linear: Of the model's frame, in the world frame [m/s], shape (3,) or (n, 3).
-            angular: In the world frame [rad/s], shape (3,) or (n, 3).
-            worlds: Which worlds.
-        """
-
-    def set_ground_motion(self, model: str, twist: ArrayLike, worlds: Worlds | None = None) -> None:
-        """The same for a level velocity as the model sees it that looks along its heading.
-
-        Args:
-            model: Name.
-            twist: Forward and to the left [m/s], turning [rad/s], shape (3,) or (n, 3).
-            worlds: Which worlds.
-        """
-
-    def set_link_placement(
-        self, link: str, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
-    ) -> str:
-        """Move a link, and all that hangs on it, joints as they are.
-
-        A link that hangs on a joint takes the part of the pose that its joint allows: a hinge the
-        turn about its axis, a slide the way along it, within its limits. Its parent stays.
-
-        Args:
-            link: Scoped name.
-            position: [m], shape (3,) or (n, 3).
-            quaternion: (x, y, z, w), shape (4,) or (n, 4).
-            worlds: Which worlds.
-
-        Returns:
-            The scoped name of the joint that was moved; empty if the whole model was.
-
-        Raises:
-            EngineError: The link is fixed to the world.
-        """
-
-    def set_link_motion(
-        self, link: str, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Give a link a velocity; what hangs on it keeps its joints' speeds.
-
-        A link that hangs on a joint takes the part that its joint allows, as of a pose.
-
-        Args:
-            link: Scoped name.
-            linear: Of the link's origin, in the world frame [m/s], shape (3,) or (n, 3).
-            angular: In the world frame [rad/s], shape (3,) or (n, 3).
-            worlds: Which worlds.
-        """
-
-    def link_centre(self, link: str, worlds: Worlds | None = None) -> Floats:
-        """Where a link's centre of mass is [m], in the world frame, shape (n, 3)."""
-
-    def set_link_wrench(
-        self, link: str, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Push a link at its centre of mass until told otherwise, in the world frame.
-
-        Args:
-            link: Scoped name.
-            force: [N], shape (3,) or (n, 3).
-            torque: About the centre of mass [N m], shape (3,) or (n, 3).
-            worlds: Which worlds.
-        """
-
-    def joint_position(self, joint: str, worlds: Worlds | None = None) -> Floats:
-        """Position [m or rad], shape (n, axes).
-
-        Of a ball joint it is a quaternion (x, y, z, w), shape (n, 4); of a floating one a
-        position and a quaternion, shape (n, 7).
-        """
-
-    def joint_velocity(self, joint: str, worlds: Worlds | None = None) -> Floats:
-        """Velocity [m/s or rad/s], shape (n, axes)."""
-
-    def set_joint_position(
-        self, joint: str, position: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Put a joint somewhere [m or rad], shape as read or (axes,), to its limits at most."""
-
-    def set_joint_velocity(
-        self, joint: str, velocity: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Give a joint a velocity [m/s or rad/s], shape (axes,) or (n, axes)."""
-
-    def set_joint_effort(self, joint: str, effort: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Apply an effort [N or N m] until told otherwise, shape (axes,) or (n, axes)."""
-
-    def joint_effort(self, joint: str, worlds: Worlds | None = None) -> Floats:
-        """The effort that ``set_joint_effort`` applies now [N or N m], shape (n, axes)."""
-
-    def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
-        """What a joint's child exerts on its parent through it, about the joint's origin.
-
-        In the world frame, all that is carried: weight, contacts and motion of what hangs on
-        the joint, and along its axes its own effort, motor, spring, damping and stops. Taken
-        in the coming physics step, as ``link_acceleration``; nothing moves.
-
-        Args:
-            joint: Scoped name; fixed joints have a wrench too.
-            worlds: Which worlds.
-
-        Raises:
-            EngineError: There is no such joint between links that move: its model is static
-                or kinematic, or it is a gearbox.
-        """
 
     def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
         """The points where some collisions touch others now, in one world.
@@ -282,22 +142,8 @@ class Engine(Protocol):
             EngineError: The joint has no axis that a motor could turn, or an effort cannot be.
         """
 
-    def set_motor_velocity(
-        self, joint: str, velocity: ArrayLike, worlds: Worlds | None = None
-    ) -> None:
-        """Set the velocity that a joint's motor holds [m/s or rad/s].
-
-        Args:
-            joint: Scoped name.
-            velocity: Shape () or (n,); of a joint with several axes (), (axes,) or (n, axes).
-            worlds: Which worlds.
-
-        Raises:
-            EngineError: The joint has no motor.
-        """
-
     def make_kinematic(self, model: str) -> None:
-        """Let a model move only by ``set_model_placement``; it pushes, nothing pushes it."""
+        """Let a model move only by ``ModelRow.set_placement``; it pushes, nothing pushes it."""
 
     def attach(
         self,
@@ -388,6 +234,14 @@ class Engine(Protocol):
 
     def peek(self) -> Floats:
         """The same as ``snapshot`` without a copy; it must be read at once and not kept."""
+
+    def write_state(self, indices: Indices, values: Floats) -> None:
+        """Set entries of the state, as links, joints and models do that are set.
+
+        Args:
+            indices: Places in ``peek``, flattened.
+            values: Values to set, of the same shape.
+        """
 
     def restore(self, state: Floats) -> None:
         """Put back what ``snapshot`` gave; the models must be the same.

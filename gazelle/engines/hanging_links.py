@@ -8,35 +8,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
 
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Joint, Model, Pose, World
 from gazelle.engines.motion import Motion, Placement
-from gazelle.engines.mujoco.tree import TreeLink, tree_of
+from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows
+from gazelle.engines.table import Table
+from gazelle.engines.tree import TreeLink, tree_of
 from gazelle.rotations import conjugate, cross, multiply, rotate
-
-
-class LinkReader(Protocol):
-    """Poses and velocities of links."""
-
-    def link_placement(self, link: str, worlds: Worlds | None = None) -> Placement:
-        """Return the pose of a link."""
-
-    def link_motion(self, link: str, worlds: Worlds | None = None) -> Motion:
-        """Return the velocity of a link."""
-
-
-class JointWriter(Protocol):
-    """Positions and velocities of joints."""
-
-    def set_joint_position(self, joint: str, position: Any, worlds: Worlds | None = None) -> None:
-        """Put a joint somewhere, to its limits at most."""
-
-    def set_joint_velocity(self, joint: str, velocity: Any, worlds: Worlds | None = None) -> None:
-        """Give a joint a velocity."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,16 +40,16 @@ class HangingLinks:
 
     Args:
         world: Returns the world that runs.
-        links: Reads links.
-        joints: Moves joints.
+        links: Links of all models.
+        joints: Joints of all models.
         fixed: Types of joints that do not move.
     """
 
     def __init__(
         self,
         world: Callable[[], World],
-        links: LinkReader,
-        joints: JointWriter,
+        links: Table[LinkRow, LinkRows],
+        joints: Table[JointRow, JointRows],
         fixed: frozenset[str] = frozenset({"fixed"}),
     ) -> None:
         self._world, self._links, self._joints, self._fixed = world, links, joints, fixed
@@ -89,7 +70,7 @@ class HangingLinks:
         else:
             frame = self._frame(holder, goal, worlds)
             position = _positions(joint, _seen_from(frame, _times(body, joint.pose)))
-        self._joints.set_joint_position(holder.body.joint_name, position, worlds)
+        self._joints[holder.body.joint_name].set_position(position, worlds)
         return holder.body.joint_name
 
     def move(self, link: str, goal: Motion, worlds: Worlds | None) -> bool:
@@ -101,11 +82,11 @@ class HangingLinks:
         holder = self._holder(link)
         if holder is None:
             return False
-        here = self._links.link_placement(link, worlds)
+        here = self._links[link].placement(worlds)
         linear, angular = goal.linear, goal.angular
         if holder.body.parent is not None:
-            above = self._links.link_placement(holder.body.parent, worlds)
-            carried = self._links.link_motion(holder.body.parent, worlds)
+            above = self._links[holder.body.parent].placement(worlds)
+            carried = self._links[holder.body.parent].motion(worlds)
             linear = linear - carried.linear
             linear = linear - cross(carried.angular, here.position - above.position)
             angular = angular - carried.angular
@@ -119,7 +100,7 @@ class HangingLinks:
             child = _times(body, holder.joint.pose)
             arm = child.position - here.position
             rates = _rates(holder.joint, frame, child, Motion(linear, angular), arm)
-        self._joints.set_joint_velocity(holder.body.joint_name, rates, worlds)
+        self._joints[holder.body.joint_name].set_velocity(rates, worlds)
         return True
 
     def _holder(self, link: str) -> _Holder | None:
@@ -138,7 +119,7 @@ class HangingLinks:
         """Return the joint's frame on its parent's side, in the world."""
         local = holder.body.pose * holder.joint.pose
         if holder.body.parent is not None:
-            return _times(self._links.link_placement(holder.body.parent, worlds), local)
+            return _times(self._links[holder.body.parent].placement(worlds), local)
         count = len(like.position)
         return Placement(
             np.tile(np.array(local.position), (count, 1)),

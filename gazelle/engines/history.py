@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-# Every method of ``Engine`` that changes what it computes. All else only reads.
+# Every method of ``Engine`` that changes what it computes, beside those of links, joints and
+# models, which change the state (``Engine.peek``). All else only reads.
 CHANGES = (
     "add_motor",
     "adopt",
@@ -15,20 +16,11 @@ CHANGES = (
     "make_kinematic",
     "reset",
     "restore",
-    "set_ground_motion",
-    "set_joint_effort",
-    "set_joint_position",
-    "set_joint_velocity",
-    "set_link_motion",
-    "set_link_placement",
-    "set_link_wrench",
-    "set_model_motion",
-    "set_model_placement",
-    "set_motor_velocity",
     "set_parameter",
     "spawn",
     "step",
     "update_world",
+    "write_state",
 )
 
 

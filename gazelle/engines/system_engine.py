@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 from gazelle.array_types import Floats
-from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.range_rays import RangeRays
 from gazelle.native.system import System
 
@@ -26,27 +25,6 @@ class CastRanges:
     system: System
     ranges: Floats
     begin: float
-
-
-class ModelTable(Protocol):
-    """Some models of an engine, looked up once; what it gives is the same bits as one by one."""
-
-    @property
-    def rigid(self) -> bool:
-        """Whether the first link of each moves as its model does; else there is no ``motion``."""
-
-    def placement(self) -> Placement:
-        """Of the models' frames: [m], shape (nworld, n, 3); (x, y, z, w), shape (nworld, n, 4)."""
-
-    def motion(self, quaternion: Floats) -> Motion:
-        """Of the first links, in the world frame [m/s, rad/s], shape (nworld, n, 3).
-
-        Args:
-            quaternion: Of ``placement``.
-        """
-
-    def command(self, law: Any) -> None:
-        """Let a law with a row for each of the models give them their velocities."""
 
 
 @runtime_checkable
@@ -86,8 +64,8 @@ class SystemEngine(Protocol):
             EngineError: There is no motor on the joint.
         """
 
-    def model_table(self, models: Sequence[str]) -> ModelTable:
-        """Some models by their names; good for one ``revision``."""
+    def command_models(self, models: tuple[str, ...], law: Any) -> None:
+        """Let a law with a row for each of some models give them their velocities."""
 
     def follow(self, model: str, path: Any) -> None:
         """Let a path carry a model."""

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Protocol, runtime_checkable
 
-from numpy.typing import ArrayLike
-
-from gazelle.array_types import Bools, Floats
+from gazelle.array_types import Floats
 from gazelle.engines.engine import Engine
-from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.reactions import TouchTable
 
 
@@ -20,58 +17,6 @@ class TableEngine(Protocol):
     @property
     def nworld(self) -> int:
         """Number of worlds."""
-
-    def link_placements(self, links: Sequence[str]) -> Placement:
-        """Where links are: shapes (nworld, links, 3) and (nworld, links, 4)."""
-
-    def link_motions(self, links: Sequence[str]) -> Motion:
-        """How links move, shape (nworld, links, 3)."""
-
-    def link_accelerations(self, links: Sequence[str]) -> Motion:
-        """How that changes in the next physics step, likewise; see ``link_acceleration``."""
-
-    def model_placements(self, models: Sequence[str]) -> Placement:
-        """Where models' frames are: shapes (nworld, models, 3) and (nworld, models, 4)."""
-
-    def set_ground_motions(self, models: Sequence[str], twist: ArrayLike) -> None:
-        """Give models the velocities of ``Engine.set_ground_motion``.
-
-        Args:
-            models: Names.
-            twist: Forward and to the left [m/s], turning [rad/s], shape (nworld, models, 3).
-        """
-
-    def joint_positions(self, joints: Sequence[str]) -> Floats:
-        """Positions of joints' first axes [m or rad], shape (nworld, joints).
-
-        Raises:
-            EngineError: There is no such joint, or it is a ball or floating one, without an axis.
-        """
-
-    def joint_velocities(self, joints: Sequence[str]) -> Floats:
-        """Velocities of joints' first axes [m/s or rad/s], likewise."""
-
-    def drive_joints(
-        self, joints: Sequence[str], velocity: ArrayLike, chosen: Bools | None = None
-    ) -> None:
-        """Set the velocities that motors on joints' first axes hold [m/s or rad/s].
-
-        Args:
-            joints: Scoped names.
-            velocity: Shape (nworld, joints) or (joints,).
-            chosen: Which of them, shape (joints,); all if None.
-
-        Raises:
-            EngineError: One of them has no motor.
-        """
-
-    def place_joints(
-        self, joints: tuple[str, ...], position: Floats, velocity: Floats, chosen: Bools
-    ) -> None:
-        """Put joints with one axis somewhere; see ``CarryingEngine.place_joints``."""
-
-    def parameter(self, kind: str, name: str) -> Floats:
-        """A physical parameter, shape (nworld, width)."""
 
     def cast_ranges_together(
         self, links: Sequence[str], origins: Floats, directions: Floats

@@ -118,7 +118,7 @@ class ActorWalk(ModelPlugin):
     def _place(self) -> None:
         quaternion = multiply(from_yaw(self._yaw), _ROLLED[None])
         engine = self._simulation.engine
-        engine.set_model_placement(self._robot.name, self._position, quaternion)
+        engine.models[self._robot.name].set_placement(self._position, quaternion)
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
         """Draw other targets."""

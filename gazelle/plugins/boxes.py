@@ -163,7 +163,7 @@ class Transporter(WorldPlugin):
                 rows = np.flatnonzero(inside & ~gone & (called | pad.automatic))
                 if rows.size:
                     goal = self._pads[pad.destination].arrival
-                    engine.set_model_placement(robot.name, goal.position, goal.quaternion, rows)
+                    engine.models[robot.name].set_placement(goal.position, goal.quaternion, rows)
                     gone[rows], called[rows] = True, False
 
     def reset(self, worlds: Worlds | None) -> None:

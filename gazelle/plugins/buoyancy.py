@@ -47,7 +47,7 @@ class Buoyancy(ModelPlugin):
         for name, (link, volume, centre) in self._bodies.items():
             place = link.placement()
             lever = rotate(place.quaternion, np.broadcast_to(centre, place.position.shape))
-            lever = place.position + lever - engine.link_centre(name)
+            lever = place.position + lever - engine.links[name].centre()
             force = -self._density * volume * gravity
             self._simulation.loads.hold("buoyancy", name, force, cross(lever, force))
 

@@ -82,7 +82,7 @@ class ForceBasedMove(ModelPlugin):
         mass, inertia = np.zeros((2, len(place.position)))
         for link in self._robot.links.values():
             own = engine.parameter("link_mass", link.name)[:, 0]
-            arm = engine.link_centre(link.name)[:, :2] - place.position[:, :2]
+            arm = engine.links[link.name].centre()[:, :2] - place.position[:, :2]
             mass += own
             inertia += own * (arm * arm).sum(axis=1)
             inertia += engine.parameter("link_inertia", link.name)[:, :3].min(axis=1)

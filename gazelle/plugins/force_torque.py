@@ -42,7 +42,7 @@ class ForceTorqueSensor(Noisy, Publishing):
         self.published.append(output)
 
     def _measure(self) -> WrenchValue:
-        wrench = self._engine.joint_wrench(self._joint)
+        wrench = self._engine.joints[self._joint].wrench()
         back = conjugate(self._link.placement().quaternion)
         # The engine gives what the child exerts on the parent; the original what it bears.
         felt = np.concatenate((rotate(back, -wrench.force), rotate(back, -wrench.torque)), axis=1)

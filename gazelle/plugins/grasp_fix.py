@@ -115,14 +115,14 @@ class GraspFix(ModelPlugin):
 
     def _gaps(self, arm: _Arm, link: str, worlds: Worlds) -> Floats:
         """How far each finger is from an object [m], shape (n, fingers)."""
-        place = self._simulation.engine.link_placement(link, worlds).position
+        place = self._simulation.engine.links[link].placement(worlds).position
         away = [finger.placement(worlds).position - place for finger in arm.fingers]
         return np.asarray(np.linalg.norm(np.stack(away, axis=1), axis=2), np.float64)
 
     def _let_go_if_open(self, arm: _Arm) -> None:
         engine = self._simulation.engine
         for link, rows in _by_link({world: link for world, (link, _) in arm.held.items()}).items():
-            if link not in engine.link_names:
+            if link not in engine.links.names:
                 arm.held = {world: each for world, each in arm.held.items() if each[0] != link}
                 continue
             before = np.array([arm.held[world][1] for world in rows.tolist()])

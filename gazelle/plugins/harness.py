@@ -118,7 +118,9 @@ class Harness(ModelPlugin):
         rows = slice(None) if worlds is None else worlds
         self._speed[rows] = speed.value
         if abs(speed.value) <= _STILL:
-            self._place[rows] = self._simulation.engine.joint_position(self._winch.joint)[rows, 0]
+            self._place[rows] = self._simulation.engine.joints[self._winch.joint].position()[
+                rows, 0
+            ]
             self._pids["pos_pid"].reset(worlds)
 
     def _let_go(self, wanted: bool, worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
@@ -131,7 +133,7 @@ class Harness(ModelPlugin):
         if rows.size:
             engine, rope = self._simulation.engine, self._released
             engine.detach(rope.carriage, rope.link, rows)
-            engine.set_joint_effort(self._winch.joint, np.zeros(1), rows)
+            engine.joints[self._winch.joint].set_effort(np.zeros(1), rows)
             self._held[rows] = False
 
     @property
@@ -144,11 +146,11 @@ class Harness(ModelPlugin):
         interval = self._watch.lap()
         engine, joint = self._simulation.engine, self._winch.joint
         holds = np.abs(self._speed) <= _STILL
-        off = np.where(holds, engine.joint_position(joint)[:, 0] - self._place, 0.0)
-        slip = engine.joint_velocity(joint)[:, 0] - self._speed
+        off = np.where(holds, engine.joints[joint].position()[:, 0] - self._place, 0.0)
+        slip = engine.joints[joint].velocity()[:, 0] - self._speed
         pull = np.maximum(self._pids["vel_pid"].update(slip, interval), 0.0)
         pull = pull + self._pids["pos_pid"].update(off, interval)
-        engine.set_joint_effort(joint, np.where(self._held, pull, 0.0)[:, None])
+        engine.joints[joint].set_effort(np.where(self._held, pull, 0.0)[:, None])
 
     def _hang(self, worlds: Worlds | None) -> None:
         for rope in self._ropes:

@@ -52,7 +52,7 @@ class LiftDrag(ModelPlugin):
         velocity = motion.linear + cross(motion.angular, arm)
         force = self._force(place.quaternion, velocity)
         force[np.linalg.norm(velocity, axis=1) <= _CALM] = 0.0
-        lever = place.position + arm - self._simulation.engine.link_centre(self._link.name)
+        lever = place.position + arm - self._simulation.engine.links[self._link.name].centre()
         self._simulation.loads.hold(self._name, self._link.name, force, cross(lever, force))
 
     def _force(self, quaternion: Floats, velocity: Floats) -> Floats:

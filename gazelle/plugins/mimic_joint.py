@@ -75,8 +75,8 @@ class MimicJoint(ModelPlugin):
         chosen = np.flatnonzero(np.abs(lack[:, 0]) >= self._spared)
         if chosen.size:
             pace = self._joint.velocities()[:, :1] * self._multiplier
-            self._engine.set_joint_position(name, target[chosen], chosen)
-            self._engine.set_joint_velocity(name, pace[chosen], chosen)
+            self._engine.joints[name].set_position(target[chosen], chosen)
+            self._engine.joints[name].set_velocity(pace[chosen], chosen)
 
     def reset(self, worlds: Worlds | None) -> None:
         """Forget sums."""

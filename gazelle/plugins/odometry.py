@@ -10,7 +10,6 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines import Motion, Placement
 from gazelle.plugins.frames import frames_output
 from gazelle.rotations import seen_on_ground
 from gazelle.simulation import Odometry, Output, PluginSystem, Robot, Transform, Transforms
@@ -187,10 +186,12 @@ def measure_wanted(outputs: Sequence[OdometryOutputs | None]) -> list[Odometry |
 
 def _measured_together(sources: Sequence[TrueOdometry]) -> list[Odometry]:
     """The odometry of many robots of one simulation; at once where its engine can."""
-    found = _looked_up(sources) if len(sources) > 1 else None
-    if found is None:
+    links = [each.robot.first_link for each in sources]
+    if len(sources) == 1 or None in links:
         return [each() for each in sources]
-    place, motion = found
+    engine = sources[0].robot.simulation.engine
+    place = engine.models[tuple(each.robot.name for each in sources)].placement()
+    motion = engine.links[tuple(link.name for link in links if link is not None)].motion()
     quaternions, linear = place.quaternion.reshape(-1, 4), motion.linear.reshape(-1, 3)
     seen = seen_on_ground(quaternions, linear).reshape(motion.linear.shape)
     turning = motion.angular * _ABOUT_Z
@@ -198,25 +199,6 @@ def _measured_together(sources: Sequence[TrueOdometry]) -> list[Odometry]:
         each.of(place.position[:, i], place.quaternion[:, i], seen[:, i], turning[:, i])
         for i, each in enumerate(sources)
     ]
-
-
-def _looked_up(sources: Sequence[TrueOdometry]) -> tuple[Placement, Motion] | None:
-    """Where robots are and how they move, shapes (nworld, n, ...); None where it is not known."""
-    simulation, names = sources[0].robot.simulation, [each.robot.name for each in sources]
-    if simulation.tables is not None:
-        links = [each.robot.first_link for each in sources]
-        if None in links:
-            return None
-        first = [link.name for link in links if link is not None]
-        place = simulation.tables.model_placements(names)
-        return place, simulation.tables.link_motions(first)
-    if simulation.native is None:
-        return None
-    table = simulation.native.model_table(names)
-    if not table.rigid:
-        return None
-    place = table.placement()
-    return place, table.motion(place.quaternion)
 
 
 def as_transforms(odometry: Odometry) -> Transforms:

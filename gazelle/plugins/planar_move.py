@@ -112,19 +112,14 @@ class SlidingSystem(OdometrySystem[PlanarMove]):
         native = self._simulation.native
         if native is not None:
             law = TwistCommands(self.commands.linear, self.commands.angular)
-            native.model_table(self._models).command(law)
+            native.command_models(self._models, law)
             self.kernel = law
 
     def update(self, time: float) -> None:  # noqa: ARG002  commands hold for ever
         """Move."""
         twist = self.commands.linear.copy()
         twist[:, :, 2] = self.commands.angular[:, :, 2]
-        tables = self._simulation.tables
-        if tables is not None and len(self._models) > 1:
-            tables.set_ground_motions(self._models, twist)
-            return
-        for part, name in enumerate(self._models):
-            self._simulation.engine.set_ground_motion(name, twist[:, part])
+        self._simulation.engine.models[self._models].set_ground_motion(twist)
 
     def measure(self, plugins: Sequence[PlanarMove]) -> list[Odometry | None]:
         """Return the odometry of those that publish it now."""

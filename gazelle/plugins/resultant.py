@@ -42,8 +42,8 @@ class ResultantForce(Publishing):
     def _measure(self) -> WrenchValue:
         name = self._link.name
         place, motion = self._link.placement(), self._link.motion()
-        change = self._engine.link_acceleration(name)
-        arm = self._engine.link_centre(name) - place.position
+        change = self._engine.links[name].acceleration()
+        arm = self._engine.links[name].centre() - place.position
         swing = cross(motion.angular, cross(motion.angular, arm))
         acceleration = change.linear + cross(change.angular, arm) + swing
         force = self._engine.parameter("link_mass", name) * acceleration

@@ -111,14 +111,14 @@ class ScriptedMotion(ModelPlugin):
     def begin_at(self, elapsed: Floats, worlds: Worlds) -> None:
         """Go on in these worlds as if the script had begun so long ago [s], shape (n,)."""
         self._epoch[worlds] = self.robot.simulation.time - elapsed
-        self.robot.simulation.engine.set_model_placement(
-            self.robot.name, *self._placed(elapsed), worlds
+        self.robot.simulation.engine.models[self.robot.name].set_placement(
+            *self._placed(elapsed), worlds
         )
 
     def move(self, time: float) -> None:
         """Put the model where the script says at a time [s]."""
-        self.robot.simulation.engine.set_model_placement(
-            self.robot.name, *self._placed(time - self._epoch)
+        self.robot.simulation.engine.models[self.robot.name].set_placement(
+            *self._placed(time - self._epoch)
         )
 
     def _placed(self, elapsed: Floats) -> tuple[Floats, Floats]:

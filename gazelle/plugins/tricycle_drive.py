@@ -166,7 +166,7 @@ class TricycleDrive(ModelPlugin):
             self._names,
             np.concatenate([joint.positions()[:, :1] for joint in self.joints], axis=1),
             np.concatenate([joint.velocities()[:, :1] for joint in self.joints], axis=1),
-            np.concatenate([engine.joint_effort(joint.name)[:, :1] for joint in self.joints], 1),
+            np.concatenate([engine.joints[joint.name].effort()[:, :1] for joint in self.joints], 1),
         )
 
     def reset(self, worlds: Worlds | None) -> None:

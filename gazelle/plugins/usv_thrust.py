@@ -177,7 +177,7 @@ class UsvThrust(ModelPlugin):
             ahead = rotate(place.quaternion, _tiled(frame.matrix()[:3, 0], len(self._commands)))
             force = curve.force(self._commands[:, column])[:, None] * ahead
             at = rotate(place.quaternion, _tiled(np.asarray(frame.position), len(force)))
-            lever = place.position + at - self._engine.link_centre(link.name)
+            lever = place.position + at - self._engine.links[link.name].centre()
             self._loads.hold(f"usv_thrust {column}", link.name, force, cross(lever, force))
 
     # -- forgetting and saving -------------------------------------------------------------

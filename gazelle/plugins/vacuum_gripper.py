@@ -97,7 +97,7 @@ class VacuumGripper(ModelPlugin):
                 yield from robot.links.values()
 
     def _hold(self, link: str, force: NDArray[np.float64]) -> None:
-        if link in self._simulation.engine.link_names:
+        if link in self._simulation.engine.links.names:
             name = f"vacuum_gripper {self._link.name}"
             self._simulation.loads.hold(name, link, force, np.zeros_like(force))
 

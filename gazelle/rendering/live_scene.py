@@ -36,7 +36,7 @@ class LiveScene:
         if self._renderer is None or self._models is not world.models:
             self._models = world.models
             self._renderer = Renderer(world, nworld=self._engine.nworld, gamma=self._gamma)
-            known = set(self._engine.link_names)
+            known = set(self._engine.links.names)
             self._links = tuple(link for link in self._renderer.links if link in known)
         self._renderer.shadows = self.shadows
         return self._renderer
@@ -52,7 +52,7 @@ class LiveScene:
     ) -> Frames:
         """Draw what one camera in each of some worlds sees now; see ``Renderer.render``."""
         renderer = self.renderer
-        place = self._engine.link_placements(self._links, worlds)
+        place = self._engine.links[self._links].placement(worlds)
         renderer.place_all(self._links, place.position, place.quaternion, worlds)
         chosen = np.arange(self._engine.nworld) if worlds is None else worlds
         return renderer.render(lens, positions, quaternions, chosen, want=want)

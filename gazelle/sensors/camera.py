@@ -122,7 +122,7 @@ class CameraModel:
     def _look(
         self, number: int, optics: Optics, worlds: Worlds | None, *, depth: bool
     ) -> tuple[Bytes, Floats32]:
-        place, pose = self._engine.link_placement(self.link, worlds), self.poses[number]
+        place, pose = self._engine.links[self.link].placement(worlds), self.poses[number]
         at = place.position + rotate(place.quaternion, np.asarray(pose.position))
         turned = multiply(place.quaternion, np.asarray(pose.quaternion))
         return optics.look(self._scene, at, turned, worlds, depth=depth)

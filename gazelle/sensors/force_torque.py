@@ -115,7 +115,7 @@ class ForceTorqueModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        wrench = self._engine.joint_wrench(self._joint, worlds)
+        wrench = self._engine.joints[self._joint].wrench(worlds)
         force, torque = wrench.force, wrench.torque
         axes = self._axes(worlds)
         if axes is not None:
@@ -132,8 +132,8 @@ class ForceTorqueModel(NoisySensor):
         if self.settings.frame == "parent":
             if parent == "world":
                 return None
-            return self._engine.link_placement(parent, worlds).quaternion
-        carried = self._engine.link_placement(child, worlds).quaternion
+            return self._engine.links[parent].placement(worlds).quaternion
+        carried = self._engine.links[child].placement(worlds).quaternion
         return multiply(carried, self._turn) if self.settings.frame == "sensor" else carried
 
     def reading(self, values: Floats, stamp: int) -> WrenchReading:

@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Imu, Pose
-from gazelle.engines import Engine, Motion, Placement, TableEngine, as_table_engine
+from gazelle.engines import Engine, Motion, Placement
 from gazelle.rotations import conjugate, cross, multiply, rotate
 from gazelle.sensors.model import FromPython, NoisySensor
 from gazelle.sensors.noise import JoinedNoise
@@ -76,17 +76,15 @@ class ImuModel(NoisySensor):
         """
         orientation, felt = _felt(
             self._mount,
-            self._engine.link_placement(self._link, worlds),
-            self._engine.link_motion(self._link, worlds),
-            self._engine.link_acceleration(self._link, worlds),
+            self._engine.links[self._link].placement(worlds),
+            self._engine.links[self._link].motion(worlds),
+            self._engine.links[self._link].acceleration(worlds),
             self._engine.parameter("gravity", "", worlds),
         )
         return np.concatenate((orientation, self.noisy(felt, interval, worlds)), axis=1)
 
     def kind(self) -> Hashable | None:
-        """Equal for those whose files say the same of their noise, where the engine can."""
-        if not isinstance(self._engine, TableEngine):
-            return None
+        """Equal for those whose files say the same of their noise."""
         return tuple(noise.description for noise in self.noises)
 
     @classmethod
@@ -119,13 +117,10 @@ class ImuGroup(FromPython):
 
     Args:
         models: Of one kind.
-
-    Raises:
-        TypeError: Their engine looks at one link at a time.
     """
 
     def __init__(self, models: Sequence[ImuModel]) -> None:
-        self._engine = as_table_engine(models[0].engine)
+        self._engine = models[0].engine
         self._models = list(models)
         self._links = tuple(each.link for each in models)
         self._mount = (
@@ -144,9 +139,9 @@ class ImuGroup(FromPython):
         engine, links = self._engine, self._links
         orientation, felt = _felt(
             self._mount,
-            engine.link_placements(links),
-            engine.link_motions(links),
-            engine.link_accelerations(links),
+            engine.links[links].placement(),
+            engine.links[links].motion(),
+            engine.links[links].acceleration(),
             engine.parameter("gravity", "")[:, None, :],
         )
         columns = [

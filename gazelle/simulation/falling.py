@@ -46,7 +46,7 @@ class FallWatch:
         ]
         if not models:
             return
-        places = self._engine.link_placements([_first_link(model) for model in models])
+        places = self._engine.links[tuple(_first_link(model) for model in models)].placement()
         starts = np.array([(model.pose * model.links[0].pose).z for model in models])
         heights = places.position[:, :, 2]
         worlds = heights.argmin(axis=0)
@@ -69,7 +69,7 @@ class FallWatch:
     def _has_ground(self, model: Model, world: int) -> bool:
         """Return whether there is something below a model or beside that."""
         name, worlds = _first_link(model), np.array([world])
-        back = conjugate(self._engine.link_placement(name, worlds).quaternion[0])
+        back = conjugate(self._engine.links[name].placement(worlds).quaternion[0])
         ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
         origins = np.vstack([radius * ring for radius in _RINGS])
         down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)

@@ -16,7 +16,7 @@ from gazelle.simulation.requests import between_steps
 class JointArray:
     """First axes of some joints of one simulation, a column each; for plugins of many robots.
 
-    It gives what each joint's handle would, to the bit, in one call where the engine can.
+    Values are those of the joints' handles, to the bit, read and set in one call.
 
     Args:
         joints: At least one; none is a ball or floating joint.
@@ -28,26 +28,20 @@ class JointArray:
     def __init__(self, joints: Sequence[JointHandle]) -> None:
         if not joints:
             raise SimulationError("a group of joints needs at least one")
-        self._joints = tuple(joints)
-        self._names = tuple(joint.name for joint in joints)
         self._simulation = joints[0].simulation
+        self._shape = self._simulation.nworld, len(joints)
+        self._rows = self._simulation.engine.joints[tuple(joint.name for joint in joints)]
         self._requests = self._simulation.requests
 
     @between_steps
     def positions(self) -> Floats:
-        """[m or rad], shape (nworld, joints)."""
-        engine = self._simulation.tables
-        if engine is not None:
-            return engine.joint_positions(self._names)
-        return np.concatenate([joint.positions()[:, :1] for joint in self._joints], axis=1)
+        """Return positions [m or rad], shape (nworld, joints)."""
+        return self._rows.position()
 
     @between_steps
     def velocities(self) -> Floats:
-        """[m/s or rad/s], shape (nworld, joints)."""
-        engine = self._simulation.tables
-        if engine is not None:
-            return engine.joint_velocities(self._names)
-        return np.concatenate([joint.velocities()[:, :1] for joint in self._joints], axis=1)
+        """Return velocities [m/s or rad/s], shape (nworld, joints)."""
+        return self._rows.velocity()
 
     @between_steps
     def place(self, position: ArrayLike, velocity: ArrayLike, chosen: Bools) -> None:
@@ -58,15 +52,8 @@ class JointArray:
             velocity: [m/s or rad/s], likewise.
             chosen: Which joints, shape (joints,).
         """
-        shape = (self._simulation.nworld, len(self._joints))
-        where, speed = np.broadcast_to(position, shape), np.broadcast_to(velocity, shape)
-        engine = self._simulation.tables
-        if engine is not None:
-            engine.place_joints(self._names, where, speed, np.broadcast_to(chosen, shape))
-            return
-        for column in np.flatnonzero(chosen):
-            joint = self._joints[column]
-            joint.position, joint.velocity = where[:, column], speed[:, column]
+        where, speed = (np.broadcast_to(each, self._shape) for each in (position, velocity))
+        self._rows.place(where, speed, np.broadcast_to(chosen, self._shape))
 
     @between_steps
     def drive(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
@@ -79,20 +66,11 @@ class JointArray:
         Raises:
             SimulationError: The velocities are of another shape, or one is no number.
         """
-        shape = (self._simulation.nworld, len(self._joints))
         try:
-            wanted = np.asarray(velocity, np.float64)
-            if wanted.shape != shape:
-                wanted = np.broadcast_to(wanted, shape)
+            wanted = np.broadcast_to(np.asarray(velocity, np.float64), self._shape)
         except (TypeError, ValueError) as error:
             raise SimulationError(
-                f"the velocities of {shape[1]} motors cannot be {velocity!r}: {error}",
-                hint=f"give a row of {shape[1]} for each of {shape[0]} worlds",
+                f"the velocities of {self._shape[1]} motors cannot be {velocity!r}: {error}",
+                hint=f"give a row of {self._shape[1]} for each of {self._shape[0]} worlds",
             ) from None
-        engine = self._simulation.tables
-        if engine is not None:
-            engine.drive_joints(self._names, wanted, chosen)
-            return
-        for column, joint in enumerate(self._joints):
-            if chosen is None or chosen[column]:
-                joint.drive(wanted[:, column])
+        self._rows.set_motor_velocity(wanted, chosen)

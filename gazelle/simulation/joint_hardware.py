@@ -206,10 +206,8 @@ class JointHardware(SimulatedHardware):
         if carrier is not None:
             carrier.read_joints(self.cycle)
         else:
-            engine = self.robot.simulation.engine
-            for column, name in enumerate(self._names):
-                self.cycle.position_in[:, column] = engine.joint_position(name)[:, 0]
-                self.cycle.velocity_in[:, column] = engine.joint_velocity(name)[:, 0]
+            rows = self.robot.simulation.engine.joints[tuple(self._names)]
+            self.cycle.position_in[:], self.cycle.velocity_in[:] = rows.position(), rows.velocity()
 
     def _carrier(self) -> CarryingEngine | None:
         """The engine, if it is to be told of all joints at once."""
@@ -292,15 +290,8 @@ class JointHardware(SimulatedHardware):
             speed[np.abs(speed) > _JUMP] = 0.0
         self._placed[:, put] = np.where(good, wanted, before)
         self._memory.placed_speed[:, put] = speed
-        begin, carrier = wanted - speed * period, self._carrier()
-        if carrier is not None:
-            carrier.place_joints(self._put_names, begin, speed, good)
-            return
-        engine = self.robot.simulation.engine
-        for column, name in enumerate(self._put_names):
-            rows = np.flatnonzero(good[:, column])
-            engine.set_joint_position(name, begin[rows, column, None], rows)
-            engine.set_joint_velocity(name, speed[rows, column, None], rows)
+        rows = self.robot.simulation.engine.joints[self._put_names]
+        rows.place(wanted - speed * period, speed, good)
 
     # -- beginning anew ----------------------------------------------------------------
 

@@ -22,6 +22,7 @@ class JointHandle:
         self._simulation = simulation
         self._requests = simulation.requests
         self._engine = simulation.engine
+        self._row = simulation.engine.joints[name]
 
     @property
     def simulation(self) -> RunningState:
@@ -36,27 +37,27 @@ class JointHandle:
         Setting it teleports the joint, to its limits at most, as in Gazebo. It takes a number
         an axis, of a ball joint a quaternion (x, y, z, w).
         """
-        return float(self._engine.joint_position(self.name, np.array([0]))[0, 0])
+        return float(self._row.position(np.array([0]))[0, 0])
 
     @position.setter
     @between_steps
     def position(self, value: ArrayLike) -> None:
         width = self.positions(np.array([0])).shape[1]
         what = f"the position of joint '{self.name}'"
-        self._engine.set_joint_position(self.name, finite(what, value, width, self._engine.nworld))
+        self._row.set_position(finite(what, value, width, self._engine.nworld))
 
     @property
     @between_steps
     def velocity(self) -> float:
         """Velocity of the first axis [m/s or rad/s]; setting it changes the state at once."""
-        return float(self._engine.joint_velocity(self.name, np.array([0]))[0, 0])
+        return float(self._row.velocity(np.array([0]))[0, 0])
 
     @velocity.setter
     @between_steps
     def velocity(self, value: ArrayLike) -> None:
         what, nworld = f"the velocity of joint '{self.name}'", self._engine.nworld
         given = finite(what, value, self.axes, nworld, alike=True)
-        self._engine.set_joint_velocity(self.name, given)
+        self._row.set_velocity(given)
 
     @property
     @between_steps
@@ -73,7 +74,7 @@ class JointHandle:
     @between_steps
     def axes(self) -> int:
         """How many ways the joint can move: numbers of a velocity or an effort."""
-        return int(self._engine.joint_velocity(self.name, np.array([0])).shape[1])
+        return int(self._row.velocity(np.array([0])).shape[1])
 
     @between_steps
     def apply_effort(
@@ -115,12 +116,12 @@ class JointHandle:
     @between_steps
     def positions(self, worlds: Worlds | None = None) -> Floats:
         """Positions of all axes, shape (n, axes); of ball joints quaternions, shape (n, 4)."""
-        return self._engine.joint_position(self.name, self._some(worlds))
+        return self._row.position(self._some(worlds))
 
     @between_steps
     def velocities(self, worlds: Worlds | None = None) -> Floats:
         """Velocities of all axes, shape (n, axes)."""
-        return self._engine.joint_velocity(self.name, self._some(worlds))
+        return self._row.velocity(self._some(worlds))
 
     @between_steps
     def set_position(self, position: ArrayLike, worlds: Worlds | None = None) -> None:
@@ -128,7 +129,7 @@ class JointHandle:
         width, some = self.positions(np.array([0])).shape[1], self._some(worlds)
         count = size_of(some, self._engine.nworld)
         what = f"the position of joint '{self.name}'"
-        self._engine.set_joint_position(self.name, finite(what, position, width, count), some)
+        self._row.set_position(finite(what, position, width, count), some)
 
     @between_steps
     def set_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
@@ -136,12 +137,12 @@ class JointHandle:
         some = self._some(worlds)
         what, count = f"the velocity of joint '{self.name}'", size_of(some, self._engine.nworld)
         given = finite(what, velocity, self.axes, count, alike=True)
-        self._engine.set_joint_velocity(self.name, given, some)
+        self._row.set_velocity(given, some)
 
     @between_steps
     def wrench(self, worlds: Worlds | None = None) -> Wrench:
         """What the child exerts on the parent, about the joint's origin, in the world frame."""
-        return self._engine.joint_wrench(self.name, self._some(worlds))
+        return self._row.wrench(self._some(worlds))
 
     @between_steps
     def add_motor(self, max_effort: ArrayLike) -> None:
@@ -176,7 +177,7 @@ class JointHandle:
         """Set what the motor holds [m/s or rad/s]: () or (n,), of several axes (n, axes)."""
         some = self._some(worlds)
         try:
-            self._engine.set_motor_velocity(self.name, velocity, some)
+            self._row.set_motor_velocity(velocity, some)
         except (TypeError, ValueError) as error:
             raise SimulationError(
                 f"the velocity of the motor on '{self.name}' cannot be {velocity!r}: {error}",

@@ -31,23 +31,24 @@ class LinkHandle:
         self._simulation = simulation
         self._requests = simulation.requests
         self._engine = simulation.engine
+        self._row = simulation.engine.links[name]
 
     @property
     @between_steps
     def pose(self) -> Pose:
         """Its pose in world 0."""
-        place = self._engine.link_placement(self.name, np.array([0]))
+        place = self._row.placement(np.array([0]))
         return Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
 
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Its pose in many worlds."""
-        return self._engine.link_placement(self.name, chosen(worlds, self._engine.nworld))
+        return self._row.placement(chosen(worlds, self._engine.nworld))
 
     @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:
         """Its velocity in many worlds, in the world frame."""
-        return self._engine.link_motion(self.name, chosen(worlds, self._engine.nworld))
+        return self._row.motion(chosen(worlds, self._engine.nworld))
 
     @between_steps
     def set_pose(
@@ -82,8 +83,8 @@ class LinkHandle:
         """Put the link somewhere like ``set_pose``; returns what its joint keeps it from."""
         some = chosen(worlds, self._engine.nworld)
         goal = placement(self.name, position, quaternion, size_of(some, self._engine.nworld))
-        joint = self._engine.set_link_placement(self.name, *goal, some)
-        apart = _apart(self._engine.link_placement(self.name, some), *goal) if joint else ""
+        joint = self._row.set_placement(*goal, some)
+        apart = _apart(self._row.placement(some), *goal) if joint else ""
         if apart:
             text = f"link '{self.name}' takes only the part of a pose that joint '{joint}' allows"
             warnings.warn(SimulationWarning(text), stacklevel=3)
@@ -104,7 +105,7 @@ class LinkHandle:
         """
         some = chosen(worlds, self._engine.nworld)
         twist = motion(self.name, linear, angular, size_of(some, self._engine.nworld))
-        self._engine.set_link_motion(self.name, *twist, some)
+        self._row.set_motion(*twist, some)
 
     @between_steps
     def apply_wrench(

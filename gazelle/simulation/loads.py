@@ -54,12 +54,12 @@ class TimedWrench:
             return self.held
         force, torque, point = self.force, self.torque, self.point
         if self.frame:
-            place = engine.link_placement(self.frame)
+            place = engine.links[self.frame].placement()
             force, torque = rotate(place.quaternion, force), rotate(place.quaternion, torque)
             if point is not None:
                 point = place.position + rotate(place.quaternion, point)
         if point is not None:
-            torque = torque + cross(point - engine.link_centre(self.target), force)
+            torque = torque + cross(point - engine.links[self.target].centre(), force)
         self.held = (force, torque)
         return self.held
 
@@ -118,7 +118,7 @@ class Loads:
         # What cannot be pushed is an error now, not when it begins.
         self._push_links([link], self._clock.now_ns)
         if frame:
-            self._engine.link_placement(frame)
+            self._engine.links[frame].placement()
         start_ns, end_ns = self._span(start, duration)
         self._wrenches.append(
             TimedWrench(
@@ -155,7 +155,7 @@ class Loads:
         worlds: Worlds | None = None,
     ) -> None:
         """Let an effort act on a joint for a time; see ``JointHandle.apply_effort``."""
-        lasting = self._engine.joint_effort(joint)
+        lasting = self._engine.joints[joint].effort()
         known = self._joints.setdefault(joint, _Joint(lasting))
         start_ns, end_ns = self._span(start, duration)
         rows = self._rows(effort, lasting.shape[1], worlds)
@@ -175,7 +175,7 @@ class Loads:
         """Set the effort that acts on a joint besides the timed ones."""
         known = self._joints.get(joint)
         if known is None:
-            self._engine.set_joint_effort(joint, effort, worlds)
+            self._engine.joints[joint].set_effort(effort, worlds)
         else:
             known.lasting[slice(None) if worlds is None else worlds] = effort
             self._turn_joint(joint, known)
@@ -246,12 +246,12 @@ class Loads:
                     held = wrench.resolve(self._engine)
                     force += held[0]
                     torque += held[1]
-            self._engine.set_link_wrench(link, force, torque)
+            self._engine.links[link].set_wrench(force, torque)
 
     def _turn_joint(self, name: str, joint: _Joint) -> None:
         now_ns = self._clock.now_ns
         acting = [e.effort for e in joint.efforts if e.start_ns <= now_ns < _end(e)]
-        self._engine.set_joint_effort(name, sum(acting, joint.lasting))
+        self._engine.joints[name].set_effort(sum(acting, joint.lasting))
 
     def _schedule(self, after: int | None = None) -> None:
         """Find the next beginning or end."""
@@ -274,7 +274,7 @@ class Loads:
     def clear_joint(self, joint: str) -> None:
         """End all efforts on a joint, the lasting one too."""
         self._joints.pop(joint, None)
-        self._engine.set_joint_effort(joint, np.zeros_like(self._engine.joint_effort(joint)))
+        self._engine.joints[joint].set_effort(np.zeros_like(self._engine.joints[joint].effort()))
         self._schedule()
 
     def forget(self, model: str) -> None:

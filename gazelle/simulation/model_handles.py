@@ -21,7 +21,7 @@ def link_handles(simulation: RunningState, model: Model) -> dict[str, LinkHandle
 
 def joint_handles(simulation: RunningState, model: Model) -> dict[str, JointHandle]:
     """The joints of a model that move, by name within it."""
-    moving = set(simulation.engine.joint_names)
+    moving = set(simulation.engine.joints.names)
     return {
         name_within(placed.scope, model.name, joint.name): JointHandle(
             simulation, f"{placed.scope}::{joint.name}"

@@ -147,8 +147,8 @@ class InitialPoses:
         """Put the models there; part of a reset."""
         rows = slice(None) if worlds is None else worlds
         for name, poses in self._poses.items():
-            self._simulation.engine.set_model_placement(
-                name, poses[rows, :3], poses[rows, 3:], worlds
+            self._simulation.engine.models[name].set_placement(
+                poses[rows, :3], poses[rows, 3:], worlds
             )
 
     @between_steps

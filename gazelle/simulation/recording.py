@@ -1,8 +1,8 @@
 """Write down a run: what was done to the engine, and a hash of the state after every step.
 
 A recording is text, one JSON object a line, and holds no code. The first line says what ran
-and its state; every other line is one change, in order. A line cut off by a crash is left out
-on reading.
+and its state; every other line is one change, in order: a call of the engine, or entries of its state
+that were written since the call before. A line cut off by a crash is left out on reading.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.closing import Closeable
-from gazelle.engines import Call, DivergenceError, Engine, changes_of
+from gazelle.engines import CHANGES, Call, DivergenceError, Engine
 from gazelle.errors import Error
 from gazelle.simulation.encoding import encode
 from gazelle.simulation.running_state import RunningState
@@ -39,7 +39,7 @@ class RecordedRun(RunningState, Protocol):
 
 
 FORMAT = "gazelle-recording"
-VERSION = 1
+VERSION = 2
 
 
 def state_hash(state: NDArray[np.float64]) -> str:
@@ -66,7 +66,8 @@ def header(
 class Recorder(Closeable):
     """Writes down a run until it is closed; a context manager.
 
-    It listens to the methods of the engine that change something, whoever calls them.
+    It listens to the methods of the engine that change something, whoever calls them, and compares the
+    state before each with that after the call before.
 
     Args:
         simulation: What runs.
@@ -88,20 +89,22 @@ class Recorder(Closeable):
         self._native, simulation.native = simulation.native, None
         self._carrier, simulation.carrier = simulation.carrier, None
         own = vars(self._engine)  # some engines keep methods of their parts there
-        self._methods = {name: own[name] for name in changes_of(self._engine) if name in own}
-        for name in changes_of(self._engine):
+        self._methods = {name: own[name] for name in CHANGES if name in own}
+        self._seen = self._engine.peek().copy()
+        for name in CHANGES:
             setattr(self._engine, name, partial(self._called, name, getattr(self._engine, name)))
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
         with self._simulation.requests:
             if not self._file.closed:
-                for name in changes_of(self._engine):
+                for name in CHANGES:
                     delattr(self._engine, name)
                     if name in self._methods:
                         setattr(self._engine, name, self._methods[name])
                 self._simulation.native = self._native
                 self._simulation.carrier = self._carrier
+                self._note_writes()
                 self._flush()
                 self._file.close()
 
@@ -112,6 +115,7 @@ class Recorder(Closeable):
         line: dict[str, Any] = {"call": name, "arguments": encode(args)}
         if options:
             line["options"] = encode(options)
+        self._note_writes()
         self._depth += 1
         try:
             result = method(*args, **options)
@@ -126,15 +130,28 @@ class Recorder(Closeable):
         self._note(name, line, args)
         return result
 
+    def _note_writes(self) -> None:
+        """Write down which entries of the state were set since the last call."""
+        state = self._engine.peek()
+        changed = np.flatnonzero(state.view(np.int64) != self._seen.view(np.int64))
+        if not len(changed):
+            return
+        self._flush()
+        values = state.reshape(-1)[changed]
+        arguments = encode((changed.astype(np.int64), values))
+        time_ns = self._simulation.clock.now_ns
+        self._write({"call": "write_state", "arguments": arguments, "time": time_ns})
+
     def _note(self, name: str, line: dict[str, Any], args: tuple[Any, ...]) -> None:
         line["time"] = self._simulation.clock.now_ns
+        self._seen = self._engine.peek().copy()
         if name != "step":
             self._flush()
             self._write(line)
             return
         count = args[0] if args else 1
         line["time"] += count * self._simulation.clock.step_ns
-        line["hash"] = state_hash(self._engine.peek())
+        line["hash"] = state_hash(self._seen)
         # Steps that were cut only to look who waits are one run of steps.
         if not (self._pending and self._simulation.loop.cut):
             self._flush()

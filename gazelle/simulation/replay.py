@@ -9,7 +9,7 @@ from typing import Any
 
 from gazelle.closing import Closeable
 from gazelle.description import Link, Model, World
-from gazelle.engines import DivergenceError, changes_of
+from gazelle.engines import CHANGES, DivergenceError
 from gazelle.errors import EngineError, SimulationError
 from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
@@ -34,7 +34,7 @@ class Replay(Closeable):
         simulation: What runs.
 
     Raises:
-        SimulationError: The file is no recording, a damaged one, or one of a later version.
+        SimulationError: The file is no recording, a damaged one, or one of another version.
     """
 
     def __init__(self, path: str | Path, *, threads: int | None = None) -> None:
@@ -44,9 +44,9 @@ class Replay(Closeable):
         version = first.get("version")
         if first.get("format") != FORMAT or not isinstance(version, int):
             raise SimulationError("this is no recording of a run", file=str(path))
-        if version > VERSION:
+        if version != VERSION:
             raise SimulationError(
-                f"this recording has version {version}, known are up to {VERSION}",
+                f"this recording has version {version}, this Gazelle reads version {VERSION}",
                 file=str(path),
                 hint="read it with the Gazelle that wrote it",
             )
@@ -120,7 +120,7 @@ class Replay(Closeable):
             simulation.spawn(_bare(arguments[0]))
         elif name == "delete":
             simulation.delete(arguments[0])
-        elif name not in changes_of(engine):
+        elif name not in CHANGES:
             raise ValueError(f"there is no change '{name}'")
         else:
             options = decode(event["options"]) if "options" in event else {}

@@ -149,6 +149,7 @@ class Robot(Ports):
         self.name = model.name
         self.description = model
         self.managers: dict[str, ControllerManager] = {}
+        self._row = simulation.engine.models[model.name]
         self._links = link_handles(simulation, model)
         own = f"in '{self.name}'"
         self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links, self.name)
@@ -230,12 +231,12 @@ class Robot(Ports):
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Pose of the model frame in many worlds."""
-        return self.simulation.engine.model_placement(self.name, self._some(worlds))
+        return self._row.placement(self._some(worlds))
 
     @between_steps
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """x, y [m] and heading [rad] of the model frame in many worlds, shape (n, 3)."""
-        return self.simulation.engine.planar_pose(self.name, self._some(worlds))
+        return self._row.planar_pose(self._some(worlds))
 
     @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:
@@ -270,8 +271,8 @@ class Robot(Ports):
         some, turned = chosen(worlds, engine.nworld), orientation_of(quaternion, yaw)
         place = placement(self.name, position, turned, size_of(some, engine.nworld))
 
-        engine.set_model_placement(self.name, *place, some)
-        engine.set_model_motion(self.name, np.zeros(3), np.zeros(3), some)
+        self._row.set_placement(*place, some)
+        self._row.set_motion(np.zeros(3), np.zeros(3), some)
 
     @between_steps
     def set_twist(
@@ -288,7 +289,7 @@ class Robot(Ports):
         some = chosen(worlds, engine.nworld)
         twist = motion(self.name, linear, angular, size_of(some, engine.nworld))
         if self._links:
-            engine.set_model_motion(self.name, *twist, some)
+            self._row.set_motion(*twist, some)
 
     @between_steps
     def set_configuration(
@@ -321,8 +322,8 @@ class Robot(Ports):
         values = finite(what, positions, len(joints), size_of(some, engine.nworld))
 
         for column, handle in enumerate(handles):
-            engine.set_joint_position(handle.name, values[..., column, None], some)
-            engine.set_joint_velocity(handle.name, np.zeros(1), some)
+            engine.joints[handle.name].set_position(values[..., column, None], some)
+            engine.joints[handle.name].set_velocity(np.zeros(1), some)
 
     @between_steps
     def wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
@@ -337,7 +338,7 @@ class Robot(Ports):
             EngineError: The model does not move.
         """
         self.joint_description(joint)
-        return self.simulation.engine.joint_wrench(f"{self.name}::{joint}", self._some(worlds))
+        return self.simulation.engine.joints[f"{self.name}::{joint}"].wrench(self._some(worlds))
 
     def _some(self, worlds: Worlds | None) -> Worlds | None:
         return chosen(worlds, self.simulation.nworld)

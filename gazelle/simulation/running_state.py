@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from gazelle.description import World
-from gazelle.engines import CarryingEngine, Engine, SystemEngine, TableEngine
+from gazelle.engines import CarryingEngine, Engine, SystemEngine
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.requests import RequestQueue
@@ -23,7 +23,6 @@ class RunningState(Protocol):
         engine_name: As it was asked for.
         native: The engine, if it updates systems between its steps; else None.
         carrier: The engine, if it takes controllers of joints into its steps; else None.
-        tables: The engine, if it looks at many links and joints at once; else None.
     """
 
     requests: RequestQueue
@@ -32,7 +31,6 @@ class RunningState(Protocol):
     engine_name: str
     native: SystemEngine | None
     carrier: CarryingEngine | None
-    tables: TableEngine | None
 
     @property
     def nworld(self) -> int:

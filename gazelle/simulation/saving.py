@@ -171,7 +171,7 @@ def _parts(simulation: RobotHost) -> Mapping[str, Any]:
 
 
 def _names(simulation: RobotHost) -> list[str]:
-    return [*simulation.engine.link_names, *sorted(_parts(simulation))]
+    return [*simulation.engine.links.names, *sorted(_parts(simulation))]
 
 
 def _laws_of(world: World) -> World:

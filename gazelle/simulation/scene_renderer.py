@@ -31,8 +31,8 @@ class SceneRenderer:
         engine = simulation.engine
         if self._tracer is None or self._models is not engine.world.models:
             self._models, self._tracer = engine.world.models, make_tracer(engine.world)
-        names = engine.link_names
-        found = engine.link_placements(names, np.array([world]))
+        names = engine.links.names
+        found = engine.links[names].placement(np.array([world]))
         self._tracer.place(
             {
                 name: Pose.from_quaternion(tuple(place), tuple(turned))

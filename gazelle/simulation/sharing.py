@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import partial, update_wrapper
 from typing import Any, TypeVar, cast
 
+from gazelle.engines.table import Table
 from gazelle.simulation.requests import RequestQueue
 
 T = TypeVar("T")
@@ -30,6 +31,8 @@ class _SharedObject:
     def __getattr__(self, name: str) -> Any:
         call, target = self._requests.call, self._target
         value = call(lambda: getattr(target, name))
+        if isinstance(value, Table):
+            return shared(value, self._requests)
         if not callable(value):
             return value
 
@@ -37,6 +40,9 @@ class _SharedObject:
             return call(partial(value, *args, **options))
 
         return cast("Callable[..., Any]", update_wrapper(asked, value))
+
+    def __getitem__(self, key: Any) -> Any:
+        return shared(self._requests.call(lambda: self._target[key]), self._requests)
 
     def __setattr__(self, name: str, value: Any) -> None:
         self._requests.call(lambda: setattr(self._target, name, value))

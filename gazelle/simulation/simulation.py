@@ -20,7 +20,6 @@ from gazelle.engines import (
     Engine,
     LateEngine,
     SystemEngine,
-    TableEngine,
     as_carrying_engine,
     make_engine,
 )
@@ -81,7 +80,7 @@ class Simulation(Closeable):
         parameters: Masses, friction and the like, which each world can have of its own.
         ports: Of the plugins of the world; those of models are on their ``Robot``.
         native: The engine, if it updates systems between its steps; else None.
-        carrier, tables: Likewise, if it takes controllers into its steps, and sees many joints at once.
+        carrier: Likewise, if it takes controllers into its steps.
         events: Tell who must follow what is spawned, deleted and reset.
         requests: What threads ask for; hold it with ``with`` to do several things at one moment.
         entities, loop: Make and end models, and make the steps; for the thread that owns the state.
@@ -115,7 +114,6 @@ class Simulation(Closeable):
         moved: object = self._engine
         self.native: SystemEngine | None = moved if isinstance(moved, SystemEngine) else None
         self.carrier: CarryingEngine | None = as_carrying_engine(self._engine)
-        self.tables: TableEngine | None = moved if isinstance(moved, TableEngine) else None
         self.seed, self.clock, self.paused = seed_of(seed), Clock(self._engine.time_step), False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
         self._loads = Loads(self._engine, self.clock)

@@ -104,7 +104,7 @@ class SceneCamera:
         if first is None:
             return ways[0]
         target = robot.placement(self._world).position[0] + middle
-        place = engine.link_placement(first.name, self._world)
+        place = engine.links[first.name].placement(self._world)
         back = conjugate(place.quaternion[0])
         eyes = target + np.array(ways)
         lengths = np.linalg.norm(ways, axis=1)

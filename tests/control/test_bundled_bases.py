@@ -49,7 +49,7 @@ def odometry(robot):
 def compare(sim, robot, start):
     """Odometry and truth agree as in the suites of ros_controllers: 0.01 m, 0.03 rad."""
     (x, y, heading), *_ = odometry(robot)
-    true_x, true_y, true_heading = sim.engine.planar_pose(robot.name)[0] - start
+    true_x, true_y, true_heading = sim.engine.models[robot.name].planar_pose()[0] - start
     assert (x, y) == pytest.approx((true_x, true_y), abs=0.01)
     assert math.remainder(heading - true_heading, math.tau) == pytest.approx(0.0, abs=0.03)
 
@@ -58,7 +58,7 @@ def compare(sim, robot, start):
 @pytest.mark.parametrize(("forward", "turning"), [(0.5, 0.0), (0.4, 0.8), (0.0, 1.0), (-0.3, -0.5)])
 def test_courier_goes_as_it_is_told_and_knows_where_it_is(forward, turning):
     sim, robot = courier()
-    start = sim.engine.planar_pose(robot.name)[0]
+    start = sim.engine.models[robot.name].planar_pose()[0]
     drive(sim, robot, 3.0, forward, turning)
     _, ahead, around = odometry(robot)
     assert ahead == pytest.approx(forward, abs=0.02)
@@ -71,12 +71,12 @@ def test_courier_goes_as_it_is_told_and_knows_where_it_is(forward, turning):
 @pytest.mark.parametrize(("forward", "angle"), [(1.0, 0.0), (0.6, 0.3), (0.5, -0.5), (-0.4, 0.4)])
 def test_the_ackermann_base_rounds_a_circle_of_its_steering_angle(forward, angle):
     sim, robot = base("ackermann_base")
-    start = sim.engine.planar_pose(robot.name)[0]
+    start = sim.engine.models[robot.name].planar_pose()[0]
     drive(sim, robot, 2.0, forward, angle)
     assert robot.joints["front_steer_joint"].position == pytest.approx(angle, abs=1e-3)
-    before = sim.engine.planar_pose(robot.name)[0]
+    before = sim.engine.models[robot.name].planar_pose()[0]
     drive(sim, robot, 1.0, forward, angle)
-    moved = sim.engine.planar_pose(robot.name)[0] - before
+    moved = sim.engine.models[robot.name].planar_pose()[0] - before
     # Half a metre from axle to axle; the middle of the rear axle keeps its distance to the centre.
     turned = forward * math.tan(angle) / 0.5
     assert math.remainder(moved[2] - turned, math.tau) == pytest.approx(0.0, abs=0.03)
@@ -92,6 +92,6 @@ def test_a_base_that_is_told_nothing_more_stands_still(make):
     sim, robot = make(nworld=2)
     drive(sim, robot, 1.0, 0.4, 0.2)
     sim.run(1.5)
-    before = sim.engine.planar_pose(robot.name)
+    before = sim.engine.models[robot.name].planar_pose()
     sim.run(1.0)
-    assert sim.engine.planar_pose(robot.name) == pytest.approx(before, abs=2e-3)
+    assert sim.engine.models[robot.name].planar_pose() == pytest.approx(before, abs=2e-3)

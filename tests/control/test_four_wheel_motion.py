@@ -68,11 +68,11 @@ def rover():
 def circle(sim, robot, seconds):
     """Radius [m] and turning rate [rad/s] while it drives: by the chord, and the angle, of a path."""
     sim.run(0.8)
-    x, y, heading = sim.engine.planar_pose(robot.name)[0]
+    x, y, heading = sim.engine.models[robot.name].planar_pose()[0]
     turned, before = 0.0, heading
     for _ in range(round(seconds / 0.1)):
         sim.run(0.1)
-        now = sim.engine.planar_pose(robot.name)[0]
+        now = sim.engine.models[robot.name].planar_pose()[0]
         turned, before = turned + math.remainder(now[2] - before, math.tau), now[2]
     chord = math.hypot(now[0] - x, now[1] - y)
     return chord / (2.0 * abs(math.sin(0.5 * turned))), turned / seconds

@@ -47,7 +47,7 @@ def test_no_physics_step_is_stronger_than_limits_allow(pid, targets, within):
         robot.controllers["arm"].inputs["command"].send(JointTargets(target), [1])
         for _ in range(12):
             sim.step()
-            acting = [sim.engine.joint_effort(robot.joints[name].name) for name in JOINTS]
+            acting = [sim.engine.joints[robot.joints[name].name].effort() for name in JOINTS]
             assert (np.abs(np.concatenate(acting, axis=1)) <= STRENGTH).all()
 
 
@@ -101,7 +101,7 @@ def test_a_base_on_the_ground_is_where_its_odometry_says(forward, turning):
         "angular": {"z": {"has_acceleration_limits": True, "max_acceleration": 2.0}},
     }
     sim, robot = driving(**limits)
-    start = sim.engine.planar_pose(robot.name)[0]
+    start = sim.engine.models[robot.name].planar_pose()[0]
     port = robot.controllers["base"].inputs["cmd_vel"]
     port.send(BaseTwist((forward, 0.0, 0.0), (0.0, 0.0, turning)))
     sim.run(2.0)
@@ -111,7 +111,7 @@ def test_a_base_on_the_ground_is_where_its_odometry_says(forward, turning):
     port.send(BaseTwist((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     sim.run(1.0)
     said = robot.controllers["base"].outputs["odom"].last
-    x, y, heading = sim.engine.planar_pose(robot.name)[0] - start
+    x, y, heading = sim.engine.models[robot.name].planar_pose()[0] - start
     assert said.position[0, :2] == pytest.approx([x, y], abs=0.01)
     qz, qw = said.quaternion[0, 2:]
     assert math.remainder(2.0 * math.atan2(qz, qw) - heading, math.tau) == pytest.approx(

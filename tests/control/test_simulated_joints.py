@@ -30,7 +30,7 @@ def group(robot, kind, name="group"):
 
 def efforts(robot):
     engine = robot.simulation.engine
-    return [float(engine.joint_effort(robot.joints[name].name)[0, 0]) for name in JOINTS]
+    return [float(engine.joints[robot.joints[name].name].effort()[0, 0]) for name in JOINTS]
 
 
 def positions(robot):

@@ -65,10 +65,10 @@ def test_a_robot_from_its_files_turns_as_its_wheels_say_at_every_step(name, sepa
     for side, speed in (("left", 6.0), ("right", 4.0)):
         joint = f"{robot.name}::wheel_{side}_joint"
         engine.add_motor(joint, 10.0)
-        engine.set_motor_velocity(joint, speed)
+        engine.joints[joint].set_motor_velocity(speed)
     engine.step(round(1.0 / step))
-    before = engine.model_placement(robot.name).quaternion[0]
+    before = engine.models[robot.name].placement().quaternion[0]
     engine.step(round(2.0 / step))
-    after = engine.model_placement(robot.name).quaternion[0]
+    after = engine.models[robot.name].placement().quaternion[0]
     turned = 2.0 * (np.arctan2(after[2], after[3]) - np.arctan2(before[2], before[3]))
     assert turned == pytest.approx(2.0 * (4.0 - 6.0) * 0.033 / separation, rel=0.02)

@@ -51,7 +51,7 @@ def drop(
     heights = []
     for _ in range(round((0.1 + 1.9 * min(e_ball, e_ground)) * fall)):
         engine.step()
-        heights.append(engine.model_placement("ball").position[0, 2] - size)
+        heights.append(engine.models["ball"].placement().position[0, 2] - size)
     low = int(np.argmin(heights[: round(0.07 * fall) + 1]))
     return max(heights[low:])
 
@@ -92,7 +92,7 @@ def test_a_corner_that_strikes_parts_at_e_times_its_speed(e):
 
     struck, parted = 0.0, -1.0
     while parted <= 0.0:
-        arm = rotate(engine.model_placement("box").quaternion[0], lowest)
+        arm = rotate(engine.models["box"].placement().quaternion[0], lowest)
         struck = speed_of(engine, arm)
         engine.step()
         parted = speed_of(engine, arm)
@@ -101,7 +101,7 @@ def test_a_corner_that_strikes_parts_at_e_times_its_speed(e):
 
 def speed_of(engine, arm):
     """How fast a point of the box moves upwards."""
-    motion = engine.link_motion("box::link")
+    motion = engine.links["box::link"].motion()
     return float((motion.linear[0] + np.cross(motion.angular[0], arm))[2])
 
 
@@ -110,19 +110,19 @@ def test_what_bounces_also_comes_to_rest_and_stays_up():
     floor = with_surface(scenes.ground(), bouncy(0.5))
     engine = make_engine("mujoco", scenes.world(floor, box))
     engine.step(60_000)
-    assert engine.model_placement("box").position[0, 2] == pytest.approx(0.1, abs=5e-4)
-    assert np.abs(engine.model_placement("box").position[0, :2]).max() < 1e-3
-    assert np.linalg.norm(engine.link_motion("box::link").linear) < 1e-4
+    assert engine.models["box"].placement().position[0, 2] == pytest.approx(0.1, abs=5e-4)
+    assert np.abs(engine.models["box"].placement().position[0, :2]).max() < 1e-3
+    assert np.linalg.norm(engine.links["box::link"].motion().linear) < 1e-4
 
 
 def test_two_balls_part_at_e_times_the_speed_they_met_with():
     heavy = with_surface(scenes.ball("heavy", mass=3.0, pose=Pose(x=-0.3)), bouncy(0.7))
     light = with_surface(scenes.ball("light", mass=1.0, pose=Pose(x=0.3)), bouncy(0.7))
     engine = make_engine("mujoco", scenes.world(heavy, light, gravity=(0.0, 0.0, 0.0)))
-    engine.set_model_motion("heavy", (2.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    engine.set_model_motion("light", (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.models["heavy"].set_motion((2.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.models["light"].set_motion((-1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     engine.step(1000)
-    heavy, light = (engine.link_motion(f"{n}::link").linear[0, 0] for n in ("heavy", "light"))
+    heavy, light = (engine.links[f"{n}::link"].motion().linear[0, 0] for n in ("heavy", "light"))
     assert light - heavy == pytest.approx(0.7 * 3.0, rel=1e-3)
     assert 3.0 * heavy + light == pytest.approx(5.0, rel=1e-9)
 
@@ -131,9 +131,9 @@ def test_what_rubs_does_not_bounce_back_sideways():
     ball = with_surface(scenes.ball(pose=Pose(z=0.5)), bouncy(0.9))
     floor = with_surface(scenes.ground(), bouncy(0.9))
     engine = make_engine("mujoco", scenes.world(floor, ball))
-    engine.set_model_motion("ball", (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.models["ball"].set_motion((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     engine.step(400)
-    motion = engine.link_motion("ball::link")
+    motion = engine.links["ball::link"].motion()
     assert motion.linear[0, 2] > 1.0  # it has bounced
     # Friction brings it to roll: 5/7 of its speed.
     assert motion.linear[0, 0] == pytest.approx(5.0 / 7.0, rel=0.02)
@@ -155,7 +155,7 @@ def test_a_body_sinks_m_g_over_kp_into_a_spring(kp, mass, mu):
     ball = with_surface(scenes.ball(radius=0.3, mass=mass, pose=Pose(z=0.3)), soft)
     engine = make_engine("mujoco", scenes.world(scenes.ground(mu=10.0), ball))
     engine.step(6000)
-    depth = 0.3 - engine.model_placement("ball").position[0, 2]
+    depth = 0.3 - engine.models["ball"].placement().position[0, 2]
     assert depth == pytest.approx(mass * G / kp, rel=0.05)
 
 
@@ -168,7 +168,7 @@ def test_a_springy_body_swings_at_its_frequency():
     heights = []
     for _ in range(1500):
         engine.step()
-        heights.append(engine.model_placement("ball").position[0, 2])
+        heights.append(engine.models["ball"].placement().position[0, 2])
     level = 0.3 - mass * G / kp
     ups = [i for i in range(1, 1500) if heights[i - 1] < level <= heights[i]]
     period = (ups[5] - ups[0]) / 5 * 0.001
@@ -182,15 +182,15 @@ def test_friction_on_a_spring_is_as_rigid_as_elsewhere(kp, kd, step, mu):
     block = with_surface(scenes.box(size=(0.4, 0.4, 0.1), pose=Pose(z=0.05)), soft)
     engine = make_engine("mujoco", scenes.world(scenes.ground(), block, step=step))
     engine.step(round(0.5 / step))
-    start = engine.model_placement("box").position[0, 0]
-    engine.set_link_wrench("box::link", (0.8 * mu * G, 0.0, 0.0), (0.0, 0.0, 0.0))
+    start = engine.models["box"].placement().position[0, 0]
+    engine.links["box::link"].set_wrench((0.8 * mu * G, 0.0, 0.0), (0.0, 0.0, 0.0))
     engine.step(round(0.5 / step))
-    held = engine.model_placement("box").position[0, 0]
+    held = engine.models["box"].placement().position[0, 0]
     assert held - start < 0.002
-    engine.set_link_wrench("box::link", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    engine.set_model_motion("box", (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.links["box::link"].set_wrench((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.models["box"].set_motion((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     engine.step(round(1.5 / step))
-    slid = engine.model_placement("box").position[0, 0] - held
+    slid = engine.models["box"].placement().position[0, 0] - held
     assert slid == pytest.approx(1.0 / (2.0 * mu * G), rel=0.03)
 
 
@@ -200,7 +200,7 @@ def test_stiffness_of_files_like_turtlebot3_is_as_good_as_rigid():
     engine = make_engine("mujoco", scenes.world(scenes.ground(), ball, step=0.01))
     engine.step(500)
     # At 10 ms what is rigid gives way by 0.8 mm, with the square of the step.
-    assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=1e-3)
+    assert engine.models["ball"].placement().position[0, 2] == pytest.approx(0.1, abs=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -215,7 +215,7 @@ def test_bitmasks_of_32_bits_decide_who_touches(mask, other, e):
         box = with_surface(scenes.box(pose=Pose(z=0.25)), upper)
         engine = make_engine("mujoco", scenes.world(Model("slab", static=True, links=(slab,)), box))
         engine.step(1500)
-        return engine.model_placement("box").position[0, 2]
+        return engine.models["box"].placement().position[0, 2]
 
     assert stack(mask) == pytest.approx(0.2, abs=5e-3)
     assert stack(0x04) < -1.0
@@ -231,5 +231,5 @@ def test_springs_give_back_no_more_than_an_impact_put_in(kp):
     heights = []
     for _ in range(1000):
         engine.step(8)
-        heights.append(engine.model_placement("box").position[0, 2])
+        heights.append(engine.models["box"].placement().position[0, 2])
     assert max(heights) < 60.0

@@ -68,8 +68,8 @@ def test_a_cylinder_that_spins_where_it_stands_neither_falls_nor_flies():
     disc = scenes.solid("disc", Cylinder(0.1, 0.04), mu=0.1, pose=Pose(z=0.02))
     engine = make_engine("mujoco", scenes.world(scenes.ground(), disc))
     engine.step(300)
-    before = engine.model_placement("disc").position[0, 2]
+    before = engine.models["disc"].placement().position[0, 2]
     for _ in range(20):
-        engine.set_model_motion("disc", (0.0, 0.0, 0.0), (0.0, 0.0, 20.0))
+        engine.models["disc"].set_motion((0.0, 0.0, 0.0), (0.0, 0.0, 20.0))
         engine.step(100)
-        assert abs(engine.model_placement("disc").position[0, 2] - before) < 1e-5
+        assert abs(engine.models["disc"].placement().position[0, 2] - before) < 1e-5

@@ -53,7 +53,9 @@ def fastest(engine, seconds):
     most = 0.0
     for _ in range(round(seconds / engine.time_step)):
         engine.step()
-        most = max(most, *(float(abs(engine.joint_velocity(j)).max()) for j in engine.joint_names))
+        most = max(
+            most, *(float(abs(engine.joints[j].velocity()).max()) for j in engine.joints.names)
+        )
     return most
 
 
@@ -69,7 +71,7 @@ def test_so_it_does_if_joints_are_damped_at_run_time():
     engine = make_engine("mujoco", scenes.world(scenes.ground(), door(0.0, 40.0, 1.0)), nworld=2)
     engine.step(100)
     before = engine.snapshot()
-    for joint in engine.joint_names:
+    for joint in engine.joints.names:
         engine.set_parameter("joint_damping", joint, [[0.0], [1.0]])
     np.testing.assert_array_equal(engine.snapshot()[:, : before.shape[1]], before)
     assert fastest(engine, 5.0) < 0.01
@@ -95,10 +97,12 @@ def test_damping_is_implicit_euler(damping, changed):
     engine = make_engine("mujoco", scenes.world(slider(0.0 if changed else damping, mass)))
     if changed:
         engine.set_parameter("joint_damping", "slider::slide", [damping])
-    engine.set_joint_velocity("slider::slide", [1.0])
+    engine.joints["slider::slide"].set_velocity([1.0])
     engine.step(5)
     left = (mass / (mass + engine.time_step * damping)) ** 5
-    assert engine.joint_velocity("slider::slide")[0, 0] == pytest.approx(left, rel=1e-6, abs=1e-12)
+    assert engine.joints["slider::slide"].velocity()[0, 0] == pytest.approx(
+        left, rel=1e-6, abs=1e-12
+    )
 
 
 def test_light_fingers_with_strong_dampers_hold_what_they_close_on():
@@ -112,11 +116,11 @@ def test_light_fingers_with_strong_dampers_hold_what_they_close_on():
                         pose=Pose(z=0.025, yaw=0.02))  # fmt: skip
     engine = make_engine("mujoco", scenes.world(scenes.ground(), hand, cube))
     for name in ("left", "right"):
-        engine.set_joint_effort(f"g::{name}_joint", [-60.0])
-    where, fastest_m_s = engine.model_placement("cube").position[0].copy(), 0.0
+        engine.joints[f"g::{name}_joint"].set_effort([-60.0])
+    where, fastest_m_s = engine.models["cube"].placement().position[0].copy(), 0.0
     for _ in range(1000):
         engine.step()
-        now = engine.model_placement("cube").position[0].copy()
+        now = engine.models["cube"].placement().position[0].copy()
         fastest_m_s = max(fastest_m_s, float(np.linalg.norm(now - where)) / engine.time_step)
         where = now
     assert fastest_m_s < 1.0

@@ -47,11 +47,13 @@ def slide(world, nworld=1, yaws=(0.0,)):
     """Where a model comes to in a second, and how fast it is then, by world."""
     engine = make_engine("mujoco", world, nworld=nworld)
     for index, yaw in enumerate(yaws):
-        place = engine.model_placement("box")
+        place = engine.models["box"].placement()
         turn = (0.0, 0.0, math.sin(yaw / 2.0), math.cos(yaw / 2.0))
-        engine.set_model_placement("box", place.position[index], turn, np.array([index]))
+        engine.models["box"].set_placement(place.position[index], turn, np.array([index]))
     engine.step(1000)
-    return engine.model_placement("box").position[:, :2], engine.link_motion("box::link").linear
+    return engine.models["box"].placement().position[:, :2], engine.links[
+        "box::link"
+    ].motion().linear
 
 
 BLOCK = [(Box((0.4, 0.4, 0.05)), Pose())]
@@ -91,16 +93,16 @@ def test_a_runner_leads_a_turning_body_in_a_circle():
     sleigh = one_link("box", runner, *smooth, pose=Pose(z=0.05))
     engine = make_engine("mujoco", scenes.world(scenes.ground(), sleigh))
     engine.step(100)
-    start = engine.model_placement("box").position[0].copy()
+    start = engine.models["box"].placement().position[0].copy()
     speed, turning = 0.5, 1.2
-    engine.set_model_motion("box", (speed, 0.0, 0.0), (0.0, 0.0, turning))
+    engine.models["box"].set_motion((speed, 0.0, 0.0), (0.0, 0.0, turning))
     for half_seconds in range(1, 9):
         engine.step(500)
         angle = turning * 0.5 * half_seconds
-        where = engine.model_placement("box").position[0] - start
+        where = engine.models["box"].placement().position[0] - start
         circle = speed / turning * np.array([math.sin(angle), 1.0 - math.cos(angle)])
         np.testing.assert_allclose(where[:2], circle, atol=0.012)
-    motion = engine.link_motion("box::link")
+    motion = engine.links["box::link"].motion()
     assert np.linalg.norm(motion.linear[0]) == pytest.approx(speed, rel=0.02)
 
 
@@ -129,7 +131,7 @@ def test_without_fdir1_the_first_direction_on_a_wall_is_level():
         gravity = (-G, sideways[1], sideways[0])
         engine = make_engine("mujoco", scenes.world(wall, block, gravity=gravity))
         engine.step(1000)
-        far = np.abs(engine.model_placement("box").position[0, 1:]).max()
+        far = np.abs(engine.models["box"].placement().position[0, 1:]).max()
         assert far == pytest.approx(1.5, rel=0.02) if moves else far < 0.005
 
 
@@ -156,7 +158,7 @@ def test_many_bodies_rub_each_along_its_own_direction():
     engine = make_engine("mujoco", world)
     engine.step(1000)
     for index, yaw in enumerate(yaws):
-        speed = engine.link_motion(f"b{index}::link").linear[0, :2]
+        speed = engine.links[f"b{index}::link"].motion().linear[0, :2]
         heading = yaw + math.pi / 2.0
         across = np.array([math.cos(heading), math.sin(heading)])
         pull = G * math.sin(SLOPE) * math.cos(heading - 0.2)

@@ -37,8 +37,8 @@ def pendulum():
 
 
 def energy_of(engine):
-    angle = engine.joint_position("p::hinge")[0, 0]
-    speed = engine.joint_velocity("p::hinge")[0, 0]
+    angle = engine.joints["p::hinge"].position()[0, 0]
+    speed = engine.joints["p::hinge"].velocity()[0, 0]
     return 0.5 * 0.26 * speed**2 + G * 0.5 * (1.0 - math.sin(angle))
 
 
@@ -47,7 +47,7 @@ def energy_of(engine):
 def test_a_pendulum_keeps_its_energy_for_ten_minutes(swing):
     """To 2e-5 on the average; within a swing it ripples by half a percent."""
     engine = pendulum()
-    engine.set_joint_position("p::hinge", math.pi / 2.0 - swing)
+    engine.joints["p::hinge"].set_position(math.pi / 2.0 - swing)
     energies = []
     for _ in range(3000):
         engine.step(200)
@@ -64,7 +64,7 @@ def test_a_damped_pendulum_loses_what_the_damping_takes():
     hinge = Joint("hinge", "revolute", "world", "arm", axes=axes)
     model = Model("p", links=(Link("arm", inertial=inertial),), joints=(hinge,))
     engine = make_engine("mujoco", scenes.world(model))
-    engine.set_joint_position("p::hinge", math.pi / 2.0 - 0.1)
+    engine.joints["p::hinge"].set_position(math.pi / 2.0 - 0.1)
     energies = []
     for _ in range(2000):
         engine.step(5)
@@ -75,7 +75,7 @@ def test_a_damped_pendulum_loses_what_the_damping_takes():
 
 
 def momenta(engine, moments):
-    place, motion = engine.model_placement("b"), engine.link_motion("b::link")
+    place, motion = engine.models["b"].placement(), engine.links["b::link"].motion()
     spin = rotate(conjugate(place.quaternion), motion.angular)
     turning = rotate(place.quaternion, spin * moments)[0]
     return motion.linear[0], turning, 0.5 * float((spin**2 * moments).sum())
@@ -87,7 +87,7 @@ def drift(moments, minutes, integrator=None):
     world = scenes.world(body, gravity=(0.0, 0.0, 0.0))
     profile = replace(world.profile, integrator=integrator)
     engine = make_engine("mujoco", with_profile(world, profile))
-    engine.set_model_motion("b", (1.0, 0.5, 0.0), (0.1, 3.0, 0.1))
+    engine.models["b"].set_motion((1.0, 0.5, 0.0), (0.1, 3.0, 0.1))
     velocity, turning, energy = momenta(engine, np.array(moments))
     worst = np.zeros(3)
     for _ in range(6 * minutes):
@@ -134,7 +134,7 @@ def test_an_elastic_ball_loses_little_of_its_height_in_ten_minutes():
     heights = []
     for _ in range(1000):
         engine.step(2)
-        heights.append(engine.model_placement("ball").position[0, 2] - 0.1)
+        heights.append(engine.models["ball"].placement().position[0, 2] - 0.1)
     assert 0.7 < max(heights) < 1.0
 
 
@@ -144,8 +144,8 @@ def test_two_bodies_keep_their_momentum_through_every_kind_of_contact():
         bodies = [scenes.box("a", mass=3.0, pose=Pose(x=-0.3, y=0.05)), scenes.ball("b", mass=1.0)]
         models = [scenes.with_surface(body, surface) for body in bodies]
         engine = make_engine("mujoco", scenes.world(*models, gravity=(0.0, 0.0, 0.0)))
-        engine.set_model_motion("a", (2.0, 0.0, 0.0), (0.0, 0.0, 1.0))
+        engine.models["a"].set_motion((2.0, 0.0, 0.0), (0.0, 0.0, 1.0))
         engine.step(1000)
-        a, b = (engine.link_motion(f"{name}::link").linear[0] for name in ("a", "b"))
+        a, b = (engine.links[f"{name}::link"].motion().linear[0] for name in ("a", "b"))
         assert b[0] > a[0]
         np.testing.assert_allclose(3.0 * a + b, (6.0, 0.0, 0.0), atol=1e-8)

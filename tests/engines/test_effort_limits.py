@@ -21,26 +21,26 @@ def spinner(nworld=1, joint="continuous", **limits):
 
 
 def velocity(engine):
-    return engine.joint_velocity("m::j")[:, 0]
+    return engine.joints["m::j"].velocity()[:, 0]
 
 
 def test_an_effort_is_clamped_to_the_limit_in_both_directions():
     engine = spinner(2, effort=2.0)
-    engine.set_joint_effort("m::j", [[5.0], [-5.0]])
-    np.testing.assert_array_equal(engine.joint_effort("m::j")[:, 0], [2.0, -2.0])
+    engine.joints["m::j"].set_effort([[5.0], [-5.0]])
+    np.testing.assert_array_equal(engine.joints["m::j"].effort()[:, 0], [2.0, -2.0])
     engine.step(100)
     np.testing.assert_allclose(velocity(engine), [0.4, -0.4], rtol=1e-9)
 
 
 def test_without_limits_nothing_is_clamped():
     engine = spinner()
-    engine.set_joint_effort("m::j", 1e6)
-    assert engine.joint_effort("m::j")[0, 0] == 1e6
+    engine.joints["m::j"].set_effort(1e6)
+    assert engine.joints["m::j"].effort()[0, 0] == 1e6
 
 
 def test_an_effort_limit_of_zero_lets_no_effort_through():
     engine = spinner(effort=0.0)
-    engine.set_joint_effort("m::j", 3.0)
+    engine.joints["m::j"].set_effort(3.0)
     engine.step(10)
     assert velocity(engine)[0] == 0.0
 
@@ -48,36 +48,36 @@ def test_an_effort_limit_of_zero_lets_no_effort_through():
 @pytest.mark.parametrize("count", [1, 50])
 def test_efforts_do_not_speed_up_what_is_faster_than_the_velocity_limit(count):
     engine = spinner(2, velocity=1.0)
-    engine.set_joint_effort("m::j", [[5.0], [-5.0]])  # 10 rad/s² each way
+    engine.joints["m::j"].set_effort([[5.0], [-5.0]])  # 10 rad/s² each way
     for _ in range(300 // count):
         engine.step(count)
     # the last push ends within one step's gain above the limit
     np.testing.assert_allclose(np.abs(velocity(engine)), 1.0, atol=0.011)
-    np.testing.assert_array_equal(engine.joint_effort("m::j")[:, 0], [5.0, -5.0])
+    np.testing.assert_array_equal(engine.joints["m::j"].effort()[:, 0], [5.0, -5.0])
 
 
 def test_efforts_that_brake_act_at_any_speed():
     engine = spinner(velocity=1.0)
-    engine.set_joint_velocity("m::j", 4.0)
-    engine.set_joint_effort("m::j", -5.0)
+    engine.joints["m::j"].set_velocity(4.0)
+    engine.joints["m::j"].set_effort(-5.0)
     engine.step(100)
     assert velocity(engine)[0] == pytest.approx(3.0, rel=1e-9)
 
 
 def test_what_is_thrown_may_be_faster_than_its_limit():
     engine = spinner(velocity=1.0)
-    engine.set_joint_velocity("m::j", 4.0)
+    engine.joints["m::j"].set_velocity(4.0)
     engine.step(100)
     assert velocity(engine)[0] == pytest.approx(4.0, rel=1e-9)
-    engine.set_joint_effort("m::j", 5.0)
+    engine.joints["m::j"].set_effort(5.0)
     engine.step(100)
     assert velocity(engine)[0] == pytest.approx(4.0, rel=1e-9)
 
 
 def test_a_wheel_slowed_below_its_limit_is_pushed_again():
     engine = spinner(velocity=1.0)
-    engine.set_joint_effort("m::j", 5.0)
-    engine.set_link_wrench("m::wheel", (0, 0, 0), (0, 0, -2.0))
+    engine.joints["m::j"].set_effort(5.0)
+    engine.links["m::wheel"].set_wrench((0, 0, 0), (0, 0, -2.0))
     engine.step(1000)
     assert velocity(engine)[0] == pytest.approx(1.0, abs=0.011)
 
@@ -85,7 +85,7 @@ def test_a_wheel_slowed_below_its_limit_is_pushed_again():
 def test_steps_taken_at_once_and_one_by_one_agree_to_the_bit():
     def run(count):
         engine = spinner(3, velocity=1.0, effort=4.0)
-        engine.set_joint_effort("m::j", [[3.0], [0.0], [-9.0]])
+        engine.joints["m::j"].set_effort([[3.0], [0.0], [-9.0]])
         for _ in range(60 // count):
             engine.step(count)
         return engine.snapshot()
@@ -95,10 +95,10 @@ def test_steps_taken_at_once_and_one_by_one_agree_to_the_bit():
 
 def test_a_snapshot_keeps_what_is_commanded_and_goes_on_alike():
     engine, other = spinner(velocity=0.5), spinner(velocity=0.5)
-    engine.set_joint_effort("m::j", 5.0)
+    engine.joints["m::j"].set_effort(5.0)
     engine.step(80)
     other.restore(engine.snapshot())
-    assert other.joint_effort("m::j")[0, 0] == 5.0
+    assert other.joints["m::j"].effort()[0, 0] == 5.0
     engine.step(50)
     other.step(50)
     np.testing.assert_array_equal(engine.snapshot(), other.snapshot())
@@ -106,19 +106,19 @@ def test_a_snapshot_keeps_what_is_commanded_and_goes_on_alike():
 
 def test_limits_hold_for_sliding_and_survive_a_spawn():
     engine = spinner(joint="prismatic", velocity=0.2, effort=3.0)
-    engine.set_joint_effort("m::j", 100.0)
+    engine.joints["m::j"].set_effort(100.0)
     engine.spawn(scenes.ball(pose=Pose(x=9.0)))
     engine.step(500)
     assert velocity(engine)[0] == pytest.approx(0.2, abs=0.004)
-    assert engine.joint_effort("m::j")[0, 0] == 3.0
+    assert engine.joints["m::j"].effort()[0, 0] == 3.0
 
 
 def test_the_acceleration_and_the_wrench_are_those_that_will_be():
     engine = spinner(velocity=1.0)
-    engine.set_joint_velocity("m::j", 2.0)
-    engine.set_joint_effort("m::j", 5.0)
-    np.testing.assert_allclose(engine.link_acceleration("m::wheel").angular, 0.0, atol=1e-9)
-    np.testing.assert_allclose(engine.joint_wrench("m::j").torque, 0.0, atol=1e-9)
-    engine.set_joint_velocity("m::j", 0.5)
-    assert engine.link_acceleration("m::wheel").angular[0, 2] == pytest.approx(10.0)
-    assert engine.joint_wrench("m::j").torque[0, 2] == pytest.approx(-5.0)
+    engine.joints["m::j"].set_velocity(2.0)
+    engine.joints["m::j"].set_effort(5.0)
+    np.testing.assert_allclose(engine.links["m::wheel"].acceleration().angular, 0.0, atol=1e-9)
+    np.testing.assert_allclose(engine.joints["m::j"].wrench().torque, 0.0, atol=1e-9)
+    engine.joints["m::j"].set_velocity(0.5)
+    assert engine.links["m::wheel"].acceleration().angular[0, 2] == pytest.approx(10.0)
+    assert engine.joints["m::j"].wrench().torque[0, 2] == pytest.approx(-5.0)

@@ -40,10 +40,10 @@ def make(*models, nworld=1, threads=None, step=0.001):
 
 def test_names_are_scoped_and_near_misses_are_named():
     engine = make(scenes.ground(), pendulum())
-    assert engine.link_names == ("ground_plane::link", "pendulum::base", "pendulum::rod")
-    assert engine.joint_names == ("pendulum::hinge",)
+    assert engine.links.names == ("ground_plane::link", "pendulum::base", "pendulum::rod")
+    assert engine.joints.names == ("pendulum::hinge",)
     with pytest.raises(EngineError, match="did you mean 'pendulum::rod'"):
-        engine.link_placement("pendulum::rodd")
+        engine.links["pendulum::rodd"].placement()
 
 
 def test_an_unknown_engine_is_named():
@@ -53,11 +53,11 @@ def test_an_unknown_engine_is_named():
 
 def test_a_small_swing_has_the_period_of_a_physical_pendulum():
     engine = make(pendulum())
-    engine.set_joint_position("pendulum::hinge", 0.05)
+    engine.joints["pendulum::hinge"].set_position(0.05)
     angles = []
     for _ in range(6000):
         engine.step()
-        angles.append(engine.joint_position("pendulum::hinge")[0, 0])
+        angles.append(engine.joints["pendulum::hinge"].position()[0, 0])
     ups = [i for i in range(1, 6000) if angles[i - 1] < 0.0 <= angles[i]]
     period = (ups[-1] - ups[0]) / (len(ups) - 1) * 0.001
     inertia = 0.01 + 1.0 * 0.5**2
@@ -66,9 +66,9 @@ def test_a_small_swing_has_the_period_of_a_physical_pendulum():
 
 def test_a_joint_stops_at_its_limit():
     engine = make(pendulum(lower=-0.2, upper=0.2))
-    engine.set_joint_effort("pendulum::hinge", 8.0)
+    engine.joints["pendulum::hinge"].set_effort(8.0)
     engine.step(3000)
-    assert engine.joint_position("pendulum::hinge")[0, 0] == pytest.approx(0.2, abs=0.01)
+    assert engine.joints["pendulum::hinge"].position()[0, 0] == pytest.approx(0.2, abs=0.01)
 
 
 @given(
@@ -81,9 +81,12 @@ def test_a_joint_stops_at_its_limit():
 def test_what_is_set_is_what_is_read(position, yaw, linear, angular):
     engine = make(scenes.burger(), nworld=3)
     chosen = np.array([0, 2])
-    engine.set_model_placement("burger", position, from_yaw(np.array(yaw)), chosen)
-    engine.set_model_motion("burger", linear, angular, chosen)
-    place, motion = engine.model_placement("burger"), engine.link_motion("burger::base_footprint")
+    engine.models["burger"].set_placement(position, from_yaw(np.array(yaw)), chosen)
+    engine.models["burger"].set_motion(linear, angular, chosen)
+    place, motion = (
+        engine.models["burger"].placement(),
+        engine.links["burger::base_footprint"].motion(),
+    )
     np.testing.assert_allclose(place.position[chosen], [position] * 2, atol=1e-12)
     np.testing.assert_allclose(np.abs(place.quaternion[0] @ from_yaw(np.array(yaw))), 1.0)
     np.testing.assert_allclose(motion.linear[chosen], [linear] * 2, atol=1e-9)
@@ -94,11 +97,11 @@ def test_what_is_set_is_what_is_read(position, yaw, linear, angular):
 
 def test_links_that_are_not_roots_move_rigidly_with_the_model():
     engine = make(scenes.burger(pose=Pose(1.0, 2.0, 0.5, yaw=0.7)))
-    wheel = engine.link_placement("burger::wheel_left_link")
+    wheel = engine.links["burger::wheel_left_link"].placement()
     expected = Pose(1.0, 2.0, 0.5, yaw=0.7) * Pose(y=0.08, z=0.033)
     np.testing.assert_allclose(wheel.position[0], expected.position, atol=1e-12)
-    engine.set_model_motion("burger", (0.0, 0.0, 0.0), (0.0, 0.0, 2.0))
-    motion = engine.link_motion("burger::wheel_left_link")
+    engine.models["burger"].set_motion((0.0, 0.0, 0.0), (0.0, 0.0, 2.0))
+    motion = engine.links["burger::wheel_left_link"].motion()
     arm = np.subtract(expected.position, (1.0, 2.0, 0.5))
     np.testing.assert_allclose(motion.linear[0], np.cross((0, 0, 2.0), arm), atol=1e-9)
 
@@ -106,11 +109,11 @@ def test_links_that_are_not_roots_move_rigidly_with_the_model():
 def test_spawn_and_delete_leave_every_other_state_as_it_is():
     engine = make(scenes.ground(), scenes.burger(), scenes.box(pose=Pose(2.0, 0.0, 1.0)), nworld=2)
     engine.add_motor("burger::wheel_left_joint", 5.0)
-    engine.set_motor_velocity("burger::wheel_left_joint", np.array([1.0, 3.0]))
+    engine.joints["burger::wheel_left_joint"].set_motor_velocity(np.array([1.0, 3.0]))
     engine.step(200)
     before = engine.snapshot()
     engine.spawn(scenes.ball(pose=Pose(y=3.0, z=1.0)))
-    assert "ball::link" in engine.link_names
+    assert "ball::link" in engine.links.names
     engine.delete("ball")
     np.testing.assert_array_equal(engine.snapshot(), before)
     engine.step(50)
@@ -128,7 +131,7 @@ def test_a_failed_spawn_changes_nothing():
     )
     with pytest.raises(EngineError, match=r"robot.sdf:12: .*thread pitch of 0"):
         engine.spawn(loop)
-    assert engine.link_names == ("ground_plane::link", "box::link")
+    assert engine.links.names == ("ground_plane::link", "box::link")
     engine.step(5)
 
 
@@ -148,9 +151,9 @@ def test_impossible_masses_are_errors_with_their_place(link, message):
 def test_reset_restores_some_worlds_and_leaves_the_others():
     engine = make(scenes.ground(), scenes.box(pose=Pose(z=1.0)), nworld=3)
     engine.step(200)
-    fallen = engine.model_placement("box").position[0, 2]
+    fallen = engine.models["box"].placement().position[0, 2]
     engine.reset(np.array([1]))
-    heights = engine.model_placement("box").position[:, 2]
+    heights = engine.models["box"].placement().position[:, 2]
     np.testing.assert_array_equal(heights, [fallen, 1.0, fallen])
 
 
@@ -184,7 +187,9 @@ def test_world_0_is_the_same_bits_at_any_number_of_worlds_and_threads(nworld, th
         engine = make(*models, nworld=nworld, threads=threads, step=0.005)
         for side, speed in (("left", 6.0), ("right", 5.0)):
             engine.add_motor(f"burger::wheel_{side}_joint", 10.0)
-            engine.set_motor_velocity(f"burger::wheel_{side}_joint", speed + np.arange(nworld))
+            engine.joints[f"burger::wheel_{side}_joint"].set_motor_velocity(
+                speed + np.arange(nworld)
+            )
         engine.step(400)
         return engine.snapshot()[0]
 
@@ -204,9 +209,9 @@ def test_a_static_model_moves_when_told_to_and_pushes():
     slab = scenes.box("slab", size=(1.0, 1.0, 0.1), static=True, pose=Pose(z=-0.05))
     engine = make(slab, scenes.box(pose=Pose(z=0.1)))
     engine.step(100)
-    engine.set_model_placement("slab", (0.0, 0.0, -1.05), (0.0, 0.0, 0.0, 1.0))
+    engine.models["slab"].set_placement((0.0, 0.0, -1.05), (0.0, 0.0, 0.0, 1.0))
     engine.step(2000)
-    assert engine.model_placement("box").position[0, 2] == pytest.approx(-0.9, abs=1e-3)
+    assert engine.models["box"].placement().position[0, 2] == pytest.approx(-0.9, abs=1e-3)
 
 
 def test_a_motor_holds_its_speed_and_its_largest_effort():
@@ -221,12 +226,12 @@ def test_a_motor_holds_its_speed_and_its_largest_effort():
     )
     engine = make(model)
     engine.add_motor("m::axle", 1.0)
-    engine.set_motor_velocity("m::axle", 3.0)
+    engine.joints["m::axle"].set_motor_velocity(3.0)
     engine.step(1000)
-    assert engine.joint_velocity("m::axle")[0, 0] == pytest.approx(3.0, rel=1e-3)
-    engine.set_joint_effort("m::axle", -1.5)
+    assert engine.joints["m::axle"].velocity()[0, 0] == pytest.approx(3.0, rel=1e-3)
+    engine.joints["m::axle"].set_effort(-1.5)
     engine.step(1000)
-    assert engine.joint_velocity("m::axle")[0, 0] < 2.9
+    assert engine.joints["m::axle"].velocity()[0, 0] < 2.9
 
 
 def test_an_infinite_state_is_an_error_that_names_the_world():
@@ -252,7 +257,10 @@ def test_links_of_one_model_do_not_collide_unless_asked():
     for collide, apart in ((False, False), (True, True)):
         engine = make_engine("mujoco", scenes.world(pair(collide), gravity=(0, 0, 0)))
         engine.step(12_000)
-        gap = engine.link_placement("pair::b").position - engine.link_placement("pair::a").position
+        gap = (
+            engine.links["pair::b"].placement().position
+            - engine.links["pair::a"].placement().position
+        )
         assert (np.linalg.norm(gap) > 0.15) == apart
 
 
@@ -261,9 +269,9 @@ def test_shapes_without_volume_are_nothing_to_hit():
 
     link = Link("l", collisions=(Collision("e", Empty()), Collision("m", Mesh("x.stl", None))))
     engine = make(Model("m", links=(link,), static=True), scenes.solid("b", Box((0.1, 0.1, 0.1))))
-    start = engine.link_placement("b::link").position[0, 2]
+    start = engine.links["b::link"].placement().position[0, 2]
     engine.step(100)
-    fallen = start - engine.link_placement("b::link").position[0, 2]
+    fallen = start - engine.links["b::link"].placement().position[0, 2]
     assert fallen == pytest.approx(0.5 * 9.8 * 0.1**2, rel=0.02)
 
 

@@ -36,13 +36,13 @@ def test_a_robot_on_slippery_casters_drives_calmly(mu, step, friction):
     engine = engine_of(on_casters(mu), step=step, friction=friction)
     for side in ("left", "right"):
         engine.add_motor(f"cart::{side}_joint", 50.0)
-        engine.set_motor_velocity(f"cart::{side}_joint", 5.0)
+        engine.joints[f"cart::{side}_joint"].set_motor_velocity(5.0)
     highest = 0.0
     for _ in range(60):
         engine.step(round(0.05 / step))
-        highest = max(highest, abs(engine.link_placement("cart::base").position[0, 2]))
+        highest = max(highest, abs(engine.links["cart::base"].placement().position[0, 2]))
     assert highest < 0.003
-    where = engine.link_placement("cart::base").position[0]
+    where = engine.links["cart::base"].placement().position[0]
     assert where[0] > 1.4
     assert abs(where[1]) < 1e-3
 
@@ -51,11 +51,11 @@ def test_a_robot_on_slippery_casters_drives_calmly(mu, step, friction):
 def test_what_slides_without_friction_slides_for_ever(friction):
     engine = engine_of(scenes.box(mu=0.0, pose=Pose(z=0.1)), friction=friction)
     engine.step(200)
-    engine.set_model_motion("box", (2.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-    start = engine.model_placement("box").position[0].copy()
+    engine.models["box"].set_motion((2.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    start = engine.models["box"].placement().position[0].copy()
     engine.step(5000)
     np.testing.assert_allclose(
-        engine.model_placement("box").position[0] - start, (10.0, 5.0, 0.0), atol=1e-4
+        engine.models["box"].placement().position[0] - start, (10.0, 5.0, 0.0), atol=1e-4
     )
 
 
@@ -70,8 +70,8 @@ def test_each_world_may_have_friction_where_the_file_has_none_and_none_where_it_
         engine.set_parameter("collision_friction", f"{name}::link::c", np.array(values))
     engine.step(200)
     for name in ("ice", "wood"):
-        engine.set_model_motion(name, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+        engine.models[name].set_motion((1.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     engine.step(1000)
-    speeds = {n: engine.link_motion(f"{n}::link").linear[:, 0] for n in ("ice", "wood")}
+    speeds = {n: engine.links[f"{n}::link"].motion().linear[:, 0] for n in ("ice", "wood")}
     np.testing.assert_allclose(speeds["ice"], (1.0, 0.0), atol=1e-3)
     np.testing.assert_allclose(speeds["wood"], (0.0, 1.0), atol=1e-3)

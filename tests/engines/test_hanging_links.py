@@ -63,21 +63,21 @@ def test_a_pose_that_the_joint_allows_is_reached_by_the_joint_alone(kind, parent
     name = f"robot::{link}"
     if parent == "base":
         there = Pose(4.0, 5.0, 6.0, 1.0, 0.3, 0.2)
-        engine.set_model_placement("robot", there.position, there.quaternion)
+        engine.models["robot"].set_placement(there.position, there.quaternion)
     rest = engine.snapshot()
-    engine.set_joint_position("robot::wrist", 0.4)
-    engine.set_joint_position("robot::joint", position)
-    goal, hand = engine.link_placement(name, WORLDS), engine.link_placement("robot::hand", WORLDS)
+    engine.joints["robot::wrist"].set_position(0.4)
+    engine.joints["robot::joint"].set_position(position)
+    goal, hand = engine.links[name].placement(WORLDS), engine.links["robot::hand"].placement(WORLDS)
     engine.restore(rest)
-    engine.set_joint_position("robot::wrist", 0.4)
-    engine.set_link_placement(name, goal.position, goal.quaternion, WORLDS)
-    found = engine.joint_position("robot::joint")
+    engine.joints["robot::wrist"].set_position(0.4)
+    engine.links[name].set_placement(goal.position, goal.quaternion, WORLDS)
+    found = engine.joints["robot::joint"].position()
     np.testing.assert_allclose(found[WORLDS], [position] * 2, atol=1e-9)
     assert not np.allclose(found[1], position)
     np.testing.assert_allclose(
-        engine.link_placement(name, WORLDS).position, goal.position, atol=1e-9
+        engine.links[name].placement(WORLDS).position, goal.position, atol=1e-9
     )
-    rides = engine.link_placement("robot::hand", WORLDS)
+    rides = engine.links["robot::hand"].placement(WORLDS)
     np.testing.assert_allclose(rides.position, hand.position, atol=1e-9)
 
 
@@ -87,24 +87,24 @@ def test_a_pose_that_the_joint_allows_is_reached_by_the_joint_alone(kind, parent
 def test_a_velocity_that_the_joint_allows_is_given_to_the_joint_alone(kind, parent, link):
     position, axes = KINDS[kind]
     engine = engine_of(arm(kind, axes, parent))
-    engine.set_joint_position("robot::joint", position)
+    engine.joints["robot::joint"].set_position(position)
     if parent == "base":
-        engine.set_model_motion("robot", (0.1, 0.2, 0.3), (0.4, 0.5, 0.6))
-    rates = np.zeros(engine.joint_velocity("robot::joint").shape[1])
+        engine.models["robot"].set_motion((0.1, 0.2, 0.3), (0.4, 0.5, 0.6))
+    rates = np.zeros(engine.joints["robot::joint"].velocity().shape[1])
     rates[:] = np.linspace(0.5, 0.9, len(rates))
     if kind == "screw":
         rates[1] = -rates[0] / 5.0
-    engine.set_joint_velocity("robot::joint", rates)
+    engine.joints["robot::joint"].set_velocity(rates)
     name = f"robot::{link}"
-    goal = engine.link_motion(name, WORLDS)
+    goal = engine.links[name].motion(WORLDS)
     if kind in ("universal", "revolute2", "ball", "revolute", "continuous"):
         goal = replace(goal, linear=goal.linear * 0.0)  # hinges do not look at it
-    engine.set_joint_velocity("robot::joint", rates * 0.0)
-    engine.set_joint_velocity("robot::wrist", 0.3)
-    engine.set_link_motion(name, goal.linear, goal.angular, WORLDS)
-    found = engine.joint_velocity("robot::joint", WORLDS)
+    engine.joints["robot::joint"].set_velocity(rates * 0.0)
+    engine.joints["robot::wrist"].set_velocity(0.3)
+    engine.links[name].set_motion(goal.linear, goal.angular, WORLDS)
+    found = engine.joints["robot::joint"].velocity(WORLDS)
     np.testing.assert_allclose(found, [rates] * 2, atol=1e-9)
-    assert engine.joint_velocity("robot::wrist", WORLDS)[0, 0] == 0.3
+    assert engine.joints["robot::wrist"].velocity(WORLDS)[0, 0] == 0.3
 
 
 def test_the_part_that_the_joint_does_not_allow_is_left_out_with_one_warning():
@@ -120,43 +120,45 @@ def test_the_part_that_the_joint_does_not_allow_is_left_out_with_one_warning():
 
 def test_a_joint_goes_to_its_limits_at_most_and_takes_the_turn_within_them():
     engine = engine_of(arm("revolute", (SKEW,), lower=3.0, upper=4.0))
-    engine.set_joint_position("robot::joint", 3.5)
-    goal = engine.link_placement("robot::arm")
-    engine.set_joint_position("robot::joint", 3.0)
-    engine.set_link_placement("robot::arm", goal.position, goal.quaternion)
-    np.testing.assert_allclose(engine.joint_position("robot::joint"), 3.5)
+    engine.joints["robot::joint"].set_position(3.5)
+    goal = engine.links["robot::arm"].placement()
+    engine.joints["robot::joint"].set_position(3.0)
+    engine.links["robot::arm"].set_placement(goal.position, goal.quaternion)
+    np.testing.assert_allclose(engine.joints["robot::joint"].position(), 3.5)
     engine = engine_of(arm("prismatic", (SKEW,), lower=-0.1, upper=0.2))
-    far = engine.link_placement("robot::arm").position + 10.0
-    engine.set_link_placement("robot::arm", far, goal.quaternion)
-    np.testing.assert_allclose(engine.joint_position("robot::joint"), 0.2)
+    far = engine.links["robot::arm"].placement().position + 10.0
+    engine.links["robot::arm"].set_placement(far, goal.quaternion)
+    np.testing.assert_allclose(engine.joints["robot::joint"].position(), 0.2)
 
 
 def test_what_is_fixed_to_the_world_stays_and_says_so():
     engine = engine_of(arm("fixed", (), "world"))
     for link in ("arm", "tip"):
         with pytest.raises(EngineError, match="is fixed to the world"):
-            engine.set_link_placement(f"robot::{link}", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
-    goal = engine.link_placement("robot::hand")
-    engine.set_joint_position("robot::wrist", 1.0)
-    engine.set_link_placement("robot::hand", goal.position, goal.quaternion)
-    np.testing.assert_allclose(engine.joint_position("robot::wrist"), 0.0, atol=1e-9)
+            engine.links[f"robot::{link}"].set_placement((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    goal = engine.links["robot::hand"].placement()
+    engine.joints["robot::wrist"].set_position(1.0)
+    engine.links["robot::hand"].set_placement(goal.position, goal.quaternion)
+    np.testing.assert_allclose(engine.joints["robot::wrist"].position(), 0.0, atol=1e-9)
 
 
 def test_the_root_of_a_free_model_takes_the_model_along():
     engine = engine_of(arm("revolute", (SKEW,)))
-    engine.set_joint_position("robot::joint", 0.5)
-    assert engine.set_link_placement("robot::base", (5.0, 6.0, 7.0), (0.0, 0.0, 0.0, 1.0)) == ""
-    np.testing.assert_allclose(engine.link_placement("robot::base").position, [[5.0, 6.0, 7.0]] * 3)
-    np.testing.assert_allclose(engine.joint_position("robot::joint"), 0.5)
+    engine.joints["robot::joint"].set_position(0.5)
+    assert engine.links["robot::base"].set_placement((5.0, 6.0, 7.0), (0.0, 0.0, 0.0, 1.0)) == ""
+    np.testing.assert_allclose(
+        engine.links["robot::base"].placement().position, [[5.0, 6.0, 7.0]] * 3
+    )
+    np.testing.assert_allclose(engine.joints["robot::joint"].position(), 0.5)
 
 
 def test_it_is_the_same_in_the_plane():
     engine = engine_of(scenes.burger(pose=Pose(1.0, 2.0, yaw=0.7)), "planar")
     name = "burger::wheel_left_link"
-    before = engine.model_placement("burger").position
-    engine.set_joint_position("burger::wheel_left_joint", 0.8)
-    goal = engine.link_placement(name)
-    engine.set_joint_position("burger::wheel_left_joint", 0.0)
-    engine.set_link_placement(name, goal.position, goal.quaternion)
-    np.testing.assert_allclose(engine.joint_position("burger::wheel_left_joint"), 0.8)
-    np.testing.assert_array_equal(engine.model_placement("burger").position, before)
+    before = engine.models["burger"].placement().position
+    engine.joints["burger::wheel_left_joint"].set_position(0.8)
+    goal = engine.links[name].placement()
+    engine.joints["burger::wheel_left_joint"].set_position(0.0)
+    engine.links[name].set_placement(goal.position, goal.quaternion)
+    np.testing.assert_allclose(engine.joints["burger::wheel_left_joint"].position(), 0.8)
+    np.testing.assert_array_equal(engine.models["burger"].placement().position, before)

@@ -85,8 +85,8 @@ def test_gravity_of_a_link_is_taken_away_while_it_falls():
     engine = make_engine("mujoco", scenes.world(scenes.box(pose=Pose(z=9.0))), 2)
     assert engine.running.batch.model.opt.disableflags & PASSIVE_OFF
     engine.step(100)
-    engine.set_parameter("link_gravity", engine.link_names[0], [[0.0], [1.0]])
-    speed = engine.link_motion(engine.link_names[0]).linear[:, 2].copy()
+    engine.set_parameter("link_gravity", engine.links.names[0], [[0.0], [1.0]])
+    speed = engine.links[engine.links.names[0]].motion().linear[:, 2].copy()
     engine.step(100)
-    gained = engine.link_motion(engine.link_names[0]).linear[:, 2] - speed
+    gained = engine.links[engine.links.names[0]].motion().linear[:, 2] - speed
     np.testing.assert_allclose(gained, [0.0, -0.98], atol=1e-9)

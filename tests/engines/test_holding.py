@@ -24,8 +24,8 @@ def held(shape, force, step, contacts=None):
     thing = scenes.solid("thing", shape, mass=MASS, moments=(moment,) * 3, mu=MU, pose=Pose(z=0.5))
     world = scenes.world(gripper(), thing, step=step)
     engine = make_engine("mujoco", with_profile(world, replace(world.profile, contacts=contacts)))
-    engine.set_joint_effort("g::left_joint", force)
-    engine.set_joint_effort("g::right_joint", force)
+    engine.joints["g::left_joint"].set_effort(force)
+    engine.joints["g::right_joint"].set_effort(force)
     engine.step(round(0.5 / step))
     return engine
 
@@ -42,15 +42,15 @@ def test_what_is_gripped_does_not_creep(shape, step, force):
 @pytest.mark.parametrize("step", [0.001, 0.005])
 def test_what_is_gripped_is_there_after_ten_minutes(shape, step):
     engine = held(SHAPES[shape], MARGIN_OF_TWO, step)
-    start = engine.model_placement("thing").position[0].copy()
+    start = engine.models["thing"].placement().position[0].copy()
     engine.step(round(600.0 / step))
-    assert np.abs(engine.model_placement("thing").position[0] - start).max() < 2e-4
+    assert np.abs(engine.models["thing"].placement().position[0] - start).max() < 2e-4
 
 
 def test_a_grip_that_is_too_weak_lets_go():
     engine = held(SHAPES["box"], 0.4 * MARGIN_OF_TWO, 0.001)
     engine.step(500)
-    assert engine.model_placement("thing").position[0, 2] < 0.4
+    assert engine.models["thing"].placement().position[0, 2] < 0.4
 
 
 @pytest.mark.parametrize("step", [0.001, 0.005])

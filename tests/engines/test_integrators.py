@@ -25,7 +25,7 @@ def loop(integrator, step=0.001):
 def angles(integrator, step):
     engine = make_engine("mujoco", loop(integrator, step))
     engine.step(round(3.0 / step))
-    return np.array([engine.joint_position(f"m::{name}")[0, 0] for name in ANGLES])
+    return np.array([engine.joints[f"m::{name}"].position()[0, 0] for name in ANGLES])
 
 
 def test_a_four_bar_is_right_to_5_mrad_after_3_s_with_rk4_and_not_with_euler():
@@ -40,9 +40,9 @@ def test_of_a_double_pendulum_the_default_is_ten_times_nearer():
         world = with_profile(world, replace(world.profile, integrator=integrator))
         engine = make_engine("mujoco", world)
         for name, angle in SWING.items():
-            engine.set_joint_position(f"m::{name}", angle)
+            engine.joints[f"m::{name}"].set_position(angle)
         engine.step(round(2.0 / step))
-        return np.array([engine.joint_position(f"m::{name}")[0, 0] for name in SWING])
+        return np.array([engine.joints[f"m::{name}"].position()[0, 0] for name in SWING])
 
     exact = after("rk4", 0.0002)
     off, eulers = (np.abs(after(name, 0.001) - exact).max() for name in (None, "euler"))

@@ -42,7 +42,7 @@ def engine_of(*joints, links=("a", "b"), gravity=(0.0, 0.0, 0.0), poses=None, nw
 
 
 def relative(engine, child="b"):
-    place = engine.link_placement(f"m::{child}")
+    place = engine.links[f"m::{child}"].placement()
     return Pose.from_quaternion(place.position[0], place.quaternion[0])
 
 
@@ -50,20 +50,20 @@ def relative(engine, child="b"):
 def test_a_hinge_turns_about_its_axis_through_its_own_frame(kind):
     frame = Pose(x=0.5, roll=math.pi / 2)
     engine = engine_of(joint("j", kind, "a", "b", Z, pose=frame))
-    engine.set_joint_position("m::j", 0.7)
+    engine.joints["m::j"].set_position(0.7)
     expected = frame * Pose(yaw=0.7) * frame.inverse()
     assert relative(engine).is_close(expected)
 
 
 def test_a_prismatic_joint_slides_along_its_axis():
     engine = engine_of(joint("j", "prismatic", "a", "b", Y))
-    engine.set_joint_position("m::j", 0.3)
+    engine.joints["m::j"].set_position(0.3)
     assert relative(engine).is_close(Pose(y=0.3))
 
 
 def test_a_ball_joint_turns_freely_and_stays_in_place():
     engine = engine_of(joint("j", "ball", "a", "b", pose=Pose(z=0.2)))
-    engine.set_joint_velocity("m::j", [1.0, 2.0, 0.5])
+    engine.joints["m::j"].set_velocity([1.0, 2.0, 0.5])
     engine.step(500)
     anchor = relative(engine).apply((0.0, 0.0, 0.2))
     assert anchor == pytest.approx((0.0, 0.0, 0.2), abs=1e-6)
@@ -72,11 +72,11 @@ def test_a_ball_joint_turns_freely_and_stays_in_place():
 
 def test_a_ball_joint_is_read_and_put_as_a_quaternion_x_y_z_w():
     engine = engine_of(joint("j", "ball", "a", "b", pose=Pose(z=0.2)), nworld=2)
-    np.testing.assert_array_equal(engine.joint_position("m::j"), [[0, 0, 0, 1]] * 2)
+    np.testing.assert_array_equal(engine.joints["m::j"].position(), [[0, 0, 0, 1]] * 2)
     turn = Pose(roll=0.3, pitch=-0.5, yaw=1.1)
-    engine.set_joint_position("m::j", 3.0 * np.array(turn.quaternion), np.array([1]))
-    np.testing.assert_allclose(engine.joint_position("m::j")[1], turn.quaternion)
-    place = engine.link_placement("m::b")
+    engine.joints["m::j"].set_position(3.0 * np.array(turn.quaternion), np.array([1]))
+    np.testing.assert_allclose(engine.joints["m::j"].position()[1], turn.quaternion)
+    place = engine.links["m::b"].placement()
     np.testing.assert_allclose(place.quaternion, [(0, 0, 0, 1), turn.quaternion], atol=1e-12)
 
 
@@ -84,12 +84,12 @@ def test_a_joint_is_put_no_further_than_its_limits_in_each_world():
     axis = JointAxis(X, lower=-1.0, upper=1.0)
     engine = engine_of(Joint("j", "revolute", "a", "b", axes=(axis,)), nworld=3)
     engine.set_parameter("joint_upper", "m::j", [[1.0], [2.0], [np.inf]])
-    engine.set_joint_position("m::j", 5.0)
-    np.testing.assert_array_equal(engine.joint_position("m::j")[:, 0], [1.0, 2.0, 5.0])
-    engine.set_joint_position("m::j", [[-7.0]], np.array([1]))
-    np.testing.assert_array_equal(engine.joint_position("m::j")[:, 0], [1.0, -1.0, 5.0])
+    engine.joints["m::j"].set_position(5.0)
+    np.testing.assert_array_equal(engine.joints["m::j"].position()[:, 0], [1.0, 2.0, 5.0])
+    engine.joints["m::j"].set_position([[-7.0]], np.array([1]))
+    np.testing.assert_array_equal(engine.joints["m::j"].position()[:, 0], [1.0, -1.0, 5.0])
     engine.step(100)
-    np.testing.assert_allclose(engine.joint_velocity("m::j"), 0.0, atol=1e-6)
+    np.testing.assert_allclose(engine.joints["m::j"].velocity(), 0.0, atol=1e-6)
 
 
 def test_a_screw_without_thread_is_an_error_with_its_place():
@@ -102,15 +102,15 @@ def test_a_screw_without_thread_is_an_error_with_its_place():
 @pytest.mark.parametrize("kind", ["universal", "revolute2"])
 def test_two_axes_turn_one_after_the_other(kind):
     engine = engine_of(joint("j", kind, "a", "b", X, Y))
-    engine.set_joint_position("m::j", [0.4, -0.9])
+    engine.joints["m::j"].set_position([0.4, -0.9])
     assert relative(engine).is_close(Pose(roll=0.4) * Pose(pitch=-0.9))
 
 
 def test_a_screw_advances_by_its_pitch_left_handed():
     engine = engine_of(joint("j", "screw", "a", "b", Z, thread_pitch=10.0))
-    engine.set_joint_effort("m::j", [0.05, 0.0])
+    engine.joints["m::j"].set_effort([0.05, 0.0])
     engine.step(1500)
-    angle, distance = engine.joint_position("m::j")[0]
+    angle, distance = engine.joints["m::j"].position()[0]
     assert abs(angle) > 1.0
     assert distance == pytest.approx(-angle / 10.0, abs=1e-4)
 
@@ -119,7 +119,7 @@ def test_a_screw_under_gravity_turns_as_energy_says():
     pitch, moment = 40.0, 0.01
     engine = engine_of(joint("j", "screw", "a", "b", Z, thread_pitch=pitch), gravity=(0, 0, -9.8))
     engine.step(1000)
-    angle = engine.joint_position("m::j")[0, 0]
+    angle = engine.joints["m::j"].position()[0, 0]
     # m g = (m + I p²) z'' along the axis
     fallen = 0.5 * 9.8 / (1.0 + moment * pitch**2)
     assert angle / pitch == pytest.approx(fallen, rel=0.01)
@@ -127,7 +127,7 @@ def test_a_screw_under_gravity_turns_as_energy_says():
 
 def test_a_planar_joint_leaves_three_motions():
     engine = engine_of(joint("j", "planar", "a", "b", Z))
-    engine.set_joint_position("m::j", [0.2, -0.3, 0.5])
+    engine.joints["m::j"].set_position([0.2, -0.3, 0.5])
     place = relative(engine)
     assert math.hypot(place.x, place.y) == pytest.approx(math.hypot(0.2, 0.3))
     assert place.z == pytest.approx(0.0)
@@ -141,9 +141,12 @@ def test_a_gearbox_turns_its_driven_wheel_the_other_way():
         joint("gear", "gearbox", "b", "c", X, X, gearbox_ratio=3.0, gearbox_reference_body="a"),
         links=("a", "b", "c"),
     )
-    engine.set_joint_effort("m::in", 0.05)
+    engine.joints["m::in"].set_effort(0.05)
     engine.step(2000)
-    driving, driven = engine.joint_position("m::in")[0, 0], engine.joint_position("m::out")[0, 0]
+    driving, driven = (
+        engine.joints["m::in"].position()[0, 0],
+        engine.joints["m::out"].position()[0, 0],
+    )
     assert abs(driving) > 0.5
     assert driven == pytest.approx(-3.0 * driving, rel=1e-3)
 
@@ -157,10 +160,10 @@ def test_a_gearbox_on_a_link_without_a_hinge_is_left_out_and_told(parent, child,
             joint("gear", "gearbox", parent, child, X, X, gearbox_reference_body="a"),
             links=("a", "b", "c", "d"),
         )
-    engine.set_joint_effort("m::in", 0.05)
+    engine.joints["m::in"].set_effort(0.05)
     engine.step(100)
-    assert abs(engine.joint_position("m::in")[0, 0]) > 1e-4
-    assert engine.joint_position("m::out")[0, 0] == pytest.approx(0.0, abs=1e-9)
+    assert abs(engine.joints["m::in"].position()[0, 0]) > 1e-4
+    assert engine.joints["m::out"].position()[0, 0] == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_mimic_follows_its_leader():
@@ -170,9 +173,12 @@ def test_a_mimic_follows_its_leader():
         Joint("follow", "revolute", "a", "c", axes=(follower,)),
         links=("a", "b", "c"),
     )
-    engine.set_joint_effort("m::lead", 0.05)
+    engine.joints["m::lead"].set_effort(0.05)
     engine.step(2000)
-    lead, follow = engine.joint_position("m::lead")[0, 0], engine.joint_position("m::follow")[0, 0]
+    lead, follow = (
+        engine.joints["m::lead"].position()[0, 0],
+        engine.joints["m::follow"].position()[0, 0],
+    )
     assert abs(lead) > 0.5
     assert follow == pytest.approx(0.1 - 2.0 * (lead - 0.05), abs=2e-3)
 
@@ -214,12 +220,12 @@ def four_bar(closing):
 @pytest.mark.parametrize("closing", ["revolute", "continuous"])
 def test_a_four_bar_linkage_stays_a_parallelogram(closing):
     engine = make_engine("mujoco", scenes.world(four_bar(closing)))
-    engine.set_joint_effort("bar::ab", 0.3)
+    engine.joints["bar::ab"].set_effort(0.3)
     for _ in range(40):
         engine.step(50)
-        cranks = [engine.joint_position(f"bar::{j}")[0, 0] for j in ("ab", "ad")]
+        cranks = [engine.joints[f"bar::{j}"].position()[0, 0] for j in ("ab", "ad")]
         assert cranks[0] == pytest.approx(cranks[1], abs=0.01)
-        c = engine.link_placement("bar::c")
+        c = engine.links["bar::c"].placement()
         coupler = Pose.from_quaternion(c.position[0], c.quaternion[0])
         assert abs(coupler.pitch) < 0.02
     assert abs(cranks[0]) > 0.1
@@ -233,51 +239,53 @@ def test_a_ring_of_free_links_is_opened_at_its_first_link_and_held_together():
     )
     model = Model("m", links=links, joints=joints)
     engine = make_engine("mujoco", scenes.world(model, gravity=(0, 0, 0)))
-    engine.set_joint_effort("m::j1", 0.02)
+    engine.joints["m::j1"].set_effort(0.02)
     engine.step(1000)
     l0, l3 = relative(engine, "l0"), relative(engine, "l3")
-    assert abs(engine.joint_position("m::j1")[0, 0]) > 0.05
+    assert abs(engine.joints["m::j1"].position()[0, 0]) > 0.05
     assert (l3.inverse() * l0).position == pytest.approx((0.0, -0.4, 0.0), abs=2e-3)
 
 
 def test_a_second_slide_between_two_links_leaves_the_first_free():
     engine = engine_of(joint("j1", "prismatic", "a", "b", X), joint("j2", "prismatic", "a", "b", X))
-    engine.set_joint_effort("m::j1", 0.5)
+    engine.joints["m::j1"].set_effort(0.5)
     engine.step(1000)
     apart = relative(engine).x
-    assert apart == pytest.approx(engine.joint_position("m::j1")[0, 0])
+    assert apart == pytest.approx(engine.joints["m::j1"].position()[0, 0])
     assert apart == pytest.approx(0.5 * 0.5, rel=0.02)  # one kilogram, and a hundredth
 
 
 def test_damping_slows_a_hinge_as_an_exponential():
     axis = JointAxis(X, damping=0.02)
     engine = engine_of(Joint("j", "continuous", "a", "b", axes=(axis,)))
-    engine.set_joint_velocity("m::j", 5.0)
+    engine.joints["m::j"].set_velocity(5.0)
     engine.step(500)
     expected = 5.0 * math.exp(-0.02 / 0.01 * 0.5)
-    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=0.01)
+    assert engine.joints["m::j"].velocity()[0, 0] == pytest.approx(expected, rel=0.01)
 
 
 def test_an_armature_resists_acceleration_alone():
     axis = JointAxis(X, armature=0.03)
     engine = engine_of(Joint("j", "continuous", "a", "b", axes=(axis,)))
-    engine.set_joint_effort("m::j", 0.02)
+    engine.joints["m::j"].set_effort(0.02)
     engine.step(500)
     expected = 0.02 / (0.01 + 0.03) * 0.5  # as far as effort and inertia say
-    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=1e-3)
-    engine.set_joint_effort("m::j", 0.0)
+    assert engine.joints["m::j"].velocity()[0, 0] == pytest.approx(expected, rel=1e-3)
+    engine.joints["m::j"].set_effort(0.0)
     engine.step(500)
-    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=1e-3)
+    assert engine.joints["m::j"].velocity()[0, 0] == pytest.approx(expected, rel=1e-3)
 
 
 def test_friction_stops_a_hinge_evenly():
     axis = JointAxis(X, friction=0.02)
     engine = engine_of(Joint("j", "continuous", "a", "b", axes=(axis,)))
-    engine.set_joint_velocity("m::j", 5.0)
+    engine.joints["m::j"].set_velocity(5.0)
     engine.step(1000)
-    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(5.0 - 0.02 / 0.01 * 1.0, rel=0.02)
+    assert engine.joints["m::j"].velocity()[0, 0] == pytest.approx(
+        5.0 - 0.02 / 0.01 * 1.0, rel=0.02
+    )
     engine.step(3000)
-    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(0.0, abs=1e-6)
+    assert engine.joints["m::j"].velocity()[0, 0] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_spring_swings_at_its_frequency():
@@ -285,5 +293,5 @@ def test_a_spring_swings_at_its_frequency():
     engine = engine_of(Joint("j", "revolute", "a", "b", axes=(axis,)))
     half_period = math.pi * math.sqrt(0.01 / 1.0)
     engine.step(round(half_period / 0.001))
-    assert engine.joint_position("m::j")[0, 0] == pytest.approx(0.6, rel=0.02)
+    assert engine.joints["m::j"].position()[0, 0] == pytest.approx(0.6, rel=0.02)
     assert np.isfinite(engine.snapshot()).all()

@@ -57,7 +57,7 @@ def test_the_results_do_not_depend_on_threads_or_other_worlds():
     states = []
     for nworld, threads in ((1, 1), (16, 1), (16, 4)):
         engine = make_engine("mujoco", bouncing(), nworld, threads=threads)
-        engine.set_model_motion("b1", (0.5, 0.2, 0.0), (0.0, 1.0, 2.0))
+        engine.models["b1"].set_motion((0.5, 0.2, 0.0), (0.0, 1.0, 2.0))
         engine.step(1500)
         states.append(engine.snapshot()[-1])
     np.testing.assert_array_equal(states[0], states[1])
@@ -86,7 +86,7 @@ def test_what_is_spawned_brings_its_laws_along():
     heights = []
     for _ in range(400):
         engine.step()
-        heights.append(engine.model_placement("b0").position[0, 2] - 0.1)
+        heights.append(engine.models["b0"].placement().position[0, 2] - 0.1)
     assert max(heights[30:]) == pytest.approx(0.36, rel=0.02)
     engine.delete("b0")
     engine.step(10)

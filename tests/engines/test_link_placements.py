@@ -28,7 +28,7 @@ ARM = """
 
 
 def alone(engine, links, worlds=None):
-    places = [engine.link_placement(link, worlds) for link in links]
+    places = [engine.links[link].placement(worlds) for link in links]
     return (
         np.stack([place.position for place in places], axis=1),
         np.stack([place.quaternion for place in places], axis=1),
@@ -36,8 +36,8 @@ def alone(engine, links, worlds=None):
 
 
 def check(engine, worlds=None):
-    links = engine.link_names
-    found = engine.link_placements(links, worlds)
+    links = engine.links.names
+    found = engine.links[links].placement(worlds)
     place, turned = alone(engine, links, worlds)
     assert found.position == pytest.approx(place, abs=1e-12)
     sign = np.sign((found.quaternion * turned).sum(axis=-1, keepdims=True))
@@ -62,9 +62,9 @@ def test_all_links_at_once_are_where_each_is(tmp_path, engine):
         check(sim.engine)
         sim.reset()
         check(sim.engine)
-        assert sim.engine.link_placements((), None).position.shape == (3, 0, 3)
+        assert sim.engine.links[()].placement(None).position.shape == (3, 0, 3)
         with pytest.raises(EngineError, match="there is no link"):
-            sim.engine.link_placements(("arm::nothing",))
+            sim.engine.links[("arm::nothing",)].placement()
 
 
 @pytest.mark.parametrize("engine", ["mujoco", "planar"])

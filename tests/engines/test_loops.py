@@ -9,7 +9,7 @@ import scenes
 
 from gazelle.description import Inertia, Inertial, Joint, JointAxis, Link, Model, Pose, Source
 from gazelle.engines import make_engine
-from gazelle.engines.mujoco.tree import tree_of
+from gazelle.engines.tree import tree_of
 from gazelle.errors import EngineError, EngineWarning
 
 X, Y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
@@ -52,12 +52,15 @@ def _no_warnings():
 
 def test_a_guide_that_comes_last_is_kept_and_the_pin_closes_the_loop():
     engine = engine_of(crank_slider())
-    assert set(engine.joint_names) == {"m::turn", "m::pin", "m::guide"}
-    engine.set_joint_effort("m::turn", 0.3)
+    assert set(engine.joints.names) == {"m::turn", "m::pin", "m::guide"}
+    engine.joints["m::turn"].set_effort(0.3)
     turned = 0.0
     for _ in range(30):
         engine.step(50)
-        angle, at = engine.joint_position("m::turn")[0, 0], engine.joint_position("m::guide")[0, 0]
+        angle, at = (
+            engine.joints["m::turn"].position()[0, 0],
+            engine.joints["m::guide"].position()[0, 0],
+        )
         reach = CRANK * math.cos(angle) + math.sqrt(ROD**2 - (CRANK * math.sin(angle)) ** 2)
         assert at == pytest.approx(reach - CRANK - ROD, abs=1e-3)
         turned = max(turned, abs(angle))
@@ -66,7 +69,7 @@ def test_a_guide_that_comes_last_is_kept_and_the_pin_closes_the_loop():
 
 @pytest.mark.parametrize("kind", ["universal", "revolute2"])
 def test_joints_that_close_no_loop_are_kept_in_the_tree(kind):
-    assert "m::guide" in engine_of(crank_slider(kind)).joint_names
+    assert "m::guide" in engine_of(crank_slider(kind)).joints.names
 
 
 def test_a_joint_with_limits_damping_or_a_spring_is_kept_in_the_tree():
@@ -101,9 +104,9 @@ def test_two_guides_of_one_slider_agree():
     engine = engine_of(
         Model("m", links=parts.links, joints=(parts.joints[0], other, parts.joints[3]))
     )
-    engine.set_link_wrench("m::slider", (1.0, 5.0, -3.0), (0.1, 0.2, 0.3))
+    engine.links["m::slider"].set_wrench((1.0, 5.0, -3.0), (0.1, 0.2, 0.3))
     engine.step(1000)
-    place = engine.link_placement("m::slider")
+    place = engine.links["m::slider"].placement()
     start = CRANK + ROD
     assert place.position[0, 0] - start == pytest.approx(0.5 / 1.01, rel=2e-3)
     np.testing.assert_allclose(place.position[0, 1:], 0.0, atol=1e-4)
@@ -126,11 +129,11 @@ def jack(pitch, *, base="world", turn=None):
 def test_a_thread_that_closes_a_loop_lifts_as_it_is_turned(pitch):
     """Work of the torque goes into the turn and the lift: torque = (I + m / pitch²) angle''."""
     engine = engine_of(jack(pitch))
-    assert set(engine.joint_names) == {"m::lift", "m::turn"}
+    assert set(engine.joints.names) == {"m::lift", "m::turn"}
     torque = 0.05
-    engine.set_joint_effort("m::turn", torque)
+    engine.joints["m::turn"].set_effort(torque)
     engine.step(1000)
-    angle, lift = (engine.joint_position(f"m::{name}")[0, 0] for name in ("turn", "lift"))
+    angle, lift = (engine.joints[f"m::{name}"].position()[0, 0] for name in ("turn", "lift"))
     # The screw is the child: against the carriage it goes down as that goes up.
     assert lift == pytest.approx(angle / pitch, rel=2e-3, abs=1e-6)
     assert angle == pytest.approx(0.5 * torque / (0.01 + 1.0 / pitch**2), rel=0.02)
@@ -141,9 +144,9 @@ def test_a_carriage_on_a_thread_falls_as_energy_says(pitch):
     engine = make_engine("mujoco", scenes.world(jack(pitch)), 1)
     engine.step(1000)
     fallen = 0.5 * 9.8 / (1.0 + 0.01 * pitch**2)  # m g = (m + I pitch²) z''
-    lift = engine.joint_position("m::lift")[0, 0]
+    lift = engine.joints["m::lift"].position()[0, 0]
     assert lift == pytest.approx(-fallen, rel=0.02)
-    assert engine.joint_position("m::turn")[0, 0] == pytest.approx(lift * pitch, rel=2e-3)
+    assert engine.joints["m::turn"].position()[0, 0] == pytest.approx(lift * pitch, rel=2e-3)
 
 
 def test_a_thread_on_a_base_that_moves_keeps_it_where_it_is():
@@ -151,10 +154,12 @@ def test_a_thread_on_a_base_that_moves_keeps_it_where_it_is():
     model = jack(10.0, base="base")
     model = Model("m", links=(part("base"), *model.links), joints=model.joints)
     engine = engine_of(model)
-    engine.set_joint_effort("m::turn", 0.05)
+    engine.joints["m::turn"].set_effort(0.05)
     engine.step(500)
-    centres = [engine.link_placement(f"m::{n}").position[0] for n in ("base", "carriage", "screw")]
-    assert engine.joint_position("m::lift")[0, 0] > 0.02
+    centres = [
+        engine.links[f"m::{n}"].placement().position[0] for n in ("base", "carriage", "screw")
+    ]
+    assert engine.joints["m::lift"].position()[0, 0] > 0.02
     np.testing.assert_allclose(np.sum(centres, axis=0), [0.1, 0.0, 0.2], atol=2e-3)
 
 
@@ -164,9 +169,9 @@ def test_limits_of_a_thread_in_a_loop_hold():
     stop = JointAxis(up, lower=-0.5, upper=0.5)
     thread = Joint("thread", "screw", "carriage", "screw", axes=(stop,), thread_pitch=10.0)
     engine = engine_of(Model("m", links=parts.links, joints=(*parts.joints[:2], thread)))
-    engine.set_joint_effort("m::turn", 0.02)
+    engine.joints["m::turn"].set_effort(0.02)
     engine.step(3000)
-    assert engine.joint_position("m::turn")[0, 0] == pytest.approx(0.5, abs=0.02)
+    assert engine.joints["m::turn"].position()[0, 0] == pytest.approx(0.5, abs=0.02)
 
 
 def test_a_thread_without_pitch_that_closes_a_loop_is_an_error():
@@ -182,9 +187,9 @@ def test_two_hinges_in_one_joint_close_a_loop():
         Joint("second", "revolute2", "world", "table", pose=Pose(x=0.5), axes=axes),
     )
     engine = engine_of(Model("m", links=(part("table"),), joints=joints))
-    engine.set_link_wrench("m::table", (0.0, 0.0, 1.0), (0.3, 0.2, 0.1))
+    engine.links["m::table"].set_wrench((0.0, 0.0, 1.0), (0.3, 0.2, 0.1))
     engine.step(500)
-    place = engine.link_placement("m::table")
+    place = engine.links["m::table"].placement()
     np.testing.assert_allclose(place.position[0], 0.0, atol=1e-3)
     x, y, z, _ = place.quaternion[0]
     assert abs(x) > 0.1  # about the line through both

@@ -20,11 +20,11 @@ def engine_of(*models, step=0.001, nworld=1, gravity=(0.0, 0.0, -G)):
 @pytest.mark.parametrize("step", [0.001, 0.01])
 def test_a_thrown_body_flies_a_parabola_with_the_error_of_semi_implicit_euler(step):
     engine = engine_of(scenes.ball(pose=Pose(z=10.0)), step=step)
-    engine.set_model_motion("ball", (2.0, 0.0, 3.0), STILL)
+    engine.models["ball"].set_motion((2.0, 0.0, 3.0), STILL)
     steps = round(0.8 / step)
     engine.step(steps)
     t = steps * step
-    x, _, z = engine.model_placement("ball").position[0]
+    x, _, z = engine.models["ball"].placement().position[0]
     assert x == pytest.approx(2.0 * t, abs=1e-9)
     exact_sum = 10.0 + 3.0 * t - G * step * step * steps * (steps + 1) / 2
     assert z == pytest.approx(exact_sum, abs=1e-9)
@@ -35,10 +35,10 @@ def test_a_sliding_block_stops_after_v_squared_over_2_mu_g():
     mu, speed = 0.3, 1.5
     engine = engine_of(scenes.ground(), scenes.box(size=(0.4, 0.4, 0.1), pose=Pose(z=0.05), mu=mu))
     engine.step(300)
-    start = engine.model_placement("box").position[0, 0]
-    engine.set_model_motion("box", (speed, 0.0, 0.0), STILL)
+    start = engine.models["box"].placement().position[0, 0]
+    engine.models["box"].set_motion((speed, 0.0, 0.0), STILL)
     engine.step(1500)
-    place, motion = engine.model_placement("box"), engine.link_motion("box::link")
+    place, motion = engine.models["box"].placement(), engine.links["box::link"].motion()
     assert place.position[0, 0] - start == pytest.approx(speed**2 / (2 * mu * G), rel=0.03)
     assert np.abs(motion.linear).max() < 1e-3
 
@@ -51,7 +51,7 @@ def test_a_block_slips_on_a_slope_steeper_than_the_friction_angle(degrees, slide
     block = scenes.box(size=(0.4, 0.4, 0.1), pose=Pose(z=0.05), mu=mu)
     engine = engine_of(scenes.ground(), block, gravity=gravity)
     engine.step(1000)
-    speed = engine.link_motion("box::link").linear[0, 0]
+    speed = engine.links["box::link"].motion().linear[0, 0]
     expected = G * (math.sin(tilt) - mu * math.cos(tilt)) if slides else 0.0
     assert speed == pytest.approx(expected, abs=0.03)
 
@@ -60,9 +60,9 @@ def test_the_slipperier_of_two_surfaces_decides_as_in_ode():
     icy = scenes.ground(mu=0.1)
     engine = engine_of(icy, scenes.box(size=(0.4, 0.4, 0.1), pose=Pose(z=0.05), mu=1.0))
     engine.step(300)
-    engine.set_model_motion("box", (1.0, 0.0, 0.0), STILL)
+    engine.models["box"].set_motion((1.0, 0.0, 0.0), STILL)
     engine.step(500)
-    speed = engine.link_motion("box::link").linear[0, 0]
+    speed = engine.links["box::link"].motion().linear[0, 0]
     assert speed == pytest.approx(1.0 - 0.1 * G * 0.5, rel=0.05)
 
 
@@ -71,7 +71,7 @@ def test_a_ball_rolls_down_a_slope_with_five_sevenths_of_the_sliding_acceleratio
     gravity = (G * math.sin(tilt), 0.0, -G * math.cos(tilt))
     engine = engine_of(scenes.ground(), scenes.ball(pose=Pose(z=0.1)), gravity=gravity)
     engine.step(1000)
-    motion = engine.link_motion("ball::link")
+    motion = engine.links["ball::link"].motion()
     expected = 5.0 / 7.0 * G * math.sin(tilt)
     assert motion.linear[0, 0] == pytest.approx(expected, rel=0.02)
     assert motion.angular[0, 1] * 0.1 == pytest.approx(motion.linear[0, 0], rel=0.02)
@@ -81,10 +81,10 @@ def test_colliding_balls_keep_their_momentum_and_hardly_bounce_without_restituti
     left = scenes.ball("left", mass=2.0, pose=Pose(x=-0.5))
     right = scenes.ball("right", mass=1.0, pose=Pose(x=0.5))
     engine = engine_of(left, right, gravity=(0.0, 0.0, 0.0))
-    engine.set_model_motion("left", (1.5, 0.0, 0.0), STILL)
+    engine.models["left"].set_motion((1.5, 0.0, 0.0), STILL)
     engine.step(2000)
-    v_left = engine.link_motion("left::link").linear[0, 0]
-    v_right = engine.link_motion("right::link").linear[0, 0]
+    v_left = engine.links["left::link"].motion().linear[0, 0]
+    v_right = engine.links["right::link"].motion().linear[0, 0]
     assert 2.0 * v_left + v_right == pytest.approx(3.0, abs=1e-9)
     assert 0.0 <= v_right - v_left < 0.1 * 1.5
 
@@ -92,7 +92,7 @@ def test_colliding_balls_keep_their_momentum_and_hardly_bounce_without_restituti
 def test_a_body_rests_on_the_ground_within_a_tenth_of_a_millimetre():
     engine = engine_of(scenes.ground(), scenes.box(pose=Pose(z=0.3)))
     engine.step(3000)
-    assert engine.model_placement("box").position[0, 2] == pytest.approx(0.1, abs=1e-4)
+    assert engine.models["box"].placement().position[0, 2] == pytest.approx(0.1, abs=1e-4)
 
 
 @pytest.mark.parametrize("step", [0.001, 0.005])
@@ -109,7 +109,7 @@ def test_what_stands_on_the_ground_stands_still(shape, mu, step):
         engine = engine_of(scenes.ground(), post, step=step)
         for _ in range(20):
             engine.step(round(0.1 / step))
-            place = engine.model_placement("post").position[0]
+            place = engine.models["post"].placement().position[0]
             assert place == pytest.approx((0.0, 0.0, 0.5), abs=5e-4)
 
 
@@ -118,10 +118,10 @@ def test_a_free_rigid_body_keeps_its_angular_momentum_and_energy():
     body = scenes.solid("top", Cylinder(0.1, 0.1), moments=tuple(moments))
     engine = engine_of(body, step=0.0005, gravity=(0.0, 0.0, 0.0))
     spin = np.array([0.1, 5.0, 0.1])
-    engine.set_model_motion("top", STILL, spin)
+    engine.models["top"].set_motion(STILL, spin)
 
     def momentum():
-        place, motion = engine.link_placement("top::link"), engine.link_motion("top::link")
+        place, motion = engine.links["top::link"].placement(), engine.links["top::link"].motion()
         pose = Pose.from_quaternion((0, 0, 0), place.quaternion[0])
         rotation = pose.matrix()[:3, :3]
         return rotation @ (moments * (rotation.T @ motion.angular[0]))
@@ -141,6 +141,6 @@ def test_what_is_heavy_stands_still_on_what_is_light(ratio, deepest):
     heights = []
     for _ in range(200):
         engine.step(10)
-        heights.append(engine.model_placement("heavy").position[0, 2])
+        heights.append(engine.models["heavy"].placement().position[0, 2])
     assert 0.5 - min(heights) < deepest
     assert np.ptp(heights) < 2e-4

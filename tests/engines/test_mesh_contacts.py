@@ -31,10 +31,10 @@ def bowl(sections, rings, radius=1.0, thick=0.05):
 
 def period(engine, name="ball", seconds=8.0, step=0.001):
     """Mean time between two passages through x = 0 in the same direction [s]."""
-    last, passages = engine.model_placement(name).position[0, 0], []
+    last, passages = engine.models[name].placement().position[0, 0], []
     for count in range(round(seconds / step)):
         engine.step()
-        x = engine.model_placement(name).position[0, 0]
+        x = engine.models[name].placement().position[0, 0]
         if last < 0.0 <= x:
             passages.append(count * step)
         last = x
@@ -84,10 +84,10 @@ def test_a_body_slides_in_by_the_door_and_nowhere_else(tmp_path):
         puck = scenes.box(size=(0.5, 0.5, 0.3), mu=0.0, pose=Pose(x=x, y=-0.6, z=0.151))
         ground = scenes.solid("yard", scenes.Box((20, 20, 0.2)), pose=Pose(z=-0.1), static=True)
         engine = make_engine("mujoco", scenes.world(ground, walls, puck))
-        engine.set_model_motion("box", np.array([[0.0, 1.5, 0.0]]), np.zeros((1, 3)))
+        engine.models["box"].set_motion(np.array([[0.0, 1.5, 0.0]]), np.zeros((1, 3)))
         for _ in range(1500):
             engine.step()
-        y = engine.model_placement("box").position[0, 1]
+        y = engine.models["box"].placement().position[0, 1]
         assert (y > 1.0) == enters, x
         assert y < 3.6
 
@@ -114,7 +114,7 @@ def test_balls_come_to_rest_on_the_ground_that_rays_see(tmp_path, seed):
     for _ in range(2500):
         engine.step()
     for ball in balls:
-        position = engine.model_placement(ball.name).position[0]
+        position = engine.models[ball.name].placement().position[0]
         distance = closest(mesh, position)[1]
         assert position[2] > 0.05  # it did not fall through
         assert distance == pytest.approx(0.1, abs=0.006)
@@ -163,7 +163,7 @@ def test_ground_of_many_triangles_is_one_field_of_heights(tmp_path, mesh, fields
             name = f"{ball.name}::{ball.links[0].name}::{ball.links[0].collisions[0].name}"
             if len(engine.contacts([name]).depth):
                 touched += 1
-                position = engine.model_placement(ball.name).position[0]
+                position = engine.models[ball.name].placement().position[0]
                 assert closest(placed, position)[1] == pytest.approx(0.1, abs=0.012)
     assert touched > 5
 
@@ -196,4 +196,4 @@ def test_slivers_of_a_mesh_do_no_harm(tmp_path, width):
     engine = make_engine("mujoco", scenes.world(walls, ball))
     for _ in range(600):
         engine.step()
-    assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=0.01)
+    assert engine.models["ball"].placement().position[0, 2] == pytest.approx(0.1, abs=0.01)

@@ -52,7 +52,7 @@ def test_what_overlaps_is_not_thrown_out(tmp_path, below, above, depth, x, y):
     fastest = 0.0
     for _ in range(200):
         engine.step(5)
-        fastest = max(fastest, float(engine.link_motion("above::link").linear[0, 2]))
+        fastest = max(fastest, float(engine.links["above::link"].motion().linear[0, 2]))
     assert fastest < 0.3
 
 
@@ -77,8 +77,8 @@ def test_what_is_caught_in_something_gains_no_energy(tmp_path, below, above, pos
     fallen = 0.0
     for _ in range(200):
         engine.step(5)
-        fallen = max(fallen, pose.z - engine.model_placement("above").position[0, 2])
-        speed = np.linalg.norm(engine.link_motion("above::link").linear[0])
+        fallen = max(fallen, pose.z - engine.models["above"].placement().position[0, 2])
+        speed = np.linalg.norm(engine.links["above::link"].motion().linear[0])
         assert speed < 0.4 + math.sqrt(2.0 * 9.8 * fallen)
 
 
@@ -94,7 +94,7 @@ def test_what_is_in_the_ground_rises_at_max_vel_in_all_its_pieces(tmp_path, kind
     )
     for tenth in range(1, 9):
         engine.step(100)
-        height = engine.model_placement("body").position[0, 2] - half
+        height = engine.models["body"].placement().position[0, 2] - half
         assert height == pytest.approx(min(0.0, 0.01 * tenth - 0.05), abs=4e-3)
 
 

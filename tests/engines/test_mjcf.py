@@ -56,12 +56,12 @@ def test_it_steps_as_the_engine_does(name):
         mujoco.mj_step(model, data)
     mujoco.mj_kinematics(model, data)
     moving = 0
-    for link in engine.link_names:
+    for link in engine.links.names:
         body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, link)
         if body >= 0:  # links of static models are part of MuJoCo's world
             moving += 1
             np.testing.assert_array_equal(
-                engine.link_placement(link).position[0], data.xpos[body], link
+                engine.links[link].placement().position[0], data.xpos[body], link
             )
     assert moving
 

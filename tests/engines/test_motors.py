@@ -49,7 +49,7 @@ def speeds(engine, joint, count):
     found = []
     for _ in range(count):
         engine.step()
-        found.append(engine.joint_velocity(joint)[0])
+        found.append(engine.joints[joint].velocity()[0])
     return np.array(found)
 
 
@@ -59,7 +59,7 @@ def test_it_holds_still_under_a_load_whatever_the_shape_of_the_link(shape, step)
     engine = make_engine("mujoco", arm(shape=shape, step=step))
     engine.add_motor("m::j", 1000.0)
     assert np.abs(speeds(engine, "m::j", 200)).max() < 1e-6
-    assert abs(engine.joint_position("m::j")[0, 0]) < 1e-9
+    assert abs(engine.joints["m::j"].position()[0, 0]) < 1e-9
 
 
 @pytest.mark.parametrize("kind", ["revolute", "continuous", "prismatic"])
@@ -67,7 +67,7 @@ def test_it_holds_still_under_a_load_whatever_the_shape_of_the_link(shape, step)
 def test_it_turns_a_load_all_the_way_round_at_its_velocity(kind, step):
     engine = make_engine("mujoco", arm(kind=kind, step=step))
     engine.add_motor("m::j", 1000.0)
-    engine.set_motor_velocity("m::j", 2.0)
+    engine.joints["m::j"].set_motor_velocity(2.0)
     engine.step(math.ceil(0.2 / step))
     assert np.abs(speeds(engine, "m::j", round(4.0 / step)) - 2.0).max() < 1e-6
 
@@ -79,7 +79,7 @@ def test_what_it_cannot_reach_at_once_it_approaches_at_its_effort(kind, effort, 
     engine = make_engine("mujoco", arm(kind=kind, gravity=0.0, step=step))
     moved = 5.0 if kind == "prismatic" else 5.0 + 0.01
     engine.add_motor("m::j", effort)
-    engine.set_motor_velocity("m::j", -1e4)
+    engine.joints["m::j"].set_motor_velocity(-1e4)
     found = speeds(engine, "m::j", 100)[:, 0]
     expected = -effort / moved * step * np.arange(1, 101)
     np.testing.assert_allclose(found, expected, rtol=1e-9)
@@ -97,24 +97,24 @@ def test_it_acts_beside_the_friction_of_the_joint():
     """Friction takes its part of the effort, on the way up and when the motor is too weak."""
     engine = make_engine("mujoco", arm(gravity=0.0, friction=1.0))
     engine.add_motor("m::j", 3.0)
-    engine.set_motor_velocity("m::j", 1e3)
+    engine.joints["m::j"].set_motor_velocity(1e3)
     found = speeds(engine, "m::j", 100)[:, 0]
     np.testing.assert_allclose(found, (3.0 - 1.0) / 5.01 * 0.001 * np.arange(1, 101), rtol=1e-6)
-    engine.set_motor_velocity("m::j", 0.02)
+    engine.joints["m::j"].set_motor_velocity(0.02)
     engine.step(100)
     assert np.abs(speeds(engine, "m::j", 50) - 0.02).max() < 1e-6
     weak = make_engine("mujoco", arm(gravity=0.0, friction=1.0))
     weak.add_motor("m::j", 0.9)
-    weak.set_motor_velocity("m::j", 1e3)
+    weak.joints["m::j"].set_motor_velocity(1e3)
     weak.step(500)
-    assert abs(weak.joint_velocity("m::j")[0, 0]) < 1e-6
+    assert abs(weak.joints["m::j"].velocity()[0, 0]) < 1e-6
 
 
 @pytest.mark.parametrize("damping", [0.1, 1.0, 30.0])
 def test_it_holds_its_velocity_against_damping(damping):
     engine = make_engine("mujoco", arm(damping=damping))
     engine.add_motor("m::j", 1000.0)
-    engine.set_motor_velocity("m::j", -1.5)
+    engine.joints["m::j"].set_motor_velocity(-1.5)
     engine.step(100)
     assert np.abs(speeds(engine, "m::j", 500) + 1.5).max() < 1e-6
 
@@ -136,7 +136,7 @@ def test_any_load_that_it_can_carry_moves_at_its_velocity(
     load = mass * G * reach
     start = (moment + mass * reach**2) * abs(target) / step
     engine.add_motor("m::j", strength * (load + start) + 1e-9)
-    engine.set_motor_velocity("m::j", target)
+    engine.joints["m::j"].set_motor_velocity(target)
     engine.step(5)
     assert np.abs(speeds(engine, "m::j", 100) - target).max() < 1e-6 * max(1.0, abs(target))
 
@@ -149,16 +149,16 @@ def test_a_joint_of_two_axes_has_a_motor_on_each(kind):
     second = JointAxis(xyz=(0.0, 0.0, 1.0))
     engine = make_engine("mujoco", arm(kind=kind, more=(second,), reach=0.3), 2)
     engine.add_motor("m::j", (1000.0, 1000.0))
-    engine.set_motor_velocity("m::j", [[1.0, -2.0], [0.0, 0.5]])
+    engine.joints["m::j"].set_motor_velocity([[1.0, -2.0], [0.0, 0.5]])
     engine.step(2)
     for _ in range(300):
         engine.step()
         np.testing.assert_allclose(
-            engine.joint_velocity("m::j"), [[1.0, -2.0], [0.0, 0.5]], atol=1e-6
+            engine.joints["m::j"].velocity(), [[1.0, -2.0], [0.0, 0.5]], atol=1e-6
         )
-    engine.set_motor_velocity("m::j", 0.25)
+    engine.joints["m::j"].set_motor_velocity(0.25)
     engine.step(3)
-    np.testing.assert_allclose(engine.joint_velocity("m::j"), 0.25, atol=1e-6)
+    np.testing.assert_allclose(engine.joints["m::j"].velocity(), 0.25, atol=1e-6)
     assert engine.parameter("motor_effort", "m::j").tolist() == [[1000.0, 1000.0]] * 2
 
 
@@ -166,10 +166,10 @@ def test_an_axis_whose_motor_is_off_moves_freely():
     second = JointAxis(xyz=(0.0, 0.0, 1.0))
     world = arm(kind="universal", more=(second,), reach=0.5, gravity=0.0)
     engine = make_engine("mujoco", world)
-    engine.set_joint_velocity("m::j", (0.0, 1.0))
+    engine.joints["m::j"].set_velocity((0.0, 1.0))
     engine.add_motor("m::j", (1000.0, 0.0))
     engine.step(500)
-    assert engine.joint_velocity("m::j")[0] == pytest.approx((0.0, 1.0), abs=1e-6)
+    assert engine.joints["m::j"].velocity()[0] == pytest.approx((0.0, 1.0), abs=1e-6)
 
 
 def test_a_screw_is_moved_by_the_motor_of_its_turn():
@@ -178,9 +178,9 @@ def test_a_screw_is_moved_by_the_motor_of_its_turn():
     model = Model("m", links=(Link("nut", inertial=inertial),), joints=(joint,))
     engine = make_engine("mujoco", scenes.world(model))
     engine.add_motor("m::j", 100.0)
-    engine.set_motor_velocity("m::j", 3.0)
+    engine.joints["m::j"].set_motor_velocity(3.0)
     engine.step(1000)
-    turn, rise = engine.joint_velocity("m::j")[0]
+    turn, rise = engine.joints["m::j"].velocity()[0]
     assert turn == pytest.approx(3.0, abs=1e-6)
     assert rise == pytest.approx(3.0 / 50.0, rel=1e-3)
 
@@ -201,7 +201,7 @@ def test_joints_without_axes_and_efforts_that_cannot_be_are_refused():
     with pytest.raises(EngineError, match="there is no joint 'm::k'"):
         engine.add_motor("m::k", 1.0)
     with pytest.raises(EngineError, match="no motor on joint"):
-        engine.set_motor_velocity("m::j", 1.0)
+        engine.joints["m::j"].set_motor_velocity(1.0)
     engine.add_motor("m::j", 1.0)
     with pytest.raises(EngineError, match="has motors"):
         engine.make_kinematic("m")
@@ -213,10 +213,10 @@ def test_joints_without_axes_and_efforts_that_cannot_be_are_refused():
 def test_effort_and_velocity_change_while_it_runs():
     engine = make_engine("mujoco", arm(gravity=0.0))
     engine.add_motor("m::j", 1e4)
-    engine.set_motor_velocity("m::j", 1.0)
+    engine.joints["m::j"].set_motor_velocity(1.0)
     engine.step(5)
     engine.add_motor("m::j", 5.01)
-    engine.set_motor_velocity("m::j", 2.0)
+    engine.joints["m::j"].set_motor_velocity(2.0)
     assert speeds(engine, "m::j", 100)[-1, 0] == pytest.approx(1.1, abs=1e-6)
     engine.set_parameter("motor_effort", "m::j", [0.0])
     assert speeds(engine, "m::j", 100)[-1, 0] == pytest.approx(1.1, abs=1e-6)
@@ -230,23 +230,23 @@ def test_each_world_has_its_velocity_and_its_effort_whatever_the_others_do():
     many.add_motor("m::j", 1.0)
     many.set_parameter("motor_effort", "m::j", effort)
     many.set_parameter("link_mass", "m::arm", [[1.0], [2.0], [3.0], [4.0]])
-    many.set_motor_velocity("m::j", np.arange(4.0))
+    many.joints["m::j"].set_motor_velocity(np.arange(4.0))
     many.step(300)
     for i in range(worlds):
         one = make_engine("mujoco", arm())
         one.add_motor("m::j", 1.0)
         one.set_parameter("motor_effort", "m::j", effort[i])
         one.set_parameter("link_mass", "m::arm", [i + 1.0])
-        one.set_motor_velocity("m::j", float(i))
+        one.joints["m::j"].set_motor_velocity(float(i))
         one.step(300)
-        assert one.joint_velocity("m::j")[0] == many.joint_velocity("m::j")[i]
-    assert many.joint_velocity("m::j")[3, 0] == pytest.approx(3.0, abs=1e-6)
+        assert one.joints["m::j"].velocity()[0] == many.joints["m::j"].velocity()[i]
+    assert many.joints["m::j"].velocity()[3, 0] == pytest.approx(3.0, abs=1e-6)
 
 
 def test_a_snapshot_goes_on_to_the_same_bits_and_a_reset_lets_it_stand():
     engine = make_engine("mujoco", arm(), 2)
     engine.add_motor("m::j", 60.0)
-    engine.set_motor_velocity("m::j", [1.0, 30.0])
+    engine.joints["m::j"].set_motor_velocity([1.0, 30.0])
     engine.step(57)
     state = engine.snapshot()
     engine.step(100)
@@ -261,13 +261,13 @@ def test_a_snapshot_goes_on_to_the_same_bits_and_a_reset_lets_it_stand():
     np.testing.assert_array_equal(twin.snapshot(), expected)
     engine.reset()
     engine.step(100)
-    assert np.abs(engine.joint_velocity("m::j")).max() < 1e-6
+    assert np.abs(engine.joints["m::j"].velocity()).max() < 1e-6
 
 
 def test_it_goes_on_when_something_else_comes_and_goes():
     engine = make_engine("mujoco", arm())
     engine.add_motor("m::j", 1000.0)
-    engine.set_motor_velocity("m::j", 2.0)
+    engine.joints["m::j"].set_motor_velocity(2.0)
     engine.step(50)
     engine.spawn(scenes.ball("ball", pose=Pose(x=9.0)))
     assert np.abs(speeds(engine, "m::j", 3) - 2.0).max() < 1e-6
@@ -279,10 +279,10 @@ def test_looking_at_forces_changes_nothing():
     seen, unseen = (make_engine("mujoco", arm()) for _ in range(2))
     for engine in (seen, unseen):
         engine.add_motor("m::j", 1000.0)
-        engine.set_motor_velocity("m::j", 2.0)
+        engine.joints["m::j"].set_motor_velocity(2.0)
     for _ in range(20):
-        seen.joint_wrench("m::j")
-        seen.link_acceleration("m::arm")
+        seen.joints["m::j"].wrench()
+        seen.links["m::arm"].acceleration()
         for engine in (seen, unseen):
             engine.step()
     np.testing.assert_array_equal(seen.snapshot(), unseen.snapshot())
@@ -292,7 +292,7 @@ def test_its_effort_is_in_the_reaction_of_the_joint():
     engine = make_engine("mujoco", arm())
     engine.add_motor("m::j", 1000.0)
     engine.step(10)
-    wrench = engine.joint_wrench("m::j")
+    wrench = engine.joints["m::j"].wrench()
     assert wrench.torque[0] == pytest.approx((0.0, 5.0 * G, 0.0), abs=1e-5)
     assert wrench.force[0] == pytest.approx((0.0, 0.0, -5.0 * G), abs=1e-5)
 
@@ -302,12 +302,12 @@ def test_with_runge_kutta_too():
     world = with_profile(world, scenes.replace(world.profile, integrator="rk4"))
     engine = make_engine("mujoco", world)
     engine.add_motor("m::j", 1000.0)
-    engine.set_motor_velocity("m::j", 2.0)
+    engine.joints["m::j"].set_motor_velocity(2.0)
     engine.step(200)
     assert np.abs(speeds(engine, "m::j", 1000) - 2.0).max() < 1e-6
     engine = make_engine("mujoco", with_profile(arm(gravity=0.0), world.profile))
     engine.add_motor("m::j", 5.01)
-    engine.set_motor_velocity("m::j", 50.0)
+    engine.joints["m::j"].set_motor_velocity(50.0)
     assert speeds(engine, "m::j", 100)[-1, 0] == pytest.approx(0.1, rel=1e-6)
 
 
@@ -338,11 +338,11 @@ def test_wheels_under_load_turn_at_their_velocity_and_carry_the_car(cone, step, 
     engine = make_engine("mujoco", wheeled(cone=cone, step=step, inertia=inertia))
     for i in range(4):
         engine.add_motor(f"car::j{i}", 20.0)
-        engine.set_motor_velocity(f"car::j{i}", 5.0)
+        engine.joints[f"car::j{i}"].set_motor_velocity(5.0)
     engine.step(round(1.0 / step))
     found = np.array([speeds(engine, f"car::j{i}", 10) for i in range(4)])
     assert np.abs(found - 5.0).max() < 1e-4
-    assert engine.link_motion("car::base").linear[0, 0] == pytest.approx(0.5, rel=0.01)
+    assert engine.links["car::base"].motion().linear[0, 0] == pytest.approx(0.5, rel=0.01)
 
 
 @pytest.mark.parametrize("cone", ["cone", "pyramid"])
@@ -350,10 +350,10 @@ def test_wheels_too_weak_to_slip_push_the_car_by_their_effort(cone):
     engine = make_engine("mujoco", wheeled(cone=cone, step=0.001))
     for i in range(4):
         engine.add_motor(f"car::j{i}", 0.5)
-        engine.set_motor_velocity(f"car::j{i}", 50.0)
+        engine.joints[f"car::j{i}"].set_motor_velocity(50.0)
     engine.step(500)
     force, mass = 4 * 0.5 / 0.1, 12.0 + 4 * 0.001 / 0.1**2
-    speed = engine.link_motion("car::base").linear[0, 0]
+    speed = engine.links["car::base"].motion().linear[0, 0]
     assert speed == pytest.approx(force / mass * 0.5, rel=0.005)
 
 
@@ -392,18 +392,18 @@ def test_a_car_turns_as_its_steering_says_with_knuckles_of_any_shape(shapes, ste
     wanted = 1.5  # radius of the turn at the middle of the rear axle
     for side, sign in (("left", -1.0), ("right", 1.0)):
         joint = f"car::{side}_steer"
-        engine.set_joint_position(joint, math.atan2(base, wanted + sign * track / 2))
+        engine.joints[joint].set_position(math.atan2(base, wanted + sign * track / 2))
         engine.add_motor(joint, 50.0)
         rear = f"car::rear_{side}_joint"
         engine.add_motor(rear, 10.0)
-        engine.set_motor_velocity(rear, 0.5 / radius * (1.0 + sign * track / 2 / wanted))
+        engine.joints[rear].set_motor_velocity(0.5 / radius * (1.0 + sign * track / 2 / wanted))
     engine.step(round(1.0 / step))
-    before = engine.joint_position("car::left_steer")[0, 0]
+    before = engine.joints["car::left_steer"].position()[0, 0]
     speed, turning = [], []
     for _ in range(100):
         engine.step(round(0.02 / step))
-        motion = engine.link_motion("car::body")
+        motion = engine.links["car::body"].motion()
         speed.append(np.hypot(*motion.linear[0, :2]))
         turning.append(motion.angular[0, 2])
     assert np.mean(speed) / np.mean(turning) == pytest.approx(wanted, rel=0.03)
-    assert engine.joint_position("car::left_steer")[0, 0] == pytest.approx(before, abs=1e-6)
+    assert engine.joints["car::left_steer"].position()[0, 0] == pytest.approx(before, abs=1e-6)

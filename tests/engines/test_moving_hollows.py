@@ -25,7 +25,7 @@ def body(name, data, folder, mass=100.0, pose=None):
 
 
 def height(engine, name):
-    return float(engine.model_placement(name).position[0, 2])
+    return float(engine.models[name].placement().position[0, 2])
 
 
 @pytest.mark.long
@@ -86,5 +86,5 @@ def test_a_ball_in_a_sealed_cavity_stays_there(tmp_path):
     engine = make_engine("mujoco", scenes.world(scenes.ground(), shell, ball), threads=1)
     engine.step(1500)
     assert height(engine, "shell") == pytest.approx(0.5, abs=0.002)
-    place = engine.model_placement("ball").position[0] - (0.0, 0.0, 0.5)
+    place = engine.models["ball"].placement().position[0] - (0.0, 0.0, 0.5)
     assert float(np.linalg.norm(place)) == pytest.approx(0.3, abs=0.005)

@@ -51,11 +51,12 @@ def apart(engines):
     """The largest difference of any joint or link [m or rad]."""
     one, other = engines
     joints = [
-        np.abs(one.joint_position(n) - other.joint_position(n)).max() for n in one.joint_names
+        np.abs(one.joints[n].position() - other.joints[n].position()).max()
+        for n in one.joints.names
     ]
     links = [
-        np.abs(one.link_placement(n).position - other.link_placement(n).position).max()
-        for n in one.link_names
+        np.abs(one.links[n].placement().position - other.links[n].placement().position).max()
+        for n in one.links.names
     ]
     return max([*joints, *links])
 
@@ -82,9 +83,9 @@ def test_what_tumbles_over_the_ground_comes_to_lie_alike(shape, mu):
         chance = np.random.default_rng(0)
         turn = chance.normal(size=(count, 4))
         place = np.column_stack([np.zeros((count, 2)), chance.uniform(0.2, 0.3, count)])
-        engine.set_model_placement("t", place, turn)
+        engine.models["t"].set_placement(place, turn)
         fast = chance.uniform(-3.0, 3.0, (count, 3)) - (0.0, 0.0, 3.0)
-        engine.set_model_motion("t", fast, chance.uniform(-10.0, 10.0, (count, 3)))
+        engine.models["t"].set_motion(fast, chance.uniform(-10.0, 10.0, (count, 3)))
         engine.step(150)
     assert apart(engines) < 2e-4
 
@@ -93,13 +94,13 @@ def test_what_tumbles_over_the_ground_comes_to_lie_alike(shape, mu):
 def test_worlds_have_states_and_resets_of_their_own():
     engines = pair(scenes.world(scenes.ground(0.4), scenes.box(mu=0.4, pose=Pose(z=0.1))), 3)
     for engine in engines:
-        engine.set_model_motion("box", [(1.0, 0.0, 0.0), (0.0, 0.5, 0.0), (0.0, 0.0, 2.0)], STILL)
+        engine.models["box"].set_motion([(1.0, 0.0, 0.0), (0.0, 0.5, 0.0), (0.0, 0.0, 2.0)], STILL)
         engine.step(60)
         engine.reset(np.array([1]))
-        engine.set_link_wrench("box::link", (0.0, 6.0, 0.0), STILL, np.array([0]))
+        engine.links["box::link"].set_wrench((0.0, 6.0, 0.0), STILL, np.array([0]))
         engine.step(60)
     assert apart(engines) < 5e-6
-    position = engines[1].link_placement("box::link").position
+    position = engines[1].links["box::link"].placement().position
     assert position[0, 0] > 0.08
     assert position[1] == pytest.approx((0.0, 0.0, 0.1), abs=1e-4)
     assert position[2, 2] > 0.2
@@ -116,7 +117,7 @@ def test_what_is_thrown_bounces_as_high():
         tops = []
         for _ in range(20):
             engine.step(20)
-            tops.append(engine.link_placement("ball::link").position[0, 2])
+            tops.append(engine.links["ball::link"].placement().position[0, 2])
         heights.append(max(tops))
     assert heights[0] > 0.25
     assert heights[1] == pytest.approx(heights[0], abs=1e-3)
@@ -129,10 +130,10 @@ def test_friction_by_direction_and_spins():
     tumbler = scenes.solid("t", Sphere(0.1), moments=(0.01, 0.02, 0.028), pose=Pose(x=3, z=5))
     engines = pair(scenes.world(scenes.ground(1.0), sled, tumbler))
     for engine in engines:
-        engine.set_model_motion("sled", (1.0, 1.0, 0.0), STILL)
-        engine.set_model_motion("t", STILL, (0.1, 8.0, 0.1))
+        engine.models["sled"].set_motion((1.0, 1.0, 0.0), STILL)
+        engine.models["t"].set_motion(STILL, (0.1, 8.0, 0.1))
         engine.step(200)
-    spins = [engine.link_motion("t::link").angular for engine in engines]
+    spins = [engine.links["t::link"].motion().angular for engine in engines]
     assert spins[1] == pytest.approx(spins[0], abs=1e-3)
     assert apart(engines) < 5e-5
 
@@ -146,9 +147,9 @@ def test_motors_have_their_largest_effort():
     engines = pair(scenes.world(Model("m", links=(wheel,), joints=(joint,))), 2)
     for engine in engines:
         engine.add_motor("m::j", 0.4)
-        engine.set_motor_velocity("m::j", (0.5, 50.0))
+        engine.joints["m::j"].set_motor_velocity((0.5, 50.0))
         engine.step(100)
-    speeds = [engine.joint_velocity("m::j")[:, 0] for engine in engines]
+    speeds = [engine.joints["m::j"].velocity()[:, 0] for engine in engines]
     assert speeds[1] == pytest.approx(speeds[0], rel=1e-5)
     assert speeds[1] == pytest.approx((0.5, (0.4 - 0.01) / 0.02 * 0.1), rel=1e-3)
 
@@ -156,13 +157,13 @@ def test_motors_have_their_largest_effort():
 def test_models_come_and_go():
     engines = pair(scenes.world(scenes.ground(0.5), scenes.box(pose=Pose(z=0.1), mu=0.5)), 2)
     for engine in engines:
-        engine.set_model_motion("box", (1.0, 0.0, 0.0), STILL)
+        engine.models["box"].set_motion((1.0, 0.0, 0.0), STILL)
         engine.step(20)
         engine.spawn(scenes.ball(pose=Pose(x=1.0, z=0.3), mu=0.5))
         engine.step(20)
         engine.delete("box")
         engine.step(20)
-    assert engines[1].link_names == ("ground_plane::link", "ball::link")
+    assert engines[1].links.names == ("ground_plane::link", "ball::link")
     assert apart(engines) < 5e-6
 
 
@@ -176,7 +177,7 @@ def test_rays_meet_the_same():
     found = []
     for engine in engines:
         place = np.array([(0.0, 0.0, 0.4), (0.3, -0.2, 0.4)])
-        engine.set_model_placement("eye", place, (0.0, 0.0, 0.0, 1.0))
+        engine.models["eye"].set_placement(place, (0.0, 0.0, 0.0, 1.0))
         found.append(engine.cast_rays("eye::link", np.zeros((90, 3)), along, ignore_own=True))
     one, other = (each.distance for each in found)
     assert np.isfinite(one).sum() > 80
@@ -193,7 +194,7 @@ def test_masses_and_gravity_differ_between_worlds():
     for engine in engines:
         engine.set_parameter("gravity", "", [(0.0, 0.0, -9.8), (0.0, 0.0, -1.6)])
         engine.set_parameter("link_mass", "box::link", [(1.0,), (2.0,)])
-        engine.set_link_wrench("box::link", (4.0, 0.0, 0.0), STILL)
+        engine.links["box::link"].set_wrench((4.0, 0.0, 0.0), STILL)
         engine.step(50)
     assert apart(engines) < 5e-6
 
@@ -226,7 +227,7 @@ def test_contacts_seen_ahead_are_refused_or_missed_aloud():
 
 def test_a_world_that_breaks_down_is_reset_and_named():
     engine = make_engine("mujoco-warp", scenes.world(scenes.box()), 2)
-    engine.set_link_wrench("box::link", (math.inf, 0.0, 0.0), STILL, np.array([1]))
+    engine.links["box::link"].set_wrench((math.inf, 0.0, 0.0), STILL, np.array([1]))
     with pytest.raises(DivergenceError, match="1 of 2 worlds") as caught:
         engine.step(3)
     assert caught.value.worlds.tolist() == [1]
@@ -244,14 +245,14 @@ def test_more_contacts_than_there_was_room_for():
 
 def test_joints_on_the_device_through_dlpack():
     engine = make_engine("mujoco-warp", SCENES[1].make(), 2)
-    engine.set_joint_position("m::elbow", [(0.3,), (0.4,)])
+    engine.joints["m::elbow"].set_position([(0.3,), (0.4,)])
     engine.step(5)
-    for kind in ("joint_position", "joint_velocity"):
+    for kind in ("position", "velocity"):
         there = np.from_dlpack(engine.on_device(kind, "m::elbow"))
         assert there.dtype == np.float32
-        assert np.array_equal(there, getattr(engine, kind)("m::elbow"))
-    with pytest.raises(EngineError, match="did you mean 'joint_velocity'"):
-        engine.on_device("joint_velocities", "m::elbow")
+        assert np.array_equal(there, getattr(engine.joints["m::elbow"], kind)())
+    with pytest.raises(EngineError, match="did you mean 'velocity'"):
+        engine.on_device("velocities", "m::elbow")
 
 
 @pytest.mark.long

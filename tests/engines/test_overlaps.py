@@ -29,7 +29,7 @@ def heights(engine, name, seconds, every=0.1):
     track = []
     for _ in range(round(seconds / every)):
         engine.step(round(every / engine.time_step))
-        track.append(engine.model_placement(name).position[0, 2])
+        track.append(engine.models[name].placement().position[0, 2])
     return np.array(track)
 
 
@@ -58,7 +58,7 @@ def test_by_default_nothing_is_thrown():
     engine = make_engine("mujoco", scenes.world(scenes.ground(), body))
     for _ in range(100):
         engine.step(10)
-        assert np.abs(engine.link_motion("box::link").linear).max() < 0.05
+        assert np.abs(engine.links["box::link"].motion().linear).max() < 0.05
 
 
 def test_what_bounces_is_let_out_too():
@@ -88,7 +88,7 @@ def test_a_change_of_the_world_leaves_what_strikes_alone():
         track = []
         for i in range(80):
             engine.step()
-            track.append(engine.model_placement("box").position[0, 2])
+            track.append(engine.models["box"].placement().position[0, 2])
             if spawns and i % 2:
                 engine.spawn(scenes.box(f"extra_{i}", pose=Pose(100.0 + i, z=0.1)))
         tracks.append(track)
@@ -116,11 +116,11 @@ def test_a_reset_starts_again_and_a_restored_state_goes_on():
     engine.step(1000)
     engine.reset(np.array([1]))
     engine.step(100)
-    z = engine.model_placement("box").position[:, 2]
+    z = engine.models["box"].placement().position[:, 2]
     assert z == pytest.approx([0.1, 0.06], abs=2e-3)
     engine.restore(saved)
     engine.step(100)
-    assert engine.model_placement("box").position[:, 2] == pytest.approx(0.09, abs=3e-3)
+    assert engine.models["box"].placement().position[:, 2] == pytest.approx(0.09, abs=3e-3)
     after = engine.snapshot()
     engine.restore(saved)
     engine.step(100)
@@ -133,17 +133,17 @@ def test_spawning_leaves_what_has_come_out_as_it_is():
     engine.step(500)
     engine.spawn(sunk(scenes.box("other", pose=Pose(1.0, z=0.1)), 0.03, max_vel=0.1))
     engine.step(200)
-    assert engine.model_placement("box").position[0, 2] == pytest.approx(0.1, abs=5e-4)
-    assert engine.model_placement("other").position[0, 2] == pytest.approx(0.09, abs=2e-3)
+    assert engine.models["box"].placement().position[0, 2] == pytest.approx(0.1, abs=5e-4)
+    assert engine.models["other"].placement().position[0, 2] == pytest.approx(0.09, abs=2e-3)
 
 
 def test_what_is_placed_elsewhere_overlaps_no_more():
     body = sunk(scenes.box(pose=Pose(z=0.1)), 0.05, max_vel=0.001)
     engine = make_engine("mujoco", scenes.world(ground(), body))
     engine.step(10)
-    engine.set_model_placement("box", (0.0, 0.0, 0.1), UP)
+    engine.models["box"].set_placement((0.0, 0.0, 0.1), UP)
     engine.step(500)
-    assert engine.model_placement("box").position[0, 2] == pytest.approx(0.1, abs=5e-4)
+    assert engine.models["box"].placement().position[0, 2] == pytest.approx(0.1, abs=5e-4)
 
 
 def test_a_nested_model_that_is_static_holds_what_hangs_on_it():
@@ -156,10 +156,10 @@ def test_a_nested_model_that_is_static_holds_what_hangs_on_it():
     box = scenes.box(pose=Pose(z=0.1))
     engine = make_engine("mujoco", scenes.world(place, box))
     engine.step(300)
-    assert engine.link_placement("place::post::link").position[0, 2] == 1.0
-    assert engine.model_placement("box").position[0, 2] == pytest.approx(0.1, abs=5e-4)
-    assert engine.link_placement("place::arm::link").position[0, 2] < 0.99
-    arm_at = engine.link_placement("place::arm::link").position[0]
+    assert engine.links["place::post::link"].placement().position[0, 2] == 1.0
+    assert engine.models["box"].placement().position[0, 2] == pytest.approx(0.1, abs=5e-4)
+    assert engine.links["place::arm::link"].placement().position[0, 2] < 0.99
+    arm_at = engine.links["place::arm::link"].placement().position[0]
     assert np.linalg.norm(arm_at - (3.0, 0.0, 1.0)) == pytest.approx(0.5, abs=1e-9)
 
 
@@ -167,14 +167,16 @@ def test_what_is_placed_into_the_ground_comes_out_at_max_vel_in_its_world():
     body = sunk(scenes.box(pose=Pose(z=0.1)), 0.0, max_vel=0.1)
     engine = make_engine("mujoco", scenes.world(ground(), body), nworld=3)
     engine.step(50)
-    engine.set_model_placement("box", (0.0, 0.0, 0.05), UP, np.array([1]))
-    engine.set_model_placement("box", (0.0, 0.0, 0.07), UP, np.array([2]))
+    engine.models["box"].set_placement((0.0, 0.0, 0.05), UP, np.array([1]))
+    engine.models["box"].set_placement((0.0, 0.0, 0.07), UP, np.array([2]))
     engine.step(200)
-    rising = engine.model_placement("box").position[:, 2]
+    rising = engine.models["box"].placement().position[:, 2]
     assert rising == pytest.approx([0.1, 0.07, 0.09], abs=2e-3)
-    assert engine.link_motion("box::link").linear[:, 2] == pytest.approx([0.0, 0.1, 0.1], abs=0.06)
+    assert engine.links["box::link"].motion().linear[:, 2] == pytest.approx(
+        [0.0, 0.1, 0.1], abs=0.06
+    )
     engine.step(500)
-    assert engine.model_placement("box").position[:, 2] == pytest.approx(0.1, abs=5e-4)
+    assert engine.models["box"].placement().position[:, 2] == pytest.approx(0.1, abs=5e-4)
 
 
 @pytest.mark.long
@@ -182,15 +184,15 @@ def test_what_is_placed_into_another_body_is_not_thrown():
     boxes = [scenes.box(name, pose=Pose(x, z=0.1)) for name, x in (("a", 0.0), ("b", 1.0))]
     engine = make_engine("mujoco", scenes.world(scenes.ground(), *boxes))
     engine.step(50)
-    engine.set_model_placement("b", (0.1, 0.02, 0.1), UP)
+    engine.models["b"].set_placement((0.1, 0.02, 0.1), UP)
     for _ in range(100):
         engine.step(10)
         for name in "ab":
             # Meanwhile it sinks as deep into the ground, too.
-            motion = engine.link_motion(f"{name}::link").linear[0]
+            motion = engine.links[f"{name}::link"].motion().linear[0]
             assert max(np.abs(motion[:2]).max(), motion[2]) < 0.15
     engine.step(9000)
-    a, b = (engine.model_placement(name).position[0] for name in "ab")
+    a, b = (engine.models[name].placement().position[0] for name in "ab")
     assert b[0] - a[0] > 0.19
     assert (a[2], b[2]) == pytest.approx((0.1, 0.1), abs=1e-3)
 
@@ -204,9 +206,9 @@ def test_what_a_placed_body_strikes_at_speed_is_no_overlap():
         track = []
         for _ in range(80):
             engine.step()
-            track.append(engine.model_placement("box").position[0, 2])
+            track.append(engine.models["box"].placement().position[0, 2])
             if places:
-                engine.set_model_placement("other", (6.0, 0.0, 0.05), UP)
+                engine.models["other"].set_placement((6.0, 0.0, 0.05), UP)
         tracks.append(track)
     assert min(tracks[0]) < 0.1 - 1e-3
     np.testing.assert_allclose(tracks[0], tracks[1], atol=1e-6)
@@ -215,7 +217,7 @@ def test_what_a_placed_body_strikes_at_speed_is_no_overlap():
 def test_a_state_saved_after_placing_goes_on_alike():
     body = sunk(scenes.box(pose=Pose(z=0.1)), 0.0, max_vel=0.1)
     engine = make_engine("mujoco", scenes.world(ground(), body), nworld=2)
-    engine.set_model_placement("box", (0.0, 0.0, 0.05), UP)
+    engine.models["box"].set_placement((0.0, 0.0, 0.05), UP)
     saved = engine.snapshot()
     engine.step(100)
     after = engine.snapshot()
@@ -231,9 +233,9 @@ def test_what_is_moved_on_purpose_still_pushes():
     )
     engine.make_kinematic("wall")
     for i in range(500):
-        engine.set_model_placement("wall", (-0.2 + 0.001 * i, 0.0, 0.5), UP)
+        engine.models["wall"].set_placement((-0.2 + 0.001 * i, 0.0, 0.5), UP)
         engine.step()
-    assert engine.model_placement("box").position[0, 0] > 0.4
+    assert engine.models["box"].placement().position[0, 0] > 0.4
 
 
 @pytest.mark.parametrize("angle", [0.03, 0.1, 0.3])
@@ -260,5 +262,7 @@ def test_what_is_wedged_does_not_shoot_out(angle, mu):
     for _ in range(200):
         engine.step(5)
         if engine.running.overlaps.any:
-            fastest = max(fastest, float(np.linalg.norm(engine.link_motion("ball::link").linear)))
+            fastest = max(
+                fastest, float(np.linalg.norm(engine.links["ball::link"].motion().linear))
+            )
     assert 0.05 < fastest < 0.21

@@ -40,11 +40,11 @@ def hinge(name, parent, child, axis=Y, **options):
 def test_a_fixed_joint_carries_the_weight_and_the_lever():
     arm = part("b", mass=3.0, centre=(0.5, 0.0, 0.0), x=1.0)
     engine = chain(part("a"), arm, joints=(fixed("hold", "world", "a"), fixed("j", "a", "b")))
-    wrench = engine.joint_wrench("m::j")
+    wrench = engine.joints["m::j"].wrench()
     np.testing.assert_allclose(wrench.force, [[0.0, 0.0, -3.0 * G]], rtol=1e-9, atol=1e-9)
     # the weight half a metre ahead along x turns the parent about +y: r x F
     np.testing.assert_allclose(wrench.torque, [[0.0, 1.5 * G, 0.0]], rtol=1e-9, atol=1e-9)
-    root = engine.joint_wrench("m::hold")
+    root = engine.joints["m::hold"].wrench()
     np.testing.assert_allclose(root.force, [[0.0, 0.0, -5.0 * G]], rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(root.torque, [[0.0, 4.5 * G, 0.0]], rtol=1e-9, atol=1e-9)
 
@@ -54,17 +54,17 @@ def test_the_torque_is_about_the_joint_not_the_link():
     joints = (fixed("hold", "world", "a"), fixed("j", "a", "b", x=-0.4))
     engine = chain(part("a"), arm, joints=joints)
     np.testing.assert_allclose(
-        engine.joint_wrench("m::j").torque, [[0.0, 0.4 * 3.0 * G, 0.0]], rtol=1e-9, atol=1e-9
+        engine.joints["m::j"].wrench().torque, [[0.0, 0.4 * 3.0 * G, 0.0]], rtol=1e-9, atol=1e-9
     )
 
 
 def test_a_hinge_at_rest_by_its_effort_carries_the_effort_too():
     engine = chain(part("a", mass=2.0, centre=(0.5, 0, 0)), joints=(hinge("j", "world", "a"),))
     effort = -2.0 * G * 0.5  # holds the weight ahead: a positive turn about y lowers it
-    engine.set_joint_effort("m::j", effort)
+    engine.joints["m::j"].set_effort(effort)
     engine.step(200)
-    assert abs(engine.joint_position("m::j")[0, 0]) < 1e-6
-    wrench = engine.joint_wrench("m::j")
+    assert abs(engine.joints["m::j"].position()[0, 0]) < 1e-6
+    wrench = engine.joints["m::j"].wrench()
     np.testing.assert_allclose(wrench.force, [[0.0, 0.0, -2.0 * G]], rtol=1e-4, atol=1e-4)
     np.testing.assert_allclose(wrench.torque, [[0.0, -effort, 0.0]], rtol=1e-4, atol=1e-4)
 
@@ -73,25 +73,25 @@ def test_a_free_hinge_carries_no_torque_about_its_axis_and_what_a_falling_bar_ne
     engine = chain(part("a", mass=2.0, centre=(0.5, 0, 0)), joints=(hinge("j", "world", "a"),))
     moment = 0.02 + 2.0 * 0.25
     sinking = (2.0 * G * 0.5 / moment) * 0.5
-    wrench = engine.joint_wrench("m::j")
+    wrench = engine.joints["m::j"].wrench()
     np.testing.assert_allclose(wrench.force[0], [0.0, 0.0, -2.0 * (G - sinking)], rtol=1e-6)
     np.testing.assert_allclose(wrench.torque, 0.0, atol=1e-9)
 
 
 def test_a_pendulum_pulls_with_its_centripetal_force():
     engine = chain(part("a", mass=2.0, centre=(0, 0, -0.5)), joints=(hinge("j", "world", "a"),))
-    engine.set_joint_velocity("m::j", 3.0)
+    engine.joints["m::j"].set_velocity(3.0)
     expected = -(2.0 * G + 2.0 * 9.0 * 0.5)
-    assert engine.joint_wrench("m::j").force[0, 2] == pytest.approx(expected, rel=1e-6)
+    assert engine.joints["m::j"].wrench().force[0, 2] == pytest.approx(expected, rel=1e-6)
 
 
 def test_a_slider_pushed_from_behind_hands_the_push_on_less_its_inertia():
     slide = Joint("j", "prismatic", "world", "a", axes=(JointAxis((1.0, 0.0, 0.0)),))
     joints = (slide, fixed("bolt", "a", "b"))
     engine = chain(part("a", mass=3.0), part("b", mass=1.0, x=0.2), joints=joints)
-    engine.set_joint_effort("m::j", 8.0)
+    engine.joints["m::j"].set_effort(8.0)
     np.testing.assert_allclose(
-        engine.joint_wrench("m::bolt").force[0], [-2.0, 0.0, -G], rtol=1e-6, atol=1e-9
+        engine.joints["m::bolt"].wrench().force[0], [-2.0, 0.0, -G], rtol=1e-6, atol=1e-9
     )
 
 
@@ -99,12 +99,12 @@ def test_what_gravity_does_not_pull_weighs_nothing_in_any_world():
     arm = part("b", mass=3.0, centre=(0.5, 0.0, 0.0), gravity=False)
     joints = (fixed("hold", "world", "a"), hinge("j", "a", "b"))
     engine = chain(part("a"), arm, joints=joints, nworld=2)
-    np.testing.assert_allclose(engine.joint_wrench("m::j").force, 0.0, atol=1e-9)
-    np.testing.assert_allclose(engine.joint_wrench("m::j").torque, 0.0, atol=1e-9)
-    np.testing.assert_allclose(engine.joint_wrench("m::hold").force[:, 2], -2.0 * G, rtol=1e-9)
+    np.testing.assert_allclose(engine.joints["m::j"].wrench().force, 0.0, atol=1e-9)
+    np.testing.assert_allclose(engine.joints["m::j"].wrench().torque, 0.0, atol=1e-9)
+    np.testing.assert_allclose(engine.joints["m::hold"].wrench().force[:, 2], -2.0 * G, rtol=1e-9)
     engine.set_parameter("link_gravity", "m::b", [[0.0], [1.0]])
     engine.set_parameter("link_mass", "m::b", [[3.0], [4.0]])
-    lifted = engine.joint_wrench("m::hold").force[:, 2]
+    lifted = engine.joints["m::hold"].wrench().force[:, 2]
     assert lifted[0] == pytest.approx(-2.0 * G, rel=1e-9)
     assert -6.0 * G < lifted[1] < -2.0 * G - 0.1
 
@@ -112,19 +112,19 @@ def test_what_gravity_does_not_pull_weighs_nothing_in_any_world():
 def test_worlds_have_their_own_and_subsets_agree():
     engine = chain(part("a", mass=2.0), joints=(fixed("j", "world", "a"),), nworld=3)
     engine.set_parameter("link_mass", "m::a", [[1.0], [2.0], [3.0]])
-    all_of_them = engine.joint_wrench("m::j").force
+    all_of_them = engine.joints["m::j"].wrench().force
     np.testing.assert_allclose(all_of_them[:, 2], [-G, -2 * G, -3 * G], rtol=1e-9)
-    chosen = engine.joint_wrench("m::j", np.array([2])).force
+    chosen = engine.joints["m::j"].wrench(np.array([2])).force
     np.testing.assert_array_equal(chosen, all_of_them[2:])
 
 
 def test_a_push_on_a_link_is_felt_at_once_and_measuring_changes_nothing():
     engine = chain(part("a"), joints=(fixed("j", "world", "a"),))
     other = chain(part("a"), joints=(fixed("j", "world", "a"),))
-    engine.joint_wrench("m::j")
+    engine.joints["m::j"].wrench()
     for each in (engine, other):
-        each.set_link_wrench("m::a", (7.0, 0.0, 0.0), (0.0, 0.0, 2.0))
-    wrench = engine.joint_wrench("m::j")
+        each.links["m::a"].set_wrench((7.0, 0.0, 0.0), (0.0, 0.0, 2.0))
+    wrench = engine.joints["m::j"].wrench()
     np.testing.assert_allclose(wrench.force[0], [7.0, 0.0, -2.0 * G], rtol=1e-9)
     np.testing.assert_allclose(wrench.torque[0], [0.0, 0.0, 2.0], atol=1e-9)
     engine.step(10)
@@ -139,7 +139,7 @@ def test_measuring_in_a_run_of_contacts_changes_no_bit():
         for _ in range(30):
             engine.step(5)
             if measure:
-                engine.joint_wrench("burger::wheel_left_joint")
+                engine.joints["burger::wheel_left_joint"].wrench()
                 engine.contacts(["burger::base_footprint::caster"])
         return engine.snapshot()
 
@@ -161,7 +161,7 @@ def test_wheels_and_caster_carry_the_robot():
     for side, wheel in zip(("left", "right"), wheels, strict=True):
         own = [i for i, name in enumerate(touching.collisions) if name == wheel]
         carried = touching.force[own, 2].sum() - 0.02849894 * G
-        up = engine.joint_wrench(f"burger::wheel_{side}_joint").force[0, 2]
+        up = engine.joints[f"burger::wheel_{side}_joint"].wrench().force[0, 2]
         assert up == pytest.approx(carried, rel=0.01)
 
 
@@ -171,7 +171,7 @@ def test_contacts_are_seen_from_the_collision_that_is_asked_for():
         scenes.world(scenes.ground(), scenes.ball(pose=Pose(z=0.1)), gravity=(0, 0, -G)),
         2,
     )
-    engine.set_model_placement("ball", (0, 0, 30.0), (0, 0, 0, 1), np.array([1]))
+    engine.models["ball"].set_placement((0, 0, 30.0), (0, 0, 0, 1), np.array([1]))
     engine.step(1000)
     ball, plane = "ball::link::c", "ground_plane::link::c"
     on_ball, on_plane = engine.contacts([ball]), engine.contacts([plane])
@@ -198,7 +198,7 @@ def test_a_flying_ball_touches_nothing():
 def test_names_that_are_not_there_are_errors():
     engine = make_engine("mujoco", scenes.world(scenes.box(static=True)))
     with pytest.raises(EngineError, match="no joint between moving links 'box::j'"):
-        engine.joint_wrench("box::j")
+        engine.joints["box::j"].wrench()
     with pytest.raises(EngineError, match="no collision 'box::link::x'"):
         engine.contacts(["box::link::x"])
 
@@ -237,13 +237,13 @@ def table(kind, nworld=1):
 @pytest.mark.parametrize("kind", ["revolute", "ball"])
 def test_a_joint_that_closes_a_loop_carries_its_share(kind):
     engine = table(kind, nworld=2)
-    near, far = engine.joint_wrench("m::near"), engine.joint_wrench("m::far")
+    near, far = engine.joints["m::near"].wrench(), engine.joints["m::far"].wrench()
     # the lever law; how the beam presses its ends apart is not determined
     np.testing.assert_allclose(near.force[:, 2], -4.0 * G * 0.9 / 1.5, rtol=1e-3)
     np.testing.assert_allclose(far.force[:, 2], -4.0 * G * 0.6 / 1.5, rtol=1e-3)
     np.testing.assert_allclose((near.force + far.force)[:, :2], 0.0, atol=1e-3)
     np.testing.assert_allclose(far.torque[:, 1], 0.0, atol=1e-3)
-    one = engine.joint_wrench("m::far", np.array([1]))
+    one = engine.joints["m::far"].wrench(np.array([1]))
     np.testing.assert_allclose(one.force, far.force[1:], atol=1e-9)
 
 
@@ -257,7 +257,7 @@ def test_a_ring_welded_shut_hands_on_force_and_torque():
     )
     engine = chain(part("base"), arm, joints=joints)
     engine.step(500)
-    ball, weld = engine.joint_wrench("m::free"), engine.joint_wrench("m::weld")
+    ball, weld = engine.joints["m::free"].wrench(), engine.joints["m::weld"].wrench()
     weight = np.array([0.0, 0.0, -3.0 * G])
     np.testing.assert_allclose(ball.force + weld.force, [weight], rtol=1e-3, atol=1e-2)
     # moments about the base: the weight's is that of both joints together
@@ -270,7 +270,7 @@ def test_a_ring_welded_shut_hands_on_force_and_torque():
 def test_contacts_of_many_worlds_are_those_of_each():
     models = scenes.ground(), scenes.burger(), scenes.box(pose=Pose(2.0, z=0.1))
     engine = make_engine("mujoco", scenes.world(*models), nworld=4)
-    engine.set_model_placement("burger", (0.0, 0.0, 5.0), (0.0, 0.0, 0.0, 1.0), np.array([2]))
+    engine.models["burger"].set_placement((0.0, 0.0, 5.0), (0.0, 0.0, 0.0, 1.0), np.array([2]))
     engine.step(50)
     names = [n for n in engine.running.layout.collisions if n.startswith(("burger", "box"))]
     worlds = np.array([3, 2, 0])

@@ -25,9 +25,9 @@ def driven(name, step, left, right, slope=0.0):
     world = scenes.world(scenes.ground(), robot, step=step, gravity=gravity)
     engine = make_engine("mujoco", with_profile(world, replace(world.profile, contacts="exact")))
     for side, speed in (("left", left), ("right", right)):
-        (joint,) = (each for each in engine.joint_names if "wheel" in each and side in each)
+        (joint,) = (each for each in engine.joints.names if "wheel" in each and side in each)
         engine.add_motor(joint, 10.0)
-        engine.set_motor_velocity(joint, speed)
+        engine.joints[joint].set_motor_velocity(speed)
     engine.step(round(1.0 / step))
     return engine, robot.name
 
@@ -59,12 +59,12 @@ def test_wheels_that_start_at_once_rub_by_coulombs_law_beside_loose_things(robot
         engine = make_engine(
             "mujoco", with_profile(world, replace(world.profile, contacts="exact"))
         )
-        wheels = [each for each in engine.joint_names if "wheel" in each]
+        wheels = [each for each in engine.joints.names if "wheel" in each]
         for wheel in wheels:
             engine.add_motor(wheel, 10.0)
         engine.step(200)
         for wheel in wheels:
-            engine.set_motor_velocity(wheel, 30.0)
+            engine.joints[wheel].set_motor_velocity(30.0)
         path.append(_rubbed(engine))
     (alone, _), (beside, islands) = path
     assert islands > 0
@@ -92,7 +92,7 @@ def test_the_wheels_of_a_robot_that_drives_do_not_pull_against_each_other(robot)
     engine, name = driven(robot, 0.001, 6.0, 4.0)
     model, data = engine.running.batch.model, engine.running.batch.get_data(0)
     mujoco.mj_step(model, data)
-    x, y, z, w = engine.model_placement(name).quaternion[0]
+    x, y, z, w = engine.models[name].placement().quaternion[0]
     yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
     aside, force, found = np.array([-math.sin(yaw), math.cos(yaw), 0.0]), np.zeros(6), []
     for index, contact in enumerate(data.contact):
@@ -108,9 +108,9 @@ def test_the_wheels_of_a_robot_that_drives_do_not_pull_against_each_other(robot)
 @pytest.mark.parametrize("robot", ["turtlebot3_burger", "courier"])
 def test_a_robot_that_has_stopped_stays(robot, step):
     engine, name = driven(robot, step, 3.0, 3.0, slope=0.05)
-    for joint in engine.joint_names:
+    for joint in engine.joints.names:
         if "wheel" in joint:
-            engine.set_motor_velocity(joint, 0.0)
+            engine.joints[joint].set_motor_velocity(0.0)
     engine.step(round(1.0 / step))
     assert creep(engine, name, 5.0) < 0.005
 
@@ -129,14 +129,14 @@ def test_what_is_gripped_stays_in_a_hand_that_turns(shape, step):
     thing = replace(thing, pose=Pose(z=0.5))
     engine = make_engine("mujoco", scenes.world(hand, thing, step=step))
     for side in ("left", "right"):
-        engine.set_joint_effort(f"g::{side}_joint", 1.5 * MARGIN_OF_TWO)
+        engine.joints[f"g::{side}_joint"].set_effort(1.5 * MARGIN_OF_TWO)
     engine.step(round(0.5 / step))
     engine.add_motor("g::turn", 100.0)
-    engine.set_motor_velocity("g::turn", 1.0)
+    engine.joints["g::turn"].set_motor_velocity(1.0)
     engine.step(round(1.0 / step))
-    before = engine.model_placement("thing").position[0].copy()
+    before = engine.models["thing"].placement().position[0].copy()
     engine.step(round(2.0 * math.pi / step))
-    after = engine.model_placement("thing").position[0]
+    after = engine.models["thing"].placement().position[0]
     assert abs(after[2] - before[2]) < 1e-5
     # A whole turn is not quite a number of steps.
     assert abs(np.linalg.norm(after[:2]) - np.linalg.norm(before[:2])) < 1e-4

@@ -28,25 +28,15 @@ READS = {
     "nworld",
     "time_step",
     "world",
-    "link_names",
-    "joint_names",
+    "links",
+    "joints",
+    "models",
     "cast_ranges",
     "cast_rays",
     "close",
     "contacts",
     "touching",
     "history",
-    "joint_effort",
-    "joint_position",
-    "joint_velocity",
-    "joint_wrench",
-    "link_acceleration",
-    "link_centre",
-    "link_motion",
-    "link_placement",
-    "link_placements",
-    "model_placement",
-    "planar_pose",
     "parameter",
     "peek",
     "snapshot",
@@ -83,7 +73,7 @@ def test_every_method_of_the_protocol_either_changes_something_or_reads():
 def test_a_new_time_step_keeps_every_state():
     engine = make(scenes.ground(), scenes.burger(), scenes.box(pose=Pose(2.0, 0.0, 1.0)), nworld=2)
     engine.add_motor("burger::wheel_left_joint", 5.0)
-    engine.set_motor_velocity("burger::wheel_left_joint", np.array([1.0, 3.0]))
+    engine.joints["burger::wheel_left_joint"].set_motor_velocity(np.array([1.0, 3.0]))
     engine.step(100)
     before = engine.snapshot()
     profile = replace(engine.world.profile, max_step_size=0.004)
@@ -98,7 +88,7 @@ def test_gravity_can_change_in_flight():
     engine.step(500)
     engine.update_world(replace(engine.world, gravity=(0.0, 0.0, 1.0)))
     engine.step(1000)
-    speed = engine.link_motion("ball::link").linear[0, 2]
+    speed = engine.links["ball::link"].motion().linear[0, 2]
     assert speed == pytest.approx(-9.8 * 0.5 + 1.0 * 1.0, abs=1e-9)
 
 
@@ -123,14 +113,14 @@ def test_a_small_ball_at_20_m_per_s_does_not_pass_a_wall_of_a_centimetre(radius)
     engine = make(wall, scenes.ball(radius=radius), nworld=11, gravity=(0.0, 0.0, 0.0))
     places = np.zeros((11, 3))
     places[:, 0] = starts
-    engine.set_model_placement("ball", places, UP)
-    engine.set_model_motion("ball", (20.0, 0.0, 0.0), np.zeros(3))
+    engine.models["ball"].set_placement(places, UP)
+    engine.models["ball"].set_motion((20.0, 0.0, 0.0), np.zeros(3))
     farthest = np.full(11, -1.0)
     for _ in range(60):
         engine.step()
-        farthest = np.maximum(farthest, engine.model_placement("ball").position[:, 0])
+        farthest = np.maximum(farthest, engine.models["ball"].placement().position[:, 0])
     assert (farthest < 0.0).all()
-    assert (engine.link_motion("ball::link").linear[:, 0] <= 0.5).all()
+    assert (engine.links["ball::link"].motion().linear[:, 0] <= 0.5).all()
 
 
 def test_boxes_at_rest_fall_asleep_and_wake_when_hit():
@@ -139,9 +129,9 @@ def test_boxes_at_rest_fall_asleep_and_wake_when_hit():
     engine.step(1000)
     asleep = engine.running.batch.bind("tree_asleep")
     assert (asleep >= 0).all()
-    engine.set_model_motion("box_0", (3.0, 0.0, 0.0), np.zeros(3))
+    engine.models["box_0"].set_motion((3.0, 0.0, 0.0), np.zeros(3))
     engine.step(300)
-    assert engine.model_placement("box_1").position[0, 0] > 0.51
+    assert engine.models["box_1"].placement().position[0, 0] > 0.51
 
 
 def test_a_snapshot_of_sleepers_restores_the_exact_future():
@@ -163,21 +153,21 @@ def test_a_wrench_accelerates_the_centre_of_mass_and_turns_about_it():
     inertial = Inertial(2.0, Pose(x=0.3), Inertia(0.1, 0.2, 0.4))
     body = Model("b", links=(Link("l", inertial=inertial),))
     engine = make(body, nworld=3, gravity=(0.0, 0.0, 0.0))
-    engine.set_link_wrench(
-        "b::l", np.array([[0, 4.0, 0], [0, 0, 0]]), (0, 0, 0.8), np.array([0, 2])
+    engine.links["b::l"].set_wrench(
+        np.array([[0, 4.0, 0], [0, 0, 0]]), (0, 0, 0.8), np.array([0, 2])
     )
     engine.step(10)
-    centre = engine.link_centre("b::l")
+    centre = engine.links["b::l"].centre()
     t = 0.010 * 0.011 / 2  # sum of semi-implicit steps
     np.testing.assert_allclose(centre[0], [0.3, 2.0 * t, 0.0], atol=1e-9)
     np.testing.assert_allclose(centre[1:], [[0.3, 0, 0]] * 2, atol=1e-8)
-    spin = engine.link_motion("b::l").angular
+    spin = engine.links["b::l"].motion().angular
     np.testing.assert_allclose(spin[:, 2], [2.0 * 0.01, 0.0, 2.0 * 0.01], atol=1e-9)
 
 
 def test_nothing_can_push_a_static_link():
     with pytest.raises(EngineError, match="does not move"):
-        make(scenes.ground()).set_link_wrench("ground_plane::link", (1, 0, 0), (0, 0, 0))
+        make(scenes.ground()).links["ground_plane::link"].set_wrench((1, 0, 0), (0, 0, 0))
 
 
 # -- holding -----------------------------------------------------------------------------
@@ -191,9 +181,9 @@ def test_attached_links_move_as_one_and_let_go_in_one_world_at_a_time():
         gravity=(0.0, 0.0, 0.0),
     )
     engine.attach("a::link", "b::link")
-    engine.set_link_wrench("a::link", (2.0, 0.0, 0.0), (0.0, 0.3, 0.0))
+    engine.links["a::link"].set_wrench((2.0, 0.0, 0.0), (0.0, 0.3, 0.0))
     engine.step(500)
-    a, b = engine.link_placement("a::link"), engine.link_placement("b::link")
+    a, b = engine.links["a::link"].placement(), engine.links["b::link"].placement()
     gap = np.linalg.norm(b.position - a.position, axis=1)
     np.testing.assert_allclose(gap, np.hypot(0.5, 0.2), atol=1e-3)
     # Two bodies of 1 kg: the common centre of mass moves with F / 2.
@@ -202,7 +192,7 @@ def test_attached_links_move_as_one_and_let_go_in_one_world_at_a_time():
     engine.detach("a::link", "b::link", np.array([1]))
     engine.step(500)
     gap = np.linalg.norm(
-        engine.link_placement("b::link").position - engine.link_placement("a::link").position,
+        engine.links["b::link"].placement().position - engine.links["a::link"].placement().position,
         axis=1,
     )
     assert gap[0] == pytest.approx(np.hypot(0.5, 0.2), abs=1e-3)
@@ -214,11 +204,11 @@ def test_what_is_attached_to_a_static_link_hangs_there():
     engine.attach("wall::link", "box::link")
     engine.step(1000)
     np.testing.assert_allclose(
-        engine.link_placement("box::link").position[0], [0.0, 0.5, 1.0], atol=2e-3
+        engine.links["box::link"].placement().position[0], [0.0, 0.5, 1.0], atol=2e-3
     )
     engine.reset()
     engine.step(1000)
-    assert engine.link_placement("box::link").position[0, 2] < -3.0
+    assert engine.links["box::link"].placement().position[0, 2] < -3.0
 
 
 def test_an_attachment_survives_a_spawn_to_the_bit():
@@ -230,7 +220,9 @@ def test_an_attachment_survives_a_spawn_to_the_bit():
     engine.delete("ball")
     np.testing.assert_array_equal(engine.snapshot(), before)
     engine.step(50)
-    gap = engine.link_placement("b::link").position - engine.link_placement("a::link").position
+    gap = (
+        engine.links["b::link"].placement().position - engine.links["a::link"].placement().position
+    )
     assert gap[0, 0] == pytest.approx(1.0, abs=1e-3)
 
 
@@ -243,10 +235,10 @@ def test_detaching_what_was_never_attached_is_an_error():
 
 
 def swing(engine, steps=700):
-    engine.set_joint_velocity("arm::hinge", 1.0)
-    engine.set_joint_effort("arm::hinge", 0.2)
+    engine.joints["arm::hinge"].set_velocity(1.0)
+    engine.joints["arm::hinge"].set_effort(0.2)
     engine.step(steps)
-    return engine.joint_position("arm::hinge")[:, 0]
+    return engine.joints["arm::hinge"].position()[:, 0]
 
 
 @pytest.mark.parametrize(
@@ -266,9 +258,9 @@ def test_joint_parameters_do_what_the_description_would(kind, field, values):
 
 
 def push(engine):
-    engine.set_link_wrench("b::l", (3.0, 1.0, 0.0), (0.1, 0.2, 0.3))
+    engine.links["b::l"].set_wrench((3.0, 1.0, 0.0), (0.1, 0.2, 0.3))
     engine.step(400)
-    place, motion = engine.link_placement("b::l"), engine.link_motion("b::l")
+    place, motion = engine.links["b::l"].placement(), engine.links["b::l"].motion()
     return np.concatenate((place.position, motion.linear, motion.angular), axis=1)
 
 
@@ -305,10 +297,10 @@ def test_friction_of_each_world_decides_how_far_a_block_slides():
     engine = make(scenes.ground(), block, nworld=3)
     engine.set_parameter("collision_friction", "box::link::c", mu[:, None])
     engine.step(300)
-    start = engine.model_placement("box").position[:, 0]
-    engine.set_model_motion("box", (1.0, 0.0, 0.0), np.zeros(3))
+    start = engine.models["box"].placement().position[:, 0]
+    engine.models["box"].set_motion((1.0, 0.0, 0.0), np.zeros(3))
     engine.step(1500)
-    slid = engine.model_placement("box").position[:, 0] - start
+    slid = engine.models["box"].placement().position[:, 0] - start
     np.testing.assert_allclose(slid, 1.0 / (2 * mu * 9.8), rtol=0.03)
 
 
@@ -321,10 +313,10 @@ def test_friction_of_each_world_holds_for_springy_contacts_too():
     mu = np.array([0.1, 0.3])
     engine.set_parameter("collision_friction", "box::link::c", mu[:, None])
     engine.step(500)
-    start = engine.model_placement("box").position[:, 0]
-    engine.set_model_motion("box", (1.0, 0.0, 0.0), np.zeros(3))
+    start = engine.models["box"].placement().position[:, 0]
+    engine.models["box"].set_motion((1.0, 0.0, 0.0), np.zeros(3))
     engine.step(1500)
-    slid = engine.model_placement("box").position[:, 0] - start
+    slid = engine.models["box"].placement().position[:, 0] - start
     np.testing.assert_allclose(slid, 1.0 / (2 * mu * 9.8), rtol=0.05)
 
 
@@ -333,7 +325,7 @@ def test_each_world_has_its_gravity():
     gravity = np.array([[0.0, 0.0, -9.8], [0.0, 0.0, -1.6], [1.0, 0.0, 0.0]])
     engine.set_parameter("gravity", "", gravity)
     engine.step(100)
-    np.testing.assert_allclose(engine.link_motion("ball::link").linear, 0.1 * gravity, atol=1e-9)
+    np.testing.assert_allclose(engine.links["ball::link"].motion().linear, 0.1 * gravity, atol=1e-9)
 
 
 def test_parameters_survive_spawn_delete_and_a_new_time_step():
@@ -393,8 +385,8 @@ def test_a_new_engine_becomes_the_same_by_its_history():
 
     engine = fresh()
     engine.add_motor("burger::wheel_left_joint", 5.0)
-    engine.set_motor_velocity("burger::wheel_left_joint", np.array([1.0, 3.0]))
-    engine.set_model_placement("ground_plane", (0.0, 0.0, -0.1), UP)
+    engine.joints["burger::wheel_left_joint"].set_motor_velocity(np.array([1.0, 3.0]))
+    engine.models["ground_plane"].set_placement((0.0, 0.0, -0.1), UP)
     engine.attach("burger::base_footprint", "box::link", np.array([1]))
     engine.set_parameter("link_mass", "box::link", np.array([[1.0], [2.0]]))
     engine.step(50)
@@ -428,8 +420,8 @@ def test_limits_are_those_of_the_model_that_runs():
         for _ in range(2):
             assert engine.parameter("joint_upper", "arm::hinge").tolist() == [[upper]] * 2
         engine.parameter("joint_upper", "arm::hinge")[:] = 9.0  # the caller's own
-        engine.set_joint_position("arm::hinge", [5.0])
-        assert engine.joint_position("arm::hinge").tolist() == [[upper]] * 2
+        engine.joints["arm::hinge"].set_position([5.0])
+        assert engine.joints["arm::hinge"].position().tolist() == [[upper]] * 2
         engine.set_parameter("joint_upper", "arm::hinge", [0.5], np.array([1]))
         assert engine.parameter("joint_upper", "arm::hinge").tolist() == [[upper], [0.5]]
         engine.delete("arm")

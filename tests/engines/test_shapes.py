@@ -24,7 +24,7 @@ def rest(*models, seconds=1.5, name="ball", step=0.002):
     engine = make_engine("mujoco", scenes.world(scenes.ground(), *models, step=step))
     for _ in range(round(seconds / step)):
         engine.step()
-    return engine.model_placement(name).position[0]
+    return engine.models[name].placement().position[0]
 
 
 @pytest.mark.parametrize("spin", [0.0, 2.0])
@@ -34,9 +34,9 @@ def test_the_plane_of_a_body_that_moves_stays_where_it_begins(spin):
     plane = replace(plane, joints=(lying,))
     with pytest.warns(EngineWarning, match="'c' of the link 'tilted::link' stays where it is"):
         engine = make_engine("mujoco", scenes.world(plane, scenes.ball(pose=Pose(z=0.7))))
-    engine.set_joint_velocity("tilted::j", spin)
+    engine.joints["tilted::j"].set_velocity(spin)
     engine.step(300)
-    _, y, z = engine.model_placement("ball").position[0]
+    _, y, z = engine.models["ball"].placement().position[0]
     across = (z - 0.5) * np.cos(0.2) - y * np.sin(0.2)  # of the plane
     assert across == pytest.approx(0.1, abs=1e-3)
     assert y < -0.04  # rolls down

@@ -32,11 +32,11 @@ def make(model, step, *models, gravity=(0.0, 0.0, -G), nworld=1, threads=None):
 
 def watch(engine, name, seconds):
     """Way gone, largest rise, largest lean, in every world."""
-    start = engine.model_placement(name).position.copy()
+    start = engine.models[name].placement().position.copy()
     rise, lean = np.zeros(len(start)), np.zeros(len(start))
     for _ in range(round(seconds / engine.time_step / 5) + 1):
         engine.step(5)
-        place = engine.model_placement(name)
+        place = engine.models[name].placement()
         rise = np.maximum(rise, place.position[:, 2] - start[:, 2])
         lean = np.maximum(lean, 2.0 * np.hypot(*place.quaternion[:, :2].T))
     return place.position - start, rise, lean
@@ -45,7 +45,7 @@ def watch(engine, name, seconds):
 def throw(engine, name, speed, headings):
     zero = np.zeros_like(headings)
     velocity = speed * np.stack((np.cos(headings), np.sin(headings), zero), axis=1)
-    engine.set_model_motion(name, velocity, np.zeros((len(headings), 3)))
+    engine.models[name].set_motion(velocity, np.zeros((len(headings), 3)))
 
 
 @pytest.mark.parametrize("mu", [0.1, 0.5, 1.0, 1.5])
@@ -103,10 +103,10 @@ def test_a_box_put_on_tilted_ground_slides_from_its_first_step_on(model, step, m
         world = scenes.world(ground, box, step=step)
         ode = replace(world.profile.ode, friction_model=model)
         engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)), 1)
-        start, rise = engine.model_placement("box").position[0].copy(), 0.0
+        start, rise = engine.models["box"].placement().position[0].copy(), 0.0
         for _ in range(round(seconds / step / 5)):
             engine.step(5)
-            way = place.matrix()[:3, :3].T @ (engine.model_placement("box").position[0] - start)
+            way = place.matrix()[:3, :3].T @ (engine.models["box"].placement().position[0] - start)
             rise = max(rise, way[2])
         pull = G * (math.sin(angle) - mu * math.cos(angle))
         far = pull * seconds**2 / 2.0 * (1.0 + step / seconds)
@@ -125,17 +125,17 @@ def test_a_spinning_disc_stays_down_and_stops_where_it_should(model, step, mu):
     disc = scenes.solid("disc", shape, moments=moments, mu=mu, pose=Pose(z=height / 2.0))
     engine = make(model, step, disc)
     engine.step(round(0.3 / step))
-    engine.set_model_motion("disc", (0.0, 0.0, 0.0), (0.0, 0.0, spin))
-    turned, highest, start = 0.0, 0.0, engine.model_placement("disc").position[0, 2]
+    engine.models["disc"].set_motion((0.0, 0.0, 0.0), (0.0, 0.0, spin))
+    turned, highest, start = 0.0, 0.0, engine.models["disc"].placement().position[0, 2]
     slowing = mu * G * radius / moment  # all that presses presses at the rim
     for _ in range(round((spin / slowing + 0.2) / step)):
         engine.step()
-        turned += engine.link_motion("disc::link").angular[0, 2] * step
-        highest = max(highest, engine.model_placement("disc").position[0, 2] - start)
+        turned += engine.links["disc::link"].motion().angular[0, 2] * step
+        highest = max(highest, engine.models["disc"].placement().position[0, 2] - start)
     assert highest < 2e-4
     far = spin**2 / (2.0 * slowing)
     assert turned == pytest.approx(far - spin * step / 2.0, rel=0.02)
-    assert np.abs(engine.model_placement("disc").position[0, :2]).max() < 1e-4
+    assert np.abs(engine.models["disc"].placement().position[0, :2]).max() < 1e-4
 
 
 @pytest.mark.parametrize(("model", "step"), [(m, h) for m in MODELS for h in (0.001, 0.005)])
@@ -144,7 +144,7 @@ def test_a_thrown_ball_comes_to_roll_without_hopping(model, step):
     engine.step(round(0.3 / step))
     throw(engine, "ball", 3.0, HEADINGS)
     _, rise, _ = watch(engine, "ball", 2.0 / 7.0 * 3.0 / (0.4 * G) + 0.1)
-    motion = engine.link_motion("ball::link").linear
+    motion = engine.links["ball::link"].motion().linear
     assert np.hypot(*motion[:, :2].T) == pytest.approx(3.0 * 5.0 / 7.0, rel=0.005)
     assert rise.max() < 1e-4
 
@@ -156,13 +156,13 @@ def test_what_lands_in_a_slide_loses_mu_times_its_fall(model):
     engine = make(model, 0.001, box, nworld=4, threads=1)
     throw(engine, "box", speed, HEADINGS)
     engine.step(round(math.sqrt(2.0 * fall / G) / 0.001) + 10)
-    down = engine.model_placement("box").position.copy()
+    down = engine.models["box"].placement().position.copy()
     _, rise, lean = watch(engine, "box", speed / (mu * G))
     assert (down[:, 2] + rise).max() < 0.05 + 1e-4
     assert lean.max() < 0.002
     sink = math.sqrt(2.0 * G * fall)
     far = speed * sink / G + (speed - mu * sink) ** 2 / (2.0 * mu * G)
-    way = engine.model_placement("box").position
+    way = engine.models["box"].placement().position
     assert np.hypot(*way[:, :2].T) == pytest.approx(far, rel=0.01)
     assert np.abs(down[:, 2] - 0.05).max() < 5e-4
 
@@ -178,11 +178,13 @@ def test_many_boxes_slide_as_one(count):
     engine = make("cone_model", 0.001, *boxes, *riders)
     engine.step(200)
     for model in (*boxes, *riders):
-        engine.set_model_motion(model.name, (speed, 0.0, 0.0), (0.0, 0.0, 0.0))
-    before = {m.name: engine.model_placement(m.name).position[0].copy() for m in (*boxes, *riders)}
+        engine.models[model.name].set_motion((speed, 0.0, 0.0), (0.0, 0.0, 0.0))
+    before = {
+        m.name: engine.models[m.name].placement().position[0].copy() for m in (*boxes, *riders)
+    }
     engine.step(round(speed / (mu * G) / 0.001) + 200)
     for model in (*boxes, *riders):
-        way = engine.model_placement(model.name).position[0] - before[model.name]
+        way = engine.models[model.name].placement().position[0] - before[model.name]
         assert way[0] == pytest.approx(speed**2 / (2.0 * mu * G), rel=0.01), model.name
         assert np.abs(way[1:]).max() < 1e-3, model.name
 
@@ -206,8 +208,8 @@ def test_a_slide_has_the_same_bits_at_any_number_of_threads_and_worlds():
             disc = scenes.solid("disc", shape, mu=0.4, pose=Pose(x=0.5, z=0.2, roll=0.5))
             box = scenes.box("box", SIZE, mu=0.7, pose=Pose(z=0.05))
             engine = make(model, 0.002, box, disc, nworld=nworld, threads=threads)
-            engine.set_model_motion("box", (2.0, 0.4, 0.0), (0.0, 0.0, 3.0))
-            engine.set_model_motion("disc", (1.0, 0.4, 0.0), (0.0, 0.0, 30.0))
+            engine.models["box"].set_motion((2.0, 0.4, 0.0), (0.0, 0.0, 3.0))
+            engine.models["disc"].set_motion((1.0, 0.4, 0.0), (0.0, 0.0, 30.0))
             engine.step(500)
             states.append(engine.snapshot()[-1])
     for state in (states[1], states[2]):
@@ -222,10 +224,10 @@ def test_a_bounce_aslant_keeps_its_height():
     surface = replace(ball.links[0].collisions[0].surface, bounce=Bounce(0.8, 0.01))
     ball, floor = (scenes.with_surface(each, surface) for each in (ball, scenes.ground()))
     engine = make_engine("mujoco", scenes.world(floor, ball), 2)
-    engine.set_model_motion("ball", np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), np.zeros((2, 3)))
+    engine.models["ball"].set_motion(np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), np.zeros((2, 3)))
     engine.step(300)
     heights = np.zeros(2)
     for _ in range(400):
         engine.step()
-        heights = np.maximum(heights, engine.model_placement("ball").position[:, 2] - 0.1)
+        heights = np.maximum(heights, engine.models["ball"].placement().position[:, 2] - 0.1)
     assert heights == pytest.approx(0.4 * 0.64, rel=0.02)

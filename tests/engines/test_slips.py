@@ -31,9 +31,9 @@ def drift(engine, force):
     """How fast a base goes along a force with its wheels held."""
     for i in range(4):
         engine.add_motor(f"base::joint{i}", 50.0)  # at rest
-    engine.set_link_wrench("base::body", force, (0.0, 0.0, 0.0))
+    engine.links["base::body"].set_wrench(force, (0.0, 0.0, 0.0))
     engine.step(1000)
-    return engine.link_motion("base::body").linear[0]
+    return engine.links["base::body"].motion().linear[0]
 
 
 @pytest.mark.parametrize(
@@ -67,12 +67,12 @@ def test_a_wheel_does_not_slip_further_than_its_friction_holds():
     model = base("", mu=0.1)
     engine = described(slips(SLIP, 0.0, ALONG), model=model)
     weight = 6.0 * 9.8
-    engine.set_link_wrench("base::body", (0.0, 0.1 * weight + 6.0, 0.0), (0.0, 0.0, 0.0))
+    engine.links["base::body"].set_wrench((0.0, 0.1 * weight + 6.0, 0.0), (0.0, 0.0, 0.0))
     engine.step(500)
-    engine.set_link_wrench("base::body", (0.0, 0.1 * weight + 6.0, 0.0), (0.0, 0.0, 0.0))
-    start = engine.link_motion("base::body").linear[0, 1]
+    engine.links["base::body"].set_wrench((0.0, 0.1 * weight + 6.0, 0.0), (0.0, 0.0, 0.0))
+    start = engine.links["base::body"].motion().linear[0, 1]
     engine.step(500)
-    gained = engine.link_motion("base::body").linear[0, 1] - start
+    gained = engine.links["base::body"].motion().linear[0, 1] - start
     assert gained / 0.5 == pytest.approx(1.0, rel=0.05)
 
 
@@ -82,14 +82,14 @@ def test_the_slip_of_the_file_can_be_read_and_changed_and_outlasts_new_masses():
     np.testing.assert_allclose(engine.parameter("wheel_slip", WHEELS[0]), [[SLIP, 0.0]] * 2)
     engine.set_parameter("link_mass", "base::body", [[4.0], [40.0]])
     engine.set_parameter("link_mass", WHEELS[0], [[0.5], [5.0]])
-    engine.set_link_wrench("base::body", (0.0, FORCE, 0.0), (0.0, 0.0, 0.0))
+    engine.links["base::body"].set_wrench((0.0, FORCE, 0.0), (0.0, 0.0, 0.0))
     engine.step(4000)
-    velocity = engine.link_motion("base::body").linear[:, 1]
+    velocity = engine.links["base::body"].motion().linear[:, 1]
     assert velocity == pytest.approx(SLIP * FORCE / 4.0, rel=0.1)
     for wheel in WHEELS:
         engine.set_parameter("wheel_slip", wheel, 0.0)
     engine.step(1000)
-    assert engine.link_motion("base::body").linear[:, 1] == pytest.approx(0.0, abs=1e-3)
+    assert engine.links["base::body"].motion().linear[:, 1] == pytest.approx(0.0, abs=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -27,10 +27,10 @@ def pair(step=0.001, nworld=2):
 def gap_after(engine, seconds, away=(0.3, -0.2, 0.1)):
     """How much is left of a gap, after the leader was put elsewhere; shape (nworld,)."""
     there = np.add(away, [0.0, 0.0, 0.5])
-    engine.set_model_placement("leader", there, (0.0, 0.0, 0.0, 1.0))
-    wanted = engine.link_placement("box::link").position + away
+    engine.models["leader"].set_placement(there, (0.0, 0.0, 0.0, 1.0))
+    wanted = engine.links["box::link"].placement().position + away
     engine.step(round(seconds / engine.time_step))
-    left = np.linalg.norm(wanted - engine.link_placement("box::link").position, axis=1)
+    left = np.linalg.norm(wanted - engine.links["box::link"].placement().position, axis=1)
     return left / np.linalg.norm(away)
 
 
@@ -38,7 +38,7 @@ def gap_after(engine, seconds, away=(0.3, -0.2, 0.1)):
 @pytest.mark.parametrize("times", [1.0, 2.0, 3.0])
 def test_a_gap_closes_as_a_critically_damped_spring_closes_it(settling, times):
     engine = pair()
-    engine.set_model_placement("leader", (0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
+    engine.models["leader"].set_placement((0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
     engine.attach(*PAIR, None, settling)
     # MuJoCo's impedance of 0.95 makes it a little faster than the time constant says.
     wanted = (1.0 + times) * np.exp(-times)
@@ -47,14 +47,14 @@ def test_a_gap_closes_as_a_critically_damped_spring_closes_it(settling, times):
 
 def test_without_a_time_constant_it_is_as_stiff_as_can_be():
     engine = pair()
-    engine.set_model_placement("leader", (0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
+    engine.models["leader"].set_placement((0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
     engine.attach(*PAIR)
     assert gap_after(engine, 0.03).max() < 0.01
 
 
 def test_another_time_constant_takes_the_place_of_the_first():
     engine = pair()
-    engine.set_model_placement("leader", (0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
+    engine.models["leader"].set_placement((0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
     engine.attach(*PAIR, np.array([0]), 0.5)
     engine.attach(*PAIR, np.array([0]), 0.02)
     left = gap_after(engine, 0.1)
@@ -65,7 +65,7 @@ def test_another_time_constant_takes_the_place_of_the_first():
 
 def test_another_engine_becomes_the_same_and_goes_on_with_the_same_bits():
     engine, other = pair(), pair()
-    engine.set_model_placement("leader", (0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
+    engine.models["leader"].set_placement((0.0, 0.0, 0.5), (0.0, 0.0, 0.0, 1.0))
     engine.attach(*PAIR, None, 0.1)
     gap_after(engine, 0.05)
     other.adopt(engine.history())

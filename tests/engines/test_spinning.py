@@ -30,7 +30,7 @@ LEFT = "burger::wheel_left_link"
 
 def axis_of(engine, link):
     """Where a link's z axis points, shape (3,)."""
-    return rotate(engine.link_placement(link).quaternion, np.array([[0.0, 0.0, 1.0]]))[0]
+    return rotate(engine.links[link].placement().quaternion, np.array([[0.0, 0.0, 1.0]]))[0]
 
 
 def top(spin, step, *, tilt=0.3, about=0.005, across=0.003, lever=0.1, mass=1.0, kind="ball"):
@@ -46,8 +46,8 @@ def top(spin, step, *, tilt=0.3, about=0.005, across=0.003, lever=0.1, mass=1.0,
     total = across + mass * lever**2
     push = (about * spin) ** 2 - 4.0 * total * math.cos(tilt) * mass * G * lever
     rate = (about * spin - math.sqrt(push)) / (2.0 * total * math.cos(tilt))
-    engine.set_joint_position("m::j", (math.sin(tilt / 2.0), 0.0, 0.0, math.cos(tilt / 2.0)))
-    engine.set_joint_velocity("m::j", (0.0, rate * math.sin(tilt), spin))
+    engine.joints["m::j"].set_position((math.sin(tilt / 2.0), 0.0, 0.0, math.cos(tilt / 2.0)))
+    engine.joints["m::j"].set_velocity((0.0, rate * math.sin(tilt), spin))
     return engine, rate
 
 
@@ -66,7 +66,7 @@ def top(spin, step, *, tilt=0.3, about=0.005, across=0.003, lever=0.1, mass=1.0,
 def test_a_top_precesses_as_theory_says_and_keeps_its_tilt(spin, step, error):
     engine, rate = top(abs(spin), step)
     if spin < 0.0:
-        engine.set_joint_velocity("m::j", -engine.joint_velocity("m::j"))
+        engine.joints["m::j"].set_velocity(-engine.joints["m::j"].velocity())
         rate = -rate
     turned, before = 0.0, math.atan2(*axis_of(engine, "m::t")[1::-1])
     for _ in range(round(5.0 / step / 10)):
@@ -84,7 +84,7 @@ def test_a_thrown_disc_keeps_its_wobble(spin, step):
     disc = scenes.solid("d", Cylinder(0.2, 0.02), moments=(across, across, about), pose=Pose(z=99))
     engine = make_engine("mujoco", scenes.world(disc, step=step))
     aside = math.tan(wobble) * about * spin / across
-    engine.set_model_motion("d", (3.0, 0.0, 1.0), (aside, 0.0, spin))
+    engine.models["d"].set_motion((3.0, 0.0, 1.0), (aside, 0.0, spin))
     momentum = np.array([across * aside, 0.0, about * spin])
     momentum /= np.linalg.norm(momentum)
     for _ in range(round(3.0 / step / 10)):
@@ -111,8 +111,8 @@ def energy_of(engine, count):
     total = 0.0
     for i in range(count):
         name = f"m::l{i}"
-        centre, place = engine.link_centre(name)[0], engine.link_placement(name)
-        motion = engine.link_motion(name)
+        centre, place = engine.links[name].centre()[0], engine.links[name].placement()
+        motion = engine.links[name].motion()
         spin = motion.angular[0]
         speed = motion.linear[0] + np.cross(spin, centre - place.position[0])
         local = rotate(place.quaternion * (-1.0, -1.0, -1.0, 1.0), spin[None])[0]
@@ -128,8 +128,8 @@ def test_a_double_pendulum_keeps_its_energy(count, axis):
 
     def drift(integrator):
         engine = chain(count, integrator=integrator, axis=axis)
-        engine.set_joint_position("m::j1", -1.0)
-        engine.set_joint_velocity("m::j0", 3.0)
+        engine.joints["m::j1"].set_position(-1.0)
+        engine.joints["m::j0"].set_velocity(3.0)
         found = []
         for _ in range(600):
             engine.step(50)
@@ -151,9 +151,9 @@ def test_a_loose_body_tumbles_alike_beside_joints_and_alone():
             "b", Cylinder(0.1, 0.3), moments=(0.01, 0.02, 0.025), pose=Pose(5, 0, 9)
         )
         engine = make_engine("mujoco", scenes.world(body, *others))
-        engine.set_model_motion("b", (0.0, 0.0, 5.0), (0.1, 20.0, 0.1))
+        engine.models["b"].set_motion((0.0, 0.0, 5.0), (0.1, 20.0, 0.1))
         engine.step(800)
-        found.append(engine.link_motion("b::link").angular[0])
+        found.append(engine.links["b::link"].motion().angular[0])
     np.testing.assert_allclose(found[0], found[1], rtol=1e-3, atol=1e-3)
 
 
@@ -161,12 +161,12 @@ def test_bits_do_not_depend_on_threads_or_worlds():
     spins = np.array([10.0, 60.0, 90.0, 120.0])
     many = [make_engine("mujoco", top(100.0, 0.001)[0].world, 4, threads=n) for n in (1, 2)]
     for engine in many:
-        engine.set_joint_velocity("m::j", [[0.3, 0.1, spin] for spin in spins])
+        engine.joints["m::j"].set_velocity([[0.3, 0.1, spin] for spin in spins])
         engine.step(300)
     np.testing.assert_array_equal(many[0].snapshot(), many[1].snapshot())
     for i, spin in enumerate(spins):
         one = make_engine("mujoco", many[0].world)
-        one.set_joint_velocity("m::j", (0.3, 0.1, spin))
+        one.joints["m::j"].set_velocity((0.3, 0.1, spin))
         one.step(300)
         np.testing.assert_array_equal(one.snapshot()[0], many[0].snapshot()[i])
 
@@ -179,7 +179,7 @@ def test_a_step_too_long_for_a_spin_is_told_once():
     assert len(told) == 1
     disc = scenes.solid("d", Cylinder(0.2, 0.02), moments=(0.01, 0.01, 0.02), pose=Pose(z=99.0))
     engine = make_engine("mujoco", scenes.world(disc))
-    engine.set_model_motion("d", (0.0, 0.0, 0.0), (1.0, 0.0, 400.0))
+    engine.models["d"].set_motion((0.0, 0.0, 0.0), (1.0, 0.0, 400.0))
     with pytest.warns(EngineWarning, match="link 'd::link' moved at"):
         engine.step()
 
@@ -187,7 +187,7 @@ def test_a_step_too_long_for_a_spin_is_told_once():
 def test_balanced_wheels_may_turn_as_fast_as_they_like():
     engine = make_engine("mujoco", scenes.world(scenes.ground(), scenes.burger()))
     engine.add_motor("burger::wheel_left_joint", 1.0)
-    engine.set_motor_velocity("burger::wheel_left_joint", 2000.0)
+    engine.joints["burger::wheel_left_joint"].set_motor_velocity(2000.0)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         engine.step(200)

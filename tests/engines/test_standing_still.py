@@ -69,7 +69,7 @@ def test_the_watch_sees_what_sinks(tmp_path):
     watch = standing._Watch(engine)
     for depth in (*(0.0 for _ in standing.LOOKS), 0.02):
         watch.time = standing.SETTLING
-        engine.set_model_placement("m", (0.0, 0.0, 0.1 - depth), (0.0, 0.0, 0.0, 1.0))
+        engine.models["m"].set_placement((0.0, 0.0, 0.1 - depth), (0.0, 0.0, 0.0, 1.0))
         watch.look(1.0)
     assert watch.fault == "sinks"
 
@@ -94,6 +94,6 @@ def test_the_watch_sees_what_gains_energy(tmp_path):
     engine = standing.make_engine("mujoco", standing.load(file))
     watch = standing._Watch(engine)
     watch.time = standing.SETTLING
-    engine.set_model_motion("m", (5.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    engine.models["m"].set_motion((5.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     watch.look(1.0)
     assert watch.fault == "gains"

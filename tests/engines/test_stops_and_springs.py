@@ -36,7 +36,7 @@ def wheel(moment=0.02, mass=1.0, kind="revolute", nworld=1, step=0.001, terms=No
 
 
 def angle(engine):
-    return engine.joint_position("m::j")[:, 0]
+    return engine.joints["m::j"].position()[:, 0]
 
 
 @pytest.mark.parametrize(
@@ -47,10 +47,10 @@ def angle(engine):
 )  # fmt: skip
 def test_a_soft_stop_gives_way_by_torque_over_stiffness(stiffness, dissipation, step):
     engine = wheel(lower=-0.5, upper=0.5, stiffness=stiffness, dissipation=dissipation, step=step)
-    engine.set_joint_effort("m::j", 2.0)
+    engine.joints["m::j"].set_effort(2.0)
     engine.step(round(8.0 / step))
     assert angle(engine)[0] - 0.5 == pytest.approx(2.0 / stiffness, rel=0.05)
-    engine.set_joint_effort("m::j", -2.0)
+    engine.joints["m::j"].set_effort(-2.0)
     engine.step(round(8.0 / step))
     assert -0.5 - angle(engine)[0] == pytest.approx(2.0 / stiffness, rel=0.05)
 
@@ -72,8 +72,8 @@ def test_a_soft_stop_of_an_arm_gives_way_the_same_wherever_the_load_is():
     model = Model("m", links=(upper, fore), joints=joints)
     for bend in (0.0, 2.6):
         engine = make_engine("mujoco", scenes.world(model, gravity=(0, 0, 0)))
-        engine.set_joint_position("m::e", bend)
-        engine.set_joint_effort("m::j", 4.0)
+        engine.joints["m::e"].set_position(bend)
+        engine.joints["m::j"].set_effort(4.0)
         engine.step(8000)
         assert angle(engine)[0] - 0.2 == pytest.approx(4.0 / 50.0, rel=0.05)
 
@@ -82,18 +82,18 @@ def test_a_soft_stop_of_an_arm_gives_way_the_same_wherever_the_load_is():
 def test_a_stop_gives_way_by_h_cfm_torque_over_erp_as_odes_terms_say(erp, cfm):
     terms = JointPhysics(stop_erp=erp, stop_cfm=cfm)
     engine = wheel(lower=-0.5, upper=0.5, terms=terms)
-    engine.set_joint_effort("m::j", 1.0)
+    engine.joints["m::j"].set_effort(1.0)
     engine.step(10_000)
     assert angle(engine)[0] - 0.5 == pytest.approx(0.001 * cfm / erp, rel=0.05)
     own = wheel(lower=-0.5, upper=0.5, terms=terms, stiffness=50.0, dissipation=1.0)
-    own.set_joint_effort("m::j", 1.0)
+    own.joints["m::j"].set_effort(1.0)
     own.step(10_000)
     assert angle(own)[0] - 0.5 == pytest.approx(1.0 / 50.0, rel=0.05)
 
 
 def test_sdf_default_stops_do_not_give():
     engine = wheel(lower=-0.5, upper=0.5)
-    engine.set_joint_effort("m::j", 2.0)
+    engine.joints["m::j"].set_effort(2.0)
     engine.step(2000)
     assert angle(engine)[0] == pytest.approx(0.5, abs=2e-3)
 
@@ -101,7 +101,7 @@ def test_sdf_default_stops_do_not_give():
 def test_a_soft_stop_swings_at_its_own_frequency_and_loses_what_it_dissipates():
     moment, stiffness = 0.02, 20.0
     engine = wheel(moment, lower=-3.0, upper=0.0, stiffness=stiffness, dissipation=0.0)
-    engine.set_joint_velocity("m::j", 1.0)
+    engine.joints["m::j"].set_velocity(1.0)
     half = math.pi * math.sqrt(moment / stiffness)
     steps = 0
     while angle(engine)[0] >= 0.0 and steps < 1000:
@@ -112,14 +112,14 @@ def test_a_soft_stop_swings_at_its_own_frequency_and_loses_what_it_dissipates():
 
 def test_a_spring_holds_against_an_effort_at_reference_plus_effort_over_stiffness():
     engine = wheel(spring_stiffness=8.0, spring_reference=0.3, damping=0.4)
-    engine.set_joint_effort("m::j", 1.6)
+    engine.joints["m::j"].set_effort(1.6)
     engine.step(4000)
     assert angle(engine)[0] == pytest.approx(0.3 + 1.6 / 8.0, rel=1e-4)
 
 
 def test_a_spring_swings_with_its_period():
     engine = wheel(0.02, kind="continuous", spring_stiffness=2.0)
-    engine.set_joint_position("m::j", 0.5)
+    engine.joints["m::j"].set_position(0.5)
     period = 2.0 * math.pi * math.sqrt(0.02 / 2.0)
     engine.step(round(period / 2 / 0.001))
     assert angle(engine)[0] == pytest.approx(-0.5, rel=1e-3)
@@ -127,22 +127,22 @@ def test_a_spring_swings_with_its_period():
 
 def test_damping_slows_exponentially():
     engine = wheel(0.02, kind="continuous", damping=0.05)
-    engine.set_joint_velocity("m::j", 3.0)
+    engine.joints["m::j"].set_velocity(3.0)
     engine.step(400)
     expected = 3.0 * math.exp(-0.05 / 0.02 * 0.4)
-    assert engine.joint_velocity("m::j")[0, 0] == pytest.approx(expected, rel=2e-3)
+    assert engine.joints["m::j"].velocity()[0, 0] == pytest.approx(expected, rel=2e-3)
 
 
 def test_friction_holds_below_and_slows_evenly_above():
     engine = wheel(0.02, kind="continuous", nworld=2, friction=0.1)
-    engine.set_joint_effort("m::j", [[0.09], [0.14]])
+    engine.joints["m::j"].set_effort([[0.09], [0.14]])
     engine.step(1000)
-    speed = engine.joint_velocity("m::j")[:, 0]
+    speed = engine.joints["m::j"].velocity()[:, 0]
     assert abs(speed[0]) < 1e-6
     assert speed[1] == pytest.approx(0.04 / 0.02, rel=1e-6)
-    engine.set_joint_effort("m::j", np.zeros((2, 1)))
+    engine.joints["m::j"].set_effort(np.zeros((2, 1)))
     engine.step(200)
-    assert engine.joint_velocity("m::j")[1, 0] == pytest.approx(speed[1] - 5.0 * 0.2, rel=0.02)
+    assert engine.joints["m::j"].velocity()[1, 0] == pytest.approx(speed[1] - 5.0 * 0.2, rel=0.02)
 
 
 @pytest.mark.parametrize("step", [0.0005, 0.002, 0.005])
@@ -155,7 +155,7 @@ def test_what_friction_holds_does_not_creep_in_a_minute(step, kind):
     model = Model("m", links=(Link("arm", inertial=inertial),), joints=(joint,))
     engine = make_engine("mujoco", scenes.world(model, step=step))
     engine.step(round(5.0 / step))
-    assert abs(engine.joint_position("m::j")[0, 0]) * 12.0 < 1e-3
+    assert abs(engine.joints["m::j"].position()[0, 0]) * 12.0 < 1e-3
 
 
 def test_worlds_with_inertias_of_their_own_have_the_same_stops():
@@ -163,7 +163,7 @@ def test_worlds_with_inertias_of_their_own_have_the_same_stops():
     tensors = [[m, m, m, 0.0, 0.0, 0.0] for m in (0.02, 0.04, 0.3)]
     engine.set_parameter("link_inertia", "m::w", tensors)
     engine.spawn(scenes.ball(pose=Pose(x=5.0)))  # compiled anew, the inertias still their own
-    engine.set_joint_effort("m::j", 2.0)
+    engine.joints["m::j"].set_effort(2.0)
     engine.step(12000)
     np.testing.assert_allclose(angle(engine) - 0.5, 0.1, rtol=0.02)
 
@@ -179,12 +179,12 @@ def test_worlds_with_masses_of_their_own_sink_by_their_own_weight_over_kp():
     engine = make_engine("mujoco", scenes.world(scenes.ground(), model), 2)
     engine.set_parameter("link_mass", "ball::link", [[2.0], [5.0]])
     engine.step(4000)
-    depth = 0.1 - engine.link_placement("ball::link").position[:, 2]
+    depth = 0.1 - engine.links["ball::link"].placement().position[:, 2]
     np.testing.assert_allclose(depth, np.array([2.0, 5.0]) * 9.8 / 2000.0, rtol=0.05)
 
 
 def test_a_joint_that_is_locked_by_equal_limits_does_not_move():
     engine = wheel(lower=0.2, upper=0.2)
-    engine.set_joint_effort("m::j", 0.5)
+    engine.joints["m::j"].set_effort(0.5)
     engine.step(1000)
     assert angle(engine)[0] == pytest.approx(0.2, abs=2e-3)

@@ -45,9 +45,9 @@ def slid(surface, angle, heading=0.0, *, ground=None, model=None, yaw=0.0):
     profile = replace(world.profile, ode=replace(world.profile.ode, friction_model=model))
     engine = make_engine("mujoco", with_profile(world, profile))
     engine.step(100)
-    start = engine.model_placement("box").position[0]
+    start = engine.models["box"].placement().position[0]
     engine.step(1000)
-    return float(np.linalg.norm((engine.model_placement("box").position[0] - start)[:2]))
+    return float(np.linalg.norm((engine.models["box"].placement().position[0] - start)[:2]))
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.4])
@@ -144,10 +144,10 @@ def test_torsional_friction_stops_a_spinning_ball_as_hertz_says():
     ball = with_surface(scenes.ball(mass=2.0, pose=Pose(z=0.1)), surface)
     engine = make_engine("mujoco", scenes.world(scenes.ground(), ball))
     engine.step(200)
-    engine.set_model_motion("ball", (0.0, 0.0, 0.0), (0.0, 0.0, 20.0))
+    engine.models["ball"].set_motion((0.0, 0.0, 0.0), (0.0, 0.0, 20.0))
     engine.step(500)
     rate = 3.0 * math.pi / 16.0 * 0.5 * 0.02 * 2.0 * G / (0.4 * 2.0 * 0.1**2)
-    assert engine.link_motion("ball::link").angular[0, 2] == pytest.approx(
+    assert engine.links["ball::link"].motion().angular[0, 2] == pytest.approx(
         20.0 - 0.5 * rate, rel=0.02
     )
 
@@ -156,9 +156,9 @@ def test_without_a_patch_radius_a_ball_spins_on():
     surface = Surface(Friction(1.0, 1.0, torsional=TorsionalFriction(patch_radius=0.0)))
     ball = with_surface(scenes.ball(pose=Pose(z=0.1)), surface)
     engine = make_engine("mujoco", scenes.world(scenes.ground(), ball))
-    engine.set_model_motion("ball", (0.0, 0.0, 0.0), (0.0, 0.0, 20.0))
+    engine.models["ball"].set_motion((0.0, 0.0, 0.0), (0.0, 0.0, 20.0))
     engine.step(1000)
-    assert engine.link_motion("ball::link").angular[0, 2] == pytest.approx(20.0, rel=1e-3)
+    assert engine.links["ball::link"].motion().angular[0, 2] == pytest.approx(20.0, rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -183,7 +183,7 @@ def test_a_soft_surface_gives_way_as_its_cfm_and_erp_say(cfm, erp, mass):
     ball = with_surface(scenes.ball(radius=0.3, mass=mass, pose=Pose(z=0.3)), soft)
     engine = make_engine("mujoco", scenes.world(scenes.ground(), ball))
     engine.step(4000)
-    depth = 0.3 - engine.model_placement("ball").position[0, 2]
+    depth = 0.3 - engine.models["ball"].placement().position[0, 2]
     assert depth == pytest.approx(0.001 * cfm / erp * mass * G, rel=0.05)
 
 
@@ -193,7 +193,7 @@ def test_a_threshold_that_nothing_reaches_means_no_bounce():
     floor = with_surface(scenes.ground(), bouncy)
     engine = make_engine("mujoco", scenes.world(floor, ball))
     engine.step(700)
-    assert engine.model_placement("ball").position[0, 2] == pytest.approx(0.1, abs=5e-3)
+    assert engine.models["ball"].placement().position[0, 2] == pytest.approx(0.1, abs=5e-3)
 
 
 def test_slip_of_what_is_no_wheel_is_warned_about_once():

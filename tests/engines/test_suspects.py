@@ -29,23 +29,23 @@ UP = (0.0, 0.0, 0.0, 1.0)
     ("spoil", "said"),
     [
         (
-            lambda e: e.set_link_motion("ball::link", (1e12, 0, 0), (0, 0, 0), ONE),
+            lambda e: e.links["ball::link"].set_motion((1e12, 0, 0), (0, 0, 0), ONE),
             "link 'ball::link' moved at 1e",
         ),
         (
-            lambda e: e.set_joint_velocity("burger::wheel_left_joint", 1e13, ONE),
+            lambda e: e.joints["burger::wheel_left_joint"].set_velocity(1e13, ONE),
             "joint 'burger::wheel_left_joint' moved at 1e",
         ),
         (
-            lambda e: e.set_link_wrench("ball::link", nan(1, 3), np.zeros(3), ONE),
+            lambda e: e.links["ball::link"].set_wrench(nan(1, 3), np.zeros(3), ONE),
             "the force on link 'ball::link' was not finite",
         ),
         (
-            lambda e: e.set_joint_effort("burger::wheel_right_joint", nan(1, 1), ONE),
+            lambda e: e.joints["burger::wheel_right_joint"].set_effort(nan(1, 1), ONE),
             "the effort on joint 'burger::wheel_right_joint' was not finite",
         ),
         (
-            lambda e: e.set_link_motion("ball::link", nan(1, 3), (0, 0, 0), ONE),
+            lambda e: e.links["ball::link"].set_motion(nan(1, 3), (0, 0, 0), ONE),
             "the velocity of link 'ball::link' was not finite",
         ),
     ],

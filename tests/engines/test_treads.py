@@ -36,15 +36,15 @@ def drive(model, left, right, seconds, friction, step=0.001):
     engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)))
     for side, speed in (("left", left), ("right", right)):
         engine.add_motor(f"cart::{side}_joint", 50.0)
-        engine.set_motor_velocity(f"cart::{side}_joint", speed)
+        engine.joints[f"cart::{side}_joint"].set_motor_velocity(speed)
     turned, before = 0.0, 0.0
     for _ in range(round(seconds / 0.1)):
         engine.step(round(0.1 / step))
-        x, y, z, w = engine.link_placement("cart::base").quaternion[0]
+        x, y, z, w = engine.links["cart::base"].placement().quaternion[0]
         yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
         turned += math.remainder(yaw - before, 2.0 * math.pi)
         before = yaw
-    return engine.link_placement("cart::base").position[0], turned
+    return engine.links["cart::base"].placement().position[0], turned
 
 
 @pytest.mark.parametrize("friction", MODELS)
@@ -124,7 +124,7 @@ def test_a_roller_alone_stands_and_what_leans_stands_on_its_edge():
         model = Model("roller", links=(axle, drum), joints=(joint,), pose=pose)
         engine = make_engine("mujoco", scenes.world(scenes.ground(), model))
         engine.step(2000)
-        x, y, _, _ = engine.link_placement("roller::axle").quaternion[0]
+        x, y, _, _ = engine.links["roller::axle"].placement().quaternion[0]
         level = abs(1.0 - 2.0 * (x * x + y * y))
         assert (level > 0.5) == falls, lean
 
@@ -159,7 +159,7 @@ def test_only_what_is_askew_by_rounding_is_put_straight(size, turn, straight):
     if not straight:
         wanted = turn.matrix()[:3, :3]
         np.testing.assert_allclose(axes.reshape(3, 3), wanted, atol=1e-12)
-    np.testing.assert_array_equal(engine.link_placement("m::l").quaternion[0], [0, 0, 0, 1])
+    np.testing.assert_array_equal(engine.links["m::l"].placement().quaternion[0], [0, 0, 0, 1])
 
 
 def test_links_held_by_fixed_joints_are_straight_with_what_carries_them():
@@ -174,7 +174,7 @@ def test_links_held_by_fixed_joints_are_straight_with_what_carries_them():
     axes = data.geom_xmat[0]
     np.testing.assert_allclose(axes, np.rint(axes), atol=1e-12)
     # The link itself is where the file has it.
-    x, _, _, w = engine.link_placement("m::arm").quaternion[0]
+    x, _, _, w = engine.links["m::arm"].placement().quaternion[0]
     assert 2.0 * math.atan2(x, w) == pytest.approx(1.57, abs=1e-12)
 
 
@@ -217,16 +217,16 @@ def test_a_skid_steer_turns_by_what_its_friction_leaves(friction, share):
     engine = make_engine("mujoco", scenes.world(scenes.ground(1e5), skid_steer(friction)))
     for i, (_, y) in enumerate(CORNERS):
         engine.add_motor(f"cart::w{i}_joint", 100.0)
-        engine.set_motor_velocity(f"cart::w{i}_joint", -rate * y / RADIUS)
+        engine.joints[f"cart::w{i}_joint"].set_motor_velocity(-rate * y / RADIUS)
     engine.step(500)
     turned, before = 0.0, None
     for _ in range(round(seconds / 0.1)):
         engine.step(100)
-        x, y, z, w = engine.link_placement("cart::base").quaternion[0]
+        x, y, z, w = engine.links["cart::base"].placement().quaternion[0]
         yaw = math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
         if before is not None:
             turned += math.remainder(yaw - before, 2.0 * math.pi)
         before = yaw
     asked = rate * (seconds - 0.1)
     assert abs(turned) == pytest.approx(share * asked, rel=0.01, abs=0.002 * asked)
-    assert abs(engine.link_placement("cart::base").position[0, 2]) < 1e-3
+    assert abs(engine.links["cart::base"].placement().position[0, 2]) < 1e-3

@@ -27,9 +27,9 @@ def slipping(**options):
 
 def pushed(engine, seconds=1.0, force=(0.0, FORCE, 0.0)):
     """How fast the base goes when it was pushed for some time."""
-    engine.set_link_wrench("base::body", force, (0.0, 0.0, 0.0))
+    engine.links["base::body"].set_wrench(force, (0.0, 0.0, 0.0))
     engine.step(round(seconds / engine.time_step))
-    return engine.link_motion("base::body").linear
+    return engine.links["base::body"].motion().linear
 
 
 @pytest.mark.parametrize("step", [0.001, 0.005])
@@ -46,7 +46,7 @@ def test_a_wheel_turns_under_its_tyre():
         engine.add_motor(f"base::joint{i}", 50.0)  # at rest
     velocity = pushed(engine, force=(FORCE, 0.0, 0.0))
     assert velocity[:, 0] == pytest.approx(SLIPS[:, 0] * FORCE / 4.0, rel=0.02)
-    assert engine.joint_velocity("base::joint0")[:, 0] == pytest.approx(0.0, abs=0.02)
+    assert engine.joints["base::joint0"].velocity()[:, 0] == pytest.approx(0.0, abs=0.02)
 
 
 @pytest.mark.long
@@ -83,7 +83,7 @@ def test_links_of_one_model_still_collide_only_if_they_say_so():
     engine = slipping(model=base("").replace("0 0 0.12 0 0 0", "0 0 0.1 0 0 0"))
     engine.step(300)
     # The body's box reaches into its wheels: it lies still all the same.
-    assert np.abs(engine.link_motion("base::body").linear).max() < 1e-3
+    assert np.abs(engine.links["base::body"].motion().linear).max() < 1e-3
     names = [f"{wheel}::c" for wheel in WHEELS]
     assert set(engine.contacts(names).others) == {"ground_plane::link::collision"}
 
@@ -103,6 +103,6 @@ def test_what_is_no_wheel_does_not_slip():
 def test_a_model_that_is_only_placed_forgets_its_slip():
     engine = slipping()
     engine.make_kinematic("base")
-    engine.set_model_placement("base", (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+    engine.models["base"].set_placement((1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
     engine.step(5)
-    assert engine.model_placement("base").position[:, 0] == pytest.approx(1.0)
+    assert engine.models["base"].placement().position[:, 0] == pytest.approx(1.0)

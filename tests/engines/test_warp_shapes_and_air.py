@@ -38,7 +38,7 @@ def saved(folder, mesh):
 
 
 def places(engine, name="ball::link"):
-    return engine.link_placement(name).position
+    return engine.links[name].placement().position
 
 
 @pytest.mark.parametrize("static", [True, False], ids=["static", "loose"])
@@ -49,7 +49,7 @@ def test_a_ball_falls_through_a_ring_and_lies_on_its_rim(tmp_path, static):
     ends = []
     for name in NAMES:
         engine = make_engine(name, world, 2)
-        engine.set_model_placement("ball", [(0.0, 0.0, 0.12), (0.35, 0.0, 0.31)], (0, 0, 0, 1))
+        engine.models["ball"].set_placement([(0.0, 0.0, 0.12), (0.35, 0.0, 0.31)], (0, 0, 0, 1))
         engine.step(50)
         ends.append(places(engine))
     assert ends[1][0] == pytest.approx((0.0, 0.0, 0.1), abs=2e-3)
@@ -83,7 +83,7 @@ def test_ground_follows_its_picture(tmp_path):
     ends = []
     for name in NAMES:
         engine = make_engine(name, world, 2)
-        engine.set_model_placement("ball", [(1.0, 0.0, 1.0), (0.0, 0.3, 0.7)], (0, 0, 0, 1))
+        engine.models["ball"].set_placement([(1.0, 0.0, 1.0), (0.0, 0.3, 0.7)], (0, 0, 0, 1))
         engine.step(200)
         ends.append(places(engine))
     assert (ends[1][:, 0] < (0.95, -0.05)).all()  # rolled down
@@ -98,10 +98,10 @@ def test_the_wind_carries_as_far():
     speeds = []
     for name in NAMES:
         engine = make_engine(name, world, 2)
-        engine.set_model_motion("leaf", [(0.0, 0.0, 0.0), (-1.0, 0.0, 0.0)], STILL)
+        engine.models["leaf"].set_motion([(0.0, 0.0, 0.0), (-1.0, 0.0, 0.0)], STILL)
         engine.step(300)
-        speeds.append(engine.link_motion("leaf::link").linear)
-        assert np.array_equal(engine.link_motion("stone::link").linear, np.zeros((2, 3)))
+        speeds.append(engine.links["leaf::link"].motion().linear)
+        assert np.array_equal(engine.links["stone::link"].motion().linear, np.zeros((2, 3)))
     assert speeds[1][0, 0] > 0.5
     assert speeds[1] == pytest.approx(speeds[0], abs=1e-5)
 

@@ -36,8 +36,8 @@ def test_a_floating_body_takes_on_the_speed_of_the_wind_in_time():
     engine = windy(floating())
     engine.step(1500)
     expected = 4.0 * (1.0 - math.exp(-1.5))
-    assert engine.link_motion("leaf::link").linear[0, 0] == pytest.approx(expected, rel=1e-3)
-    np.testing.assert_allclose(engine.link_motion("leaf::link").angular, 0.0, atol=1e-12)
+    assert engine.links["leaf::link"].motion().linear[0, 0] == pytest.approx(expected, rel=1e-3)
+    np.testing.assert_allclose(engine.links["leaf::link"].motion().angular, 0.0, atol=1e-12)
 
 
 def test_the_strength_of_the_plugin_counts():
@@ -47,7 +47,7 @@ def test_the_strength_of_the_plugin_counts():
     engine = windy(floating(), plugins=(Plugin("wind", "libWindPlugin.so", settings),))
     engine.step(1000)
     expected = 4.0 * (1.0 - math.exp(-0.25))
-    assert engine.link_motion("leaf::link").linear[0, 0] == pytest.approx(expected, rel=1e-3)
+    assert engine.links["leaf::link"].motion().linear[0, 0] == pytest.approx(expected, rel=1e-3)
 
 
 def test_only_links_that_let_it_are_blown():
@@ -58,14 +58,14 @@ def test_only_links_that_let_it_are_blown():
     ):
         engine = windy(model)
         engine.step(10)
-        assert (engine.link_motion("leaf::link").linear[0, 0] > 0.0) == blown
+        assert (engine.links["leaf::link"].motion().linear[0, 0] > 0.0) == blown
 
 
 def test_without_wind_the_air_does_not_brake_either():
     engine = windy(floating(), wind=(0.0, 0.0, 0.0))
-    engine.set_model_motion("leaf", (2.0, 0, 0), (0, 0, 0))
+    engine.models["leaf"].set_motion((2.0, 0, 0), (0, 0, 0))
     engine.step(500)
-    assert engine.link_motion("leaf::link").linear[0, 0] == pytest.approx(2.0, abs=1e-12)
+    assert engine.links["leaf::link"].motion().linear[0, 0] == pytest.approx(2.0, abs=1e-12)
 
 
 def test_a_pendulum_leans_into_the_wind_by_the_ratio_of_the_forces():
@@ -79,14 +79,14 @@ def test_a_pendulum_leans_into_the_wind_by_the_ratio_of_the_forces():
     engine = windy(model, wind=(3.0, 0.0, 0.0), gravity=(0, 0, -9.8))
     engine.step(8000)
     # a wind along x lifts the bob towards x: a negative turn about y
-    assert engine.joint_position("p::j")[0, 0] == pytest.approx(-math.atan2(3.0, 9.8), rel=1e-3)
+    assert engine.joints["p::j"].position()[0, 0] == pytest.approx(-math.atan2(3.0, 9.8), rel=1e-3)
 
 
 def test_the_wind_adds_to_pushes_and_leaves_no_trace_in_the_state():
     engine = windy(floating())
-    engine.set_link_wrench("leaf::link", (-12.0, 0, 0), (0, 0, 0))  # as strong as the wind
+    engine.links["leaf::link"].set_wrench((-12.0, 0, 0), (0, 0, 0))  # as strong as the wind
     engine.step(100)
-    assert engine.link_motion("leaf::link").linear[0, 0] == pytest.approx(0.0, abs=1e-12)
+    assert engine.links["leaf::link"].motion().linear[0, 0] == pytest.approx(0.0, abs=1e-12)
     other = windy(floating())
     other.restore(engine.snapshot())
     engine.step(3)
@@ -100,11 +100,11 @@ def test_wind_can_change_in_a_run_and_worlds_keep_their_own_masses():
     engine.set_parameter("link_mass", "leaf::link", [[1.0], [9.0]])
     engine.update_world(replace(engine.world, wind=(0.0, 2.0, 0.0)))
     engine.step(1000)
-    speed = engine.link_motion("leaf::link").linear
+    speed = engine.links["leaf::link"].motion().linear
     np.testing.assert_allclose(speed[:, 1], 2.0 * (1.0 - math.exp(-1.0)), rtol=1e-3)
     np.testing.assert_allclose(speed[:, 0], 0.0, atol=1e-12)
 
 
 def test_what_feels_the_wind_accelerates_at_once():
     engine = windy(floating(centre=(0.2, 0.0, 0.0)))
-    assert engine.link_acceleration("leaf::link").linear[0, 0] == pytest.approx(4.0, rel=1e-9)
+    assert engine.links["leaf::link"].acceleration().linear[0, 0] == pytest.approx(4.0, rel=1e-9)

@@ -86,7 +86,7 @@ def test_a_world_is_the_same_however_it_is_put_together(tmp_path, monkeypatch, f
     engine.step(600)
     again.step(600)
     for i in range(3):
-        here, there = (e.link_placement(f"ball{i}::link").position for e in (engine, again))
+        here, there = (e.links[f"ball{i}::link"].placement().position for e in (engine, again))
         np.testing.assert_allclose(here, there, atol=1e-9)
 
 
@@ -111,7 +111,7 @@ def test_collisions_and_frictions_of_ten_thousand_shapes_are_found_by_name():
     ball = scenes.solid("ball", Sphere(0.1), pose=Pose(x=10.0, y=19.0, z=0.5))
     engine = make_engine("mujoco", scenes.world(still, ball))
     engine.step(1000)
-    assert engine.link_placement("ball::link").position[0, 2] > 0.1
+    assert engine.links["ball::link"].placement().position[0, 2] > 0.1
     engine.set_parameter("collision_friction", "m::l::c9999", 0.3)
     assert engine.parameter("collision_friction", "m::l::c9999").tolist() == [[0.3]]
 

@@ -29,7 +29,7 @@ def driving(model):
     sim = simulate(model, nworld=2)
     for i in range(4):
         sim.engine.add_motor(f"base::joint{i}", 50.0)
-        sim.engine.set_motor_velocity(f"base::joint{i}", SPEEDS)
+        sim.engine.joints[f"base::joint{i}"].set_motor_velocity(SPEEDS)
     sim.run(seconds=0.5)
     return sim
 

@@ -18,8 +18,10 @@ import math
 import os
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -27,6 +29,7 @@ from second_engine.bullet_urdf import WORLD, Tree, UntranslatableError, trees_of
 
 from gazelle.description import Joint, Link, Model, Pose, World
 from gazelle.engines.motion import Motion, Placement
+from gazelle.engines.table import Table
 
 _ITERATIONS = 200
 _ERP = 0.2
@@ -62,6 +65,22 @@ class Bullet:
         for model in world.models:
             self._add(model)
         self._settle(world)
+
+    @property
+    def links(self) -> Table[Any, Any]:
+        """Links, as engines have them."""
+        return _rows(self, "link", ("placement", "motion"))
+
+    @property
+    def joints(self) -> Table[Any, Any]:
+        """Joints, as engines have them."""
+        names = ("position", "set_position", "set_effort", "set_motor_velocity")
+        return _rows(self, "joint", names)
+
+    @property
+    def models(self) -> Table[Any, Any]:
+        """Models, as engines have them."""
+        return _rows(self, "model", ("set_motion",))
 
     # -- making ------------------------------------------------------------------------
 
@@ -163,16 +182,16 @@ class Bullet:
                 self._b.setJointMotorControl2(body, index, control, force=effort)
             self._b.stepSimulation()
 
-    def set_joint_position(self, joint: str, position: float) -> None:
+    def _joint_set_position(self, joint: str, position: float) -> None:
         self._b.resetJointState(*self._joints[joint], float(position), 0.0)
 
-    def set_joint_effort(self, joint: str, effort: float) -> None:
+    def _joint_set_effort(self, joint: str, effort: float) -> None:
         self._efforts[joint] = effort
 
     def add_motor(self, joint: str, max_effort: float) -> None:
         self._motors[joint] = (0.0, max_effort)
 
-    def set_motor_velocity(self, joint: str, velocity: float) -> None:
+    def _joint_set_motor_velocity(self, joint: str, velocity: float) -> None:
         self._motor(joint, velocity, self._motors[joint][1])
 
     def _motor(self, joint: str, velocity: float, effort: float) -> None:
@@ -180,19 +199,19 @@ class Bullet:
         body, index = self._joints[joint]
         self._b.setJointMotorControl2(body, index, control, targetVelocity=velocity, force=effort)
 
-    def set_model_motion(self, model: str, linear: Any, angular: Any) -> None:
+    def _model_set_motion(self, model: str, linear: Any, angular: Any) -> None:
         links = self._models[model].links
         if len(links) != 1:
             raise UntranslatableError("only a model of one link can be given a motion")
         name = f"{model}::{links[0].name}"
         body, _ = self._bodies[name]
         centre, _ = self._b.getBasePositionAndOrientation(body)
-        arm = np.subtract(centre, self.link_placement(name).position[0])
+        arm = np.subtract(centre, self._link_placement(name).position[0])
         self._b.resetBaseVelocity(body, list(linear + np.cross(angular, arm)), list(angular))
 
     # -- looking -----------------------------------------------------------------------
 
-    def link_placement(self, link: str) -> Placement:
+    def _link_placement(self, link: str) -> Placement:
         body, index = self._bodies[link]
         if index >= 0:
             state = self._b.getLinkState(body, index, computeForwardKinematics=1)
@@ -203,21 +222,32 @@ class Bullet:
         pose = frame * self._shifts[link].inverse()
         return Placement(np.array([pose.position]), np.array([pose.quaternion]))
 
-    def link_motion(self, link: str) -> Motion:
+    def _link_motion(self, link: str) -> Motion:
         """Of a model of one link."""
         body, index = self._bodies[link]
         if index >= 0:
             raise UntranslatableError("only the motion of roots is read")
         linear, angular = self._b.getBaseVelocity(body)
         centre, _ = self._b.getBasePositionAndOrientation(body)
-        arm = np.subtract(self.link_placement(link).position[0], centre)
+        arm = np.subtract(self._link_placement(link).position[0], centre)
         return Motion(np.array([linear + np.cross(angular, arm)]), np.array([angular]))
 
-    def joint_position(self, joint: str) -> np.ndarray:
+    def _joint_position(self, joint: str) -> np.ndarray:
         return np.array([[self._b.getJointState(*self._joints[joint])[0]]])
 
     def close(self) -> None:
         self._b.disconnect()
+
+
+def _rows(engine: Bullet, kind: str, names: Sequence[str]) -> Table[Any, Any]:
+    """Return rows whose methods are those of the engine for one name."""
+
+    def row(key: str) -> Any:
+        return SimpleNamespace(
+            **{name: partial(getattr(engine, f"_{kind}_{name}"), key) for name in names}
+        )
+
+    return Table(lambda: (), row, row)
 
 
 @contextlib.contextmanager

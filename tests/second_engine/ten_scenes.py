@@ -30,19 +30,19 @@ LIMIT = "the stop of a joint is a spring of five steps here, rigid in Bullet"
 
 def joints(*names: str):
     """Reads joint positions."""
-    return lambda engine: [float(engine.joint_position(f"m::{n}")[0, 0]) for n in names]
+    return lambda engine: [float(engine.joints[f"m::{n}"].position()[0, 0]) for n in names]
 
 
 def places(link: str, *axes: int):
     """Reads coordinates of a link's origin."""
-    return lambda engine: [float(engine.link_placement(link).position[0, a]) for a in axes]
+    return lambda engine: [float(engine.links[link].placement().position[0, a]) for a in axes]
 
 
 def tilt(link: str):
     """Reads the angle between a link's z axis and up."""
 
     def read(engine: Any) -> list[float]:
-        pose = Pose.from_quaternion((0, 0, 0), engine.link_placement(link).quaternion[0])
+        pose = Pose.from_quaternion((0, 0, 0), engine.links[link].placement().quaternion[0])
         x, y, z = pose.rotate((0.0, 0.0, 1.0))
         return [math.atan2(math.hypot(x, y), z)]
 
@@ -53,7 +53,7 @@ def heading(link: str):
     """Reads the direction of a link's x axis as a point on a circle, which has no jumps."""
 
     def read(engine: Any) -> list[float]:
-        pose = Pose.from_quaternion((0, 0, 0), engine.link_placement(link).quaternion[0])
+        pose = Pose.from_quaternion((0, 0, 0), engine.links[link].placement().quaternion[0])
         x, y, _ = pose.rotate((1.0, 0.0, 0.0))
         return [x, y]
 
@@ -62,7 +62,7 @@ def heading(link: str):
 
 def spin(link: str):
     """Reads the angular velocity about y."""
-    return lambda engine: [float(engine.link_motion(link).angular[0, 1])]
+    return lambda engine: [float(engine.links[link].motion().angular[0, 1])]
 
 
 def set_joints(**angles: float):
@@ -70,7 +70,7 @@ def set_joints(**angles: float):
 
     def start(engine: Any) -> None:
         for name, angle in angles.items():
-            engine.set_joint_position(f"m::{name}", angle)
+            engine.joints[f"m::{name}"].set_position(angle)
 
     return start
 
@@ -81,12 +81,12 @@ def nothing(_: Any) -> None:
 
 def thrown(model: str, speed: float):
     """Starts with a speed along x."""
-    return lambda engine: engine.set_model_motion(model, (speed, 0.0, 0.0), STILL)
+    return lambda engine: engine.models[model].set_motion((speed, 0.0, 0.0), STILL)
 
 
 def squeezed(engine: Any) -> None:
     """Starts with a push on the leading finger."""
-    engine.set_joint_effort("m::left", 1.0)
+    engine.joints["m::left"].set_effort(1.0)
 
 
 def driven(engine: Any) -> None:
@@ -94,7 +94,7 @@ def driven(engine: Any) -> None:
     for side, speed in (("left", 6.0), ("right", 4.0)):
         joint = f"turtlebot3_burger::wheel_{side}_joint"
         engine.add_motor(joint, 10.0)
-        engine.set_motor_velocity(joint, speed)
+        engine.joints[joint].set_motor_velocity(speed)
 
 
 def sliding():
@@ -132,7 +132,7 @@ def stacked():
 
 
 def stack(engine: Any) -> list[float]:
-    positions = [engine.link_placement(f"box_{i}::link").position[0] for i in range(5)]
+    positions = [engine.links[f"box_{i}::link"].placement().position[0] for i in range(5)]
     return [float(value) for value in np.concatenate(positions)]
 
 

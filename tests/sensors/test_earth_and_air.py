@@ -94,8 +94,8 @@ def test_heading_turns_x_from_east_to_north():
 def test_gps_reports_where_the_antenna_is_and_how_it_moves():
     place = SphericalCoordinates(latitude=49.9, longitude=8.9, elevation=144.0)
     engine = flying(spherical_coordinates=place)
-    engine.set_model_placement("box", (100.0, 0.0, 3.0), from_yaw(np.array(math.pi / 2)))
-    engine.set_model_motion("box", (2.0, 0.0, 0.5), (0.0, 0.0, 1.0))
+    engine.models["box"].set_placement((100.0, 0.0, 3.0), from_yaw(np.array(math.pi / 2)))
+    engine.models["box"].set_motion((2.0, 0.0, 0.5), (0.0, 0.0, 1.0))
     model = GpsModel(Gps(), engine, "box::link", Pose(x=1.0), 0, "gps")
     fix = model.reading(model.measure()[0], 5)
     north, east = metres_a_degree(49.9)
@@ -140,7 +140,7 @@ def test_without_a_gradient_pressure_falls_exponentially():
 
 def test_a_barometer_adds_the_altitude_of_the_world():
     engine = flying()
-    engine.set_model_placement("box", (0, 0, 200.0), (0, 0, 0, 1))
+    engine.models["box"].set_placement((0, 0, 200.0), (0, 0, 0, 1))
     model = AirPressureModel(AirPressure(800.0), engine, "box::link", Pose(), 0, "air")
     reading = model.reading(model.measure()[0], 0)
     assert reading.pressure == pytest.approx(89874.6, rel=1e-4)
@@ -150,8 +150,8 @@ def test_a_barometer_adds_the_altitude_of_the_world():
 def test_an_altimeter_counts_from_where_it_was_loaded():
     engine = flying(scenes.world(scenes.box(pose=Pose(z=2.0)), gravity=(0, 0, 0)))
     model = AltimeterModel(Altimeter(), engine, "box::link", Pose(z=0.5), 0, "alt")
-    engine.set_model_placement("box", (0, 0, 3.25), (0, 0, 0, 1))
-    engine.set_model_motion("box", (0, 0, -0.75), (0, 0, 0))
+    engine.models["box"].set_placement((0, 0, 3.25), (0, 0, 0, 1))
+    engine.models["box"].set_motion((0, 0, -0.75), (0, 0, 0))
     reading = model.reading(model.measure()[0], 0)
     assert reading.height == pytest.approx(1.25)
     assert reading.velocity == pytest.approx(-0.75)
@@ -163,7 +163,7 @@ def test_an_altimeter_counts_from_where_it_was_loaded():
 
 def test_a_magnetometer_turns_against_the_field():
     engine = flying(magnetic_field=(2e-5, 0.0, -4e-5))
-    engine.set_model_placement("box", (0, 0, 0), from_yaw(np.array(math.pi / 2)))
+    engine.models["box"].set_placement((0, 0, 0), from_yaw(np.array(math.pi / 2)))
     model = MagnetometerModel(Magnetometer(), engine, "box::link", Pose(), 0, "mag")
     np.testing.assert_allclose(model.measure(), [[0.0, -2e-5, -4e-5]], atol=1e-12)
     engine.update_world(replace(engine.world, magnetic_field=(0.0, 1e-5, 0.0)))

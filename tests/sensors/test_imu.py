@@ -32,8 +32,8 @@ def test_in_free_fall_it_feels_nothing_and_measuring_moves_nothing():
 
 def test_off_axis_it_feels_the_centripetal_acceleration_in_its_own_frame():
     engine = make_engine("mujoco", scenes.world(scenes.box(), gravity=(0, 0, 0)))
-    engine.set_model_placement("box", (0, 0, 0), from_yaw(np.array(0.8)))
-    engine.set_model_motion("box", (0, 0, 0), (0, 0, 3.0))
+    engine.models["box"].set_placement((0, 0, 0), from_yaw(np.array(0.8)))
+    engine.models["box"].set_motion((0, 0, 0), (0, 0, 3.0))
     reading = imu_on(engine, Pose(x=0.5)).measure()[0]
     np.testing.assert_allclose(reading[7:], [-0.5 * 9.0, 0.0, 0.0], atol=1e-2)
     np.testing.assert_allclose(reading[4:7], [0.0, 0.0, 3.0], atol=1e-9)

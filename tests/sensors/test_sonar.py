@@ -68,6 +68,6 @@ def test_all_worlds_are_measured_at_once():
     world = scenes.world(scenes.ground(), scenes.box(size=(0.02,) * 3, pose=Pose(z=1.0)))
     engine = make_engine("mujoco", world, 3)
     heights = np.array([[0.0, 0.0, 0.5], [0.0, 0.0, 1.5], [0.0, 0.0, 9.0]])
-    engine.set_model_placement("box", heights, (0, 0, 0, 1))
+    engine.models["box"].set_placement(heights, (0, 0, 0, 1))
     model = SonarModel(Sonar("cone", 0.1, 4.0, 0.5), engine, "box::link", DOWN, 0, "s")
     np.testing.assert_allclose(model.measure()[:, 0], [0.5, 1.5, 4.0], atol=1e-6)

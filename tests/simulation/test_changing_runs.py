@@ -84,13 +84,13 @@ def test_an_effort_acts_for_its_duration_besides_a_lasting_one():
         joint.effort = 0.1
         joint.apply_effort(0.5, start=0.01, duration=0.02)
         sim.step(15)
-        assert sim.engine.joint_effort(name)[0, 0] == pytest.approx(0.6)
+        assert sim.engine.joints[name].effort()[0, 0] == pytest.approx(0.6)
         joint.effort = 0.2
-        assert sim.engine.joint_effort(name)[0, 0] == pytest.approx(0.7)
+        assert sim.engine.joints[name].effort()[0, 0] == pytest.approx(0.7)
         sim.step(30)
-        assert sim.engine.joint_effort(name)[0, 0] == 0.2
+        assert sim.engine.joints[name].effort()[0, 0] == 0.2
         joint.clear_efforts()
-        assert sim.engine.joint_effort(name)[0, 0] == 0.0
+        assert sim.engine.joints[name].effort()[0, 0] == 0.0
 
 
 def test_forces_survive_a_snapshot_and_end_with_a_reset_of_their_world():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from looks import count_looks
 
 import gazelle
 from gazelle import formats
@@ -230,15 +231,11 @@ def test_many_do_together_what_each_does_alone(kind, acts):
 
 
 def test_odometry_of_all_is_looked_up_at_once(monkeypatch):
-    looks, stamps = [], []
+    stamps = []
     with yard(KINDS["skid"], nworld=2) as sim:
         for each in moving(sim):
             each.outputs["odom"].subscribe(lambda odom: stamps.append(odom.stamp))
-        monkeypatch.setattr(sim._engine, "model_placement", None)
-        look = sim._engine.model_placements
-        monkeypatch.setattr(
-            sim._engine, "model_placements", lambda *a: looks.append(len(a[0])) or look(*a)
-        )
+        looks = count_looks(monkeypatch, "models", "placement", allow_one=False)
         sim.run(1.0)
     assert looks == [3] * 20
     assert len(stamps) == 3 * 20
@@ -342,13 +339,11 @@ def test_joints_of_many_robots_are_read_and_driven_at_once():
         assert np.array_equal(group.positions(), np.hstack([each.positions() for each in joints]))
 
 
-@pytest.mark.parametrize("at_once", [True, False])
-def test_joints_of_many_robots_are_placed_between_their_limits(at_once):
+def test_joints_of_many_robots_are_placed_between_their_limits():
     with yard(KINDS["built in"], nworld=2) as sim:
         for each in moving(sim):
             each.joints["left_joint"].set_properties(lower=-1.0, upper=1.0)
         group = JointArray([each.joints["left_joint"] for each in moving(sim)])
-        sim.tables = sim.tables if at_once else None
         group.place([[0.5, 2.0, 3.0], [-0.5, -2.0, 4.0]], 0.25, np.array([True, True, False]))
         assert group.positions().tolist() == [[0.5, 1.0, 0.0], [-0.5, -1.0, 0.0]]
         assert group.velocities().tolist() == [[0.25, 0.25, 0.0]] * 2

@@ -217,8 +217,8 @@ def test_a_motion_on_the_ground_is_along_and_across_the_heading(engine):
     world = "".join(box.format(*each) for each in (("a", 0), ("b", 5)))
     text = f"<sdf version='1.7'><world name='w'>{world}</world></sdf>"
     with gazelle.Simulation(formats.load_string(text), engine, nworld=2) as sim:
-        sim.engine.set_ground_motion("a", (0.3, 0.1, 0.5))
-        sim.engine.set_ground_motion("b", [(0.2, 0.0, 0.0)], np.array([1]))
+        sim.engine.models["a"].set_ground_motion((0.3, 0.1, 0.5))
+        sim.engine.models["b"].set_ground_motion([(0.2, 0.0, 0.0)], np.array([1]))
         a, b = sim.robots["a"].motion(), sim.robots["b"].motion()
         c, s = np.cos(0.7), np.sin(0.7)
         np.testing.assert_allclose(

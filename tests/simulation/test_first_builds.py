@@ -84,7 +84,7 @@ def test_a_model_that_is_to_be_placed_has_no_motors_from_then_on():
     engine.make_kinematic("r")
     with pytest.raises(EngineError, match="wheel_left_joint"):
         engine.add_motor("r::wheel_left_joint", 1.0)
-    assert not any(name.startswith("r::") for name in engine.joint_names)
+    assert not any(name.startswith("r::") for name in engine.joints.names)
     other = make_engine("mujoco", scenes.world(scenes.burger("r")))
     other.add_motor("r::wheel_left_joint", 1.0)
     with pytest.raises(EngineError, match="has motors"):
@@ -100,7 +100,7 @@ def test_the_first_step_of_a_simulation_compiles_nothing(compiled):
 
 def test_names_are_known_before_a_world_is_compiled(compiled):
     engine = make_engine("mujoco", scenes.world(scenes.ground(), scenes.burger("r")), late=True)
-    names = engine.link_names, engine.joint_names
+    names = engine.links.names, engine.joints.names
     with pytest.raises(EngineError, match="there is no model 's'"):
         engine.make_kinematic("s")
     with pytest.raises(EngineError, match="there is no joint 'r::wheel'"):
@@ -109,7 +109,7 @@ def test_names_are_known_before_a_world_is_compiled(compiled):
     assert not compiled
     assert isinstance(engine, LateEngine)
     engine.prepare()
-    assert names == (engine.link_names, engine.joint_names)
+    assert names == (engine.links.names, engine.joints.names)
     assert len(compiled) == 1
     assert list(compiled[0].motors) == ["r::wheel_left_joint"]
 

@@ -66,6 +66,6 @@ def test_timed_and_lasting_efforts_together_are_clamped_and_held_back():
         axle.effort = 1.5
         axle.apply_effort(1.5, duration=5.0)
         sim.step()
-        assert sim.engine.joint_effort("mill::axle")[0, 0] == 2.0
+        assert sim.engine.joints["mill::axle"].effort()[0, 0] == 2.0
         sim.run(seconds=1.0)
         assert axle.velocity == pytest.approx(1.5, abs=0.02)

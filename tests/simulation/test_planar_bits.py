@@ -45,8 +45,11 @@ def state_of(sim, one):
     """Place and motion of the robot's links, readings and odometry in world 0, as bytes."""
     first = np.array([0])
     arrays = []
-    for link in (name for name in sim.engine.link_names if name.startswith("r1::")):
-        place, motion = sim.engine.link_placement(link, first), sim.engine.link_motion(link, first)
+    for link in (name for name in sim.engine.links.names if name.startswith("r1::")):
+        place, motion = (
+            sim.engine.links[link].placement(first),
+            sim.engine.links[link].motion(first),
+        )
         arrays += [place.position, place.quaternion, motion.linear, motion.angular]
     arrays += [sensor.latest()[0] for sensor in one.sensors.values()]
     odometry = one.outputs["odom"].last

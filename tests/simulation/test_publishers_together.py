@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from looks import count_looks
 
 import gazelle
 from gazelle import formats
@@ -94,15 +95,11 @@ def test_many_publish_together_as_alone(output, nworld):
 
 
 def test_true_poses_of_all_are_looked_up_at_once(monkeypatch):
-    looks, stamps = [], []
+    stamps = []
     with yard() as sim:
         for name in ("r0", "r1", "r2", "r4"):
             sim.robots[name].outputs["true"].subscribe(lambda each: stamps.append(each.stamp))
-        monkeypatch.setattr(sim._engine, "link_placement", None)
-        look = sim._engine.link_placements
-        monkeypatch.setattr(
-            sim._engine, "link_placements", lambda *a: looks.append(len(a[0])) or look(*a)
-        )
+        looks = count_looks(monkeypatch, "links", "placement", allow_one=False)
         sim.run(1.0)
     # Beside them it is looked now and then whether one of the six models falls out of the world.
     assert [count for count in looks if count != 6] == [4] * 20
@@ -110,30 +107,22 @@ def test_true_poses_of_all_are_looked_up_at_once(monkeypatch):
 
 
 def test_imus_of_all_feel_one_coming_step(monkeypatch):
-    looks, stamps = [], []
+    stamps = []
     with yard() as sim:
         for name in ("r3", "r4"):
             sim.robots[name].outputs["imu"].subscribe(lambda each: stamps.append(each.stamp))
-        monkeypatch.setattr(sim._engine, "link_acceleration", None)
-        look = sim._engine.link_accelerations
-        monkeypatch.setattr(
-            sim._engine, "link_accelerations", lambda *a: looks.append(len(a[0])) or look(*a)
-        )
+        looks = count_looks(monkeypatch, "links", "acceleration", allow_one=False)
         sim.run(1.0)
     assert looks == [2] * 20
     assert len(stamps) == 2 * 20
 
 
 def test_joints_of_all_are_looked_up_at_once(monkeypatch):
-    looks, heard = [], []
+    heard = []
     with yard() as sim:
         for name in ("r0", "r2", "r4"):
             sim.robots[name].outputs["joint_states"].subscribe(heard.append)
-        monkeypatch.setattr(sim._engine, "joint_position", None)
-        look = sim._engine.joint_positions
-        monkeypatch.setattr(
-            sim._engine, "joint_positions", lambda *a: looks.append(len(a[0])) or look(*a)
-        )
+        looks = count_looks(monkeypatch, "joints", "position", allow_one=False)
         sim.run(1.0)
     assert looks == [4] * 20
     assert [each.names for each in heard[:3]] == [("neck",), ("neck",), ("neck", "neck")]

@@ -60,7 +60,7 @@ def test_where_plugin_warnings_are_errors_a_wrong_plugin_leaves_no_model_behind(
         with pytest.raises(PluginWarning, match="did you mean 'wheel_left_joint'"):
             sim.spawn(scenes.burger(leftJoint="wheel_lefft_joint"))
         assert "burger" not in sim.robots
-        assert not any(name.startswith("burger") for name in sim.engine.link_names)
+        assert not any(name.startswith("burger") for name in sim.engine.links.names)
         sim.spawn(scenes.burger())
 
 

@@ -167,11 +167,11 @@ class ModelServices:
         """
         engine, worlds, missed = self._simulation.engine, self._entities.worlds, ""
         try:
-            engine.set_model_placement(robot.name, state.position, state.quaternion, worlds)
+            engine.models[robot.name].set_placement(state.position, state.quaternion, worlds)
         except EngineError as error:
             missed = error.message
         if robot.links and not robot.description.static:
-            engine.set_model_motion(robot.name, state.linear, state.angular, worlds)
+            engine.models[robot.name].set_motion(state.linear, state.angular, worlds)
         return missed
 
     def set_configuration(self, request: Any) -> Answer:
@@ -191,10 +191,10 @@ class ModelServices:
     def _turn(self, joint: str, position: float) -> None:
         """Put the first axis of a joint somewhere; a ball has none."""
         engine, worlds = self._simulation.engine, self._entities.worlds
-        positions = engine.joint_position(joint, worlds)
-        if positions.shape[1] == engine.joint_velocity(joint, worlds).shape[1]:
+        positions = engine.joints[joint].position(worlds)
+        if positions.shape[1] == engine.joints[joint].velocity(worlds).shape[1]:
             positions[:, 0] = position
-            engine.set_joint_position(joint, positions, worlds)
+            engine.joints[joint].set_position(positions, worlds)
 
 
 def read_pose(wanted: Any) -> State:

@@ -8,10 +8,8 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 
-from gazelle.array_types import Bools, Floats
 from gazelle.engines.engine import DivergenceError
 from gazelle.engines.mujoco.forcing import ForcedSteps
-from gazelle.engines.mujoco.joint_cells import JointCells
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.native.joint_system import JointSystem
 
@@ -34,7 +32,6 @@ class CarriedSystems:
 
     def __init__(self, run: RunningWorlds, stepper: ForcedSteps) -> None:
         self._run, self._stepper = run, stepper
-        self._cells: dict[tuple[str, ...], tuple[tuple[int, int], JointCells]] = {}
 
     @property
     def looks_once(self) -> bool:
@@ -70,19 +67,6 @@ class CarriedSystems:
         """Let act what a bound system says."""
         system.act(self._run.state.qfrc_applied, self._run.state.userdata)
         self._run.stale = True
-
-    def place_joints(
-        self, joints: tuple[str, ...], position: Floats, velocity: Floats, chosen: Bools
-    ) -> None:
-        """Put many joints somewhere, to their limits at most."""
-        layout = self._run.now()
-        writes = self._run.revision, self._run.parameters.writes
-        known = self._cells.get(joints)
-        if known is None or known[0] != writes:
-            known = writes, JointCells.find(layout, joints, self._run.parameter)
-            self._cells[joints] = known
-        known[1].put(self._run.state.qpos, self._run.state.qvel, position, velocity, chosen)
-        self._run.placed = self._run.stale = True
 
     def carry(
         self, step: Callable[[int], None], systems: Sequence[JointSystem], count: int, now_ns: int

@@ -46,9 +46,9 @@ from gazelle.engines.mujoco.surfaces import (
     surface_options,
 )
 from gazelle.engines.mujoco.treads import possible_treads
-from gazelle.engines.mujoco.tree import Closure, KinematicTree, TreeLink, tree_of
 from gazelle.engines.mujoco.tyres import add_tyre, hold_tyres, tune_slips, tyre_name
 from gazelle.engines.mujoco.world_geoms import WorldGeoms
+from gazelle.engines.tree import Closure, KinematicTree, TreeLink, tree_of
 from gazelle.errors import EngineError
 
 COLLISION_GROUP = 0

@@ -16,7 +16,7 @@ import numpy as np
 from gazelle.description import Inertial, Joint, Mimic, Pose
 from gazelle.engines.mujoco.inertia import inertia_of, possible
 from gazelle.engines.mujoco.joints import add_joint
-from gazelle.engines.mujoco.tree import Closure, TreeLink, lost_in_loop
+from gazelle.engines.tree import Closure, TreeLink, lost_in_loop
 from gazelle.errors import EngineError, EngineWarning, did_you_mean, located
 
 # Time constant of a coupling, in physics steps, and its damping ratio.

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.engines.mujoco.views import StateViews
+from gazelle.engines.tree import TreeLink
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,31 +10,33 @@ import mujoco
 import numpy as np
 from mujoco.batch import Batch
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Model, World
 from gazelle.engines.engine import DivergenceError
+from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.limits import MAX_WORLDS, check_world, physics_step, whole_number
 from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.bodies import LinkHandling
 from gazelle.engines.mujoco.carrying import CarriedSystems
 from gazelle.engines.mujoco.compiler import CompilerInput
 from gazelle.engines.mujoco.forcing import ForcedSteps
-from gazelle.engines.mujoco.joint_access import JointAccess
-from gazelle.engines.mujoco.links import LinkAccess
-from gazelle.engines.mujoco.many_joints import ManyJoints
-from gazelle.engines.mujoco.many_links import ManyLinks
-from gazelle.engines.mujoco.many_models import ManyModels
-from gazelle.engines.mujoco.models import ModelAccess
+from gazelle.engines.mujoco.holding import LinkHolding
+from gazelle.engines.mujoco.joint_rows import MujocoJointRow, MujocoJointRows
+from gazelle.engines.mujoco.link_rows import MujocoLinkRow, MujocoLinkRows
+from gazelle.engines.mujoco.model_rows import MujocoModelRow, MujocoModelRows
 from gazelle.engines.mujoco.motors import motor_again
 from gazelle.engines.mujoco.parameters import ParameterStore
+from gazelle.engines.mujoco.placing import note_moves
 from gazelle.engines.mujoco.process import settle
+from gazelle.engines.mujoco.ray_access import RayAccess
 from gazelle.engines.mujoco.reactions import JointReactions
 from gazelle.engines.mujoco.rows import rows_of
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.touching import ContactAccess
+from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
+from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.processors import processors
@@ -59,13 +61,13 @@ class MujocoEngine:
     Attributes:
         running: What runs.
         reactions: What joints carry.
-        own_changes: Methods that change it beside those of every engine.
+        links: Links of all models.
+        joints: Joints of all models that can move.
+        models: All models.
 
     Raises:
         EngineError: The world cannot be simulated.
     """
-
-    own_changes = ("drive_joints", "place_joints", "set_ground_motions")
 
     def __init__(
         self,
@@ -91,55 +93,44 @@ class MujocoEngine:
 
     def _put_together(self, run: RunningWorlds) -> None:
         """Make the parts, and take over what they offer."""
-        self._run, links = run, LinkAccess(run)
-        models, joints = ModelAccess(run, links), JointAccess(run)
-        self._steps = ForcedSteps(run, links)
-        self._take_over_access(links, models, joints)
-        self._take_over_tables(ManyLinks(run, self._steps))
+        self._run = run
+        self._steps = steps = ForcedSteps(run, lambda link: self.links[link].motion())
+        self.reactions = JointReactions(run, steps)
+        self.joints: Table[JointRow, JointRows] = Table(
+            run.joint_names,
+            lambda name: MujocoJointRow(run, name, self.reactions.joint_wrench),
+            lambda names: MujocoJointRows(run, names),
+        )
+        self.links: Table[LinkRow, LinkRows] = Table(
+            run.link_names,
+            lambda name: MujocoLinkRow(
+                run, steps, name, self.links.__getitem__, hanging, self._kinematic
+            ),
+            lambda names: MujocoLinkRows(run, steps, names),
+        )
+        self.models: Table[ModelRow, ModelRows] = Table(
+            run.model_names,
+            lambda name: MujocoModelRow(run, name, self.links, self._kinematic),
+            lambda names: MujocoModelRows(run, names, self.links),
+        )
+        hanging = HangingLinks(lambda: run.world, self.links, self.joints)
+        holding, rays = LinkHolding(run, self.links), RayAccess(run, self.links)
+        self.attach, self.detach = holding.attach, holding.detach
+        self.cast_rays, self.cast_ranges = rays.cast_rays, rays.cast_ranges
+        self.cast_ranges_together = rays.cast_ranges_together
         self.add_motor, self.make_kinematic = run.add_motor, run.make_kinematic
         self.parameter, self.set_parameter = run.parameter, run.set_parameter
-        self.reactions = JointReactions(run, self._steps)
-        touches = ContactAccess(run, self._steps, self.reactions)
-        self.joint_wrench, self.contacts = self.reactions.joint_wrench, touches.contacts
+        touches = ContactAccess(run, steps, self.reactions)
+        self.contacts = touches.contacts
         self.touching, self.touching_each = touches.touching, touches.touching_each
-        self._systems = CarriedSystems(run, self._steps)
+        self._systems = CarriedSystems(run, steps)
         self.expect_systems = self._systems.expect_systems
         self.bind_joints = self._systems.bind_joints
         self.read_joints, self.push_joints = self._systems.read_joints, self._systems.push_joints
-        self.place_joints = self._systems.place_joints
 
-    def _take_over_access(
-        self, links: LinkAccess, models: ModelAccess, joints: JointAccess
-    ) -> None:
-        handling = LinkHandling(self._run, links, models, joints)
-        self.link_placement, self.link_motion = links.link_placement, links.link_motion
-        self.link_acceleration = self._steps.link_acceleration
-        self.cast_rays, self.cast_ranges = links.cast_rays, links.cast_ranges
-        self.set_link_placement = handling.set_link_placement
-        self.set_link_motion = handling.set_link_motion
-        self.link_centre, self.set_link_wrench = handling.link_centre, handling.set_link_wrench
-        self.attach, self.detach = handling.attach, handling.detach
-        self.model_placement, self.planar_pose = models.model_placement, models.planar_pose
-        self.set_model_placement = models.set_model_placement
-        self.set_model_motion = models.set_model_motion
-        self.set_ground_motion = models.set_ground_motion
-        self.joint_position, self.joint_velocity = joints.joint_position, joints.joint_velocity
-        self.joint_effort = joints.joint_effort
-        self.set_joint_position = joints.set_joint_position
-        self.set_joint_velocity = joints.set_joint_velocity
-        self.set_joint_effort = joints.set_joint_effort
-        self.set_motor_velocity = joints.set_motor_velocity
-
-    def _take_over_tables(self, links: ManyLinks) -> None:
-        models, joints = ManyModels(self._run, links), ManyJoints(self._run)
-        self.link_placements, self.link_motions = links.link_placements, links.link_motions
-        self.link_accelerations = links.link_accelerations
-        self.cast_ranges_together = links.cast_ranges_together
-        self.model_placements = models.model_placements
-        self.set_ground_motions = models.set_ground_motions
-        self.joint_positions = joints.joint_positions
-        self.joint_velocities = joints.joint_velocities
-        self.drive_joints = joints.drive_joints
+    def _kinematic(self, model: str) -> None:
+        """Make a model kinematic by the engine's own call, which a recorder listens to."""
+        self.make_kinematic(model)
 
     @staticmethod
     def _batch_of(nworld: int, threads: int, model: mujoco.MjModel, _: World) -> Batch:
@@ -163,16 +154,6 @@ class MujocoEngine:
     def world(self) -> World:
         """The world that runs, with what was spawned and without what was deleted."""
         return self._run.world
-
-    @property
-    def link_names(self) -> tuple[str, ...]:
-        """Scoped names, ``model::link``."""
-        return self._run.link_names()
-
-    @property
-    def joint_names(self) -> tuple[str, ...]:
-        """Scoped names, ``model::joint``, of joints that can move."""
-        return self._run.joint_names()
 
     def prepare(self) -> None:
         """Compile the world with all that was asked for, so that the next step is one like others.
@@ -385,6 +366,14 @@ class MujocoEngine:
         self._run.now()
         view: Floats = self._run.batch.state
         return view
+
+    def write_state(self, indices: Indices, values: Floats) -> None:
+        """Set entries of the state, by their places in ``peek``, flattened."""
+        self._run.now()
+        before = self._run.state.qpos.copy()
+        self._run.batch.state.reshape(-1)[indices] = values
+        note_moves(self._run, before)
+        self._run.stale = True
 
     def close(self) -> None:
         """Free threads and memory; the engine must not be used any more."""

@@ -17,7 +17,6 @@ from mujoco.batch import SimulationError
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.motion import Motion
 from gazelle.engines.mujoco.laws import spun
-from gazelle.engines.mujoco.links import LinkAccess
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.wind import wind_strength
@@ -29,14 +28,14 @@ class ForcedSteps:
 
     Args:
         run: What runs.
-        links: How links move, for the wind.
+        motion: Returns how a link moves, for the wind.
 
     Attributes:
         holds_back: Whether efforts are held back within steps.
     """
 
-    def __init__(self, run: RunningWorlds, links: LinkAccess) -> None:
-        self._run, self._links = run, links
+    def __init__(self, run: RunningWorlds, motion: Callable[[str], Motion]) -> None:
+        self._run, self._motion = run, motion
         self.holds_back = False
         self._spun = False  # whether it was said that something turns too fast
 
@@ -101,10 +100,6 @@ class ForcedSteps:
             stack.enter_context(self._blown())
             yield
 
-    def link_acceleration(self, link: str, worlds: Worlds | None = None) -> Motion:
-        """How a link's motion changes in the next physics step [m/s², rad/s²]."""
-        return self.change_in_step(lambda: self._links.link_motion(link, worlds), worlds)
-
     def change_in_step(self, motion: Callable[[], Motion], worlds: Worlds | None) -> Motion:
         """How a motion changes in the next physics step of some worlds; nothing moves."""
         before = motion()
@@ -140,6 +135,6 @@ class ForcedSteps:
 
     def _drag(self, link: str, body: int) -> Floats:
         strength = wind_strength(self._run.world) * self._run.of_worlds("body_mass")[:, body, None]
-        past = np.asarray(self._run.world.wind) - self._links.link_motion(link).linear
+        past = np.asarray(self._run.world.wind) - self._motion(link).linear
         drag: Floats = strength * past
         return drag

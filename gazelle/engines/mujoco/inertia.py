@@ -15,7 +15,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Inertial
 from gazelle.engines.mujoco.remarks import LEAST_MOMENT
-from gazelle.engines.mujoco.tree import TreeLink
+from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineError
 from gazelle.formats.limits import HEAVIEST
 

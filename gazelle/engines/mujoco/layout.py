@@ -14,8 +14,8 @@ from gazelle.engines.mujoco.compiler import Compiled
 from gazelle.engines.mujoco.efforts import EffortLimits, effort_limits
 from gazelle.engines.mujoco.geom_names import geom_ids
 from gazelle.engines.mujoco.motors import MotorSlot, motor_slots
-from gazelle.engines.mujoco.tree import Closure, RootKind, TreeLink
 from gazelle.engines.mujoco.tyres import TyreSlot, tyre_slot
+from gazelle.engines.tree import Closure, RootKind, TreeLink
 from gazelle.errors import EngineError, did_you_mean
 
 T = TypeVar("T")

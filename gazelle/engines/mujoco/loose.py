@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 import mujoco
 
 from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Inertial, Model, Sphere, World
-from gazelle.engines.mujoco.tree import TreeLink
+from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineWarning
 
 # From so many loose bodies on the time saved outweighs an ``MjData`` for every world.

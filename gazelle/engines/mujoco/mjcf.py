@@ -13,7 +13,7 @@ import mujoco
 
 from gazelle.description import Plane, Pose, Visual, World
 from gazelle.engines.mujoco.compiler import VISUAL_GROUP, CompilerInput, Draft, draft_world
-from gazelle.engines.mujoco.tree import TreeLink
+from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineWarning
 
 _EXACT = 17

@@ -19,7 +19,7 @@ from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
 from gazelle.engines.mujoco.joints import dry_friction
-from gazelle.engines.mujoco.tree import TreeLink
+from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineError
 
 # How many axes of a joint can have a motor. The second of a screw follows from the first.

@@ -26,8 +26,8 @@ from gazelle.engines.mujoco.overlaps import Overlaps
 from gazelle.engines.mujoco.parameters import ParameterStore, as_rows, check
 from gazelle.engines.mujoco.rows import rows_of
 from gazelle.engines.mujoco.transfer import carry_over
-from gazelle.engines.mujoco.tree import TreeLink
 from gazelle.engines.mujoco.views import StateViews
+from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineError
 
 VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
@@ -184,6 +184,10 @@ class RunningWorlds:
     def link_names(self) -> tuple[str, ...]:
         """Scoped names; what is pending changes none."""
         return tuple(body.name for parts in self.bodies().values() for body in parts)
+
+    def model_names(self) -> tuple[str, ...]:
+        """Return the names of models with links."""
+        return tuple(name for name, parts in self.bodies().items() if parts)
 
     def axes_at_zero(self, joint: str) -> int:
         """How many axes a joint has whose world is not compiled: they are at zero; 0 if it is."""

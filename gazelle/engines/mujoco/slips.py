@@ -13,7 +13,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from gazelle.description import Capsule, Collision, Cylinder, Pose, Sphere, TorsionalFriction
-from gazelle.engines.mujoco.tree import TreeLink
+from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineWarning
 
 Slip = tuple[float, float]

@@ -23,7 +23,7 @@ from mujoco.batch import Batch
 
 from gazelle.array_types import Floats
 from gazelle.description import Inertial
-from gazelle.engines.mujoco.tree import TreeLink
+from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineError
 
 # MuJoCo's bounds of an impedance.

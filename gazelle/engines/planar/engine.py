@@ -9,8 +9,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Model, World
+from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.history import Call
 from gazelle.engines.laws import with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
@@ -18,12 +19,15 @@ from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import refusals
 from gazelle.engines.planar.build import FleetInput, PlanarLayout
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.joints import PlanarJoints
-from gazelle.engines.planar.links import PlanarLinks
-from gazelle.engines.planar.models import PlanarModels
+from gazelle.engines.planar.joint_rows import PlanarJointRow, PlanarJointRows, motor_column
+from gazelle.engines.planar.link_rows import PlanarLinkRow, PlanarLinkRows
+from gazelle.engines.planar.model_rows import PlanarModelRow, PlanarModelRows
 from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.ray_casting import PlanarRays
 from gazelle.engines.planar.running import RunningPlane, rows_of
+from gazelle.engines.planar.skeleton import FROZEN
+from gazelle.engines.planar.twist_commands import TwistCommands
+from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.system import System
 
@@ -49,13 +53,13 @@ class PlanarEngine:
         threads: Native threads; all processors if None. The results do not depend on it.
 
     Attributes:
-        own_changes: Methods that change it beside those of every engine.
+        links: Links of all models.
+        joints: Joints of all models that can move.
+        models: All models.
 
     Raises:
         EngineError: The world cannot be simulated.
     """
-
-    own_changes = ("command", "place_bodies", "place_body")
 
     def __init__(
         self,
@@ -77,41 +81,33 @@ class PlanarEngine:
         """Make the parts, and take over what they offer."""
         run = self._run
         self.make_kinematic = run.make_kinematic
-        models, rays = PlanarModels(run, self._kinematic), PlanarRays(run, self._kinematic)
-        joints = PlanarJoints(run)
-        links = PlanarLinks(run, models, joints)
-        self.model_placement, self.planar_pose = models.model_placement, models.planar_pose
-        self.set_model_placement = models.set_model_placement
-        self.set_model_motion = models.set_model_motion
-        self.set_ground_motion = models.set_ground_motion
-        self.model_table = models.model_table
-        self.link_placement, self.link_placements = links.link_placement, links.link_placements
-        self.link_motion, self.link_acceleration = links.link_motion, links.link_acceleration
-        self.set_link_placement = links.set_link_placement
-        self.set_link_motion, self.link_centre = links.set_link_motion, links.link_centre
-        self.joint_position, self.joint_velocity = joints.joint_position, joints.joint_velocity
-        self.set_joint_position = joints.set_joint_position
-        self.set_joint_velocity = joints.set_joint_velocity
-        self.joint_effort = joints.joint_effort
-        self.add_motor, self.motor_targets = joints.add_motor, joints.motor_targets
-        self.set_motor_velocity = joints.set_motor_velocity
+        self.joints: Table[PlanarJointRow, PlanarJointRows] = Table(
+            lambda: run.layout.joints,
+            lambda name: PlanarJointRow(run, name),
+            lambda names: PlanarJointRows(run, names),
+        )
+        self.models: Table[PlanarModelRow, PlanarModelRows] = Table(
+            lambda: run.layout.models,
+            lambda name: PlanarModelRow(run, name, self._kinematic),
+            lambda names: PlanarModelRows(run, names),
+        )
+        self.links: Table[PlanarLinkRow, PlanarLinkRows] = Table(
+            lambda: run.layout.owners,
+            lambda name: PlanarLinkRow(run, name, self.models.__getitem__, hanging),
+            lambda names: PlanarLinkRows(run, names),
+        )
+        hanging = HangingLinks(lambda: run.recipe.world, self.links, self.joints, FROZEN)
+        rays = PlanarRays(run, self._kinematic)
         self.cast_rays, self.cast_ranges = rays.cast_rays, rays.cast_ranges
         self.caster = rays.caster
         self.ranges_kind, self.ranges_of = rays.ranges_kind, rays.ranges_of
-        self._refuse_forces()
+        self.contacts, self.touching = refusals.contacts, refusals.touching
+        self.attach, self.detach = refusals.attach, refusals.detach
+        self.set_parameter = refusals.set_parameter
 
     def _kinematic(self, model: str) -> None:
         """Make a model kinematic by the engine's own call, which a recorder listens to."""
         self.make_kinematic(model)
-
-    def _refuse_forces(self) -> None:
-        """Take over what says that a plane cannot do it."""
-        self.set_link_wrench = refusals.set_link_wrench
-        self.set_joint_effort = refusals.set_joint_effort
-        self.joint_wrench = refusals.joint_wrench
-        self.contacts, self.touching = refusals.contacts, refusals.touching
-        self.attach, self.detach = refusals.attach, refusals.detach
-        self.set_parameter = refusals.set_parameter
 
     @property
     def nworld(self) -> int:
@@ -129,16 +125,6 @@ class PlanarEngine:
         return self._run.recipe.world
 
     @property
-    def link_names(self) -> tuple[str, ...]:
-        """Scoped names, ``model::link``."""
-        return tuple(self._run.layout.owners)
-
-    @property
-    def joint_names(self) -> tuple[str, ...]:
-        """Scoped names, ``model::joint``, of joints that can move."""
-        return tuple(self._run.layout.joints)
-
-    @property
     def fleet(self) -> Fleet:
         """What moves the bodies; it is replaced when models come or go."""
         return self._run.fleet
@@ -152,6 +138,22 @@ class PlanarEngine:
     def revision(self) -> int:
         """Counts changes of models: systems then have to be bound to the state anew."""
         return self._run.revision
+
+    def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
+        """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
+        self._run.add_motor(joint, max_effort)
+
+    def motor_targets(self, joint: str) -> tuple[Floats, int]:
+        """Return velocities that motors hold, shape (nworld, axes), and a joint's column.
+
+        Raises:
+            EngineError: There is no motor on the joint.
+        """
+        return self._run.targets, motor_column(self._run, joint)
+
+    def command_models(self, models: tuple[str, ...], law: TwistCommands) -> None:
+        """Let a law with a row for each of some models give them their velocities."""
+        self.models[models].command(law)
 
     def follow(self, model: str, path: PathFollower) -> None:
         """Let a path carry a model, which has to be kinematic."""
@@ -317,6 +319,12 @@ class PlanarEngine:
         joints = state[:, size:].reshape(fleet.nworld, 3, axes)
         self._run.angles[:], self._run.rates[:] = joints[:, 0], joints[:, 1]
         self._run.targets[:] = np.where(np.isnan(self._run.targets), math.nan, joints[:, 2])
+
+    def write_state(self, indices: Indices, values: Floats) -> None:
+        """Set entries of the state, by their places in ``peek``, flattened."""
+        state = self.snapshot()
+        state.reshape(-1)[indices] = values
+        self.restore(state)
 
     # -- parameters --------------------------------------------------------------------
 

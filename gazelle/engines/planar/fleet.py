@@ -223,14 +223,19 @@ class Fleet:
     @property
     def pose(self) -> Floats:
         """x, y [m] and heading [rad] of every body, to be read, shape (nworld, nbody, 3)."""
-        view = self.rows.reshape(self.nworld, self.nbody, c.BODY)[:, :, :3]
+        view = self.body_rows[:, :, :3]
         view.flags.writeable = False
         return view
 
     @property
+    def body_rows(self) -> Floats:
+        """Rows of the bodies, world by world, shape (nworld, nbody, columns.BODY)."""
+        return self.rows.reshape(self.nworld, self.nbody, c.BODY)
+
+    @property
     def heights(self) -> Floats:
         """Heights of the bodies' frames [m], to be written, shape (nworld, nbody)."""
-        return self.rows.reshape(self.nworld, self.nbody, c.BODY)[:, :, c.Z]
+        return self.body_rows[:, :, c.Z]
 
     @property
     def command(self) -> Floats:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Worlds
-from gazelle.engines.reactions import Contacts, Wrench
+from gazelle.engines.reactions import Contacts
 from gazelle.errors import EngineError
 
 
@@ -18,23 +18,6 @@ def refuse(what: str) -> EngineError:
     return EngineError(
         f"the planar engine knows no forces, so it has not {what}", hint="use the engine mujoco"
     )
-
-
-def set_link_wrench(
-    link: str, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None
-) -> None:
-    """Refused."""
-    raise refuse(f"a push on '{link}'")
-
-
-def set_joint_effort(joint: str, effort: ArrayLike, worlds: Worlds | None = None) -> None:
-    """Refused."""
-    raise refuse(f"an effort on '{joint}'")
-
-
-def joint_wrench(joint: str, worlds: Worlds | None = None) -> Wrench:
-    """Refused."""
-    raise refuse(f"what '{joint}' carries")
 
 
 def contacts(collisions: Sequence[str], world: int = 0) -> Contacts:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import World
@@ -110,6 +110,19 @@ class RunningPlane:
         if model not in self.recipe.kinematic:
             kinematic = self.recipe.kinematic | {model}
             self.change(replace(self.recipe, kinematic=kinematic))
+
+    def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
+        """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
+        axes = self.axes(joint)
+        if axes.stop - axes.start != 1:
+            raise EngineError(f"a motor needs a joint of one axis; '{joint}' has more")
+        most = float(np.asarray(max_effort, np.float64).reshape(-1)[0])
+        if not most > 0.0:
+            raise EngineError(f"the largest effort of a motor must be positive, not {most:g}")
+        self.recipe = replace(self.recipe, motors={**self.recipe.motors, joint: most})
+        held = self.targets[:, axes.start]
+        held[np.isnan(held)] = 0.0
+        self.steps.forget()
 
     def cut_at(self, height: float) -> None:
         """Cut shapes at one more height [m], for rays."""

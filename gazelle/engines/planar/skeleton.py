@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import Joint, Link, Model, Pose
-from gazelle.engines.mujoco.tree import TreeLink, tree_of
 from gazelle.engines.planar.wheels import Wheel, wheel_of
+from gazelle.engines.tree import TreeLink, tree_of
 from gazelle.rotations import cross, multiply, rotate
 
 Place = tuple[Floats, Floats]

@@ -100,7 +100,7 @@ class GoalLayout:
             model = scene.robot.sensors[scene.lidar.sensor].model
             if not isinstance(model, LidarModel):
                 raise TaskError("the sensor of this task must be a lidar")
-            link = scene.simulation.engine.link_placement(model.link, None)
+            link = scene.simulation.engine.links[model.link].placement(None)
             height = float(link.position[0, 2] + model.origins[:, 2].max())
             return floor_plan_of(scene.robot, height)
 

@@ -72,7 +72,7 @@ class ModelTools:
             if model:
                 self._context.select("")
             return None
-        place = self._context.simulation.engine.model_placement(model, self._context.chosen)
+        place = self._context.simulation.engine.models[model].placement(self._context.chosen)
         return place.position[0], place.quaternion[0]
 
     def show(self, state: tuple[Floats, Floats] | None) -> None:

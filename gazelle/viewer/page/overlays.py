@@ -76,7 +76,7 @@ class FrameLayer:
         if not self.shown:
             return None
         first = self._context.worlds[:1]
-        place = self._context.simulation.engine.link_placements(self._links, first)
+        place = self._context.simulation.engine.links[self._links].placement(first)
         return place.position[0], place.quaternion[0]
 
     def show(self, state: tuple[Floats, Floats] | None) -> None:
@@ -106,9 +106,9 @@ class FrameLayer:
                 handle.remove()
         self._axes = self._arrows = None
         simulation = self._context.simulation
-        self._links = tuple(simulation.engine.link_names[:_FRAMES])
+        self._links = tuple(simulation.engine.links.names[:_FRAMES])
         numbers = {link: number for number, link in enumerate(self._links)}
-        moving = set(simulation.engine.joint_names)
+        moving = set(simulation.engine.joints.names)
         self._joints = [
             (numbers[child], pose, axis)
             for model in simulation.world.models
@@ -269,7 +269,7 @@ class RayLayer:
         context = self._context
         engine = context.simulation.engine
         found = engine.cast_rays(model.link, model.origins, model.directions, context.worlds)
-        place = engine.link_placement(model.link, context.worlds)
+        place = engine.links[model.link].placement(context.worlds)
         reach = model.lidar.range_max - model.lidar.range_min
         for number, spot in enumerate(context.spots):
             turned = place.quaternion[number][None]

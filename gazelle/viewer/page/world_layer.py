@@ -52,7 +52,7 @@ class ShapeLayer:
         engine, count = self._context.simulation.engine, len(self._context.worlds)
         at = np.repeat(batches.rest[0][None], count, axis=0)
         turned = np.repeat(batches.rest[1][None], count, axis=0)
-        place = engine.link_placements(self._links, self._context.worlds)
+        place = engine.links[self._links].placement(self._context.worlds)
         at[:, self._known], turned[:, self._known] = place.position, place.quaternion
         return at, turned
 
@@ -83,7 +83,7 @@ class ShapeLayer:
                 self._on_batch,
                 opacity=0.5 if self._collisions else 1.0,
             )
-            known = set(context.simulation.engine.link_names)
+            known = set(context.simulation.engine.links.names)
             links = self._batches.links
             self._known = np.array([k for k, link in enumerate(links) if link in known], np.intp)
             self._links = tuple(links[k] for k in self._known.tolist())

@@ -75,7 +75,7 @@ def drive(engine, world, command, pose, start=None):
     robot.inputs["cmd_vel"].send(linear=command[0], angular=command[1])
     sim.run(1.0)  # a robot with mass slips while it speeds up
     if start is not None:
-        sim.engine.set_model_placement("burger", start.position, start.quaternion)
+        sim.engine.models["burger"].set_placement(start.position, start.quaternion)
     begin = robot.placement()
     sim.run(SECONDS)
     return sim, robot, begin
@@ -102,7 +102,7 @@ def test_a_burger_drives_and_sees_as_in_three_dimensions(case, tmp_path):
         assert moved > 0.5 * gone  # it drove, and ran into nothing
         assert np.hypot(*(there.position - here.position)[0, :2]) < 0.01 * gone
         place = there.placement()
-        flat.engine.set_model_placement("burger", place.position, place.quaternion)
+        flat.engine.models["burger"].set_placement(place.position, place.quaternion)
         sensor = next(s for s in there.sensors.values() if s.description.lidar is not None)
         seen = here.sensors[sensor.description.name].measure()[0]
         true = sensor.measure()[0]

@@ -81,7 +81,7 @@ def test_scans_agree_with_mujoco_whatever_the_shape(tmp_path):
     deep, flat = both(scenes.world(*things, scanner_model()))
     for pose in ((0.0, 0.0, 0.0), (0.4, 0.3, 1.0), (-0.3, -0.8, -2.0)):
         for engine in (deep, flat):
-            engine.set_model_placement("scanner", (*pose[:2], 0.0), from_yaw(np.array(pose[2])))
+            engine.models["scanner"].set_placement((*pose[:2], 0.0), from_yaw(np.array(pose[2])))
         a, b = (e.cast_rays("scanner::base", origins, along) for e in (deep, flat))
         with np.errstate(invalid="ignore"):
             off = np.abs(a.distance - b.distance)
@@ -113,7 +113,7 @@ def drive(engine, world, command, pose=None, seconds=5.0):
     robot.inputs["cmd_vel"].send(linear=command[0], angular=command[1])
     sim.run(1.0)  # a robot with mass slips while it speeds up
     if pose is not None:
-        sim.engine.set_model_placement("burger", pose.position, pose.quaternion)
+        sim.engine.models["burger"].set_placement(pose.position, pose.quaternion)
     begin = robot.placement()
     sim.run(seconds)
     return sim, robot, begin
@@ -135,7 +135,7 @@ def test_a_burger_drives_and_sees_as_in_three_dimensions(world, command):
         gone = command[0] * 5.0
         assert np.hypot(*(there.position - here.position)[0, :2]) < 0.01 * gone
         place = there.placement()
-        flat.engine.set_model_placement("burger", place.position, place.quaternion)
+        flat.engine.models["burger"].set_placement(place.position, place.quaternion)
         sensor = next(s for s in there.sensors.values() if s.description.lidar is not None)
         seen = here.sensors[sensor.description.name].measure()[0]
         true = sensor.measure()[0]
@@ -170,13 +170,13 @@ def test_a_robot_stops_at_a_wall():
 
 def test_links_follow_their_joints():
     deep, flat = both(scenes.world(scenes.ground(), scenes.burger()), 2)
-    joint = deep.joint_names[0]
+    joint = deep.joints.names[0]
     turned = np.array([[0.3], [1.2]])
     for engine in (deep, flat):
-        engine.set_model_placement("burger", (1.0, 2.0, 0.0), from_yaw(np.array([0.3, 0.9])))
-        engine.set_joint_position(joint, turned)
-    for link in deep.link_names:
-        a, b = deep.link_placement(link), flat.link_placement(link)
+        engine.models["burger"].set_placement((1.0, 2.0, 0.0), from_yaw(np.array([0.3, 0.9])))
+        engine.joints[joint].set_position(turned)
+    for link in deep.links.names:
+        a, b = deep.links[link].placement(), flat.links[link].placement()
         assert a.position == pytest.approx(b.position, abs=1e-9)
         same = np.abs((a.quaternion * b.quaternion).sum(axis=1))
         assert same == pytest.approx([1.0, 1.0], abs=1e-9)
@@ -184,9 +184,9 @@ def test_links_follow_their_joints():
 
 def test_a_snapshot_brings_everything_back():
     engine = make_engine("planar", scenes.world(scenes.ground(), scenes.burger()), 3)
-    for joint in engine.joint_names:
+    for joint in engine.joints.names:
         engine.add_motor(joint, 1.0)
-        engine.set_motor_velocity(joint, np.array([3.0, 4.0, 5.0]))
+        engine.joints[joint].set_motor_velocity(np.array([3.0, 4.0, 5.0]))
     engine.step(100)
     saved = engine.snapshot()
     engine.step(250)
@@ -205,40 +205,40 @@ def test_a_snapshot_brings_everything_back():
 
 def test_models_come_and_go_and_the_others_stay():
     engine = make_engine("planar", scenes.world(scenes.ground(), scenes.burger()), 2)
-    engine.set_model_placement("burger", (1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), np.array([1]))
+    engine.models["burger"].set_placement((1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), np.array([1]))
     engine.spawn(scenes.box("crate", pose=Pose(3.0, 0.0, 0.1)))
-    assert engine.model_placement("burger").position[:, 0] == pytest.approx([0.0, 1.0])
-    engine.set_model_motion("crate", (0.0, 0.5, 0.0), (0.0, 0.0, 0.0))
+    assert engine.models["burger"].placement().position[:, 0] == pytest.approx([0.0, 1.0])
+    engine.models["crate"].set_motion((0.0, 0.5, 0.0), (0.0, 0.0, 0.0))
     engine.step(1000)
-    assert engine.model_placement("crate").position[0] == pytest.approx([3.0, 0.5, 0.1])
+    assert engine.models["crate"].placement().position[0] == pytest.approx([3.0, 0.5, 0.1])
     with pytest.raises(EngineError, match="already"):
         engine.spawn(scenes.box("crate"))
     engine.delete("crate")
     with pytest.raises(EngineError, match="no model"):
-        engine.model_placement("crate")
+        engine.models["crate"].placement()
     engine.reset()
-    assert engine.model_placement("burger").position[1] == pytest.approx([0.0, 0.0, 0.0])
+    assert engine.models["burger"].placement().position[1] == pytest.approx([0.0, 0.0, 0.0])
 
 
 def test_a_static_model_can_be_placed_and_is_seen_there():
     world = scenes.world(still("pillar", Cylinder(0.2, 1.0), Pose(2.0, 0.0, 0.5)), scanner_model())
     engine = make_engine("planar", world, 2)
-    engine.set_model_placement("pillar", (1.0, 0.0, 0.5), from_yaw(np.array(0.2)), np.array([1]))
+    engine.models["pillar"].set_placement((1.0, 0.0, 0.5), from_yaw(np.array(0.2)), np.array([1]))
     hits = engine.cast_rays("scanner::base", *rays(1, 0.3))
     forward = engine.cast_rays(
         "scanner::base", np.array([[0.0, 0.0, 0.3]]), np.array([[1.0, 0, 0]])
     )
     assert np.isinf(hits.distance).all()
     assert forward.distance[:, 0] == pytest.approx([1.8, 0.8])
-    assert yaw_of(engine.model_placement("pillar").quaternion) == pytest.approx([0.0, 0.2])
+    assert yaw_of(engine.models["pillar"].placement().quaternion) == pytest.approx([0.0, 0.2])
 
 
 def test_what_needs_forces_is_refused_with_a_hint():
     engine = make_engine("planar", scenes.world(scenes.ground(), scenes.burger()))
-    joint, link = engine.joint_names[0], engine.link_names[1]
+    joint, link = engine.joints.names[0], engine.links.names[1]
     for work in (
-        lambda: engine.set_joint_effort(joint, 1.0),
-        lambda: engine.set_link_wrench(link, np.zeros(3), np.zeros(3)),
+        lambda: engine.joints[joint].set_effort(1.0),
+        lambda: engine.links[link].set_wrench(np.zeros(3), np.zeros(3)),
         lambda: engine.contacts(["a"]),
         lambda: engine.attach(link, link),
         lambda: engine.set_parameter("link_mass", link, 1.0),
@@ -246,4 +246,4 @@ def test_what_needs_forces_is_refused_with_a_hint():
         with pytest.raises(EngineError, match="engine mujoco"):
             work()
     with pytest.raises(EngineError, match="did you mean"):
-        engine.link_placement(link + "x")
+        engine.links[link + "x"].placement()

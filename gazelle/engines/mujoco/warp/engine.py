@@ -18,7 +18,7 @@ from gazelle.errors import EngineError, EngineWarning, did_you_mean
 _SLEEP, _SPECULATIVE = mujoco.mjtEnableBit.mjENBL_SLEEP, mujoco.mjtEnableBit.mjENBL_SPECULATIVE
 
 # What of joints can be had on the device, and MuJoCo's names for it.
-_ON_DEVICE = {"joint_position": "qpos", "joint_velocity": "qvel"}
+_ON_DEVICE = {"position": "qpos", "velocity": "qvel"}
 
 
 class WarpEngine(MujocoEngine):
@@ -40,7 +40,7 @@ class WarpEngine(MujocoEngine):
         """A joint's positions or velocities in all worlds where the device has them, without a copy.
 
         Args:
-            kind: ``joint_position`` or ``joint_velocity``.
+            kind: ``position`` or ``velocity``.
             joint: Scoped name.
 
         Returns:
@@ -53,10 +53,10 @@ class WarpEngine(MujocoEngine):
         """
         if kind not in _ON_DEVICE:
             raise EngineError(
-                f"there is no '{kind}' on the device", hint=did_you_mean(kind, _ON_DEVICE)
+                f"there is no '{kind}' of joints on the device", hint=did_you_mean(kind, _ON_DEVICE)
             )
         slots = self.running.now().joint(joint)
-        columns = [slot.position if kind == "joint_position" else slot.velocity for slot in slots]
+        columns = [slot.position if kind == "position" else slot.velocity for slot in slots]
         whole = self.running.batch.on_device(_ON_DEVICE[kind])
         return whole[:, columns[0].start : columns[-1].stop]
 

@@ -1,4 +1,4 @@
-"""Links and joints of a model as a tree of bodies, which is how MuJoCo wants them."""
+"""Links and joints of a model as a tree of bodies."""
 
 from __future__ import annotations
 

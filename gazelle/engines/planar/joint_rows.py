@@ -1,0 +1,114 @@
+"""Read and set joints of planar worlds, and their motors."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.array_types import Bools, Floats, Indices, Worlds
+from gazelle.engines.planar.build import PlanarLayout
+from gazelle.engines.planar.refusals import refuse
+from gazelle.engines.planar.running import RunningPlane, rows_of
+from gazelle.engines.reactions import Wrench
+from gazelle.errors import EngineError
+
+
+class PlanarJointRow:
+    """One joint with all its axes; see ``gazelle.engines.state.JointRow``.
+
+    Args:
+        run: Worlds that run.
+        name: Scoped name.
+    """
+
+    def __init__(self, run: RunningPlane, name: str) -> None:
+        self._run, self._name = run, name
+
+    def position(self, worlds: Worlds | None = None) -> Floats:
+        """Return the position [m or rad], shape (n, axes)."""
+        return self._run.angles[rows_of(worlds), self._run.axes(self._name)].copy()
+
+    def velocity(self, worlds: Worlds | None = None) -> Floats:
+        """Return the velocity [m/s or rad/s], shape (n, axes)."""
+        return self._run.rates[rows_of(worlds), self._run.axes(self._name)].copy()
+
+    def effort(self, worlds: Worlds | None = None) -> Floats:
+        """Return zeros, shape (n, axes): efforts do not act here."""
+        return np.zeros_like(self.position(worlds))
+
+    def wrench(self, worlds: Worlds | None = None) -> Wrench:
+        """Refuse: the plane knows no forces."""
+        del worlds
+        raise refuse(f"what '{self._name}' carries")
+
+    def set_position(self, position: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Set the position [m or rad], shape (axes,) or (n, axes)."""
+        self._run.angles[rows_of(worlds), self._run.axes(self._name)] = position
+
+    def set_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Set the velocity, which the joint keeps [m/s or rad/s], shape (axes,) or (n, axes)."""
+        self._run.rates[rows_of(worlds), self._run.axes(self._name)] = velocity
+
+    def set_effort(self, effort: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Refuse: the plane knows no forces."""
+        del effort, worlds
+        raise refuse(f"an effort on '{self._name}'")
+
+    def set_motor_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Set the velocity that the joint's motor holds [m/s or rad/s], shape () or (n,)."""
+        column = motor_column(self._run, self._name)
+        self._run.targets[rows_of(worlds), column] = velocity
+
+
+class PlanarJointRows:
+    """First axes of several joints; see ``gazelle.engines.state.JointRows``.
+
+    Args:
+        run: Worlds that run.
+        names: Scoped names.
+    """
+
+    def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
+        self._run, self._names = run, names
+        self._found: tuple[PlanarLayout, Indices] | None = None
+
+    def _columns(self) -> Indices:
+        layout, found = self._run.layout, self._found
+        if found is None or found[0] is not layout:
+            columns = [self._run.axes(name).start for name in self._names]
+            found = self._found = layout, np.array(columns, np.intp)
+        return found[1]
+
+    def position(self, worlds: Worlds | None = None) -> Floats:
+        """Return positions [m or rad], shape (n, joints)."""
+        return self._run.angles[rows_of(worlds)].take(self._columns(), axis=1)
+
+    def velocity(self, worlds: Worlds | None = None) -> Floats:
+        """Return velocities [m/s or rad/s], shape (n, joints)."""
+        return self._run.rates[rows_of(worlds)].take(self._columns(), axis=1)
+
+    def place(self, position: Floats, velocity: Floats, chosen: Bools) -> None:
+        """Set positions and velocities [m or rad, m/s or rad/s], shape (nworld, joints)."""
+        worlds, joints = np.nonzero(chosen)
+        columns = self._columns()[joints]
+        self._run.angles[worlds, columns] = position[chosen]
+        self._run.rates[worlds, columns] = velocity[chosen]
+
+    def set_motor_velocity(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
+        """Set the velocities that the motors hold [m/s or rad/s]."""
+        for name in self._names:
+            motor_column(self._run, name)
+        given, which = np.asarray(velocity, np.float64), slice(None) if chosen is None else chosen
+        self._run.targets[:, self._columns()[which]] = given[..., which]
+
+
+def motor_column(run: RunningPlane, joint: str) -> int:
+    """Return the column of a joint's motor.
+
+    Raises:
+        EngineError: There is no motor on the joint.
+    """
+    column = int(run.axes(joint).start)
+    if joint not in run.recipe.motors:
+        raise EngineError(f"there is no motor on joint '{joint}'", hint="give it one first")
+    return column

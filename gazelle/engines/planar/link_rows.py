@@ -1,0 +1,249 @@
+"""Read and move links of planar worlds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.array_types import Bools, Floats, Indices, Worlds
+from gazelle.description import Pose
+from gazelle.engines.hanging_links import HangingLinks
+from gazelle.engines.motion import Motion, Placement
+from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.build import PlanarLayout
+from gazelle.engines.planar.model_rows import PlanarModelRow
+from gazelle.engines.planar.refusals import refuse
+from gazelle.engines.planar.running import RunningPlane, rows_of
+from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, unit
+
+
+class PlanarLinkRow:
+    """One link; see ``gazelle.engines.state.LinkRow``.
+
+    Args:
+        run: Worlds that run.
+        name: Scoped name.
+        model: Returns the row of a model.
+        hanging: Moves links by the joints that they hang on.
+    """
+
+    def __init__(
+        self,
+        run: RunningPlane,
+        name: str,
+        model: Callable[[str], PlanarModelRow],
+        hanging: HangingLinks,
+    ) -> None:
+        self._run, self._name, self._model, self._hanging = run, name, model, hanging
+
+    def placement(self, worlds: Worlds | None = None) -> Placement:
+        """Return the pose of the link."""
+        model = self._run.owner(self._name)
+        base = self._model(model).placement(worlds)
+        position, turned = self._run.model(model).skeleton.place(
+            self._name, self._run.own(model, worlds)[0]
+        )
+        return Placement(
+            base.position + rotate(base.quaternion, position), multiply(base.quaternion, turned)
+        )
+
+    def motion(self, worlds: Worlds | None = None) -> Motion:
+        """Return the velocity of the link."""
+        model = self._run.owner(self._name)
+        base = self._model(model).placement(worlds)
+        skeleton = self._run.model(model).skeleton
+        angles, rates = self._run.own(model, worlds)
+        inner = skeleton.motion(self._name, angles, rates)
+        arm = rotate(base.quaternion, skeleton.place(self._name, angles)[0])
+        linear, spin = self._model(model).twist(worlds)
+        linear = linear + cross(spin, arm) + rotate(base.quaternion, inner[0])
+        return Motion(linear, spin + rotate(base.quaternion, inner[1]))
+
+    def acceleration(self, worlds: Worlds | None = None) -> Motion:
+        """Return by how much the velocity changes: only towards the middle of the arc it is on."""
+        motion = self.motion(worlds)
+        spin = self._model(self._run.owner(self._name)).twist(worlds)[1]
+        return Motion(cross(spin, motion.linear), np.zeros_like(spin))
+
+    def centre(self, worlds: Worlds | None = None) -> Floats:
+        """Return the centre of mass [m], in the world frame, shape (n, 3)."""
+        place = self.placement(worlds)
+        skeleton = self._run.model(self._run.owner(self._name)).skeleton
+        inertial = skeleton.bones[self._name].link.inertial
+        offset = Pose() if inertial is None else inertial.pose
+        return place.position + rotate(place.quaternion, np.asarray(offset.position)[None])
+
+    def set_placement(
+        self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
+    ) -> str:
+        """Move the link's model, or its joint as far as that allows."""
+        model = self._run.owner(self._name)
+        skeleton = self._run.model(model).skeleton
+        if skeleton.hinges:
+            here = self.placement(worlds)
+            goal = Placement(
+                np.broadcast_to(np.asarray(position, np.float64), here.position.shape),
+                unit(np.broadcast_to(np.asarray(quaternion, np.float64), here.quaternion.shape)),
+            )
+            if joint := self._hanging.place(self._name, goal, worlds):
+                return joint
+        at, turned = skeleton.place(self._name, self._run.own(model, worlds)[0])
+        frame = multiply(np.asarray(quaternion, np.float64), conjugate(turned))
+        origin = np.asarray(position, np.float64) - rotate(frame, at)
+        self._model(model).set_placement(origin, frame, worlds)
+        return ""
+
+    def set_motion(
+        self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Give the link's model or joint the velocity with which the link moves so."""
+        model = self._run.owner(self._name)
+        arm = self.placement(worlds).position - self._model(model).placement(worlds).position
+        spin = np.broadcast_to(np.asarray(angular, np.float64), arm.shape)
+        speed = np.broadcast_to(np.asarray(linear, np.float64), arm.shape)
+        hinged = bool(self._run.model(model).skeleton.hinges)
+        if hinged and self._hanging.move(self._name, Motion(speed, spin), worlds):
+            return
+        origin = np.asarray(linear, np.float64) - cross(spin, arm)
+        self._model(model).set_motion(origin, spin, worlds)
+
+    def set_wrench(self, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Refuse: the plane knows no forces."""
+        del force, torque, worlds
+        raise refuse(f"a push on '{self._name}'")
+
+
+@dataclass(frozen=True, slots=True)
+class _Columns:
+    """Some links in the fleet's tables.
+
+    Attributes:
+        moving: Links whose models are bodies, shape (k,).
+        body: Bodies of those, shape (k,).
+        loose: Those of them whose models move by themselves, shape (k,).
+        tilts: Quaternions by which their models' frames lean, shape (k, 4).
+        base: Poses of the models' frames at first, shapes (links, 3) and (links, 4).
+        rest: Poses in the models' frames with all joints at zero, likewise.
+        hinged: Numbers, models and names of links that hang on a joint.
+    """
+
+    moving: Indices
+    body: Indices
+    loose: Bools
+    tilts: Floats
+    base: Placement
+    rest: Placement
+    hinged: tuple[tuple[int, str, str], ...]
+
+    @classmethod
+    def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _Columns:
+        """Look links up.
+
+        Raises:
+            EngineError: There is no such link.
+        """
+        owners = [run.owner(name) for name in names]
+        models = [run.model(owner) for owner in owners]
+        bones = [model.skeleton.bones[name] for model, name in zip(models, names, strict=True)]
+        body = np.array([run.layout.bodies.get(owner, -1) for owner in owners], np.intp)
+        moving = np.flatnonzero(body >= 0)
+        hinged = [i for i, bone in enumerate(bones) if not bone.fixed]
+        return cls(
+            moving,
+            body[moving],
+            np.array([models[i].loose for i in moving], np.bool_),
+            np.array([models[i].tilt.quaternion for i in moving]).reshape(-1, 4),
+            _stacked([model.model.pose for model in models]),
+            _stacked([bone.rest for bone in bones]),
+            tuple((i, owners[i], names[i]) for i in hinged),
+        )
+
+
+class PlanarLinkRows:
+    """Several links: all bodies are read at once, and one by one only links that hang on joints.
+
+    See ``gazelle.engines.state.LinkRows``.
+
+    Args:
+        run: Worlds that run.
+        names: Scoped names.
+    """
+
+    def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
+        self._run, self._names = run, names
+        self._found: tuple[PlanarLayout, _Columns] | None = None
+
+    def _columns(self) -> _Columns:
+        layout, found = self._run.layout, self._found
+        if found is None or found[0] is not layout:
+            found = self._found = layout, _Columns.find(self._run, self._names)
+        return found[1]
+
+    def placement(self, worlds: Worlds | None = None) -> Placement:
+        """Return the poses, shapes (n, links, 3) and (n, links, 4)."""
+        base, inner = self._base(worlds), self._in_model(worlds)
+        return Placement(
+            base.position + rotate(base.quaternion, inner.position),
+            multiply(base.quaternion, inner.quaternion),
+        )
+
+    def motion(self, worlds: Worlds | None = None) -> Motion:
+        """Return the velocities, shape (n, links, 3)."""
+        base, inner, twist = self._base(worlds), self._in_model(worlds), self._twist(worlds)
+        linear = twist.linear + cross(twist.angular, rotate(base.quaternion, inner.position))
+        for number, owner, name in self._columns().hinged:
+            skeleton, turn = self._run.model(owner).skeleton, base.quaternion[:, number]
+            swing = skeleton.motion(name, *self._run.own(owner, worlds))
+            linear[:, number] += rotate(turn, swing[0])
+            twist.angular[:, number] += rotate(turn, swing[1])
+        return Motion(linear, twist.angular)
+
+    def acceleration(self, worlds: Worlds | None = None) -> Motion:
+        """Return by how much the velocities change: only towards the middles of their arcs."""
+        linear, spin = self.motion(worlds).linear, self._twist(worlds).angular
+        return Motion(cross(spin, linear), np.zeros_like(spin))
+
+    def _base(self, worlds: Worlds | None) -> Placement:
+        """Return the poses of the models' frames, shapes (n, links, 3) and (n, links, 4)."""
+        columns, fleet = self._columns(), self._run.fleet
+        bodies = fleet.body_rows[rows_of(worlds)][:, columns.body]
+        at = np.repeat(columns.base.position[None], len(bodies), axis=0)
+        turned = np.repeat(columns.base.quaternion[None], len(bodies), axis=0)
+        at[:, columns.moving] = bodies[..., [c.X, c.Y, c.Z]]
+        turned[:, columns.moving] = multiply(from_yaw(bodies[..., c.YAW]), columns.tilts[None])
+        return Placement(at, turned)
+
+    def _twist(self, worlds: Worlds | None) -> Motion:
+        """Return the velocities of the models' frames in the world, shape (n, links, 3)."""
+        columns, fleet, rows = self._columns(), self._run.fleet, rows_of(worlds)
+        shape = (fleet.nworld, fleet.nbody)
+        v = fleet.velocity.reshape(*shape, 3)[rows][:, columns.body]
+        resting = fleet.stalled.reshape(shape)[rows][:, columns.body] | ~columns.loose
+        v = np.where(resting[..., None], 0.0, v)
+        body = fleet.body_rows[rows][:, columns.body]
+        linear, spin = np.zeros((2, len(v), len(self._names), 3))
+        linear[:, columns.moving, 0] = body[..., c.COS] * v[..., 0] - body[..., c.SIN] * v[..., 1]
+        linear[:, columns.moving, 1] = body[..., c.SIN] * v[..., 0] + body[..., c.COS] * v[..., 1]
+        spin[:, columns.moving, 2] = v[..., 2]
+        return Motion(linear, spin)
+
+    def _in_model(self, worlds: Worlds | None) -> Placement:
+        """Return the poses in the models' frames."""
+        columns, angles = self._columns(), self._run.angles[rows_of(worlds)]
+        at = np.repeat(columns.rest.position[None], len(angles), axis=0)
+        turned = np.repeat(columns.rest.quaternion[None], len(angles), axis=0)
+        for number, owner, name in columns.hinged:
+            own = self._run.own(owner, worlds)[0]
+            at[:, number], turned[:, number] = self._run.model(owner).skeleton.place(name, own)
+        return Placement(at, turned)
+
+
+def _stacked(poses: Sequence[Pose]) -> Placement:
+    """Return poses as arrays."""
+    return Placement(
+        np.array([pose.position for pose in poses]).reshape(-1, 3),
+        np.array([pose.quaternion for pose in poses]).reshape(-1, 4),
+    )

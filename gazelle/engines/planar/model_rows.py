@@ -1,0 +1,217 @@
+"""Read and move models of planar worlds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gazelle.array_types import Bools, Floats, Indices, Worlds
+from gazelle.engines.motion import Placement
+from gazelle.engines.planar import columns as c
+from gazelle.engines.planar.build import PlanarLayout
+from gazelle.engines.planar.running import RunningPlane, rows_of
+from gazelle.engines.planar.twist_commands import TwistCommands
+from gazelle.errors import EngineError
+from gazelle.rotations import conjugate, from_yaw, multiply, yaw_of
+
+
+class PlanarModelRow:
+    """One model; see ``gazelle.engines.state.ModelRow``.
+
+    Args:
+        run: Worlds that run.
+        name: Name of the model.
+        make_kinematic: The engine's.
+    """
+
+    def __init__(self, run: RunningPlane, name: str, make_kinematic: Callable[[str], None]) -> None:
+        self._run, self._name, self._make_kinematic = run, name, make_kinematic
+
+    def placement(self, worlds: Worlds | None = None) -> Placement:
+        """Return the pose of the model's frame."""
+        each = self._run.model(self._name)
+        body = self._run.layout.bodies.get(self._name)
+        if body is None:
+            count = self._run.fleet.nworld if worlds is None else len(worlds)
+            pose = each.model.pose
+            return Placement(
+                np.tile(pose.position, (count, 1)), np.tile(pose.quaternion, (count, 1))
+            )
+        rows = self._run.fleet.rows[self._run.rows(body, worlds)]
+        turned = multiply(from_yaw(rows[:, c.YAW]), np.asarray(each.tilt.quaternion)[None])
+        return Placement(rows[:, [c.X, c.Y, c.Z]], turned)
+
+    def planar_pose(self, worlds: Worlds | None = None) -> Floats:
+        """Return the pose seen from above: x, y [m] and heading [rad], shape (n, 3)."""
+        each, body = self._run.model(self._name), self._run.layout.bodies.get(self._name)
+        count = self._run.fleet.nworld if worlds is None else len(worlds)
+        if body is None:
+            pose = each.model.pose
+            return np.tile((pose.x, pose.y, pose.yaw), (count, 1))
+        found: Floats = self._run.fleet.rows[self._run.rows(body, worlds), : c.COS].copy()
+        if each.leaning:
+            found[:, c.YAW] = yaw_of(self.placement(worlds).quaternion)
+        return found
+
+    def set_placement(
+        self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Put the model somewhere in the plane; a static model becomes kinematic for it.
+
+        It keeps the way it leans; a robot on wheels stays on the ground.
+        """
+        each = self._run.model(self._name)
+        if each.skeleton.held:
+            raise EngineError(
+                f"model '{self._name}' is fixed to the world by a joint and cannot be moved",
+                hint="the joint that holds it would have to go",
+            )
+        if each.still:
+            self._make_kinematic(self._name)
+            each = self._run.model(self._name)
+        place = np.atleast_2d(np.asarray(position, np.float64))
+        turned = np.atleast_2d(np.asarray(quaternion, np.float64))
+        yaw = yaw_of(multiply(turned, conjugate(np.asarray(each.tilt.quaternion)[None])))
+        count = max(len(place), len(yaw))
+        pose = np.empty((count, 3))
+        pose[:, :2], pose[:, 2] = place[:, :2], yaw
+        body = self._run.layout.bodies[self._name]
+        self._run.fleet.place(body, pose if count > 1 else pose[0], worlds)
+        if not (each.loose and each.skeleton.wheels):
+            self._run.fleet.rows[self._run.rows(body, worlds), c.Z] = place[:, 2]
+
+    def set_motion(
+        self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
+    ) -> None:
+        """Give the model a velocity, which it keeps in its own frame, joints at rest."""
+        each = self._run.model(self._name)
+        if not each.loose:
+            return
+        rows = self._run.rows(self._run.layout.bodies[self._name], worlds)
+        body = self._run.fleet.rows[rows]
+        v, w = np.asarray(linear, np.float64), np.asarray(angular, np.float64)
+        twist = np.empty((len(body), 3))
+        twist[:, 0] = body[:, c.COS] * v[..., 0] + body[:, c.SIN] * v[..., 1]
+        twist[:, 1] = body[:, c.COS] * v[..., 1] - body[:, c.SIN] * v[..., 0]
+        twist[:, 2] = w[..., 2]
+        self.set_ground_motion(twist, worlds)
+
+    def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Give the model a velocity along and across its heading, which it keeps, joints at rest."""
+        each = self._run.model(self._name)
+        if not each.loose:
+            return
+        rows = self._run.rows(self._run.layout.bodies[self._name], worlds)
+        self._run.fleet.command.reshape(-1, 3)[rows] = twist
+        self._run.fleet.velocity.reshape(-1, 3)[rows] = twist
+        self._run.fleet.stalled.reshape(-1)[rows] = False
+        first = self._run.layout.columns[self._name]
+        self._run.rates[rows_of(worlds), first : first + each.skeleton.width] = 0.0
+
+    def twist(self, worlds: Worlds | None) -> tuple[Floats, Floats]:
+        """Return the velocity of the frame in the world: linear and angular, shapes (n, 3)."""
+        count = self._run.fleet.nworld if worlds is None else len(worlds)
+        linear, spin = np.zeros((count, 3)), np.zeros((count, 3))
+        if not self._run.model(self._name).loose:
+            return linear, spin
+        rows = self._run.rows(self._run.layout.bodies[self._name], worlds)
+        body, v = self._run.fleet.rows[rows], self._run.fleet.velocity.reshape(-1, 3)[rows]
+        v = np.where(self._run.fleet.stalled.reshape(-1)[rows][:, None], 0.0, v)
+        linear[:, 0] = body[:, c.COS] * v[:, 0] - body[:, c.SIN] * v[:, 1]
+        linear[:, 1] = body[:, c.SIN] * v[:, 0] + body[:, c.COS] * v[:, 1]
+        spin[:, 2] = v[:, 2]
+        return linear, spin
+
+
+@dataclass(frozen=True, slots=True)
+class _Columns:
+    """Some models in the fleet's tables.
+
+    Attributes:
+        body: Their bodies, shape (models,); -1 for a static model.
+        loose: Those that move by themselves, shape (models,).
+        tilts: Quaternions by which their frames lean, shape (models, 4).
+        first: First columns of their joints, shape (models,).
+        width: Numbers of those columns, shape (models,).
+        at: Positions of static models [m], shape (models, 3).
+        turned: Their quaternions, shape (models, 4).
+    """
+
+    body: Indices
+    loose: Bools
+    tilts: Floats
+    first: Indices
+    width: Indices
+    at: Floats
+    turned: Floats
+
+    @classmethod
+    def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _Columns:
+        """Look models up.
+
+        Raises:
+            EngineError: There is no such model.
+        """
+        found, layout = [run.model(name) for name in names], run.layout
+        return cls(
+            np.array([layout.bodies.get(name, -1) for name in names], np.intp),
+            np.array([each.loose for each in found], np.bool_),
+            np.array([each.tilt.quaternion for each in found]).reshape(-1, 4),
+            np.array([layout.columns.get(name, 0) for name in names], np.intp),
+            np.array([each.skeleton.width for each in found], np.intp),
+            np.array([each.model.pose.position for each in found]).reshape(-1, 3),
+            np.array([each.model.pose.quaternion for each in found]).reshape(-1, 4),
+        )
+
+
+class PlanarModelRows:
+    """Several models; see ``gazelle.engines.state.ModelRows``.
+
+    Args:
+        run: Worlds that run.
+        names: Names of the models.
+    """
+
+    def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
+        self._run, self._names = run, names
+        self._found: tuple[PlanarLayout, _Columns] | None = None
+
+    def _columns(self) -> _Columns:
+        layout, found = self._run.layout, self._found
+        if found is None or found[0] is not layout:
+            found = self._found = layout, _Columns.find(self._run, self._names)
+        return found[1]
+
+    def placement(self, worlds: Worlds | None = None) -> Placement:
+        """Return the poses of the models' frames, shapes (n, models, 3) and (n, models, 4)."""
+        columns = self._columns()
+        rows, which = self._run.fleet.body_rows[rows_of(worlds)], np.flatnonzero(columns.body >= 0)
+        at = np.repeat(columns.at[None], len(rows), axis=0)
+        turned = np.repeat(columns.turned[None], len(rows), axis=0)
+        bodies = rows[:, columns.body[which]]
+        at[:, which] = bodies[..., [c.X, c.Y, c.Z]]
+        turned[:, which] = multiply(from_yaw(bodies[..., c.YAW]), columns.tilts[None, which])
+        return Placement(at, turned)
+
+    def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Give the models velocities along and across their headings, which they keep."""
+        columns, fleet = self._columns(), self._run.fleet
+        shape = (fleet.nworld if worlds is None else len(worlds), len(self._names), 3)
+        given, which = np.broadcast_to(twist, shape), np.flatnonzero(columns.loose)
+        rows = np.arange(fleet.nworld) if worlds is None else worlds
+        at = rows[:, None], columns.body[which]
+        for values in (fleet.command, fleet.velocity):
+            values.reshape(fleet.nworld, fleet.nbody, 3)[at] = given[:, which]
+        fleet.stalled.reshape(fleet.nworld, fleet.nbody)[at] = False
+        spans = [range(columns.first[i], columns.first[i] + columns.width[i]) for i in which]
+        joints = np.array([column for span in spans for column in span], np.intp)
+        self._run.rates[rows[:, None], joints] = 0.0
+
+    def command(self, law: TwistCommands) -> None:
+        """Let a law with a row for each of the models give them their velocities."""
+        columns = self._columns()
+        bodies = np.where(columns.loose, columns.body, -1)
+        law.carry(self._run.fleet.bodies, bodies, self._run.rates, columns.first, columns.width)

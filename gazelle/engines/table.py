@@ -1,0 +1,55 @@
+"""Rows of links, joints or models, looked up once by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any, Generic, TypeVar, overload
+
+Row_co = TypeVar("Row_co", covariant=True)
+Rows_co = TypeVar("Rows_co", covariant=True)
+
+_MOST = 4096  # rows that are kept
+
+
+class Table(Generic[Row_co, Rows_co]):
+    """Links, joints or models of an engine, by their scoped names.
+
+    ``table["burger::base"]`` is one row, whose arrays have the shape (n, ...); a tuple of names gives
+    several rows, whose arrays have the shape (n, rows, ...). Rows stay good when models come and go.
+
+    Args:
+        names: Returns the names of all rows.
+        one: Makes one row from its name.
+        many: Makes several rows from their names.
+    """
+
+    def __init__(
+        self,
+        names: Callable[[], Iterable[str]],
+        one: Callable[[str], Row_co],
+        many: Callable[[tuple[str, ...]], Rows_co],
+    ) -> None:
+        self._names, self._one, self._many = names, one, many
+        self._known: dict[str | tuple[str, ...], Any] = {}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all rows."""
+        return tuple(self._names())
+
+    @overload
+    def __getitem__(self, names: str) -> Row_co: ...
+
+    @overload
+    def __getitem__(self, names: tuple[str, ...]) -> Rows_co: ...
+
+    def __getitem__(self, names: str | tuple[str, ...]) -> Row_co | Rows_co:
+        """Return one row, or several; a name that is not there is an error when it is used."""
+        known = self._known.get(names)
+        if known is None:
+            if len(self._known) >= _MOST:
+                self._known.clear()
+            known = self._one(names) if isinstance(names, str) else self._many(names)
+            self._known[names] = known
+        found: Row_co | Rows_co = known
+        return found
