@@ -9,7 +9,7 @@ from gazelle.engines.history import CHANGES, Call
 from gazelle.engines.late_engine import LateEngine
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.range_rays import RangeRays
-from gazelle.engines.reactions import Contacts, TouchTable, Wrench
+from gazelle.engines.reactions import Contacts, ContactTable, Wrench
 from gazelle.engines.registry import EngineFactory, find
 from gazelle.engines.registry import names as engine_names
 from gazelle.engines.registry import register as register_engine
@@ -21,6 +21,7 @@ __all__ = [
     "PARAMETERS",
     "Call",
     "CarryingEngine",
+    "ContactTable",
     "Contacts",
     "DivergenceError",
     "Engine",
@@ -32,7 +33,6 @@ __all__ = [
     "RangeRays",
     "SystemEngine",
     "TableEngine",
-    "TouchTable",
     "Wrench",
     "as_carrying_engine",
     "as_table_engine",

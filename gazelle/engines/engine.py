@@ -17,7 +17,7 @@ from gazelle.description import Model, World
 from gazelle.engines.history import Call
 from gazelle.engines.motion import Hits
 from gazelle.engines.range_rays import RangeRays
-from gazelle.engines.reactions import Contacts
+from gazelle.engines.reactions import Contacts, ContactTable
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError
@@ -101,32 +101,27 @@ class Engine(Protocol):
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no forces."""
 
-    def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
-        """The points where some collisions touch others now, in one world.
-
-        A contact between two of them is listed once, for the one that is named first. Forces
-        are those of the coming physics step; nothing moves.
-
-        Args:
-            collisions: Scoped names, ``model::link::collision``.
-            world: Which world.
-
-        Raises:
-            EngineError: There is no such collision.
-        """
-
-    def touching(
+    def contacts(
         self, collisions: Sequence[str], worlds: Worlds | None = None
     ) -> tuple[Worlds, Contacts]:
-        """The same in many worlds: which world each contact is in, and all, world by world.
+        """Return the points where some collisions touch others now, world by world.
+
+        A contact between two of them is listed once, for the one that is named first. Forces
+        are those of the next physics step; nothing moves.
 
         Args:
             collisions: Scoped names, ``model::link::collision``.
             worlds: Which worlds, in this order; all if None.
 
+        Returns:
+            The world of each contact, shape (k,), and the contacts.
+
         Raises:
-            EngineError: There is no such collision.
+            EngineError: There is no such collision, or the engine knows no contacts.
         """
+
+    def contact_table(self, sets: Sequence[tuple[str, ...]]) -> ContactTable:
+        """Return the contacts of each of some sets of collisions in all worlds, as arrays."""
 
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
         """Give a joint a motor that holds a velocity, zero at first, with limited effort.

@@ -23,8 +23,8 @@ class Wrench:
 
 
 @dataclass(frozen=True, slots=True)
-class TouchTable:
-    """What touches some sets of collisions, set by set and world by world; see ``Contacts``.
+class ContactTable:
+    """Contacts of some sets of collisions, set by set and world by world; see ``Contacts``.
 
     Attributes:
         sets: Which set each contact is one of, shape (k,).

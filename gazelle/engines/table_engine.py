@@ -7,7 +7,6 @@ from typing import Protocol, runtime_checkable
 
 from gazelle.array_types import Floats
 from gazelle.engines.engine import Engine
-from gazelle.engines.reactions import TouchTable
 
 
 @runtime_checkable
@@ -32,9 +31,6 @@ class TableEngine(Protocol):
             Distances from somewhat behind the origins [m], shape (nworld, n, rays), infinite for
             nothing, minus infinite from inside; and how far behind [m].
         """
-
-    def touching_each(self, sets: Sequence[tuple[str, ...]]) -> TouchTable:
-        """What ``touching`` says of each of some sets of collisions, in all worlds."""
 
 
 def as_table_engine(engine: Engine) -> TableEngine:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices, Worlds
-from gazelle.engines import Contacts, Engine, TableEngine, TouchTable, as_table_engine
+from gazelle.engines import Contacts, ContactTable, Engine
 from gazelle.sensors.model import FromPython, NoisySensor
 
 # Values of one contact: two names, position, normal, depth, force, torque.
@@ -64,7 +64,7 @@ class ContactModel(NoisySensor):
         """
         chosen = np.arange(self._engine.nworld) if worlds is None else np.asarray(worlds)
         values = np.full((len(chosen), self._most, _WIDTH), np.nan)
-        where, touching = self._engine.touching(self.collisions, chosen)
+        where, touching = self._engine.contacts(self.collisions, chosen)
         if len(touching):
             # Contacts come world by world: the first of each world, and each one's place in it.
             first = np.flatnonzero(np.diff(where, prepend=-1))
@@ -76,8 +76,8 @@ class ContactModel(NoisySensor):
         return values.reshape(len(chosen), -1)
 
     def kind(self) -> Hashable | None:
-        """Equal for those with room for as much, where the engine can."""
-        return self._most if isinstance(self._engine, TableEngine) else None
+        """Equal for those with room for as much."""
+        return self._most
 
     @classmethod
     def together(cls, models: Sequence[ContactModel]) -> ContactGroup:
@@ -153,7 +153,7 @@ class ContactGroup(FromPython):
     """
 
     def __init__(self, models: Sequence[ContactModel]) -> None:
-        self._engine = as_table_engine(models[0].engine)
+        self._engine = models[0].engine
         self._models, self._most = models, models[0].most
         self._sets = tuple(each.collisions for each in models)
         self._names: Sequence[str] = ()
@@ -161,7 +161,7 @@ class ContactGroup(FromPython):
 
     def measure_all(self, interval: float) -> Floats:  # noqa: ARG002  touch has no drift
         """Contacts now, shape (nworld, n, most * 15); see ``ContactModel.measure``."""
-        found = self._engine.touching_each(self._sets)
+        found = self._engine.contact_table(self._sets)
         shape = self._engine.nworld, len(self._sets), self._most
         values = np.full((*shape, _WIDTH), np.nan)
         if len(found.sets):
@@ -174,7 +174,7 @@ class ContactGroup(FromPython):
             values[found.worlds[kept], found.sets[kept], place[kept]] = rows[kept]
         return values.reshape(*shape[:2], -1)
 
-    def _named(self, found: TouchTable) -> tuple[Indices, Indices]:
+    def _named(self, found: ContactTable) -> tuple[Indices, Indices]:
         """The numbers by which each sensor knows its collisions, and what touches them."""
         if self._names is not found.names:
             self._names = found.names

@@ -35,7 +35,7 @@ READS = {
     "cast_rays",
     "close",
     "contacts",
-    "touching",
+    "contact_table",
     "history",
     "parameter",
     "peek",

@@ -38,7 +38,7 @@ class Courier:
         end = self.sim.time + within
         while not self.seeker.arrived.all() and self.sim.time < end:
             self.sim.run(seconds=0.05)
-            others = self.sim.engine.contacts(self.own).others
+            others = self.sim.engine.contacts(self.own)[1].others
             self.touched |= {name for name in others if not name.startswith(FLOORS)}
         return bool(self.seeker.arrived.all())
 

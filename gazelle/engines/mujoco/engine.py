@@ -121,8 +121,7 @@ class MujocoEngine:
         self.add_motor, self.make_kinematic = run.add_motor, run.make_kinematic
         self.parameter, self.set_parameter = run.parameter, run.set_parameter
         touches = ContactAccess(run, steps, self.reactions)
-        self.contacts = touches.contacts
-        self.touching, self.touching_each = touches.touching, touches.touching_each
+        self.contacts, self.contact_table = touches.contacts, touches.contact_table
         self._systems = CarriedSystems(run, steps)
         self.expect_systems = self._systems.expect_systems
         self.bind_joints = self._systems.bind_joints

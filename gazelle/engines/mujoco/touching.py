@@ -15,7 +15,7 @@ from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import MujocoLayout, look_up
 from gazelle.engines.mujoco.reactions import JointReactions
 from gazelle.engines.mujoco.running import RunningWorlds
-from gazelle.engines.reactions import Contacts, TouchTable
+from gazelle.engines.reactions import Contacts, ContactTable
 
 # What ``_read_contacts`` says of a world where nothing touches.
 _NOTHING = tuple(
@@ -134,14 +134,10 @@ class ContactAccess:
         # The layout for which geoms were listed last, and the list.
         self._listed: tuple[MujocoLayout, _GeomList] | None = None
 
-    def contacts(self, collisions: Sequence[str], world: int = 0) -> Contacts:
-        """The points where some collisions touch others in one world; see the protocol."""
-        return self.touching(collisions, np.array([world]))[1]
-
-    def touching(
+    def contacts(
         self, collisions: Sequence[str], worlds: Worlds | None = None
     ) -> tuple[Worlds, Contacts]:
-        """The same in many worlds; see the protocol."""
+        """Return the points where some collisions touch others; see the protocol."""
         layout = self._run.now()
         listed = self._list_of(layout)
         ranks = listed.ranks(layout, tuple(collisions))
@@ -161,8 +157,8 @@ class ContactAccess:
             torque=terms[:, 10:],
         )
 
-    def touching_each(self, sets: Sequence[tuple[str, ...]]) -> TouchTable:
-        """What touches each of some sets of collisions, in all worlds; see the protocol."""
+    def contact_table(self, sets: Sequence[tuple[str, ...]]) -> ContactTable:
+        """Return the contacts of each of some sets of collisions; see the protocol."""
         layout = self._run.now()
         listed = self._list_of(layout)
         found = self._all_contacts(np.arange(self._run.nworld))
@@ -176,7 +172,7 @@ class ContactAccess:
         which, chosen, mine = which[order], chosen[order], mine[order]
         numbers = listed.numbers[found.geoms[chosen]]
         index = np.arange(len(chosen))
-        return TouchTable(
+        return ContactTable(
             which,
             found.worlds[chosen],
             listed.distinct,
@@ -196,7 +192,7 @@ class ContactAccess:
         return _ContactRows(np.repeat(chosen, counts[:, 0]), starts, *every)
 
     def _terms(self, found: _ContactRows, rows: Indices, mine: Indices) -> Floats:
-        """What acts in some contacts on one of their two geoms, as ``TouchTable.terms``."""
+        """What acts in some contacts on one of their two geoms, as ``ContactTable.terms``."""
         axes = found.axes[rows].reshape(-1, 3, 3)
         cone = self._run.batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
         rubs = None if cone else found.rubs[rows]

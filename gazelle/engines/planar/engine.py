@@ -101,7 +101,7 @@ class PlanarEngine:
         self.cast_rays, self.cast_ranges = rays.cast_rays, rays.cast_ranges
         self.caster = rays.caster
         self.ranges_kind, self.ranges_of = rays.ranges_kind, rays.ranges_of
-        self.contacts, self.touching = refusals.contacts, refusals.touching
+        self.contacts, self.contact_table = refusals.contacts, refusals.contact_table
         self.attach, self.detach = refusals.attach, refusals.detach
         self.set_parameter = refusals.set_parameter
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Worlds
-from gazelle.engines.reactions import Contacts
+from gazelle.engines.reactions import Contacts, ContactTable
 from gazelle.errors import EngineError
 
 
@@ -20,12 +20,12 @@ def refuse(what: str) -> EngineError:
     )
 
 
-def contacts(collisions: Sequence[str], world: int = 0) -> Contacts:
+def contacts(collisions: Sequence[str], worlds: Worlds | None = None) -> tuple[Worlds, Contacts]:
     """Refused."""
     raise refuse("contact points")
 
 
-def touching(collisions: Sequence[str], worlds: Worlds | None = None) -> tuple[Worlds, Contacts]:
+def contact_table(sets: Sequence[tuple[str, ...]]) -> ContactTable:
     """Refused."""
     raise refuse("contact points")
 

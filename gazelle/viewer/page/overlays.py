@@ -154,7 +154,7 @@ class ContactLayer:
             return None
         context = self._context
         try:
-            which, found = context.simulation.engine.touching(self._names, context.worlds)
+            which, found = context.simulation.engine.contacts(self._names, context.worlds)
         except EngineError:  # an engine that knows no contacts
             return np.zeros((0, 2, 3))
         rows = np.searchsorted(context.worlds, which)

@@ -239,7 +239,7 @@ def test_what_needs_forces_is_refused_with_a_hint():
     for work in (
         lambda: engine.joints[joint].set_effort(1.0),
         lambda: engine.links[link].set_wrench(np.zeros(3), np.zeros(3)),
-        lambda: engine.contacts(["a"]),
+        lambda: engine.contacts(["a"])[1],
         lambda: engine.attach(link, link),
         lambda: engine.set_parameter("link_mass", link, 1.0),
     ):
