@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import functools
+import re
 import subprocess
 import sys
 import time
@@ -291,6 +292,53 @@ def strangers_of(module, text):
         for name in names & OWNERS.keys()
         if not any(f"{module}.".startswith(f"{owner}.") for owner in OWNERS[name])
     }
+
+
+INSIDE = re.compile(r"gazelle\.engines\.(planar|mujoco)\.")
+UNFINISHED = {
+    "gazelle.plugins.planar_move": {"gazelle.engines.planar.twist_commands"},
+    "gazelle.plugins.scripted_motion": {"gazelle.engines.planar.paths"},
+}
+"""Imports that are to go; never add one."""
+
+
+def reached_into(found, known):
+    """Return the modules inside an engine that imports of one module outside name.
+
+    An engine's package itself has names for all: its ``__init__`` says which.
+    """
+    named = {each.target for each in found}
+    named |= {f"{each.target}.{name}" for each in found for name in each.names} & known
+    return {target for target in named if INSIDE.match(f"{target}.") and target in known - ENGINES}
+
+
+ENGINES = {"gazelle.engines.planar", "gazelle.engines.mujoco", "gazelle.engines.mujoco.warp"}
+
+
+@pytest.mark.long
+def test_nothing_outside_reaches_into_an_engine():
+    paths, found = modules(), {}
+    for module, path in paths.items():
+        if room(module) != "engines":
+            text = path.read_text(encoding="utf-8")
+            own = imports_of(module, text, is_package=path.name == "__init__.py")
+            if inside := reached_into(own, set(paths)):
+                found[module] = inside
+    assert found == UNFINISHED
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("from gazelle.engines.planar import Fleet", set()),
+        ("from gazelle.engines import collision", set()),
+        ("from gazelle.engines.planar import columns as c", {"gazelle.engines.planar.columns"}),
+        ("from gazelle.engines.planar.fans import Fan", {"gazelle.engines.planar.fans"}),
+        ("def f():\n    import gazelle.engines.mujoco.rays", {"gazelle.engines.mujoco.rays"}),
+    ],
+)
+def test_a_reach_into_an_engine_is_caught(text, expected):
+    assert reached_into(imports_of("gazelle.viewer.plan", text), set(modules())) == expected
 
 
 @pytest.mark.long

@@ -8,9 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats
-from gazelle.engines.planar import PlanarEngine
-from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.clearing import turned
+from gazelle.engines.planar import PlanarEngine, outline_of
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
 from gazelle.navigation.grid import dilate
@@ -46,22 +44,14 @@ def floor_plan_of(robot: Robot, height: float) -> FloorPlan:
         for entry in simulation.plugins
         if isinstance(entry.plugin, ScriptedMotion)
     }
-    rows = [fleet.scene.table.rows]
+    tables = [fleet.scene.table]
     for name, body in engine.bodies.items():
         if name == robot.name or name in scripted:
             continue
-        first, last = fleet.kinds[body, [c.FIRST_LOOK, c.LAST_LOOK]].astype(int)
-        x, y, _, cos, sin, z = fleet.rows[body, :6]
-        own = fleet.looks[first:last].copy()
-        own[:, [c.LOW, c.HIGH]] += z
-        # ``turned`` gives coordinates in a frame that is at (x, y): here it is the way back.
-        turned(own, cos, -sin, -(cos * x + sin * y), sin * x - cos * y)
-        rows.append(own)
-    found = np.vstack(rows)
-    found = found[(found[:, c.LOW] < height) & (found[:, c.HIGH] > _GROUND)]
-    disc = (found[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
-    ends = found[:, [c.X0, c.Y0, c.X1, c.Y1]]
-    return FloorPlan(ends[~disc], ends[disc][:, :3])
+        tables.append(outline_of(fleet, body))
+    found = [table.between(_GROUND, height) for table in tables]
+    segments = np.vstack([table.segments for table in found])
+    return FloorPlan(segments, np.vstack([table.discs for table in found]))
 
 
 class FreeSpace:

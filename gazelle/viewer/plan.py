@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from gazelle.array_types import Floats, Picture
-from gazelle.engines.planar import Fleet, PlanarEngine, Scanner
-from gazelle.engines.planar import columns as c
+from gazelle.engines.planar import Fleet, PlanarEngine, Scanner, Table, footprint_of
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.simulation.inputs import one_world
@@ -81,7 +80,7 @@ class TopView:
         draw = ImageDraw.Draw(image)
         if self._scans:
             self._draw_scans(draw, fleet)
-        self._draw_statics(draw, fleet.scene.table.rows)
+        self._draw_statics(draw, fleet.scene.table)
         if self._trails:
             self._draw_trails(draw)
         for body in range(fleet.nbody):
@@ -104,13 +103,12 @@ class TopView:
                 for x, y in self._frame.path(beams[hits]):
                     draw.rectangle((x - 1, y - 1, x + 1, y + 1), fill=_HIT)
 
-    def _draw_statics(self, draw: ImageDraw.ImageDraw, rows: Floats) -> None:
-        circle = (rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
-        starts = self._frame.path(rows[~circle][:, [c.X0, c.Y0]])
-        ends = self._frame.path(rows[~circle][:, [c.X1, c.Y1]])
+    def _draw_statics(self, draw: ImageDraw.ImageDraw, table: Table) -> None:
+        segments = table.segments
+        starts, ends = self._frame.path(segments[:, :2]), self._frame.path(segments[:, 2:])
         for start, end in zip(starts, ends, strict=True):
             draw.line((start, end), fill=_WALL, width=2 * _FINER)
-        for x, y, radius in rows[circle][:, [c.X0, c.Y0, c.X1]]:
+        for x, y, radius in table.discs:
             draw.ellipse(self._frame.box(x, y, radius), outline=_WALL, width=2 * _FINER)
 
     def _draw_trails(self, draw: ImageDraw.ImageDraw) -> None:
@@ -121,18 +119,15 @@ class TopView:
                 draw.line(self._frame.path(way[:, :2]), fill=_pale(colour_of(body)), width=_FINER)
 
     def _draw_body(self, draw: ImageDraw.ImageDraw, fleet: Fleet, body: int, pose: Floats) -> None:
-        kind, colour = fleet.kinds[body], colour_of(body)
+        footprint, colour = footprint_of(fleet, body), colour_of(body)
         cos, sin = np.cos(pose[2]), np.sin(pose[2])
         turn = np.array([[cos, sin], [-sin, cos]])
-        for piece in fleet.pieces[int(kind[c.FIRST_PIECE]) : int(kind[c.LAST_PIECE])]:
-            if piece[c.COUNT] == 0:
-                x, y = piece[[c.CENTRE_X, c.CENTRE_Y]] @ turn + pose[:2]
-                draw.ellipse(self._frame.box(x, y, piece[c.BOUND]), fill=colour)
-                continue
-            first = int(piece[c.FIRST])
-            corners = fleet.corners[first : first + int(piece[c.COUNT])]
+        for *middle, radius in footprint.discs:
+            x, y = middle @ turn + pose[:2]
+            draw.ellipse(self._frame.box(x, y, radius), fill=colour)
+        for corners in footprint.polygons:
             draw.polygon(self._frame.path(corners @ turn + pose[:2]), fill=colour)
-        ahead = np.array([pose[:2], [kind[c.RADIUS], 0.0] @ turn + pose[:2]])
+        ahead = np.array([pose[:2], [footprint.radius, 0.0] @ turn + pose[:2]])
         draw.line(self._frame.path(ahead), fill=PAPER, width=_FINER)
 
 
@@ -211,13 +206,10 @@ def rays_of(scanner: Scanner, world: int) -> tuple[Floats, Floats, NDArray[np.bo
 
 def extent_of(fleet: Fleet, world: int) -> tuple[float, float, float, float]:
     """All that stands or drives, with some room around."""
-    rows = fleet.scene.table.rows
-    circle = (rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0
-    radius = np.where(circle, rows[:, c.X1], 0.0)[:, None]
-    start = rows[:, [c.X0, c.Y0]]
-    end = np.where(circle[:, None], start, rows[:, [c.X1, c.Y1]])
+    ends, discs = fleet.scene.table.segments.reshape(-1, 2), fleet.scene.table.discs
+    middles, radii = discs[:, :2], discs[:, 2:]
     poses, wide = fleet.pose[world, :, :2], fleet.widest
-    points = np.vstack((start - radius, start + radius, end, poses - wide, poses + wide))
+    points = np.vstack((ends, middles - radii, middles + radii, poses - wide, poses + wide))
     if not len(points):
         return (-1.0, -1.0, 1.0, 1.0)
     low, high = points.min(axis=0), points.max(axis=0)

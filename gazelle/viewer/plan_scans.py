@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.engines.planar import Fleet, Mount, PlanarEngine, Scanner
-from gazelle.engines.planar.fans import Fan
+from gazelle.engines.planar import Fan, Fleet, Mount, PlanarEngine, Scanner
 from gazelle.sensors import LidarModel
 from gazelle.simulation import Simulation
 

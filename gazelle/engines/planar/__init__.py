@@ -8,14 +8,20 @@ from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
 
+from gazelle.engines.planar.astray import AstrayScanner
+from gazelle.engines.planar.drive_velocities import DriveVelocities
 from gazelle.engines.planar.engine import PlanarEngine
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Body, Drive, Fleet
+from gazelle.engines.planar.footprints import footprint_of, outline_of
+from gazelle.engines.planar.shapes import Table
 from gazelle.geometry.planar_part import PlanarPart
 
 __all__ = [
+    "AstrayScanner",
     "Body",
     "Drive",
+    "DriveVelocities",
     "Fan",
     "Fleet",
     "Mount",
@@ -23,4 +29,7 @@ __all__ = [
     "PlanarPart",
     "RangeNoise",
     "Scanner",
+    "Table",
+    "footprint_of",
+    "outline_of",
 ]

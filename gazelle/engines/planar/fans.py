@@ -237,21 +237,21 @@ class Scanner:
         met = np.abs(self._named()) // c.NAMES
         return np.where(met > 0.0, (met - 1.0) % max(self.fleet.nbody, 1), -1.0).astype(np.int64)
 
-    def glows(self) -> Floats:
-        """What a laser got back from what each beam met; 0 for nothing, shape as ``ranges``."""
+    def glows(self, sensor: int | None = None) -> Floats:
+        """Return the laser return of what each beam met; 0 for nothing.
+
+        Args:
+            sensor: Of one, counted through all worlds, shape (count,); of all if None, shape as
+                ``ranges``.
+        """
         table, looks = self.fleet.scene.table.rows, self.fleet.looks
-        return np.asarray(self._look_up(table[:, c.GLOW], looks[:, c.GLOW]), np.float64)
+        names = self._named() if sensor is None else self._named().reshape(self.names.shape)[sensor]
+        return np.asarray(_look_up(names, table[:, c.GLOW], looks[:, c.GLOW]), np.float64)
 
     def tags(self) -> NDArray[np.int64]:
         """Tag of the part that each beam met; 0 for nothing, shape as ``ranges``."""
-        found = self._look_up(self.fleet.scene.table.tags, self.fleet.tags)
+        found = _look_up(self._named(), self.fleet.scene.table.tags, self.fleet.tags)
         return np.asarray(found, np.int64)
-
-    def _look_up(self, statics: NDArray[Any], looks: NDArray[Any]) -> NDArray[Any]:
-        names = np.abs(self._named())
-        body, at = names // c.NAMES, (names % c.NAMES).astype(np.int64)
-        values = np.concatenate((np.zeros(1), statics, looks))
-        return np.asarray(values[np.where(body > 0.0, 1 + len(statics) + at, at)])
 
     def _named(self) -> Floats:
         if not len(self.names):
@@ -261,6 +261,16 @@ class Scanner:
     def _owners_in(self, worlds: Worlds) -> NDArray[np.int64]:
         rows = worlds[:, None] * self.fleet.nbody + self._carriers
         return np.ascontiguousarray(rows.ravel(), np.int64)
+
+
+def _look_up(names: Floats, statics: NDArray[Any], looks: NDArray[Any]) -> NDArray[Any]:
+    """Return the values of the primitives that were met; 0 for nothing."""
+    names = np.abs(names)
+    found = np.zeros(names.shape, statics.dtype)
+    static, moving = (names > 0.0) & (names < c.NAMES), names >= c.NAMES
+    found[static] = statics[names[static].astype(np.int64) - 1]
+    found[moving] = looks[(names[moving] % c.NAMES).astype(np.int64)]
+    return found
 
 
 def _check(fan: Fan, fleet: Fleet, mounts: Sequence[Mount]) -> None:

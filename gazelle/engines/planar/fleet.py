@@ -233,6 +233,11 @@ class Fleet:
         return self.rows.reshape(self.nworld, self.nbody, c.BODY)
 
     @property
+    def directions(self) -> Floats:
+        """Cosine and sine of every heading, to be read, shape (nworld, nbody, 2)."""
+        return self.body_rows[:, :, c.COS : c.SIN + 1]
+
+    @property
     def heights(self) -> Floats:
         """Heights of the bodies' frames [m], to be written, shape (nworld, nbody)."""
         return self.body_rows[:, :, c.Z]

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Bools, Floats
 from gazelle.engines.planar import columns as c
 from gazelle.errors import EngineError
 from gazelle.geometry.planar_part import PlanarPart
@@ -52,6 +52,27 @@ class Table:
     rows: Floats
     tags: NDArray[np.int64]
     raster: Raster | None = None
+
+    @property
+    def segments(self) -> Floats:
+        """Both ends of the segments [m], shape (n, 4)."""
+        found: Floats = self.rows[~self._round][:, [c.X0, c.Y0, c.X1, c.Y1]]
+        return found
+
+    @property
+    def discs(self) -> Floats:
+        """Middles and radii of the circles [m], shape (n, 3)."""
+        found: Floats = self.rows[self._round][:, [c.X0, c.Y0, c.X1]]
+        return found
+
+    @property
+    def _round(self) -> Bools:
+        return np.asarray((self.rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0)
+
+    def between(self, low: float, high: float) -> Table:
+        """Return the primitives with a part above one height and below another [m]."""
+        kept = (self.rows[:, c.LOW] < high) & (self.rows[:, c.HIGH] > low)
+        return Table(self.rows[kept], self.tags[kept])
 
 
 def joined(first: Table, second: Table) -> Table:

@@ -20,88 +20,15 @@ from gazelle.description import (
 from gazelle.engines.planar.fans import Fan, Mount
 from gazelle.engines.planar.fleet import Body, Drive
 from gazelle.engines.planar.shapes import Table
-from gazelle.engines.planar.stage_walls import parts_of, table_of
+from gazelle.engines.planar.stage_walls import table_of
+from gazelle.engines.stage_robots import Ranger, Rider, StageRobot, without_actuators
+from gazelle.engines.stage_shapes import parts_of
 from gazelle.geometry.planar_part import PlanarPart
 
 _FINEST = 1e-6
 """Least field of view [rad] and reach [m] of a fan."""
 
 Key = tuple[int, int, int]
-
-
-@dataclass(frozen=True, slots=True)
-class Ranger:
-    """A ranger on a robot.
-
-    Attributes:
-        name: Its whole name.
-        model: What the file says.
-        sensors: What each of its sensors says.
-        places: Of each sensor the index of its scanner, and its place in that.
-        pose: In the robot's frame, its height included.
-        direct: Whether it is mounted on the robot itself.
-    """
-
-    name: str
-    model: StageModel
-    sensors: tuple[StageSensor, ...]
-    places: tuple[tuple[int, int], ...]
-    pose: StagePose
-    direct: bool = True
-
-    def sensor_name(self, number: int) -> str:
-        """What a sensor of it is called on its robot."""
-        own = self.name.partition(".")[2]
-        return own if len(self.sensors) == 1 else f"{own}/{number}"
-
-
-@dataclass(frozen=True, slots=True)
-class Rider:
-    """An actuator on a robot with all that is on it: a body of its own.
-
-    Attributes:
-        body: Its index among all bodies of a world.
-        model: The actuator, at position zero at the origin of its frame.
-        device: What the file says of it.
-        base: Of position zero, on the robot.
-    """
-
-    body: int
-    model: StageModel
-    device: StageActuator
-    base: StagePose
-
-
-@dataclass(frozen=True, slots=True)
-class StageRobot:
-    """A robot of a Stage world.
-
-    Attributes:
-        index: Its place in all arrays.
-        name: Its name in the world.
-        model: What the file says.
-        rangers: Those mounted on it directly or on what it carries, in file order; those on
-            actuators last.
-        riders: What its actuators move.
-    """
-
-    index: int
-    name: str
-    model: StageModel
-    rangers: tuple[Ranger, ...] = ()
-    riders: tuple[Rider, ...] = ()
-
-    @property
-    def bodies(self) -> Iterator[tuple[int, StageModel]]:
-        """Indices and models of itself without its actuators, and of what those move."""
-        yield self.index, without_actuators(self.model) if self.riders else self.model
-        for rider in self.riders:
-            yield rider.body, rider.model
-
-    @property
-    def position(self) -> StagePosition:
-        """Its drive and localization."""
-        return self.model.position or StagePosition()
 
 
 @dataclass(slots=True)
@@ -183,12 +110,6 @@ def _grips(model: StageModel) -> bool:
     return model.device_of(StageGripper) is not None or any(
         _grips(child) for child in model.children
     )
-
-
-def without_actuators(model: StageModel) -> StageModel:
-    """A model without what its actuators move."""
-    kept = (child for child in model.children if child.device_of(StageActuator) is None)
-    return replace(model, children=tuple(without_actuators(child) for child in kept))
 
 
 def _actuators(

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
-from gazelle.engines.planar.columns import X0, X1, Y0, Y1
 from gazelle.envs.agv_fleet import hall
 from gazelle.envs.agv_fleet.contract import fleet_contract
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
@@ -230,8 +229,8 @@ class AGVFleetTask(BatchedTask):
     @property
     def floor_plan(self) -> FloorPlan:  # type: ignore[override]  # not fixed there
         """Walls and shelves, seen from above."""
-        rows = self.agvs.fleet.scene.table.rows
-        return FloorPlan(rows[:, [X0, Y0, X1, Y1]], np.zeros((0, 3)))
+        statics = self.agvs.fleet.scene.table
+        return FloorPlan(statics.segments, statics.discs)
 
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         no = np.zeros(len(worlds), np.bool_)

@@ -1,6 +1,12 @@
 """Stage worlds that run: fleets of robots in the plane."""
 
-from gazelle.engines.planar.stage_layout import Ranger, StageRobot
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])
+
+from gazelle.engines.stage_robots import Ranger, StageRobot
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.cameras import CameraPictures, MountedCamera, cameras_of
 from gazelle.simulation.stage.controllers import register_controller

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.planar.stage_layout import Rider, StageRobot
+from gazelle.engines.stage_robots import Rider, StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen
 from gazelle.simulation.stage.stage_bodies import StageBodies

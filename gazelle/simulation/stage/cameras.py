@@ -11,14 +11,11 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import PlacedStageModel, StageCamera, StageModel, StagePose
-from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.stage_layout import StageRobot
+from gazelle.engines.stage_robots import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.rendering import PinholeLens, Renderer, plain_surroundings
 from gazelle.simulation.stage.scenery import SKY, scenery_of
 from gazelle.simulation.stage.stage_bodies import StageBodies
-
-_PLACE = [c.X, c.Y, c.Z]
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,13 +146,14 @@ class Cameras:
         """Draw what views, one a row, see in worlds, one each."""
         self._place(np.unique(worlds))
         body, x, y, z, yaw, tilt, unseen = views.T
-        rows = self._rows(worlds, body.astype(np.int64))
-        cos, sin = rows[:, c.COS], rows[:, c.SIN]
+        bodies = body.astype(np.int64)
+        place, heading = self._poses(worlds, bodies)
+        cos, sin = self._simulation.fleet.directions[worlds, bodies].T
         offset = np.stack((cos * x - sin * y, sin * x + cos * y, z), axis=1)
         frames = self._renderer.render(
             lens,
-            rows[:, _PLACE] + offset,
-            _turned(rows[:, c.YAW] + yaw, tilt),
+            place + offset,
+            _turned(heading + yaw, tilt),
             worlds,
             want=("color", "depth"),
             unseen=unseen.astype(np.int64),
@@ -174,15 +172,16 @@ class Cameras:
         """Put all bodies of some worlds where they are now."""
         late = worlds[~self._placed[worlds]]
         if len(late):
-            rows = self._rows(late[:, None], self._scenery.bodies)
-            links, turned = self._renderer.links[1:], _turned(rows[..., c.YAW], np.zeros(1))
-            self._renderer.place_all(links, rows[..., _PLACE], turned, late)
+            place, heading = self._poses(late[:, None], self._scenery.bodies)
+            links, turned = self._renderer.links[1:], _turned(heading, np.zeros(1))
+            self._renderer.place_all(links, place, turned, late)
             self._placed[late] = True
 
-    def _rows(self, worlds: Worlds, bodies: NDArray[np.int64]) -> Floats:
-        """Of bodies in worlds what the fleet knows, shape (..., columns.BODY)."""
+    def _poses(self, worlds: Worlds, bodies: NDArray[np.int64]) -> tuple[Floats, Floats]:
+        """Return x, y, z [m], shape (..., 3), and heading [rad] of bodies in worlds."""
         fleet = self._simulation.fleet
-        return np.asarray(fleet.rows[worlds * fleet.nbody + bodies])
+        pose, heights = fleet.pose[worlds, bodies], fleet.heights[worlds, bodies]
+        return np.concatenate((pose[..., :2], heights[..., None]), axis=-1), pose[..., 2]
 
     def _camera(self, robot: int, which: int) -> MountedCamera:
         own = self._simulation.robots[robot]

@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.planar.stage_layout import Ranger, StageRobot
-from gazelle.engines.planar.wandering import Wandering
+from gazelle.engines.stage_robots import Ranger, StageRobot
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.formats.stage.models import known_controllers
 from gazelle.native.system import System
 from gazelle.simulation.stage.fleet import StageFleet
 from gazelle.simulation.stage.fleet_controller import FleetController
+from gazelle.simulation.stage.wandering import Wandering
 from gazelle.streams import Stream
 
 CRUISE = 0.4  # [m/s]
@@ -129,7 +129,7 @@ class Wander(FleetController):
         """What chooses by what is seen; kept while that is written to the same place."""
         if self._made is None or self._made[0] is not ranges:
             law = Wandering(
-                self._simulation.fleet.bodies,
+                self._simulation.fleet.command.reshape(-1, 3),
                 ranges.reshape(-1, ranges.shape[-1]),
                 self._sensors,
                 self._bodies,

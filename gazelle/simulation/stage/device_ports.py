@@ -19,7 +19,7 @@ from gazelle.description import (
     StageFiducial,
     StageGripper,
 )
-from gazelle.engines.planar.stage_layout import StageRobot
+from gazelle.engines.stage_robots import StageRobot
 from gazelle.simulation.ports import Input
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.stage.fleet import StageFleet

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
-from gazelle.engines.planar.stage_layout import StageRobot
+from gazelle.engines.stage_robots import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.actuators import Actuator, actuators_of
 from gazelle.simulation.stage.grippers import Gripper, grippers_of

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.reckoning import DriveVelocities, PoseMemory, StallMemory
-from gazelle.engines.planar.stage_layout import StageRobot
+from gazelle.engines.planar import DriveVelocities, Fleet
+from gazelle.engines.stage_robots import StageRobot
 from gazelle.native.system import System
 from gazelle.simulation.stage.odometry import WheelOdometry
+from gazelle.simulation.stage.reckoning import PoseMemory, StallMemory
 from gazelle.simulation.stage.steering import Steering
 
 
@@ -36,7 +35,7 @@ class DriveState:
         self._fleet, self._count = fleet, len(robots)
         self.odometry = WheelOdometry(robots, fleet.nworld, seed, euler=fleet.euler)
         self.steering = Steering(robots)
-        self._memory = PoseMemory(fleet.bodies)
+        self._memory = PoseMemory(fleet.pose.reshape(-1, 3), fleet.nworld)
         self._poses = np.asarray(self._memory.poses).reshape(fleet.nworld, fleet.nbody, 3)
         self.first: list[System] = [self._memory]
         self.last: list[System] = []
@@ -54,7 +53,8 @@ class DriveState:
         """Whether robots were stalled since that was cleared, shape (nworld, nrobot)."""
         fleet = self._fleet
         if self._stalls is None:
-            self._stalls = StallMemory(fleet.bodies)
+            now = fleet.stalled.view(np.uint8).reshape(-1)
+            self._stalls = StallMemory(now, fleet.nworld)
             self.last = [*self.last, self._stalls]
         stalled = np.asarray(self._stalls.stalled).view(np.bool_)
         return stalled.reshape(fleet.nworld, fleet.nbody)[:, : self._count]
@@ -67,8 +67,7 @@ class DriveState:
     def remember(self, worlds: Worlds | None = None) -> None:
         """Have bodies been where they are."""
         rows = slice(None) if worlds is None else worlds
-        now = self._fleet.rows.reshape(self._fleet.nworld, self._fleet.nbody, c.BODY)
-        self._poses[rows] = now[rows, :, :3]
+        self._poses[rows] = self._fleet.pose[rows]
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Start over."""

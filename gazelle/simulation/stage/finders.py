@@ -17,7 +17,6 @@ from gazelle.description import (
     StageModel,
     StagePose,
 )
-from gazelle.engines.planar import columns as c
 from gazelle.errors import SimulationError
 from gazelle.simulation.stage.outlines import Outlines, distances, joined, outlines_of
 from gazelle.simulation.stage.scenery import color_of
@@ -108,8 +107,8 @@ class Surroundings:
         models, parts = list(self._still), [(self._walls, 0)]
         far = np.linalg.norm(poses[:, :2] - poses[robot, :2], axis=1)
         near = np.flatnonzero(far <= reach + 2.0 * self._simulation.fleet.widest)
-        family = self._simulation.fleet.kinds[:, c.FAMILY]
-        for other in near[family[near] != family[robot]].tolist():
+        own = [body for body, _ in self._simulation.robots[robot].bodies]
+        for other in near[~np.isin(near, own)].tolist():
             model = self._moving[other]
             pose = self.place(other, world)
             parts.append((self._shape(model).moved(pose), len(models)))

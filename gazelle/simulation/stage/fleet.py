@@ -11,10 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageModel, StagePose, StageWorld
-from gazelle.engines.planar import PlanarEngine
-from gazelle.engines.planar.fans import Fan, Mount
-from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.stage_layout import StageRobot, without_actuators
+from gazelle.engines.planar import Fan, Fleet, Mount, PlanarEngine
+from gazelle.engines.stage_robots import StageRobot, without_actuators
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
@@ -95,7 +93,7 @@ class StageFleet(Senses):
         own = slice(0, len(self._robots))
         self._commands, self._poses = fleet.command[:, own], fleet.pose[:, own]
         self._driven, self._stalled = fleet.velocity[:, own], fleet.stalled[:, own]
-        self._rangers = Rangers(fleet, layout, self.seed)
+        self._rangers = Rangers(fleet, layout.fans, layout.mounts, layout.noises, self.seed)
         self._motion = DriveState(self._robots, fleet, self.seed)
         self._devices = Devices(self)
         self.forget_views()

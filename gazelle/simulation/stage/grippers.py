@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import StageGripper, StageModel, StagePose
-from gazelle.engines.planar.stage_layout import StageRobot
+from gazelle.engines.stage_robots import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, one_world
 from gazelle.simulation.stage.bumpers import gaps_to

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StagePose
-from gazelle.engines.planar.stage_walls import bitmap_lines, blocks_of
+from gazelle.engines.stage_shapes import bitmap_lines, blocks_of
 from gazelle.geometry.planar_part import PlanarPart
 
 

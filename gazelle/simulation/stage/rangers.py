@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.stage_layout import StageLayout
+from gazelle.engines.planar import Fan, Fleet, Mount
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
 from gazelle.simulation.stage.scans import RangerScanner, StageRangeNoise
@@ -19,7 +18,10 @@ class Rangers:
 
     Args:
         fleet: What they see.
-        layout: What scanners there are.
+        fans: Beams of each scanner.
+        mounts: Where its sensors are.
+        noises: Of its sensors: standard deviation [m], largest share of the distance, and
+            standard deviation of angles [rad].
         seed: The run's seed.
 
     Attributes:
@@ -28,11 +30,17 @@ class Rangers:
         noise: Of its sensors.
     """
 
-    def __init__(self, fleet: Fleet, layout: StageLayout, seed: int) -> None:
-        self.fans, self.mounts = layout.fans, layout.mounts
+    def __init__(
+        self,
+        fleet: Fleet,
+        fans: list[Fan],
+        mounts: list[list[Mount]],
+        noises: list[list[tuple[float, float, float]]],
+        seed: int,
+    ) -> None:
+        self.fans, self.mounts = fans, mounts
         self.noise = [
-            StageRangeNoise(*np.array(each, np.float64).reshape(-1, 3).T.copy())
-            for each in layout.noises
+            StageRangeNoise(*np.array(each, np.float64).reshape(-1, 3).T.copy()) for each in noises
         ]
         self._fleet, self._seed = fleet, seed
         self._streams = [

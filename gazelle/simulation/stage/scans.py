@@ -7,10 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.astray import AstrayScanner
-from gazelle.engines.planar.fans import Fan, Mount, Scanner
-from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar import AstrayScanner, Fan, Fleet, Mount, Scanner
 from gazelle.native.system import System
 from gazelle.streams import Stream
 
@@ -101,15 +98,7 @@ class RangerScanner:
             self._scanner.tick = tick - 1  # the scan that was made already once more
             self._scanner.scan()
             self._named = True
-        names = np.abs(self._scanner.names[world * self._shape[1] + sensor])
-        found = np.zeros(len(names))
-        still = (names > 0.0) & (names < c.NAMES)
-        rows = self._fleet.scene.table.rows
-        found[still] = rows[names[still].astype(np.int64) - 1, c.GLOW]
-        moving = names >= c.NAMES
-        indices = np.mod(names[moving], c.NAMES).astype(np.int64)
-        found[moving] = self._fleet.looks[indices, c.GLOW]
-        return found
+        return self._scanner.glows(world * self._shape[1] + sensor)
 
     @property
     def tick(self) -> int:

@@ -20,7 +20,7 @@ from gazelle.description import (
     StageModel,
     StagePose,
 )
-from gazelle.engines.planar.stage_walls import bitmap_lines, blocks_of
+from gazelle.engines.stage_shapes import bitmap_lines, blocks_of
 from gazelle.formats.terrain import rectangles
 from gazelle.rendering.painted import PaintedPart, painted_world
 from gazelle.rendering.tessellation import TriangleMesh, quadrangles

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from gazelle.array_types import Worlds
-from gazelle.engines.planar.stage_layout import StageRobot
+from gazelle.engines.stage_robots import StageRobot
 from gazelle.simulation.inputs import chosen, one_world
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.bumpers import find_bumps

@@ -7,9 +7,8 @@ from collections.abc import Sequence
 
 from gazelle.array_types import Floats
 from gazelle.description import StageModel, StageWorld
-from gazelle.engines.planar import PlanarEngine
-from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.stage_layout import StageRobot
+from gazelle.engines.planar import Fleet, PlanarEngine
+from gazelle.engines.stage_robots import StageRobot
 
 
 class StageBodies(ABC):

@@ -9,7 +9,7 @@ from stage_samples import write
 
 from gazelle.description import StagePose
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.stage_walls import blocks_of
+from gazelle.engines.stage_shapes import blocks_of
 from gazelle.simulation.stage import StageSimulation, cameras_of
 from gazelle.simulation.stage.faces import in_tiles
 from gazelle.simulation.stage.senses import models_of

@@ -10,7 +10,9 @@ from hypothesis.extra.numpy import arrays
 from stage_samples import draw, write
 
 from gazelle.description import PlacedStageModel, StageBitmap, StageModel, StagePose
-from gazelle.engines.planar.stage_walls import outline, parts_of, table_of
+from gazelle.engines.planar.stage_walls import table_of
+from gazelle.engines.stage_shapes import parts_of
+from gazelle.geometry.bitmap_outline import bitmap_outline
 from gazelle.simulation.stage import StageSimulation
 
 masks = arrays(np.bool_, st.tuples(st.integers(1, 12), st.integers(1, 12)))
@@ -29,7 +31,7 @@ def edges_of(lines):
 @pytest.mark.long
 @given(cells=masks)
 def test_the_outline_has_every_edge_once_with_the_wall_on_its_left(cells):
-    edges = edges_of(outline(cells))
+    edges = edges_of(bitmap_outline(cells))
     framed = np.pad(cells, 1)
     wanted = int(np.abs(np.diff(framed.astype(int), axis=0)).sum())
     wanted += int(np.abs(np.diff(framed.astype(int), axis=1)).sum())
@@ -43,12 +45,12 @@ def test_the_outline_has_every_edge_once_with_the_wall_on_its_left(cells):
 
 @given(cells=masks)
 def test_the_outline_encloses_the_area_of_the_walls(cells):
-    x0, y0, x1, y1 = outline(cells).T
+    x0, y0, x1, y1 = bitmap_outline(cells).T
     assert (x0 * y1 - x1 * y0).sum() / 2 == cells.sum()
 
 
 def test_segments_go_on_as_far_as_the_wall_does():
-    assert len(outline(np.ones((50, 80), bool))) == 4
+    assert len(bitmap_outline(np.ones((50, 80), bool))) == 4
 
 
 def placed(**fields):

@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from stage_samples import write
 
-from gazelle.engines.planar.bodies import Bodies
-from gazelle.engines.planar.wandering import Wandering
 from gazelle.simulation.stage import StageSimulation
 from gazelle.simulation.stage.controllers import Wander
+from gazelle.simulation.stage.wandering import Wandering
 
 SCANNER = "ranger ( sensor ( range [0 8] fov 180 samples {} ) )"
 ROBOT = 'position ( size [.1 .1 .1] ctrl "wander" ' + SCANNER + " pose [{} {} 0 {}] )"
@@ -67,8 +66,7 @@ def test_it_answers_any_scan_as_stage_does(samples):
         ranges = random.uniform(nearest, 8.0, (1, samples)) ** random.choice([1.0, 2.0])
         command, mood = np.zeros((1, 3)), np.zeros((1, 2), np.int64)
         zero = np.zeros(1, np.int64)
-        bodies = Bodies(command=command)
-        law = Wandering(bodies, ranges, zero, zero, mood, nworld=1, seed=5, **manner)
+        law = Wandering(command, ranges, zero, zero, mood, nworld=1, seed=5, **manner)
         law.choose(0, 1, 0)
         assert tuple(command[0, [0, 2]]) == stages_answer(ranges[0])
 

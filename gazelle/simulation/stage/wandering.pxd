@@ -1,11 +1,9 @@
 cimport cython
 
-from gazelle.engines.planar.bodies cimport Bodies
 from gazelle.native.system cimport System
 
 cdef class Wandering(System):
-    cdef Bodies bodies
-    cdef double[:, ::1] ranges
+    cdef double[:, ::1] commands, ranges
     cdef long long[::1] sensors, owners
     cdef public long long[:, ::1] mood
     cdef double cruise, creep, turn, front, stop

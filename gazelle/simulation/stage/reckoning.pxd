@@ -1,6 +1,5 @@
 cimport cython
 
-from gazelle.engines.planar.bodies cimport Bodies
 from gazelle.native.system cimport System
 
 cdef class Reckoning(System):
@@ -15,22 +14,13 @@ cdef class Reckoning(System):
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
 
 cdef class PoseMemory(System):
-    cdef Bodies bodies
+    cdef const double[:, :] now
     cdef public double[:, ::1] poses
     @cython.locals(b=Py_ssize_t)
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
 
 cdef class StallMemory(System):
-    cdef Bodies bodies
+    cdef const unsigned char[::1] now
     cdef public unsigned char[::1] stalled
     @cython.locals(b=Py_ssize_t)
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
-
-cdef class DriveVelocities(System):
-    cdef Bodies bodies
-    cdef public double[:, ::1] velocities
-    @cython.locals(b=Py_ssize_t)
-    cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil
-
-@cython.locals(k=Py_ssize_t, vx=double, turn=double)
-cdef void note_velocity(Bodies w, Py_ssize_t b, double[:, ::1] velocities) noexcept nogil

@@ -1,19 +1,16 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc"
-"""Where bodies believe they are, from what their wheels say."""
+"""Dead reckoning of Stage's robots, and memories of a step."""
 
 from __future__ import annotations
 
 import cython
 import numpy as np
-from cython.cimports.gazelle.engines.planar.bodies import Bodies
-from cython.cimports.gazelle.engines.planar.columns import CAR, DRIVE_KIND, WHEELBASE, YAW, X, Y
-from cython.cimports.gazelle.engines.planar.drive_motion import bounded
 from cython.cimports.gazelle.native.elementary import cos, sin
 from cython.cimports.gazelle.native.system import System
 from cython.cimports.libc.math import floor
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Bytes, Floats
 
 PI = cython.declare(cython.double, 3.141592653589793)
 
@@ -74,74 +71,45 @@ class Reckoning(System):
 
 @cython.cclass
 class PoseMemory(System):
-    """Remembers where bodies are, a row each: at the beginning of a step, for its end.
+    """Poses at the beginning of a step, a row each.
 
     Args:
-        bodies: Which.
+        now: x, y [m] and heading [rad] of bodies, a view of what moves, shape (nworld * n, 3).
+        nworld: Number of worlds.
 
     Attributes:
-        poses: x, y [m] and heading [rad], shape (nworld * nbody, 3).
+        poses: The copy, of the same shape.
     """
 
-    def __init__(self, bodies: Bodies) -> None:
-        System.__init__(self, max(1, bodies.nbody))
-        self.bodies, self.poses = bodies, np.zeros((bodies.nworld * bodies.nbody, 3))
+    def __init__(self, now: Floats, nworld: int) -> None:
+        System.__init__(self, max(1, len(now) // nworld))
+        self.now, self.poses = now, np.array(now)
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
-        """Remember some of them."""
+        """Copy some of them."""
         for b in range(first, min(last, self.poses.shape[0])):
-            self.poses[b, 0] = self.bodies.rows[b, X]
-            self.poses[b, 1] = self.bodies.rows[b, Y]
-            self.poses[b, 2] = self.bodies.rows[b, YAW]
+            self.poses[b, 0] = self.now[b, 0]
+            self.poses[b, 1] = self.now[b, 1]
+            self.poses[b, 2] = self.now[b, 2]
 
 
 @cython.cclass
 class StallMemory(System):
-    """Remembers which bodies did not make a move, a row each.
+    """Stalls since the memory was last cleared, a row each.
 
     Args:
-        bodies: Which.
+        now: Of bodies, 1 where the last move was not made, shape (nworld * n,).
+        nworld: Number of worlds.
 
     Attributes:
-        stalled: Whether one did not since it was last cleared, shape (nworld * nbody,).
+        stalled: 1 where a move was not made, of the same shape.
     """
 
-    def __init__(self, bodies: Bodies) -> None:
-        System.__init__(self, max(1, bodies.nbody))
-        self.bodies, self.stalled = bodies, np.zeros(bodies.nworld * bodies.nbody, np.uint8)
+    def __init__(self, now: Bytes, nworld: int) -> None:
+        System.__init__(self, max(1, len(now) // nworld))
+        self.now, self.stalled = now, np.zeros(len(now), np.uint8)
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
-        """Look at some of them."""
+        """Add some of them."""
         for b in range(first, min(last, self.stalled.shape[0])):
-            self.stalled[b] |= self.bodies.stalled[b]
-
-
-@cython.cclass
-class DriveVelocities(System):
-    """How drives move their bodies, a row each: of cars not what they are told.
-
-    Args:
-        bodies: Which.
-
-    Attributes:
-        velocities: In the bodies' own frames: x, y [m/s], yaw [rad/s], shape (nworld * nbody, 3).
-    """
-
-    def __init__(self, bodies: Bodies) -> None:
-        System.__init__(self, max(1, bodies.nbody))
-        self.bodies, self.velocities = bodies, np.zeros((bodies.nworld * bodies.nbody, 3))
-
-    def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
-        """Work out some of them."""
-        for b in range(first, min(last, self.velocities.shape[0])):
-            note_velocity(self.bodies, b, self.velocities)
-
-
-def note_velocity(w: Bodies, b: int, velocities: Floats) -> None:
-    """Write down how the drive of a body moves it."""
-    k = b % w.drives.shape[0]
-    vx, turn = w.velocity[b, 0], w.velocity[b, 2]
-    if w.drives[k, DRIVE_KIND] == CAR:
-        vx, turn = vx * cos(turn), vx * sin(turn) / w.drives[k, WHEELBASE]
-        vx, turn = bounded(w, vx, k, 0), bounded(w, turn, k, 2)
-    velocities[b, 0], velocities[b, 1], velocities[b, 2] = vx, w.velocity[b, 1], turn
+            self.stalled[b] |= self.now[b]

@@ -7,7 +7,6 @@ from __future__ import annotations
 from typing import Any
 
 import cython
-from cython.cimports.gazelle.engines.planar.bodies import Bodies
 from cython.cimports.gazelle.native.hashed_noise import stream, uniform
 from cython.cimports.gazelle.native.system import System
 
@@ -21,7 +20,7 @@ class Wandering(System):
     """Robots that wander, a row each.
 
     Args:
-        bodies: Of all worlds.
+        commands: Of all bodies of all worlds, written, shape (nworld * nbody, 3).
         ranges: What sensors measured [m], a row a sensor.
         sensors: The sensor of each robot, shape (nworld * robots,).
         owners: Its body, counted through all worlds, likewise.
@@ -38,7 +37,7 @@ class Wandering(System):
 
     def __init__(
         self,
-        bodies: Bodies,
+        commands: Floats,
         ranges: Floats,
         sensors: Ints64,
         owners: Ints64,
@@ -49,7 +48,8 @@ class Wandering(System):
         **manner: Any,
     ) -> None:
         System.__init__(self, max(1, len(owners) // nworld))
-        self.bodies, self.ranges, self.sensors, self.owners = bodies, ranges, sensors, owners
+        self.commands, self.ranges = commands, ranges
+        self.sensors, self.owners = sensors, owners
         self.mood, self.seed = mood, seed
         self.cruise, self.creep, self.turn = manner["cruise"], manner["creep"], manner["turn"]
         self.front, self.stop = manner["front"], manner["stop"]
@@ -71,13 +71,13 @@ class Wandering(System):
                 drawn = uniform(stream(self.seed, i, time), 0) * self.patience
                 self.mood[i, 0] = self.patience + cython.cast(cython.longlong, drawn)
                 self.mood[i, 1] = -1 if left < right else 1
-            self.bodies.command[b, 1] = 0.0
+            self.commands[b, 1] = 0.0
             if near or self.mood[i, 0] > 0:
-                self.bodies.command[b, 0] = 0.0 if halt else self.creep
-                self.bodies.command[b, 2] = self.turn * self.mood[i, 1]
+                self.commands[b, 0] = 0.0 if halt else self.creep
+                self.commands[b, 2] = self.turn * self.mood[i, 1]
                 self.mood[i, 0] -= 1
             else:
-                self.bodies.command[b, 0], self.bodies.command[b, 2] = self.cruise, 0.0
+                self.commands[b, 0], self.commands[b, 2] = self.cruise, 0.0
                 self.mood[i, 0] = 0
 
 

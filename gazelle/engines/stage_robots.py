@@ -1,0 +1,95 @@
+"""Robots of Stage's worlds, and the rows of an engine's arrays that belong to them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from gazelle.description import (
+    StageActuator,
+    StageModel,
+    StagePose,
+    StagePosition,
+    StageSensor,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Ranger:
+    """Ranger on a robot.
+
+    Attributes:
+        name: Its whole name.
+        model: What the file says.
+        sensors: What each of its sensors says.
+        places: Of each sensor the index of its scanner, and its row in that.
+        pose: In the robot's frame, its height included.
+        direct: Whether it is mounted on the robot itself.
+    """
+
+    name: str
+    model: StageModel
+    sensors: tuple[StageSensor, ...]
+    places: tuple[tuple[int, int], ...]
+    pose: StagePose
+    direct: bool = True
+
+    def sensor_name(self, number: int) -> str:
+        """Return the name of a sensor on its robot."""
+        own = self.name.partition(".")[2]
+        return own if len(self.sensors) == 1 else f"{own}/{number}"
+
+
+@dataclass(frozen=True, slots=True)
+class Rider:
+    """Actuator on a robot with all that is mounted on it: a body of its own.
+
+    Attributes:
+        body: Its index among all bodies of a world.
+        model: The actuator, at position zero at the origin of its frame.
+        device: What the file says of it.
+        base: Of position zero, on the robot.
+    """
+
+    body: int
+    model: StageModel
+    device: StageActuator
+    base: StagePose
+
+
+@dataclass(frozen=True, slots=True)
+class StageRobot:
+    """Robot of a Stage world.
+
+    Attributes:
+        index: Its row in all arrays.
+        name: Its name in the world.
+        model: What the file says.
+        rangers: Those mounted on it directly or on what it carries, in file order; those on
+            actuators last.
+        riders: Bodies of its actuators.
+    """
+
+    index: int
+    name: str
+    model: StageModel
+    rangers: tuple[Ranger, ...] = ()
+    riders: tuple[Rider, ...] = ()
+
+    @property
+    def bodies(self) -> Iterator[tuple[int, StageModel]]:
+        """Indices and models: itself without its actuators, then the bodies of those."""
+        yield self.index, without_actuators(self.model) if self.riders else self.model
+        for rider in self.riders:
+            yield rider.body, rider.model
+
+    @property
+    def position(self) -> StagePosition:
+        """Its drive and localization."""
+        return self.model.position or StagePosition()
+
+
+def without_actuators(model: StageModel) -> StageModel:
+    """Return a model without the bodies that its actuators move."""
+    kept = (child for child in model.children if child.device_of(StageActuator) is None)
+    return replace(model, children=tuple(without_actuators(child) for child in kept))
