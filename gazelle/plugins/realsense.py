@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
+
 from gazelle.description import Camera, Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.camera import CameraPlugin, PublishedCamera
@@ -10,18 +14,44 @@ from gazelle.plugins.depth_camera import DepthCameraPlugin
 from gazelle.simulation import ModelPlugin, Robot
 from gazelle.simulation.values import CameraInfoValue, ImageValue, PixelPoints
 
+_FARTHEST = np.iinfo(np.uint16).max / 1000.0  # m; what is farther has no depth
+
+
+class InfraredTopics(PublishedCamera):
+    """Topics of an infrared camera: its grey pictures are called 8UC1."""
+
+    def _image(self) -> ImageValue:
+        value = super()._image()
+        return replace(value, encoding="8UC1") if value.encoding == "mono8" else value
+
+
+class RealSenseInfrared(CameraPlugin):
+    """Infrared camera of a RealSense."""
+
+    def open(self, camera: Camera, settings: CameraSettings) -> None:
+        """Open the ports."""
+        InfraredTopics(self._sensor, camera, settings, self.look).open()
+
 
 class RealSenseDepth(DepthCameraPlugin):
-    """Depths in millimetres, and points if they are asked for."""
+    """Depths in millimetres, and points if they are asked for.
 
-    def __init__(self, *, cloud: bool, least: float, most: float) -> None:
+    Args:
+        parameters: Of the RealSense.
+    """
+
+    def __init__(self, parameters: Parameters) -> None:
         super().__init__()
-        self._cloud, self._range = cloud, (least, most)
+        get = parameters.get
+        self._cloud = get("pointCloud", False)
+        self._nearest = get("rangeMinDepth", 0.2)
+        self._farthest = min(get("rangeMaxDepth", 10.0), _FARTHEST)
+        self._cutoff = get("pointCloudCutoff", 0.0), get("pointCloudCutoffMax", 5.0)
 
     def open(self, camera: Camera, settings: CameraSettings) -> None:
         """Open the ports."""
         self._camera, self._settings = camera, settings
-        self._least, self._most = self._range
+        self._least, self._most = self._cutoff
         topics = PublishedCamera(self._sensor, camera, settings, self.look)
         self._encoding = topics.encoding
         depth, info, points = self._topics
@@ -29,6 +59,16 @@ class RealSenseDepth(DepthCameraPlugin):
         topics.add(info, CameraInfoValue, topics.info)
         if self._cloud:
             topics.add(points, PixelPoints, self._points)
+
+    def _depths(self) -> ImageValue:
+        """Return millimetres, 0 for what is out of the range; points have limits of their own."""
+        seen = self.look()
+        depth, _ = self._told(seen.depth)
+        with np.errstate(invalid="ignore"):
+            inside = (depth >= self._nearest) & (depth <= self._farthest)
+        return ImageValue(
+            seen.stamp, np.where(inside, depth * 1000.0, 0.0).astype(np.uint16), "16UC1"
+        )
 
 
 class RealSense(ModelPlugin):
@@ -71,18 +111,13 @@ class RealSense(ModelPlugin):
             tags = {"frameName": frames[part], **self._tags(part, *topics[part])}
             if part == "depth":
                 tags["pointCloudTopicName"] = get("pointCloudTopicName", "depth/color/points")
-                tags["useDepth16UC1Format"] = "true"
             self._camera(part, parameters).load(sensor, self._settings(tags, parameters))
 
     @staticmethod
     def _camera(part: str, parameters: Parameters) -> CameraPlugin:
-        if part != "depth":
-            return CameraPlugin()
-        return RealSenseDepth(
-            cloud=parameters.get("pointCloud", False),
-            least=parameters.get("rangeMinDepth", 0.2),
-            most=parameters.get("rangeMaxDepth", 10.0),
-        )
+        if part == "depth":
+            return RealSenseDepth(parameters)
+        return CameraPlugin() if part == "color" else RealSenseInfrared()
 
     @staticmethod
     def _tags(part: str, image: str, info: str) -> dict[str, str]:

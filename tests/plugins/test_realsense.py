@@ -45,8 +45,8 @@ def test_all_cameras_publish_below_the_plugins_name():
     pictures = {topic: value.encoding for topic, value in found.items() if topic.endswith("raw")}
     assert pictures == {
         "/front/color/image_raw": "rgb8",
-        "/front/infra1/image_raw": "mono8",
-        "/front/infra2/image_raw": "mono8",
+        "/front/infra1/image_raw": "8UC1",
+        "/front/infra2/image_raw": "8UC1",
         "/front/depth/image_raw": "16UC1",
     }
     depth = found["/front/depth/image_raw"].pixels
@@ -71,6 +71,25 @@ def test_names_frames_and_limits_are_those_of_the_file():
     assert frames["/front/depth/image_rect_raw"] == "front_depth"
     assert not np.any(found["/front/depth/image_rect_raw"].pixels)
     assert not any(topic.endswith("points") for topic in frames)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("tags", "depth", "point"),
+    [
+        ("<rangeMaxDepth>2.0</rangeMaxDepth>", 0, 2.9),
+        ("<pointCloudCutoffMax>2.0</pointCloudCutoffMax>", 2900, np.nan),
+        ("<pointCloudCutoff>3.5</pointCloudCutoff>", 2900, np.nan),
+        ("<rangeMinDepth>3.5</rangeMinDepth><pointCloudCutoff>0.5</pointCloudCutoff>", 0, 2.9),
+        ("<depthUpdateRate>1</depthUpdateRate>", 2900, 2.9),
+    ],
+)
+def test_depths_and_points_have_limits_of_their_own(tags, depth, point):
+    found, _ = seen_by(robot(f"<pointCloud>true</pointCloud>{tags}", parts=("depth",)))
+    depths = np.asarray(found["/front/depth/image_raw"].pixels).reshape(48, 64)
+    points = found["/front/depth/color/points"].points.reshape(48, 64, 3)
+    assert int(depths[20, 32]) == pytest.approx(depth, abs=30)
+    assert points[20, 32, 2] == pytest.approx(point, abs=0.03, nan_ok=True)
 
 
 def test_a_model_without_its_sensors_is_told():
