@@ -10,10 +10,11 @@ import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 
+import gazelle
 from gazelle.argument_types import NumberParser
 from gazelle.assets import published, published_hint
 from gazelle.clients.gazebo import Gazebo
-from gazelle.clients.gz_elsewhere import NOT_HERE, add_elsewhere, elsewhere
+from gazelle.clients.gz_elsewhere import add_elsewhere, elsewhere
 from gazelle.description.pose import rpy_from_quaternion
 from gazelle.errors import RosError
 
@@ -35,9 +36,7 @@ def main(arguments: Sequence[str]) -> int:
     if words[:1] == ["help"]:
         words = [*words[1:2], "--help"]
     options, rest = parser.parse_known_args(words)
-    if rest and options.command not in NOT_HERE:
-        parser.error(f"gz {options.command} does not know {' '.join(rest)}")
-    code = elsewhere(options, rest if options.command not in NOT_HERE else [])
+    code = elsewhere(options, rest)
     if code is not None:
         return code
     with Gazebo(timeout=_TIMEOUT_S) as gazebo:
@@ -48,6 +47,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = NumberParser(
         prog="gz", description="Steer a simulator from the shell, as Gazebo's gz does."
     )
+    version = f"Gazelle {gazelle.__version__}, in place of Gazebo's gz"
+    parser.add_argument("-v", "--version", "--versions", action="version", version=version)
     commands = parser.add_subparsers(dest="command", required=True)
     world = commands.add_parser("world", help="time of the world")
     world.add_argument("-p", "--pause", type=int, choices=(0, 1), help="1 pauses, 0 goes on")
@@ -73,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     joint = commands.add_parser("joint", help="effort of a joint")
     joint.add_argument("-m", "--model-name", required=True, metavar="NAME")
     joint.add_argument("-j", "--joint-name", required=True, metavar="NAME")
-    joint.add_argument("-f", "--force", type=float, required=True, metavar="F", help="[N or N m]")
+    joint.add_argument("-f", "--force", type=float, metavar="F", help="[N or N m]")
     stats = commands.add_parser("stats", help="simulated and real time")
     stats.add_argument("-d", "--duration", type=float, metavar="S", help="end after so long [s]")
     stats.add_argument("-p", "--plot", action="store_true", help="columns for a plot")

@@ -111,7 +111,45 @@ def test_help_is_printed(words, capsys):
     assert "usage: gz" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("words", [["model", "-m", "a", "--nonsense"], ["nonsense"], []])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("model -m a --nonsense", "it does not know --nonsense: 'gz help model'"),
+        (
+            "joint -m a -j b --vel-t 1.0 --vel-p 2",
+            "it does not know --vel-t 1.0 --vel-p 2: only -f",
+        ),
+        ("joint -m a -j b", "only -f is there"),
+        ("physics -o fast", "profiles (-o) are not read"),
+        ("sdf -d", "it does not know -d: -k and -p are there"),
+        ("sdf", "-k and -p are there"),
+        ("topic", "-l, -e, -i, -z, -b and -d are there"),
+        ("topic -v /x", "'gazelle view' shows"),
+        ("world -t", "-r puts back the time too"),
+    ],
+)
+def test_options_that_are_not_here_are_one_line(words, said, capsys):
+    assert main(words.split()) == 2
+    err = capsys.readouterr().err
+    assert said in err
+    assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("word", ["-v", "--version", "--versions"])
+def test_the_version_is_gazelles(word, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main([word])
+    assert ended.value.code == 0
+    assert gazelle.__version__ in capsys.readouterr().out
+
+
+@pytest.mark.long
+def test_messages_are_printed_until_the_duration_is_over(sim, capfd):
+    assert main(["topic", "-e", "/clock", "-d", "4", "-w", "default"]) == 0
+    assert "clock" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("words", [["nonsense"], ["model"], []])
 def test_what_is_unknown_is_a_usage_error(words, capsys):
     with pytest.raises(SystemExit) as ended:
         main(words)
