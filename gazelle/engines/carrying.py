@@ -39,18 +39,6 @@ class CarryingEngine(Protocol):
     def push_joints(self, system: JointSystem) -> None:
         """Let act what a bound system says."""
 
-    def carry(self, systems: Sequence[JointSystem], count: int, now_ns: int) -> None:
-        """Advance every world, and bring bound systems at the beginning of every step.
-
-        Args:
-            systems: In this order.
-            count: Of physics steps.
-            now_ns: Simulated time [ns].
-
-        Raises:
-            DivergenceError: As ``Engine.step``.
-        """
-
 
 def as_carrying_engine(engine: Engine) -> CarryingEngine | None:
     """An engine that is one of these; None for another.

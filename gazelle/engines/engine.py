@@ -21,6 +21,7 @@ from gazelle.engines.reactions import Contacts, ContactTable
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError
+from gazelle.native.system import System
 
 
 class DivergenceError(EngineError):
@@ -29,16 +30,17 @@ class DivergenceError(EngineError):
     Attributes:
         worlds: Indices of those worlds, shape (k,).
         before: Their states before the steps that failed, shape (k, size).
-        steps: How many steps were asked for.
+        steps: Number of steps that failed, in which no system was updated between two steps.
+        made: Number of steps of the call, these included; no more were made.
     """
 
-    def __init__(self, message: str, worlds: Worlds, before: Floats, steps: int) -> None:
+    def __init__(self, message: str, worlds: Worlds, before: Floats, steps: int, made: int) -> None:
         super().__init__(
             message, hint="take a smaller physics step, or check masses, inertias and gains"
         )
         self.worlds = worlds
         self.before = before
-        self.steps = steps
+        self.steps, self.made = steps, made
 
 
 # Kinds of physical parameters that each world can have of its own: what they belong to, the
@@ -90,13 +92,26 @@ class Engine(Protocol):
     def models(self) -> Table[ModelRow, ModelRows]:
         """Models, by name."""
 
-    def step(self, count: int = 1) -> None:
-        """Advance every world by ``count`` physics steps.
+    @property
+    def revision(self) -> int:
+        """Count of changes of models; systems have to be bound to the state again after one."""
+
+    def step(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
+        """Advance every world by ``count`` physics steps, and update systems that are due.
+
+        Args:
+            count: Number of steps.
+            systems: In the order in which they act. They may write velocities that motors hold,
+                and poses of kinematic models, in their own worlds.
+            now_ns: Simulated time [ns].
 
         Raises:
             DivergenceError: The state of some worlds became infinite or undefined. They are
-                back in their initial state; all others made their steps.
+                back in their initial state; all others made ``made`` steps.
         """
+
+    def update(self, system: System) -> None:
+        """Update a system now, whatever its rate."""
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no forces."""

@@ -11,7 +11,7 @@ from typing import Protocol
 
 from numpy.typing import ArrayLike
 
-from gazelle.array_types import Bools, Floats, Worlds
+from gazelle.array_types import Bools, Floats, Indices, Worlds
 from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.reactions import Wrench
 
@@ -112,6 +112,15 @@ class JointRows(Protocol):
         Args:
             velocity: Shape (nworld, joints) or (joints,).
             chosen: Joints to set, shape (joints,); all if None.
+
+        Raises:
+            EngineError: One of the joints has no motor.
+        """
+
+    def motor_targets(self) -> tuple[Floats, Indices]:
+        """Return the velocities that motors hold, to be written, and the joints' columns.
+
+        They are shapes (nworld, n) and (joints,), and good for one ``revision`` of the engine.
 
         Raises:
             EngineError: One of the joints has no motor.

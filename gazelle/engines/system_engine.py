@@ -39,15 +39,6 @@ class SystemEngine(Protocol):
     def revision(self) -> int:
         """Counts changes of models: systems then have to be bound to the state anew."""
 
-    def run(self, systems: Sequence[System], count: int, now_ns: int) -> None:
-        """Advance every world, and update systems whenever they are due, in this order.
-
-        Args:
-            systems: They may write commands, motors' velocities and poses in their own worlds.
-            count: Of physics steps.
-            now_ns: Simulated time [ns].
-        """
-
     def update(self, system: System) -> None:
         """Update a system now, whatever its rate, on all threads."""
 
@@ -56,13 +47,6 @@ class SystemEngine(Protocol):
 
     def ranges_of(self, rays: Sequence[RangeRays]) -> CastRanges:
         """What casts rays of one kind together; good for one ``revision``."""
-
-    def motor_targets(self, joint: str) -> tuple[Floats, int]:
-        """Velocities that motors hold, shape (nworld, n), to be written, and a joint's column.
-
-        Raises:
-            EngineError: There is no motor on the joint.
-        """
 
     def command_models(self, models: tuple[str, ...], law: Any) -> None:
         """Let a law with a row for each of some models give them their velocities."""

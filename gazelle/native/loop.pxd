@@ -25,6 +25,8 @@ cdef class SystemLoop:
     cdef void _play_together(self, Py_ssize_t part, Py_ssize_t threads, long long until) noexcept nogil
     cdef long long _next_block(self) noexcept nogil
     cdef void _wait_for_all(self, Py_ssize_t threads) noexcept nogil
+    cdef void _update_due(self, Py_ssize_t row, long long late) noexcept nogil
+    cdef long long _steps_to_due(self, Py_ssize_t row, long long until) noexcept nogil
     cdef void _pass(self, Py_ssize_t row, long long until) noexcept nogil
     cdef long long _moment_of(self, Py_ssize_t index, long long time) noexcept nogil
     cdef void _begin(self, Py_ssize_t part) noexcept nogil

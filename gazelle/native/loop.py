@@ -40,7 +40,8 @@ class SystemLoop:
     system is shared out among the threads, which wait for each other after every update.
 
     Args:
-        systems: In the order in which they are updated.
+        systems: In the order in which they are updated. One that has an attribute ``steady`` which
+            is true does nothing new in a step until Python changes what it goes by.
         nworld: How many worlds.
         step: Simulated time of a step [ns].
         pool: Threads to share the work among; None: the calling one works alone.
@@ -69,8 +70,11 @@ class SystemLoop:
         self.nworld, self.step, self.time, self._pool = nworld, step, time, pool
         size = 1 if pool is None or not cython.compiled else pool.size
         rows = [(each.rows, each.divisible, each.late, each.least) for each in self.systems]
-        table = [(id(each), *row) for each, row in zip(self.systems, rows, strict=True)]
-        self._table = np.array(table, np.int64).reshape(-1, 5)
+        table = [
+            (id(each), *row, getattr(each, "steady", False))
+            for each, row in zip(self.systems, rows, strict=True)
+        ]
+        self._table = np.array(table, np.int64).reshape(-1, 6)
         self._rates = np.array([each.rate for each in self.systems], np.float64)
         self._due = np.zeros((size + 1, len(self.systems)), np.int64)  # the last: at the beginning
         self._shared = np.zeros(APART + 2, np.int64)
@@ -103,6 +107,52 @@ class SystemLoop:
         self._pass(most, until)
         for index, system in enumerate(self.systems):
             system.due = self._due[most, index]
+
+    def run_around(self, until: cython.longlong, advance: Callable[[int], object]) -> None:
+        """Update systems on this thread between steps that something else makes.
+
+        Args:
+            until: Simulated time [ns].
+            advance: Makes so many steps, at whose beginning or end systems are due, and not between.
+        """
+        row: cython.Py_ssize_t = self._due.shape[0] - 1
+        steps: cython.longlong
+        for index, system in enumerate(self.systems):
+            self._due[row, index] = system.due
+        try:
+            while self.time < until:
+                with cython.nogil:
+                    self._update_due(row, 0)
+                    steps = self._steps_to_due(row, until)
+                advance(steps)
+                self.time += steps * self.step
+                with cython.nogil:
+                    self._update_due(row, 1)
+        finally:
+            for index, system in enumerate(self.systems):
+                system.due = self._due[row, index]
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _update_due(self, row: cython.Py_ssize_t, late: cython.longlong) -> cython.void:
+        """Update the systems that are due at this time, those that are late or the others."""
+        index: cython.Py_ssize_t
+        for index in range(self._table.shape[0]):
+            if self._table[index, 3] == late and self._is_due(row, index, self.time):
+                self._update(index, 0, self.nworld * self._table[index, 1], self.time)
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _steps_to_due(self, row: cython.Py_ssize_t, until: cython.longlong) -> cython.longlong:
+        """Steps until a system is due again or a time has come, one at least."""
+        soonest: cython.longlong = until
+        index: cython.Py_ssize_t
+        for index in range(self._table.shape[0]):
+            if self._rates[index] > 0.0 or not self._table[index, 5]:
+                soonest = min(soonest, self._due[row, index])
+        return max(1, (soonest - self.time + self.step - 1) // self.step)
 
     @cython.cfunc
     @cython.nogil

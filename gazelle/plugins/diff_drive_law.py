@@ -7,7 +7,6 @@ Drives with more wheels on a side give them all one speed, and have no ramp.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cython
@@ -15,7 +14,7 @@ import numpy as np
 from cython.cimports.gazelle.native.system import System
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Indices
 
 # The ramp acts only while both wheels are farther than this from their target [m/s].
 RAMP_DEADBAND = 0.01
@@ -29,7 +28,7 @@ class WheelTables:
         linear: Commanded velocities [m/s], shape (nworld, n, 3).
         angular: Commanded turning rates [rad/s], likewise.
         speeds: Of the left and right wheels on the ground [m/s], shape (nworld, n, 2).
-        sent: What Python told the motors of each side last [rad/s], shape (nworld, n, 2); NaN where
+        sent: What the motors of each side were given last [rad/s], shape (nworld, n, 2); NaN where
             that is not what they have.
         last_ns: Time of the last update [ns], shape (nworld, n).
     """
@@ -73,6 +72,9 @@ class DiffDriveLaw(System):
         separation: Between the wheels [m], shape (n,).
         radius: Of the wheels [m], shape (n,).
         acceleration: Most change of a wheel's speed on the ground [m/s²]; 0 for no limit; (n,).
+
+    Attributes:
+        steady: Whether motors have the speeds that are commanded at once.
     """
 
     def __init__(
@@ -87,30 +89,28 @@ class DiffDriveLaw(System):
         System.__init__(self, count)
         self.least = 1000
         self.linear, self.angular = tables.linear, tables.angular
-        self.speeds, self.last_ns = tables.speeds, tables.last_ns
+        self.speeds, self.sent, self.last_ns = tables.speeds, tables.sent, tables.last_ns
         self.half = np.asarray(separation, np.float64).reshape(count) / 2.0
         self.radius = np.array(radius, np.float64).reshape(count)
         self.acceleration = np.array(acceleration, np.float64).reshape(count)
-        wheels = np.arange(2 * count).reshape(count, 2)
-        self.send_to(
-            np.zeros((len(tables.speeds), 2 * count)), [[[left], [right]] for left, right in wheels]
-        )
+        self.steady = not np.any(np.asarray(acceleration) > 0.0)
+        wheels = np.arange(2 * count)
+        self.send_to(np.zeros((len(tables.speeds), 2 * count)), wheels, wheels)
 
-    def send_to(self, targets: Floats, wheels: Sequence[Sequence[Sequence[int]]]) -> None:
+    def send_to(self, targets: Floats, columns: Indices, sides: Indices) -> None:
         """Write turning rates to columns of an array.
 
         Args:
             targets: Shape (nworld, columns).
-            wheels: Of each robot the columns of its wheels, those on the left and on the right.
+            columns: Of each wheel, robot by robot, shape (wheels,).
+            sides: Twice the number of each wheel's robot, one more on the right, likewise.
         """
-        self.targets = targets
-        flat = [(column, side) for robot in wheels for side in (0, 1) for column in robot[side]]
-        self.columns, self.sides = np.array(flat, np.intp).T.copy().reshape(2, -1)
-        counts = [len(left) + len(right) for left, right in wheels]
-        self.start = np.cumsum([0, *counts], dtype=np.intp)
+        self.targets, self.columns = targets, np.array(columns, np.intp)
+        self.sides = np.array(sides % 2, np.intp)
+        self.start = np.searchsorted(sides // 2, np.arange(self.rows + 1)).astype(np.intp)
 
     def update(self, first: int, last: int, time: int) -> None:
-        """Change wheel speeds towards what is commanded."""
+        """Change wheel speeds towards what is commanded, and give motors those that are new."""
         for row in range(first, last):
             w, i = row // self.rows, row % self.rows
             turning = self.angular[w, i, 2] * self.half[i]
@@ -123,6 +123,12 @@ class DiffDriveLaw(System):
                 self.speeds[w, i, 1] += min(max(other, -most), most)
             else:
                 self.speeds[w, i, 0], self.speeds[w, i, 1] = left, right
+            left, right = (
+                self.speeds[w, i, 0] / self.radius[i],
+                self.speeds[w, i, 1] / self.radius[i],
+            )
+            if left == self.sent[w, i, 0] and right == self.sent[w, i, 1]:
+                continue
+            self.sent[w, i, 0], self.sent[w, i, 1] = left, right
             for wheel in range(self.start[i], self.start[i + 1]):
-                speed = self.speeds[w, i, self.sides[wheel]] / self.radius[i]
-                self.targets[w, self.columns[wheel]] = speed
+                self.targets[w, self.columns[wheel]] = left if self.sides[wheel] == 0 else right

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
+from gazelle.engines import SystemEngine
 from gazelle.engines.planar.twist_commands import TwistCommands
 from gazelle.plugins.command_timeout import CommandGroup, CommandTimeout
 from gazelle.plugins.odometry import OdometryOutputs, OdometrySystem, TrueOdometry
@@ -109,8 +110,8 @@ class SlidingSystem(OdometrySystem[PlanarMove]):
         self._models = tuple(each.robot.name for each in plugins)
         told = [each.command for each in plugins]
         self.commands = CommandGroup(self._simulation.clock, told, self._simulation.nworld)
-        native = self._simulation.native
-        if native is not None:
+        native: object = self._simulation.native
+        if isinstance(native, SystemEngine):
             law = TwistCommands(self.commands.linear, self.commands.angular)
             native.command_models(self._models, law)
             self.kernel = law

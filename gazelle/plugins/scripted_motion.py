@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, Pose
+from gazelle.engines import SystemEngine
 from gazelle.engines.planar.paths import PathFollower
 from gazelle.errors import SimulationError
 from gazelle.native.system import System
@@ -84,8 +85,8 @@ class ScriptedMotion(ModelPlugin):
 
     def bind(self) -> System | None:
         """Return the path that carries the model by itself; None where Python puts it."""
-        engine = self.robot.simulation.native
-        if engine is None or self._path is None:
+        engine: object = self.robot.simulation.native
+        if not isinstance(engine, SystemEngine) or self._path is None:
             return None
         engine.follow(self.robot.name, self._path)
         return self._path

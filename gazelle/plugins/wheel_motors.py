@@ -85,12 +85,9 @@ class Wheels:
             for side in (0, 1)
             for wheel in each.sides[side]
         ]
-        self._names = [[[wheel.name for wheel in side] for side in each.sides] for each in motors]
+        self._names = tuple(wheel.name for wheel, _ in wheels)
         self._joints = JointArray([wheel for wheel, _ in wheels])
         self._columns = np.array([column for _, column in wheels], np.intp)
-        self._wanted: Floats = np.zeros((self._simulation.nworld, 2 * len(motors)))
-        sides = [[[2 * part], [2 * part + 1]] for part in range(len(motors))]
-        self.law.send_to(self._wanted, sides)
         self._followed: Floats | None = None
 
     def bind(self) -> DiffDriveLaw | None:
@@ -98,11 +95,8 @@ class Wheels:
         engine = self._simulation.native
         if engine is None:
             return None
-        find = engine.motor_targets
-        found = [[[find(name) for name in side] for side in robot] for robot in self._names]
-        targets = next(targets for robot in found for side in robot for targets, _ in side)
-        self.law.send_to(targets, [[[at for _, at in side] for side in each] for each in found])
-        self._tables.sent[:] = np.nan  # it does not say what it sends
+        targets, columns = engine.joints[self._names].motor_targets()
+        self.law.send_to(targets, columns, self._columns)
         return self.law
 
     @property
@@ -117,17 +111,15 @@ class Wheels:
 
     def tell(self) -> None:
         """Bring the law to this moment, and tell the motors what is new to them."""
-        self.law.bring(0, self._wanted.size // 2, self._simulation.clock.now_ns)
+        sent = self._tables.sent
+        before = sent.copy()
+        self.law.bring(0, self._tables.last_ns.size, self._simulation.clock.now_ns)
         if not self._eager:
             self._followed = self._commands()
-        sent = self._tables.sent
-        wanted = self._wanted.reshape(sent.shape)
-        changed = (wanted != sent).any(axis=(0, 2))
-        if not changed.any():
-            return
-        sent[:] = wanted
-        chosen = None if changed.all() else changed[self._columns // 2]
-        self._joints.drive(self._wanted[:, self._columns], chosen)
+        changed = (sent != before).any(axis=(0, 2))
+        if changed.any():
+            chosen = None if changed.all() else changed[self._columns // 2]
+            self._joints.drive(sent.reshape(len(sent), -1)[:, self._columns], chosen)
 
 
 class WheelPlugin(OdometryPlugin, Protocol):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from gazelle.description import World
-from gazelle.engines import CarryingEngine, Engine, SystemEngine
+from gazelle.engines import CarryingEngine, Engine
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.requests import RequestQueue
@@ -21,7 +21,7 @@ class RunningState(Protocol):
         clock: Simulated time.
         seed: Decides all random numbers.
         engine_name: As it was asked for.
-        native: The engine, if it updates systems between its steps; else None.
+        native: The engine while it updates systems; None while Python does what they do.
         carrier: The engine, if it takes controllers of joints into its steps; else None.
     """
 
@@ -29,7 +29,7 @@ class RunningState(Protocol):
     clock: Clock
     seed: int
     engine_name: str
-    native: SystemEngine | None
+    native: Engine | None
     carrier: CarryingEngine | None
 
     @property

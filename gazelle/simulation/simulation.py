@@ -19,7 +19,6 @@ from gazelle.engines import (
     CarryingEngine,
     Engine,
     LateEngine,
-    SystemEngine,
     as_carrying_engine,
     make_engine,
 )
@@ -79,7 +78,7 @@ class Simulation(Closeable):
         physics: Time step, gravity, solver and the like; settable in the middle of a run.
         parameters: Masses, friction and the like, which each world can have of its own.
         ports: Of the plugins of the world; those of models are on their ``Robot``.
-        native: The engine, if it updates systems between its steps; else None.
+        native: The engine while it updates systems; None while Python does what they do.
         carrier: Likewise, if it takes controllers into its steps.
         events: Tell who must follow what is spawned, deleted and reset.
         requests: What threads ask for; hold it with ``with`` to do several things at one moment.
@@ -111,8 +110,7 @@ class Simulation(Closeable):
         self.requests = RequestQueue(self._engine.nworld)
         self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
-        moved: object = self._engine
-        self.native: SystemEngine | None = moved if isinstance(moved, SystemEngine) else None
+        self.native: Engine | None = self._engine
         self.carrier: CarryingEngine | None = as_carrying_engine(self._engine)
         self.seed, self.clock, self.paused = seed_of(seed), Clock(self._engine.time_step), False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Hashable, Sequence
 
 import numpy as np
 
-from gazelle.engines import CarryingEngine, DivergenceError, Engine
+from gazelle.engines import DivergenceError, Engine
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
 from gazelle.simulation.clock import Schedule
@@ -157,7 +157,7 @@ class StepLoop:
             else:
                 steps = self._step_piece(steps)
         except DivergenceError as error:
-            self._give_up(error, steps)
+            steps = self._give_up(error, steps)
         else:
             clock.advance(steps)
         self._look_back()
@@ -174,12 +174,12 @@ class StepLoop:
                 return ()
             plugins: list[Scheduled] = list(plan.early)
             if simulation.native is not None:
-                self._systems, self._schedules, plugins = with_kernels(plan.plugins)
+                self._systems, self._schedules, plugins = with_kernels(plan.early)
             fresh = plugins
             if asked:
                 fresh = [each for each in plugins if asked.isdisjoint(each.members())]
             update_plugins(fresh, simulation.clock)
-            if simulation.native is None and plan.late:
+            if plan.late:
                 late = self._not_in_step(asked)
                 fresh = [each for each in late if asked.isdisjoint(each.members())]
                 update_plugins(fresh, simulation.clock)
@@ -213,13 +213,6 @@ class StepLoop:
         """Steps until Python has to update what is carried now."""
         clock, soonest = self._simulation.clock, self.in_step.soonest_ns
         return clock.steps_to(int(soonest)) if math.isfinite(soonest) else sys.maxsize
-
-    def _carry(self, carrier: CarryingEngine, count: int) -> None:
-        """Make steps that bring systems of controllers."""
-        try:
-            carrier.carry(self.in_step.kernels, count, self._simulation.clock.now_ns)
-        finally:
-            self.in_step.settle()
 
     def _look_back(self) -> None:
         """After steps: move what follows, measure, tell who listens, look for what falls."""
@@ -262,20 +255,27 @@ class StepLoop:
 
     def _step(self, count: int) -> None:
         """Make steps, and update systems whenever they are due."""
-        native = self._simulation.native
-        groups = self._plan.groups
-        if self.in_step.kernels and self._simulation.carrier is not None:
-            self._carry(self._simulation.carrier, count)
-            return
-        if native is None:
+        systems: list[System] = []
+        if self._simulation.native is not None:
+            measured = (each.kernel for each in self._plan.groups)
+            systems = [*self._systems, *(each for each in measured if each is not None)]
+        systems += self.in_step.kernels
+        if not systems:
             self._engine.step(count)
             return
-        systems = [*self._systems, *(each.kernel for each in groups if each.kernel is not None)]
-        native.run(systems, count, self._simulation.clock.now_ns)
-        for schedule, system in zip(self._schedules, self._systems, strict=True):
-            schedule.follow(system.due)
-        for group in groups:
-            group.follow()
+        try:
+            self._engine.step(count, systems, self._simulation.clock.now_ns)
+        finally:
+            self._follow()
+
+    def _follow(self) -> None:
+        """See what systems have done."""
+        self.in_step.settle()
+        if self._simulation.native is not None:
+            for schedule, system in zip(self._schedules, self._systems, strict=True):
+                schedule.follow(system.due)
+            for group in self._plan.groups:
+                group.follow()
 
     def _step_piece(self, wanted: int) -> int:
         """Make as many steps at once as are not too long; returns how many."""
@@ -299,28 +299,45 @@ class StepLoop:
             self._most = max(1, int(self._most * _PIECE / _LONG_PIECE))
         self._asked = now
 
-    def _give_up(self, error: DivergenceError, wanted: int) -> None:
+    def _give_up(self, error: DivergenceError, wanted: int) -> int:
         """Start worlds over that broke down, as ``on_fault`` says, when the others are there.
+
+        That is when a system is due next, so that it does not depend on where steps are cut.
 
         Args:
             error: What happened in the first of the steps.
             wanted: How many steps there are in all.
+
+        Returns:
+            How many steps were made.
         """
         clock, worlds, before = self._simulation.clock, error.worlds, error.before
+        clock.advance(error.made - error.steps)
         text = self._faults.note(self._simulation, error, clock.now_ns)
         clock.advance(error.steps)
+        rest = min(wanted - error.made, self._steps_to_systems())
         try:
-            if wanted > error.steps:
-                self._engine.step(wanted - error.steps)
+            if rest > 0:
+                self._step(rest)
         except DivergenceError as later:
             new = ~np.isin(later.worlds, worlds)
             if new.any():
                 found = later.worlds[new], later.before[new]
-                more = DivergenceError(later.message, *found, later.steps)
+                more = DivergenceError(later.message, *found, later.steps, later.made)
                 text += f"; {self._faults.note(self._simulation, more, clock.now_ns)}"
                 worlds, before = np.append(worlds, found[0]), np.vstack((before, found[1]))
-        clock.advance(wanted - error.steps)
+        clock.advance(rest)
         self._entities.reset(worlds)
         if self._faults.policy == "raise":
-            raise DivergenceError(text, worlds, before, error.steps) from error
+            raise DivergenceError(text, worlds, before, error.steps, error.made) from error
         warnings.warn(SimulationWarning(text), stacklevel=6)
+        return error.made + rest
+
+    def _steps_to_systems(self) -> int:
+        """Return the steps until an engine updates a system of plugins."""
+        systems = [] if self._simulation.native is None else self._systems
+        due = [each.due for each in systems if each.rate or not getattr(each, "steady", False)]
+        clock = self._simulation.clock
+        if not due:
+            return sys.maxsize
+        return clock.steps_to(min(due)) if min(due) > clock.now_ns else 0

@@ -14,7 +14,7 @@ from gazelle.control.base_controller import BaseController
 from gazelle.control.values import BaseTwist, FourWheelCommand
 from gazelle.description import Plugin, Transmission, World
 from gazelle.engines.mujoco.running import RunningWorlds
-from gazelle.simulation.walking import StepLoop
+from gazelle.engines.mujoco.world_steps import WorldSteps
 from tests.control.robots import ROUND, urdf
 from tests.control.test_in_physics import base_text
 
@@ -105,9 +105,11 @@ def run(sim, controller):
 @pytest.mark.parametrize("kind", BASES)
 def test_steps_carry_it_and_change_no_bit(kind, open_loop, monkeypatch):
     counts, updates = [], []
-    carry, update = StepLoop._carry, BaseController.update
+    make, update = WorldSteps.make, BaseController.update
     monkeypatch.setattr(
-        StepLoop, "_carry", lambda *given: (counts.append(given[2]), carry(*given))[1]
+        WorldSteps,
+        "make",
+        lambda *given: (counts.append(given[1] if given[2] else 0), make(*given))[1],
     )
     monkeypatch.setattr(
         BaseController, "update", lambda *given: (updates.append(1), update(*given))[1]

@@ -14,9 +14,9 @@ from gazelle import formats
 from gazelle.control import EFFORT, Controller, GoalState, register
 from gazelle.control.values import JointTargets, JointTrajectory, TrajectoryGoal, TrajectoryPoint
 from gazelle.description import World
+from gazelle.engines.mujoco.world_steps import WorldSteps
 from gazelle.simulation.replay import Replay
 from gazelle.simulation.values import EmergencyStop
-from gazelle.simulation.walking import StepLoop
 from tests.control.arms import JOINTS, arm, arm_text
 
 GAINS = {"p": 300.0, "i": 100.0, "d": 30.0, "i_clamp": 40.0}
@@ -38,13 +38,14 @@ WITH_IMU = {
 def carried(monkeypatch):
     """Counts the physics steps that were made with controllers in them."""
     counts = []
-    before = StepLoop._carry
+    before = WorldSteps.make
 
-    def count(loop, carrier, steps):
-        counts.append(steps)
-        before(loop, carrier, steps)
+    def count(made, steps, systems, now_ns):
+        if systems:
+            counts.append(steps)
+        before(made, steps, systems, now_ns)
 
-    monkeypatch.setattr(StepLoop, "_carry", count)
+    monkeypatch.setattr(WorldSteps, "make", count)
     return counts
 
 

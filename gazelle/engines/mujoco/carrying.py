@@ -1,15 +1,13 @@
-"""Steps that bring controllers of joints, without Python between (``laws.commands``)."""
+"""Joints as systems see them that act within MuJoCo's steps (``laws.commands``)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import mujoco
 import numpy as np
 
-from gazelle.engines.engine import DivergenceError
-from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.native.joint_system import JointSystem
 
@@ -19,7 +17,6 @@ _ONCE = (
     mujoco.mjtIntegrator.mjINT_IMPLICIT,
     mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
 )
-_NANOSECONDS = 1_000_000_000
 
 
 class CarriedSystems:
@@ -27,11 +24,10 @@ class CarriedSystems:
 
     Args:
         run: What runs.
-        stepper: Steps it.
     """
 
-    def __init__(self, run: RunningWorlds, stepper: ForcedSteps) -> None:
-        self._run, self._stepper = run, stepper
+    def __init__(self, run: RunningWorlds) -> None:
+        self._run = run
 
     @property
     def looks_once(self) -> bool:
@@ -67,26 +63,3 @@ class CarriedSystems:
         """Let act what a bound system says."""
         system.act(self._run.state.qfrc_applied, self._run.state.userdata)
         self._run.stale = True
-
-    def carry(
-        self, step: Callable[[int], None], systems: Sequence[JointSystem], count: int, now_ns: int
-    ) -> None:
-        """Step, and bring bound systems at the beginning of every step.
-
-        Args:
-            step: Makes so many steps.
-            systems: In this order.
-            count: Of physics steps.
-            now_ns: Simulated time [ns].
-        """
-        hooks, stepper = self._run.hooks, self._stepper
-        hooks.begin(systems, now_ns, round(self._run.time_step * _NANOSECONDS))
-        stepper.holds_back = True
-        try:
-            step(count)
-        except DivergenceError as error:
-            hooks.kept[error.worlds] = 0.0
-            raise
-        finally:
-            stepper.holds_back = False
-            hooks.end(self._run.state.qfrc_applied)

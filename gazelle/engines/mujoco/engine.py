@@ -12,7 +12,6 @@ from mujoco.batch import Batch
 
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Model, World
-from gazelle.engines.engine import DivergenceError
 from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
@@ -33,13 +32,13 @@ from gazelle.engines.mujoco.ray_access import RayAccess
 from gazelle.engines.mujoco.reactions import JointReactions
 from gazelle.engines.mujoco.rows import rows_of
 from gazelle.engines.mujoco.running import RunningWorlds
-from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.touching import ContactAccess
+from gazelle.engines.mujoco.world_steps import WorldSteps
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean
-from gazelle.native.joint_system import JointSystem
 from gazelle.native.processors import processors
+from gazelle.native.system import System
 
 _NO_STAGE = mujoco.mjtStage.mjSTAGE_NONE.value
 
@@ -122,7 +121,8 @@ class MujocoEngine:
         self.parameter, self.set_parameter = run.parameter, run.set_parameter
         touches = ContactAccess(run, steps, self.reactions)
         self.contacts, self.contact_table = touches.contacts, touches.contact_table
-        self._systems = CarriedSystems(run, steps)
+        self._made = WorldSteps(run, steps, self.reset)
+        self._systems = CarriedSystems(run)
         self.expect_systems = self._systems.expect_systems
         self.bind_joints = self._systems.bind_joints
         self.read_joints, self.push_joints = self._systems.read_joints, self._systems.push_joints
@@ -164,59 +164,13 @@ class MujocoEngine:
 
     # -- time --------------------------------------------------------------------------
 
-    def step(self, count: int = 1) -> None:
-        """Advance every world by ``count`` physics steps."""
-        count = whole_number("the number of steps", count, 0)
-        run = self._run
-        run.now()
-        run.stale = True
-        self._find_dropped()
-        np.copyto(run.before, run.batch.state)
-        failed = self._let_out(count) if run.overlaps.any else self._steps.advance(count)
-        run.placed = False
-        # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
-        faults = run.state.faults
-        if len(failed) or np.count_nonzero(faults):
-            bad = np.asarray(faults.any(axis=1))
-            bad[sorted(failed)] = True
-            self._give_up(np.flatnonzero(bad), count)
+    def step(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
+        """Advance every world by ``count`` physics steps, and update systems that are due."""
+        self._made.make(whole_number("the number of steps", count, 0), systems, now_ns)
 
-    def _find_dropped(self) -> None:
-        """Let out slowly, too, what loose bodies were put into since the last step."""
-        if self._run.dropped:
-            self._run.overlaps.drop(self._run.batch, self._run.dropped)
-            self._run.dropped = {}
-
-    def _let_out(self, count: int) -> set[int]:
-        """Make the steps with what overlaps rising; returns those in which MuJoCo gave up."""
-        if self._run.placed:
-            self._run.overlaps.clear(self._run.batch)
-        failed: set[int] = set()
-        while count > 0:
-            piece = count
-            if self._run.overlaps.any:
-                piece = min(count, self._run.overlaps.rise(self._run.batch, self._run.time_step))
-            failed |= self._run.overlaps.calmly(self._run.state, piece, self._steps.advance)
-            count -= piece
-        return failed
-
-    def _give_up(self, worlds: Worlds, count: int) -> None:
-        """Reset worlds that broke down, and say so.
-
-        Raises:
-            DivergenceError: Always.
-        """
-        before = self._run.before[worlds].copy()
-        who = suspect(self._run.layout, self._run.state, self._run.batch.state, before[0])
-        self._run.batch.warning[worlds] = 0
-        self.reset(worlds)
-        raise DivergenceError(
-            f"the state of {len(worlds)} of {self._run.nworld} worlds became infinite "
-            f"(first: world {worlds[0]}{who and ', where ' + who})",
-            worlds,
-            before,
-            count,
-        )
+    def update(self, system: System) -> None:
+        """Update a system now, whatever its rate."""
+        system.bring(0, self._run.nworld * system.rows, 0)
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no forces."""
@@ -297,10 +251,6 @@ class MujocoEngine:
         """Whether it can, the way it integrates."""
         return self._systems.looks_once
 
-    def carry(self, systems: Sequence[JointSystem], count: int, now_ns: int) -> None:
-        """Advance every world, and bring bound systems at the beginning of every step."""
-        self._systems.carry(self.step, systems, count, now_ns)
-
     # -- saving ------------------------------------------------------------------------
 
     def history(self) -> list[Call]:
@@ -336,7 +286,7 @@ class MujocoEngine:
     def snapshot(self) -> Floats:
         """The whole dynamic state, shape (nworld, size)."""
         self._run.now()
-        self._find_dropped()
+        self._made.find_dropped()
         state: Floats = np.hstack((self._run.batch.state, self._run.overlaps.saved()))
         if self._run.sleepy:
             # Who sleeps is not in the state; all awake, this future and a restored one agree.

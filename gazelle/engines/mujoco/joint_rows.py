@@ -185,15 +185,20 @@ class MujocoJointRows:
 
     def set_motor_velocity(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
         """Set the velocities that the motors hold [m/s or rad/s]."""
+        targets, columns = self.motor_targets()
+        given = np.asarray(velocity, np.float64)
+        if chosen is None:
+            targets[:, columns] = given
+        else:
+            targets[:, columns[chosen]] = given[..., chosen]
+
+    def motor_targets(self) -> tuple[Floats, Indices]:
+        """Return the velocities that motors hold, to be written, and the joints' columns."""
         layout, found = self._run.now(), self._motors
         if found is None or found[0] is not layout:
             starts = [layout.motor(name).targets.start for name in self._names]
             found = self._motors = layout, np.array(starts, np.intp)
-        given = np.asarray(velocity, np.float64)
-        if chosen is None:
-            self._run.state.userdata[:, found[1]] = given
-        else:
-            self._run.state.userdata[:, found[1][chosen]] = given[..., chosen]
+        return self._run.state.userdata, found[1]
 
 
 def _read(array: Floats, columns: list[slice], worlds: Worlds | None) -> Floats:

@@ -19,7 +19,7 @@ from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import refusals
 from gazelle.engines.planar.build import FleetInput, PlanarLayout
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.joint_rows import PlanarJointRow, PlanarJointRows, motor_column
+from gazelle.engines.planar.joint_rows import PlanarJointRow, PlanarJointRows
 from gazelle.engines.planar.link_rows import PlanarLinkRow, PlanarLinkRows
 from gazelle.engines.planar.model_rows import PlanarModelRow, PlanarModelRows
 from gazelle.engines.planar.paths import PathFollower
@@ -143,14 +143,6 @@ class PlanarEngine:
         """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
         self._run.add_motor(joint, max_effort)
 
-    def motor_targets(self, joint: str) -> tuple[Floats, int]:
-        """Return velocities that motors hold, shape (nworld, axes), and a joint's column.
-
-        Raises:
-            EngineError: There is no motor on the joint.
-        """
-        return self._run.targets, motor_column(self._run, joint)
-
     def command_models(self, models: tuple[str, ...], law: TwistCommands) -> None:
         """Let a law with a row for each of some models give them their velocities."""
         self.models[models].command(law)
@@ -173,18 +165,8 @@ class PlanarEngine:
 
     # -- time --------------------------------------------------------------------------
 
-    def step(self, count: int = 1) -> None:
-        """Advance every world by ``count`` physics steps."""
-        self.run((), count, 0)
-
-    def run(self, systems: Sequence[System], count: int, now_ns: int) -> None:
-        """The same, with systems that are updated whenever they are due, in this order.
-
-        Args:
-            systems: They may write commands, motors' velocities and poses in their own worlds.
-            count: Of steps.
-            now_ns: Time [ns].
-        """
+    def step(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
+        """Advance every world by ``count`` physics steps, and update systems that are due."""
         self._run.steps.make(systems, whole_number("the number of steps", count, 0), now_ns)
 
     def update(self, system: System) -> None:

@@ -96,10 +96,15 @@ class PlanarJointRows:
 
     def set_motor_velocity(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
         """Set the velocities that the motors hold [m/s or rad/s]."""
+        targets, columns = self.motor_targets()
+        given, which = np.asarray(velocity, np.float64), slice(None) if chosen is None else chosen
+        targets[:, columns[which]] = given[..., which]
+
+    def motor_targets(self) -> tuple[Floats, Indices]:
+        """Return the velocities that motors hold, to be written, and the joints' columns."""
         for name in self._names:
             motor_column(self._run, name)
-        given, which = np.asarray(velocity, np.float64), slice(None) if chosen is None else chosen
-        self._run.targets[:, self._columns()[which]] = given[..., which]
+        return self._run.targets, self._columns()
 
 
 def motor_column(run: RunningPlane, joint: str) -> int:

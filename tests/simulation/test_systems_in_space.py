@@ -1,0 +1,109 @@
+"""Systems that MuJoCo's steps are cut for do what plugins do that Python updates, bit by bit."""
+
+import numpy as np
+import pytest
+
+import gazelle
+from gazelle import formats
+from gazelle.engines import DivergenceError
+from gazelle.errors import SimulationWarning
+from gazelle.simulation import ModelPlugin, register
+from gazelle.simulation.scheduled_systems import ScheduledSystem
+from tests.simulation import test_drives_in_space as drives
+
+WHEELS = ("diff", "at every step", "skid", "built in")
+
+
+def yard(kind, nworld, *, native, more="", **options):
+    """Three robots, and a pillar on the way of the first."""
+    physics = "<physics name='p' type='ode'><max_step_size>.01</max_step_size></physics>"
+    robots = "".join(drives.robot(number, drives.KINDS[kind]) for number in range(3))
+    text = (
+        f"<sdf version='1.7'><world name='w'>{physics}{drives.GROUND}{robots}{more}</world></sdf>"
+    )
+    sim = gazelle.Simulation(formats.load_string(text), "mujoco", nworld=nworld, **options)
+    sim.native = sim.native if native else None
+    sim.plugin, sim.together = drives.KINDS[kind], True
+    return sim
+
+
+@pytest.mark.parametrize("nworld", [1, pytest.param(3, marks=pytest.mark.long)])
+@pytest.mark.parametrize("kind", drives.KINDS)
+def test_a_busy_run_is_the_same_as_from_python(kind, nworld):
+    acts = [
+        ("send", 0, 0.5, 0.3),
+        ("run", 0.35),
+        *drives.BUSY,
+        ("send", 1, 0.3, -0.4),
+        ("run", 0.4),
+    ]
+    acts = [each for each in acts if nworld > 1 or each != ("reset", (1,))]
+    results = []
+    for native in (False, True):
+        with yard(kind, nworld, native=native, threads=1 + native) as sim:
+            results.append(drives.lived(sim, acts))
+    assert results[1] == results[0]
+
+
+@pytest.mark.parametrize("kind", WHEELS)
+def test_python_has_no_part_in_wheels_that_nobody_listens_to(kind, monkeypatch):
+    with yard(kind, 2, native=True) as sim:
+        sim.run(0.05)
+        monkeypatch.setattr(ScheduledSystem, "update", None)
+        for each in drives.moving(sim):
+            each.inputs["cmd_vel"].send(0.4, 0.2)
+        before = drives.moving(sim)[0].position
+        sim.run(0.5)
+        assert not np.allclose(drives.moving(sim)[0].position, before, atol=0.05)
+
+
+class Hand(ModelPlugin):
+    """Breaks a world at a time."""
+
+    update_rate = 0.0
+    worlds = ()
+
+    def load(self, robot, parameters):
+        del parameters
+        self.robot, self.update_rate = robot, 3.0
+
+    def on_update(self, time):
+        if time > 0.3 and len(self.worlds):
+            worlds, type(self).worlds = np.array(self.worlds), ()
+            nowhere = np.full(3, np.nan)
+            self.robot.simulation.engine.models[self.robot.name].set_motion(
+                nowhere, nowhere, worlds
+            )
+
+
+@pytest.mark.parametrize("kind", ["diff", "skid"])
+@pytest.mark.parametrize("policy", ["reset", "raise"])
+def test_worlds_that_break_down_do_so_as_under_python(kind, policy, tmp_path):
+    register("libhand.so", Hand)
+    box = (
+        "<model name='box'><pose>0 3 1 0 0 0</pose><link name='l'/>"
+        "<plugin name='h' filename='libhand.so'/></model>"
+    )
+    found = []
+    for native in (False, True):
+        Hand.worlds = (1,)
+        dump = tmp_path / f"{native}.jsonl"
+        with yard(kind, 3, native=native, more=box, on_fault=policy, fault_dump=dump) as sim:
+            for each in drives.moving(sim):
+                each.inputs["cmd_vel"].send(0.4, 0.2)
+            if policy == "raise":
+                with pytest.raises(DivergenceError) as said:
+                    sim.run(0.9)
+                told = said.value
+                found.append(
+                    (told.message.partition(";")[0], told.worlds.tolist(), told.before.tobytes())
+                )
+            else:
+                with pytest.warns(SimulationWarning, match="1 of 3 worlds became infinite"):
+                    sim.run(0.9)
+            found.append((sim.clock.now_ns, sim.state_hash(), sim.faults[0].time))
+            sim.run(0.5)
+            found.append(sim.state_hash())
+        found.append(dump.read_text())
+    half = len(found) // 2
+    assert found[half:] == found[:half]
