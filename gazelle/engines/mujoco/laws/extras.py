@@ -7,10 +7,12 @@ from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.engines.mujoco.balance import unbalanced_dofs
 from gazelle.engines.mujoco.geom_names import geom_names
 from gazelle.engines.mujoco.laws.numbers import (
+    ALIKE,
     BIAS_HEAD,
     BY_THE_NORMAL,
     EXIT,
@@ -152,6 +154,8 @@ def finish(model: mujoco.MjModel, extras: Extras) -> None:
         model.geom_user[geom, :TREAD] = kind, *local, rub.coefficient
     if extras.exits:
         model.geom_user[:, EXIT] = [extras.exits.get(name, 0.0) for name in geom_names(model)]
+    if extras.touches:
+        model.geom_user[:, ALIKE] = _alike(model)
     install(vital=extras.vital)
 
 
@@ -165,3 +169,24 @@ def _write_treads(model: mujoco.MjModel, treads: Mapping[str, str]) -> bool:
             model.geom_user[geom, [TREAD, MIDDLE]] = joint + 1, middle
             found = True
     return found
+
+
+def _alike(model: mujoco.MjModel) -> NDArray[np.bool_]:
+    """Return which geoms stand still or are of a loose body of one friction, shape (ngeom,).
+
+    A mesh of several pieces is hollow and may be caught, so that it is held by more than its weight.
+    """
+    roots = model.body_rootid[model.geom_bodyid]
+    joints = np.bincount(model.body_rootid, model.body_jntnum, model.nbody)
+    loose = joints[roots] == 1
+    first = model.body_jntadr[roots[loose]]
+    loose[loose] = model.jnt_type[first] == int(mujoco.mjtJoint.mjJNT_FREE)
+    touching = (model.geom_contype | model.geom_conaffinity) != 0
+    meshes = touching & (model.geom_type == int(mujoco.mjtGeom.mjGEOM_MESH))
+    loose &= np.bincount(roots, meshes, model.nbody)[roots] < 2
+    least, most = np.full(model.nbody, np.inf), np.full(model.nbody, -np.inf)
+    np.minimum.at(least, roots[touching], model.geom_friction[touching, 0])
+    np.maximum.at(most, roots[touching], model.geom_friction[touching, 0])
+    alike: NDArray[np.bool_] = model.body_weldid[model.geom_bodyid] == 0
+    alike |= loose & (least == most)[roots]
+    return alike

@@ -9,13 +9,14 @@ cdef enum:
     COUNT = 3
     HINGES = 4
     BIAS_HEAD = 5
-    GEOM_NUMBERS = 8
+    GEOM_NUMBERS = 9
     NO_DIRECTION = 0
     ITS_OWN = 1
     BY_THE_NORMAL = 2
     TREAD = 5
     MIDDLE = 6
     EXIT = 7
+    ALIKE = 8
 
 cdef extern from *:
     """

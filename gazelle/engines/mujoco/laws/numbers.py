@@ -18,8 +18,9 @@ COM_VEL, RNE, SOLVE_M, COUNT, HINGES = 0, 1, 2, 3, 4
 BIAS_HEAD = 5
 
 # Numbers of a geom: whether it has a direction, which, and how much it rubs along it; as a
-# wheel's tread, one more than its joint, and how far its middle is off along the axle [m]; and
-# the velocity at which it leaves an overlap [m/s].
-GEOM_NUMBERS = 8
+# wheel's tread, one more than its joint, and how far its middle is off along the axle [m]; the
+# velocity at which it leaves an overlap [m/s]; and whether all of a body that it moves with, and
+# that has no joints, rubs alike, or does not move.
+GEOM_NUMBERS = 9
 NO_DIRECTION, ITS_OWN, BY_THE_NORMAL = 0.0, 1.0, 2.0
-TREAD, MIDDLE, EXIT = 5, 6, 7
+TREAD, MIDDLE, EXIT, ALIKE = 5, 6, 7, 8

@@ -14,12 +14,19 @@ of the contact's inverse inertias along the slip and the normal (1 for a block, 
 So errors die out, for every mu. The normal acceleration that the last step lacked tells more:
 with k known, the estimate would be exact at once. Some of that is taken, which damps for all k;
 in an impact all of it, with k = 1.
+
+An estimate that is wrong for a step unloads a contact, and what stands on others besides may stay
+there: on a caster, with wheels that do not grip. So contacts of robots, and of hollow meshes, are
+left alone while they slip so little that they may only creep. A loose body of one friction has no
+such others, and is kept down however slowly it slides. Else it rises by mu times its slip, loses contact, and with it
+all friction of a step: 0.2 % of it on a slope, half of it where it is pushed at 1 mm/s.
 """
 
 # mypy: disallow-untyped-decorators=False
 
 import cython
 from cython.cimports.gazelle.engines.mujoco.laws.falling import fall, never_moved
+from cython.cimports.gazelle.engines.mujoco.laws.numbers import ALIKE, GEOM_NUMBERS
 from cython.cimports.gazelle.engines.mujoco.laws.places import AT
 from cython.cimports.gazelle.engines.mujoco.laws.touch import Touch
 from cython.cimports.gazelle.native.memory import floats
@@ -37,6 +44,14 @@ _LEVEL = cython.declare(cython.double, 1e-12)
 # What holds creeps, at less than this share of what friction takes off a slip in a step when
 # only the weight presses.
 _CREEP = cython.declare(cython.double, 0.25)
+
+# What friction stops in so many steps, when only the weight presses, slides slowly. One is the
+# least at which a point keeps its direction on a pyramid's edge, 1.5 at which a box does.
+_STEPS_TO_STOP = cython.declare(cython.double, 2.0)
+
+# Half the width of a blunt pyramid's side, over its distance from the axis. With a fifth of this
+# what slides slowly is steered by rounding all the same.
+_BLUNT = cython.declare(cython.double, 0.5)
 
 # With more friction, what slides jams or tumbles rather; the estimate would be late.
 _MOST_FRICTION = cython.declare(cython.double, 5.0)
@@ -88,7 +103,7 @@ def _on_a_cone(touch: cython.pointer[Touch]) -> cython.void:
 @cython.nogil
 @cython.exceptval(check=False)
 def _on_a_pyramid(touch: cython.pointer[Touch]) -> cython.void:
-    """The same for the edges n ± mu t of a pyramid, two for each direction.
+    """Do the same for the edges n ± mu t of a pyramid, two for each direction.
 
     It is turned first so that one direction is that of the slip; else friction would be up to
     a factor of sqrt(2) too small, and aslant.
@@ -115,6 +130,8 @@ def _on_a_pyramid(touch: cython.pointer[Touch]) -> cython.void:
     parting = share * _parting(touch, left, lacking, mu)
     for edge in range(2 * (touch.dim - 1)):
         reference[edge] -= parting
+    if slip < _STEPS_TO_STOP * mu * touch.weight * touch.step and _is_alike(touch):
+        _blunt_pyramid(touch)
 
 
 @cython.cfunc
@@ -132,6 +149,8 @@ def _begin_on_a_pyramid(touch: cython.pointer[Touch], mu: cython.double) -> cyth
     _turn_pyramid(touch, one / pull, two / pull)
     for edge in range(2 * (touch.dim - 1)):
         touch.reference[edge] -= parting
+    if _is_alike(touch):
+        _blunt_pyramid(touch)
 
 
 @cython.cfunc
@@ -170,11 +189,29 @@ def _first_parting(touch: cython.pointer[Touch], mu: cython.double) -> cython.do
 def _share(
     touch: cython.pointer[Touch], slip: cython.double, friction: cython.double
 ) -> cython.double:
-    """To what share a contact that slips at a speed slides: 0 as long as it may only creep."""
-    if slip < _LEAST_SLIP or friction > _MOST_FRICTION:
+    """Return to what share a contact that slips slides: 0 as long as it may only creep."""
+    if friction > _MOST_FRICTION or slip < _LEAST_CREEP:
+        return 0.0
+    if _is_alike(touch):
+        return 1.0
+    if slip < _LEAST_SLIP:
         return 0.0
     creep = max(_LEAST_SLIP, _CREEP * friction * touch.weight * touch.step)
     return min(max(slip / creep - 1.0, 0.0), 1.0)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _is_alike(touch: cython.pointer[Touch]) -> cython.bint:
+    """Return whether all that holds the bodies of a contact rubs as it does, in all directions."""
+    if touch.friction[0] != touch.friction[1] or min(touch.geoms[0], touch.geoms[1]) < 0:
+        return False
+    if floats(touch.contact + AT.contact_margin)[0] < 0.0:
+        return False  # it leaves an overlap, at the velocity that ``exits`` allows
+    first = floats(touch.users + 8 * GEOM_NUMBERS * touch.geoms[0])[ALIKE]
+    second = floats(touch.users + 8 * GEOM_NUMBERS * touch.geoms[1])[ALIKE]
+    return first > 0.0 and second > 0.0
 
 
 @cython.cfunc
@@ -212,6 +249,39 @@ def _turn_pyramid(
     _turn_edges(touch.velocity, 1, one, two)
     _turn_edges(touch.reference, 1, one, two)
     _turn_edges(touch.jacobian, touch.width, one, two)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _blunt_pyramid(touch: cython.pointer[Touch]) -> cython.void:
+    """Give a pyramid a narrow side where an edge was: n ± mu (t ± _BLUNT s), as far from its axis.
+
+    An edge bears nothing across itself. So what slides along one is steered by the direction of its
+    slip, which rounding decides: where that is slow, by more in a step than all of the slip. A side
+    holds what is across the slip, and friction along it is the same.
+    """
+    frame = touch.frame
+    for axis in range(3, 6):
+        along, across = frame[axis], _BLUNT * frame[3 + axis]
+        frame[axis], frame[3 + axis] = along + across, along - across
+    _blunt_edges(touch.velocity, 1)
+    _blunt_edges(touch.reference, 1)
+    _blunt_edges(touch.jacobian, touch.width)
+
+
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def _blunt_edges(array: cython.p_double, width: cython.int) -> cython.void:
+    """Blunt the numbers of four edges, each of which has ``width`` of them."""
+    for first in range(width):
+        second, third, fourth = first + width, first + 2 * width, first + 3 * width
+        normal = 0.5 * (array[first] + array[second])
+        along = 0.5 * (array[first] - array[second])
+        across = 0.5 * _BLUNT * (array[third] - array[fourth])
+        array[first], array[second] = normal + (along + across), normal - (along + across)
+        array[third], array[fourth] = normal + (along - across), normal - (along - across)
 
 
 @cython.cfunc

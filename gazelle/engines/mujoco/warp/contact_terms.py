@@ -45,7 +45,8 @@ class ContactLaws:
 
     Of a geom there are: whether it has a direction of friction of its own (1) or takes it from the
     normal (2), which, and its coefficient; as a wheel's tread one more than its joint, and where its
-    middle is along the axle [m]; and the velocity at which it leaves an overlap [m/s].
+    middle is along the axle [m]; the velocity at which it leaves an overlap [m/s]; and whether all that
+    it moves with rubs alike.
     """
 
     rubs: int
@@ -62,6 +63,7 @@ class ContactLaws:
     tread: wp.array[int]
     middle: wp.array[float]
     exit_speed: wp.array[float]
+    alike: wp.array[int]
     geom_bodyid: wp.array[int]
     body_rootid: wp.array[int]
     body_parentid: wp.array[int]

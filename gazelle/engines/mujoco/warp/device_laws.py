@@ -10,9 +10,11 @@ import numpy as np
 import warp as wp
 
 from gazelle.engines.mujoco.laws.numbers import (
+    ALIKE,
     BIAS_HEAD,
     COUNT,
     EXIT,
+    GEOM_NUMBERS,
     HEAD,
     HINGES,
     MARK,
@@ -68,7 +70,7 @@ class DeviceLaws:
         laws.rubs, laws.treads, laws.touches = (int(bool(head[each])) for each in (4, 5, 6))
         laws.cone = int(host.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC)
         laws.disabled = int(host.opt.disableflags)
-        users = np.zeros((host.ngeom, EXIT + 1))
+        users = np.zeros((host.ngeom, GEOM_NUMBERS))
         users[:, : host.nuser_geom] = host.geom_user
         laws.direction_kind = wp.array(users[:, 0].astype(np.int32), dtype=int)
         laws.direction = wp.array(users[:, 1:4].astype(np.float32), dtype=wp.vec3)
@@ -76,6 +78,7 @@ class DeviceLaws:
         laws.tread = wp.array(users[:, TREAD].astype(np.int32), dtype=int)
         laws.middle = wp.array(users[:, MIDDLE].astype(np.float32), dtype=float)
         laws.exit_speed = wp.array(users[:, EXIT].astype(np.float32), dtype=float)
+        laws.alike = wp.array(users[:, ALIKE].astype(np.int32), dtype=int)
         laws.step, laws.gravity = model.opt.timestep, model.opt.gravity
         laws.body_gravcomp = model.body_gravcomp
         for name in (

@@ -43,7 +43,7 @@ def _on_a_cone(rows: ConstraintRows, found: ContactList, laws: ContactLaws, cont
     size = wp.sqrt(along * along + across * across)
     most = wp.max(friction[0], friction[1])
     if most > 0.0:
-        share = _share(laws, world, size / most, most)
+        share = _share(laws, world, size / most, most, _is_alike(found, laws, contact))
         if share > 0.0:
             along = friction[0] * along / size
             across = friction[1] * across / size
@@ -59,7 +59,7 @@ def _on_a_cone(rows: ConstraintRows, found: ContactList, laws: ContactLaws, cont
 def _on_a_pyramid(
     rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int
 ) -> None:
-    """The same for the edges n ± mu t, turned so that one direction is that of the slip."""
+    """Do the same for the edges n ± mu t, turned so that one direction is that of the slip."""
     world = found.world[contact]
     mu = found.friction[contact][0]
     row = wp.vec4i(
@@ -74,7 +74,7 @@ def _on_a_pyramid(
     if slip >= LEAST_CREEP:
         _turn_frame(found, contact, one / slip, two / slip)
         turn_pyramid(rows, world, row, one / slip, two / slip)
-        share = _share(laws, world, slip, mu)
+        share = _share(laws, world, slip, mu, _is_alike(found, laws, contact))
         if share > 0.0:
             left = float(0.0)
             lacking = float(0.0)
@@ -95,6 +95,16 @@ def _on_a_pyramid(
 
 
 @wp.func
+def _is_alike(found: ContactList, laws: ContactLaws, contact: int) -> int:
+    """Return whether all that holds the bodies of a contact rubs as it does, in all directions."""
+    friction = found.friction[contact]
+    geoms = found.geom[contact]
+    if friction[0] != friction[1] or found.margin[contact] < 0.0 or wp.min(geoms[0], geoms[1]) < 0:
+        return 0
+    return laws.alike[geoms[0]] * laws.alike[geoms[1]]
+
+
+@wp.func
 def _turn_frame(found: ContactList, contact: int, one: float, two: float) -> None:
     frame = found.frame[contact]
     along = one * frame[1] + two * frame[2]
@@ -108,12 +118,20 @@ def _weight(laws: ContactLaws, world: int) -> float:
 
 
 @wp.func
-def _share(laws: ContactLaws, world: int, slip: float, friction: float) -> float:
-    """To what share a contact that slips at a speed slides: 0 as long as it may only creep."""
-    if slip < LEAST_SLIP or friction > MOST_FRICTION:
+def _step(laws: ContactLaws, world: int) -> float:
+    return laws.step[world % laws.step.shape[0]]
+
+
+@wp.func
+def _share(laws: ContactLaws, world: int, slip: float, friction: float, alike: int) -> float:
+    """Return to what share a contact that slips slides: 0 as long as it may only creep."""
+    if friction > MOST_FRICTION or slip < LEAST_CREEP:
         return 0.0
-    step = laws.step[world % laws.step.shape[0]]
-    creep = wp.max(LEAST_SLIP, CREEP * friction * _weight(laws, world) * step)
+    if alike != 0:
+        return 1.0
+    if slip < LEAST_SLIP:
+        return 0.0
+    creep = wp.max(LEAST_SLIP, CREEP * friction * _weight(laws, world) * _step(laws, world))
     return wp.clamp(slip / creep - 1.0, 0.0, 1.0)
 
 
