@@ -14,7 +14,6 @@ from gazelle.engines.registry import EngineFactory, find
 from gazelle.engines.registry import names as engine_names
 from gazelle.engines.registry import register as register_engine
 from gazelle.engines.system_engine import SystemEngine
-from gazelle.engines.table_engine import TableEngine, as_table_engine
 
 __all__ = [
     "CHANGES",
@@ -32,10 +31,8 @@ __all__ = [
     "Placement",
     "RangeRays",
     "SystemEngine",
-    "TableEngine",
     "Wrench",
     "as_carrying_engine",
-    "as_table_engine",
     "engine_names",
     "make_engine",
     "register_engine",

@@ -7,7 +7,7 @@ metres, velocities in m/s and rad/s, both in the world frame; quaternions are (x
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from typing import Protocol
 
 from numpy.typing import ArrayLike
@@ -16,7 +16,7 @@ from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Model, World
 from gazelle.engines.history import Call
 from gazelle.engines.motion import Hits
-from gazelle.engines.range_rays import RangeRays
+from gazelle.engines.range_rays import RangeRays, RangeTable
 from gazelle.engines.reactions import Contacts, ContactTable
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
 from gazelle.engines.table import Table
@@ -221,13 +221,11 @@ class Engine(Protocol):
             ignore_own: Whether rays pass through the shapes of the link.
         """
 
-    def cast_ranges(self, rays: RangeRays, worlds: Worlds | None = None) -> tuple[Floats, float]:
-        """Follow the rays of a range finder; see ``cast_rays``.
+    def range_kind(self, rays: RangeRays) -> Hashable | None:
+        """Return what is equal for rays that ``range_table`` casts together; None for none."""
 
-        Returns:
-            Distances from somewhat behind the origins [m], shape (n, rays), infinite for nothing,
-            minus infinite from inside, overwritten by the next call; and how far behind [m].
-        """
+    def range_table(self, rays: Sequence[RangeRays]) -> RangeTable:
+        """Return a table of range finders of one kind, or of a single one."""
 
     def spawn(self, model: Model) -> None:
         """Add a model to every world, at rest at its ``pose``; all else stays as it is.

@@ -1,11 +1,13 @@
-"""What range finders ask engines for."""
+"""Rays of range finders, and tables of them."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Worlds
+from gazelle.native.system import System
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,3 +25,25 @@ class RangeRays:
     origins: Floats
     directions: Floats
     reach: float = math.inf
+
+
+class RangeTable(Protocol):
+    """Range finders of one kind, whose rays are cast together; good for one ``Engine.revision``.
+
+    Distances are infinite where a ray meets nothing, and minus infinite where it starts inside of
+    something.
+
+    Attributes:
+        system: Casts all rays within the engine's steps; None where the engine has no such system.
+        ranges: Distances that the system writes [m], shape (nworld * finders, rays).
+    """
+
+    system: System | None
+    ranges: Floats
+
+    @property
+    def begin(self) -> float:
+        """Distance from where distances are measured to the rays' origins [m]."""
+
+    def cast(self, worlds: Worlds | None = None) -> Floats:
+        """Return distances now [m], shape (n, finders, rays); the next call may overwrite them."""

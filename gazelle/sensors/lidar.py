@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, UInts64, Worlds
 from gazelle.description import Lidar, Pose, Scan
-from gazelle.engines import Engine, RangeRays, SystemEngine, TableEngine, as_table_engine
-from gazelle.sensors.lidar_group import CastLidars, LidarGroup
+from gazelle.engines import Engine, RangeRays
+from gazelle.sensors.lidar_group import LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
 from gazelle.sensors.noise import NoiseModel
 
@@ -64,8 +64,6 @@ class LidarModel:
     ) -> None:
         self.lidar = lidar
         self.engine = engine
-        self._systems = engine if isinstance(engine, SystemEngine) else None
-        self._at_once = isinstance(engine, TableEngine)
         self.link = link
         self.angles = angles_of(lidar.horizontal)
         self.vertical_angles = angles_of(lidar.vertical)
@@ -97,65 +95,50 @@ class LidarModel:
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        own = self._native() if worlds is None else None
-        if own is not None:
-            return own.measure()
-        ranges, begin = self.engine.cast_ranges(self.rays, worlds)
-        ranges = np.ascontiguousarray(ranges)
-        offset, noise = self.lidar.range_min - begin, self._noise
-        if noise.drifts:
+        noise = self._noise
+        if worlds is None and not noise.drifts:
+            return np.ascontiguousarray(self._own().measure_all(interval)[:, 0])
+        table = self._own().table
+        ranges = np.ascontiguousarray(table.cast(worlds)[:, 0])
+        offset = self.lidar.range_min - table.begin
+        if worlds is None or noise.drifts:
             return self._drifting(ranges + offset, interval, worlds)
         samples = ranges.shape[1]
         measured = np.empty((len(ranges), samples + samples % 2))
         stddev, keys, counters, bias = noise.tables(worlds)
         measure(self.law, LidarNoise(stddev, keys, counters, bias), ranges, offset, measured)
-        if worlds is not None:
-            noise.follow(worlds, counters)
+        noise.follow(worlds, counters)
         return measured[:, :samples]
 
     @property
     def by_system(self) -> bool:
-        """Whether many are a system of the engine; else Python measures them in one call."""
-        return self._systems is not None
+        """Whether a system of the engine measures it; else Python does."""
+        return self._own().kernel is not None
 
     def kind(self) -> Hashable | None:
         """Equal for lidars that ``together`` measures; None where none can."""
-        noise = self._noise
-        if noise.drifts:
+        if self._noise.drifts:
             return None
-        rays: Hashable = self.samples if self._at_once else None
-        if self._systems is not None:
-            rays = self._systems.ranges_kind(self.rays)
-        law = self.law
+        rays, law = self.engine.range_kind(self.rays), self.law
         reported = law.low, law.high, law.quantum, law.mean, law.precision
-        return None if rays is None else (rays, reported, noise.biased)
+        return None if rays is None else (rays, reported, self._noise.biased)
 
-    def _native(self) -> LidarGroup | None:
-        """What measures this lidar alone on all threads, where the engine can."""
-        engine = self._systems
-        if engine is None:
-            return None
-        if self._revision != engine.revision:
-            made = None
-            if self.kind() is not None:
-                rays = [self.rays]
-                made = LidarGroup(
-                    engine, rays, self.law, self.lidar.range_min, *self._noise.tables()
-                )
-            self._alone = made
-            self._revision = engine.revision  # which asking for the kind may change
+    def _own(self) -> LidarGroup:
+        """Return the group of this lidar alone."""
+        if self._alone is None or self._revision != self.engine.revision:
+            noise = LidarNoise(*self._noise.tables())
+            rays, begin = [self.rays], self.lidar.range_min
+            self._alone = LidarGroup(self.engine, rays, self.law, begin, noise)
+            self._revision = self.engine.revision  # which making the table may change
         return self._alone
 
     @classmethod
-    def together(cls, models: Sequence[LidarModel]) -> LidarGroup | CastLidars:
+    def together(cls, models: Sequence[LidarModel]) -> LidarGroup:
         """What measures lidars of one kind together; their noise is in its tables from then on."""
         first = models[0]
-        engine, law, begin = first.engine, first.law, first.lidar.range_min
-        tables = cls._noise_together(models)
+        noise = LidarNoise(*cls._noise_together(models))
         rays = [each.rays for each in models]
-        if isinstance(engine, SystemEngine):
-            return LidarGroup(engine, rays, law, begin, *tables)
-        return CastLidars(as_table_engine(engine), rays, law, begin, LidarNoise(*tables))
+        return LidarGroup(first.engine, rays, first.law, first.lidar.range_min, noise)
 
     @classmethod
     def _noise_together(

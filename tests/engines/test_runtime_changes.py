@@ -31,7 +31,9 @@ READS = {
     "links",
     "joints",
     "models",
-    "cast_ranges",
+    "range_kind",
+    "range_table",
+    "revision",
     "cast_rays",
     "close",
     "contacts",
@@ -40,6 +42,7 @@ READS = {
     "parameter",
     "peek",
     "snapshot",
+    "update",
 }
 UP = (0.0, 0.0, 0.0, 1.0)
 

@@ -7,6 +7,7 @@ from looks import count_looks
 import gazelle
 from gazelle import formats
 from gazelle.description import Pose
+from gazelle.engines.mujoco.ray_access import MujocoRanges
 
 NOISE = "<noise><type>gaussian</type><stddev>{stddev}</stddev><mean>{mean}</mean></noise>"
 LIDAR = """<sensor name='eyes' type='ray'><update_rate>{rate}</update_rate><pose>.05 0 .2 0 .1 {turn}</pose>
@@ -177,23 +178,19 @@ def test_lidars_of_a_kind_are_cast_in_one_call_whoever_listens(monkeypatch):
             eyes.subscribe(lambda each: heard.append(each.read().stamp))
         sim.run(0.3)
         before, count = told(sim), len(heard)
-        one, many = sim._engine.cast_ranges, sim._engine.cast_ranges_together
+        cast = MujocoRanges.cast
         monkeypatch.setattr(
-            sim._engine,
-            "cast_ranges",
-            lambda rays, *rest: calls.append(len(rays.origins)) or one(rays, *rest),
-        )
-        monkeypatch.setattr(
-            sim._engine,
-            "cast_ranges_together",
-            lambda *args: calls.append(len(args[1])) or many(*args),
+            MujocoRanges,
+            "cast",
+            lambda self, *args: calls.append(self._origins.shape[:2]) or cast(self, *args),
         )
         sim.run(1.0)
         after = told(sim)
     assert all(old != new for old, new in zip(before[1], after[1], strict=True))
     # r1, r3, r4 and r6 at 10 Hz, the ground's and r0 at 7; r2 and r5, of another make and two rates,
     # have 11 rays each and are alone.
-    assert sorted(calls) == [2] * 7 + [4] * 10 + [11] * 17
+    assert sorted(each[0] for each in calls) == [1] * 17 + [2] * 7 + [4] * 10
+    assert {each[1] for each in calls if each[0] == 1} == {11}
     assert len(heard) - count == 7 + 3 * 10
 
 

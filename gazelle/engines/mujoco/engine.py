@@ -115,8 +115,8 @@ class MujocoEngine:
         hanging = HangingLinks(lambda: run.world, self.links, self.joints)
         holding, rays = LinkHolding(run, self.links), RayAccess(run, self.links)
         self.attach, self.detach = holding.attach, holding.detach
-        self.cast_rays, self.cast_ranges = rays.cast_rays, rays.cast_ranges
-        self.cast_ranges_together = rays.cast_ranges_together
+        self.cast_rays = rays.cast_rays
+        self.range_kind, self.range_table = rays.range_kind, rays.range_table
         self.add_motor, self.make_kinematic = run.add_motor, run.make_kinematic
         self.parameter, self.set_parameter = run.parameter, run.set_parameter
         touches = ContactAccess(run, steps, self.reactions)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.state import LinkRow, LinkRows
 from gazelle.engines.table import Table
+from gazelle.native.system import System
 from gazelle.rotations import turns
 
 
@@ -52,21 +53,42 @@ class RayAccess:
             return behind(self._run.batch, start, along, worlds, own)
         return nearest(self._run.batch, start, along, worlds, body)[0]
 
-    def cast_ranges(self, rays: RangeRays, worlds: Worlds | None = None) -> tuple[Floats, float]:
-        """Follow rays of a range finder; see the protocol."""
-        hits = self.cast_rays(rays.link, rays.origins, rays.directions, worlds)
-        return np.where(hits.from_inside, -np.inf, hits.distance), 0.0
+    def range_kind(self, rays: RangeRays) -> Hashable | None:
+        """Return what is equal for rays that ``range_table`` casts together."""
+        return len(rays.origins)
 
-    def cast_ranges_together(
-        self, links: Sequence[str], origins: Floats, directions: Floats
-    ) -> tuple[Floats, float]:
-        """Follow the rays of many range finders in one call; see the protocol."""
-        place = self._links[tuple(links)].placement()
-        turn = turns(place.quaternion.reshape(-1, 4)).reshape(-1, len(origins), 3, 3)
-        start = place.position[:, :, None, :] + origins @ turn
+    def range_table(self, rays: Sequence[RangeRays]) -> MujocoRanges:
+        """Return a table of range finders of one kind."""
+        return MujocoRanges(self._run, self._links, rays)
+
+
+class MujocoRanges:
+    """Range finders with as many rays each; see ``gazelle.engines.range_rays.RangeTable``.
+
+    Args:
+        run: Worlds that run.
+        links: Links of all models.
+        rays: Rays of each range finder.
+    """
+
+    system: System | None = None
+    ranges: Floats = np.zeros((0, 0))
+    begin = 0.0
+
+    def __init__(
+        self, run: RunningWorlds, links: Table[LinkRow, LinkRows], rays: Sequence[RangeRays]
+    ) -> None:
+        self._run, self._links = run, links[tuple(each.link for each in rays)]
+        self._origins = np.array([each.origins for each in rays])
+        self._directions = np.array([each.directions for each in rays])
+
+    def cast(self, worlds: Worlds | None = None) -> Floats:
+        """Return distances now [m], shape (n, finders, rays)."""
+        place = self._links.placement(worlds)
+        turn = turns(place.quaternion.reshape(-1, 4)).reshape(-1, len(self._origins), 3, 3)
+        start = place.position[:, :, None, :] + self._origins @ turn
+        along = self._directions @ turn
         shape = start.shape
-        along = (directions @ turn).reshape(shape[0], -1, 3)
-        start = start.reshape(shape[0], -1, 3)
-        hits = nearest(self._run.batch, start, along, None)[0]
-        ranges = np.where(hits.from_inside, -np.inf, hits.distance)
-        return ranges.reshape(shape[:3]), 0.0
+        flat = (shape[0], shape[1] * shape[2], 3)
+        hits = nearest(self._run.batch, start.reshape(flat), along.reshape(flat), worlds)[0]
+        return np.where(hits.from_inside, -np.inf, hits.distance).reshape(shape[:3])

@@ -98,9 +98,8 @@ class PlanarEngine:
         )
         hanging = HangingLinks(lambda: run.recipe.world, self.links, self.joints, FROZEN)
         rays = PlanarRays(run, self._kinematic)
-        self.cast_rays, self.cast_ranges = rays.cast_rays, rays.cast_ranges
-        self.caster = rays.caster
-        self.ranges_kind, self.ranges_of = rays.ranges_kind, rays.ranges_of
+        self.cast_rays, self.caster = rays.cast_rays, rays.caster
+        self.range_kind, self.range_table = rays.range_kind, rays.range_table
         self.contacts, self.contact_table = refusals.contacts, refusals.contact_table
         self.attach, self.detach = refusals.attach, refusals.detach
         self.set_parameter = refusals.set_parameter

@@ -15,11 +15,9 @@ from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.rays import Caster, KeptCaster, RayFan, caster_of, fan_of
 from gazelle.engines.planar.running import RunningPlane
 from gazelle.engines.range_rays import RangeRays
-from gazelle.engines.system_engine import CastRanges
 from gazelle.errors import EngineError
+from gazelle.native.system import System
 from gazelle.rotations import multiply, rotate
-
-_MOST = 256  # arrays of rays that are known by where they are
 
 
 class PlanarRays:
@@ -33,11 +31,7 @@ class PlanarRays:
     def __init__(self, run: RunningPlane, make_kinematic: Callable[[str], None]) -> None:
         self._run, self._make_kinematic = run, make_kinematic
         self._casters: dict[tuple[str, bytes, bytes, float], KeptCaster] = {}
-        self._recent: dict[tuple[str, int, int, float], KeptCaster] = {}
-        run.on_change.append(self._forget)
-
-    def _forget(self) -> None:
-        self._casters, self._recent = {}, {}
+        run.on_change.append(self._casters.clear)
 
     def cast_rays(
         self,
@@ -52,41 +46,32 @@ class PlanarRays:
         distance, inside = self.caster(link, origins, directions).cast(worlds)
         return Hits(distance, inside)
 
-    def cast_ranges(self, rays: RangeRays, worlds: Worlds | None = None) -> tuple[Floats, float]:
-        """Follow the level rays of a range finder; see the protocol."""
-        key = (rays.link, id(rays.origins), id(rays.directions), rays.reach)
-        kept = self._recent.get(key)
-        if kept is None or not kept.holds(self._run.angles):
-            kept = self._keep(rays)
-            self._recent = {**self._recent, key: kept} if len(self._recent) < _MOST else {key: kept}
-        return kept.caster.ranges(worlds), kept.caster.begin
-
     def caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
         """What casts the rays of ``cast_rays``: the same one as long as nothing turns its link.
 
         Raises:
             EngineError: The rays are not level, or their link not the same in all worlds.
         """
-        return self._keep(RangeRays(link, origins, directions)).caster
+        return self.keep(RangeRays(link, origins, directions)).caster
 
-    def _keep(self, rays: RangeRays) -> KeptCaster:
+    def keep(self, rays: RangeRays) -> KeptCaster:
         """A caster that is kept, or one that is from now on."""
         link, origins, directions = rays.link, rays.origins, rays.directions
         key = (link, origins.tobytes(), directions.tobytes(), rays.reach)
         kept = self._casters.get(key)
         if kept is not None and kept.holds(self._run.angles):
             return kept if kept.of is origins else replace(kept, of=origins, along=directions)
-        caster = caster_of(self._run.fleet, self._rays_on_body(rays))
+        caster = caster_of(self._run.fleet, self.rays_on_body(rays))
         model = self._run.owner(link)
         columns = self._run.layout.columns[model] + self._run.model(model).skeleton.columns_of(link)
         angles = self._run.angles[:, columns].copy() if len(columns) else self._run.angles[:0]
         kept = self._casters[key] = KeptCaster(caster, columns, angles, origins, directions)
         return kept
 
-    def ranges_kind(self, rays: RangeRays) -> Hashable | None:
-        """Equal for rays that are cast together; see ``SystemEngine``."""
+    def range_kind(self, rays: RangeRays) -> Hashable | None:
+        """Return what is equal for rays that ``range_table`` casts together."""
         try:
-            found = self._rays_on_body(rays)
+            found = self.rays_on_body(rays)
         except EngineError:
             return None
         skeleton = self._run.model(self._run.owner(rays.link)).skeleton
@@ -94,19 +79,11 @@ class PlanarRays:
             return None
         return found.fan, found.begin
 
-    def ranges_of(self, rays: Sequence[RangeRays]) -> CastRanges:
-        """What casts rays of one kind together; see ``SystemEngine``."""
-        fans = [self._rays_on_body(each) for each in rays]
-        scanner = Scanner(
-            self._run.fleet,
-            fans[0].fan,
-            [mount for each in fans for mount in each.mounts],
-            missing=math.inf,
-            signed=True,
-        )
-        return CastRanges(scanner.system, scanner.flat_ranges, fans[0].begin)
+    def range_table(self, rays: Sequence[RangeRays]) -> PlanarRanges:
+        """Return a table of range finders of one kind, or of a single one."""
+        return PlanarRanges(self, self._run, rays)
 
-    def _rays_on_body(self, rays: RangeRays) -> RayFan:
+    def rays_on_body(self, rays: RangeRays) -> RayFan:
         """Rays of a link as a fan on its body; its model has one from then on."""
         link, origins, directions = rays.link, rays.origins, rays.directions
         model = self._run.owner(link)
@@ -134,3 +111,43 @@ class PlanarRays:
         span = np.maximum(high, extent.max(axis=0)) - np.minimum(low, extent.min(axis=0))
         farthest = 2.0 * float(np.hypot(*span)) + 10.0
         return fan_of(body, start, along, min(rays.reach, farthest))
+
+
+class PlanarRanges:
+    """Range finders of one kind; see ``gazelle.engines.range_rays.RangeTable``.
+
+    Args:
+        casting: Casts rays.
+        run: Worlds that run.
+        rays: Rays of each range finder.
+    """
+
+    def __init__(self, casting: PlanarRays, run: RunningPlane, rays: Sequence[RangeRays]) -> None:
+        self._casting, self._run, self._rays = casting, run, tuple(rays)
+        self._kept: list[KeptCaster] = []
+        self._begin = 0.0
+        self.system: System | None = None
+        self.ranges: Floats = np.zeros((0, 0))
+        if casting.range_kind(rays[0]) is not None:
+            fans = [casting.rays_on_body(each) for each in rays]
+            mounts = [mount for each in fans for mount in each.mounts]
+            scanner = Scanner(run.fleet, fans[0].fan, mounts, missing=math.inf, signed=True)
+            self.system, self.ranges = scanner.system, scanner.flat_ranges
+            self._begin = fans[0].begin
+
+    @property
+    def begin(self) -> float:
+        """Distance from where distances are measured to the rays' origins [m]."""
+        return self._begin if self.system is not None else self._casters()[0].caster.begin
+
+    def cast(self, worlds: Worlds | None = None) -> Floats:
+        """Return distances now [m], shape (n, finders, rays)."""
+        found = [kept.caster.ranges(worlds) for kept in self._casters()]
+        return found[0][:, None] if len(found) == 1 else np.stack(found, axis=1)
+
+    def _casters(self) -> list[KeptCaster]:
+        """Return what casts the rays of each, as long as nothing turns their links."""
+        angles = self._run.angles
+        if not self._kept or not all(kept.holds(angles) for kept in self._kept):
+            self._kept = [self._casting.keep(each) for each in self._rays]
+        return self._kept
