@@ -159,9 +159,9 @@ def test_what_just_slides_has_all_of_its_friction(model, kind, step, mu, steepne
     world = scenes.world(ground, resting(kind, mu, place), step=step)
     ode = replace(world.profile.ode, friction_model=model)
     engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)), 1)
-    start = engine.model_placement("m").position[0].copy()
+    start = engine.models["m"].placement().position[0].copy()
     engine.step(count)
-    way = place.matrix()[:3, :3].T @ (engine.model_placement("m").position[0] - start)
+    way = place.matrix()[:3, :3].T @ (engine.models["m"].placement().position[0] - start)
     pull = G * (math.sin(angle) - mu * math.cos(angle))
     assert way[0] == pytest.approx(pull * step**2 * count * (count + 1) / 2.0, rel=0.02)
     assert np.abs(way[1:]).max() < 1e-4
@@ -179,12 +179,12 @@ def test_what_is_pushed_slowly_rubs_with_all_of_its_friction(model, step, mu, sp
     pusher = Model("p", links=links, joints=(slide,))
     engine = make(model, step, pusher, scenes.box("box", SIZE, mu=mu, pose=Pose(z=0.05)))
     engine.add_motor("p::j", 100.0)
-    engine.set_motor_velocity("p::j", speed)
+    engine.joints["p::j"].set_motor_velocity(speed)
     engine.step(round(0.5 / step))
     forces = []
     for _ in range(round(0.2 / step)):
         engine.step()
-        forces.append(float(np.abs(engine.contacts(["p::f::c"], 0).force[:, 0].sum())))
+        forces.append(float(np.abs(engine.contacts(["p::f::c"])[1].force[:, 0].sum())))
     assert np.mean(forces) == pytest.approx(mu * G, rel=0.005)
 
 
