@@ -297,7 +297,6 @@ def strangers_of(module, text):
 INSIDE = re.compile(r"gazelle\.engines\.(planar|mujoco)\.")
 UNFINISHED = {
     "gazelle.plugins.planar_move": {"gazelle.engines.planar.twist_commands"},
-    "gazelle.plugins.scripted_motion": {"gazelle.engines.planar.paths"},
 }
 """Imports that are to go; never add one."""
 

@@ -14,6 +14,8 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Bools, Floats, Indices, Worlds
 from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.reactions import Wrench
+from gazelle.native.paths import Path
+from gazelle.native.system import System
 
 
 class LinkRows(Protocol):
@@ -217,4 +219,10 @@ class ModelRow(ModelRows, Protocol):
             linear: Of the model's frame [m/s], shape (3,) or (n, 3).
             angular: [rad/s], shape (3,) or (n, 3).
             worlds: Which worlds.
+        """
+
+    def path(self, path: Path) -> System | None:
+        """Return what moves the model, which is kinematic, along a path when it is updated.
+
+        It is good for one ``revision`` of the engine. None where only ``set_placement`` can.
         """

@@ -24,6 +24,3 @@ class SystemEngine(Protocol):
 
     def command_models(self, models: tuple[str, ...], law: Any) -> None:
         """Let a law with a row for each of some models give them their velocities."""
-
-    def follow(self, model: str, path: Any) -> None:
-        """Let a path carry a model."""

@@ -19,15 +19,12 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, Pose
-from gazelle.engines import SystemEngine
-from gazelle.engines.planar.paths import PathFollower
 from gazelle.errors import SimulationError
+from gazelle.native.paths import Path
 from gazelle.native.system import System
 from gazelle.plugins.splines import PoseSpline
-from gazelle.rotations import conjugate, multiply, yaw_of
+from gazelle.rotations import multiply
 from gazelle.simulation import ModelPlugin, PluginSystem, Robot
-
-_SAME = 1e-12  # how far components of quaternions may be apart to be taken as equal
 
 
 class ScriptedMotion(ModelPlugin):
@@ -62,34 +59,22 @@ class ScriptedMotion(ModelPlugin):
         self.start = np.asarray(start.position), np.asarray(start.quaternion)
         self._epoch = np.full(robot.simulation.nworld, robot.simulation.time)
         robot.simulation.engine.make_kinematic(robot.name)
-        self._path = self._plain_path()
-
-    def _plain_path(self) -> PathFollower | None:
-        """What carries the model by itself in a plane; None if it does not stay upright."""
-        flat = not self.spin[:2].any()
-        if self.times.size:
-            flat = np.ptp(self.quaternions, axis=0).max() < _SAME and not self.spin.any()
-        if self.splines or not flat:
-            return None
-        legs = np.zeros((len(self.times), 7))
-        legs[:, 0], legs[:, 1:4] = self.times, self.positions
-        legs[:-1, 4:] = self.velocities[: max(len(legs) - 1, 0)]
-        first = self.robot.description.pose
-        lean = (Pose(yaw=-first.yaw) * first).quaternion
-        pose = self.quaternions[:1] if self.times.size else self.start[1][None]
-        heading = float(yaw_of(multiply(pose, conjugate(np.asarray(lean)[None])))[0])
-        start = np.array([*self.start[0], heading])
-        return PathFollower(
-            legs, start, spin=float(self.spin[2]), loop=self.loop, epoch=self._epoch
-        )
 
     def bind(self) -> System | None:
-        """Return the path that carries the model by itself; None where Python puts it."""
-        engine: object = self.robot.simulation.native
-        if not isinstance(engine, SystemEngine) or self._path is None:
+        """Return what moves the model in the engine's steps; None where Python does."""
+        engine = self.robot.simulation.native
+        if engine is None or self.splines:
             return None
-        engine.follow(self.robot.name, self._path)
-        return self._path
+        path = Path(
+            self.times,
+            self.positions,
+            self.quaternions,
+            *self.start,
+            self.spin,
+            self.loop,
+            self._epoch,
+        )
+        return engine.models[self.robot.name].path(path)
 
     def _rates(self) -> tuple[Floats, Floats]:
         """Change of position and quaternion a second on each leg, shapes (k, 3) and (k, 4)."""
@@ -168,7 +153,7 @@ class ScriptedMotion(ModelPlugin):
 
 
 class ScriptSystem(PluginSystem[ScriptedMotion]):
-    """One script, which the engine follows where it is a path in the plane.
+    """One script, which the engine follows where it can.
 
     Args:
         plugins: One.

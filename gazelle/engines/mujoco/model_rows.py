@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Indices, Worlds
+from gazelle.description import Pose
 from gazelle.engines.motion import Placement
 from gazelle.engines.mujoco.layout import ModelSlot, MujocoLayout
 from gazelle.engines.mujoco.placing import put_root
@@ -17,6 +18,8 @@ from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.state import LinkRow, LinkRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError
+from gazelle.native.paths import Path, PosePath
+from gazelle.native.system import System
 from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, unit, yaw_of
 
 
@@ -107,6 +110,22 @@ class MujocoModelRow:
             moved = goal_p + rotate(turn, link.position - before.position)
             turned = multiply(turn, link.quaternion)
             put_root(self._run, self._run.layout.link(root), moved, turned, worlds)
+
+    def path(self, path: Path) -> System | None:
+        """Return what moves the model along a path; None where several links carry it."""
+        slot = self._run.now().model(self._name)
+        mocap = self._run.layout.link(slot.roots[0]).mocap
+        if len(slot.roots) > 1 or mocap is None:
+            return None
+        state, back = self._run.state, slot.back or Pose()
+        return PosePath(
+            path,
+            state.mocap_pos[:, mocap],
+            state.mocap_quat[:, mocap],
+            arm=np.array(back.position),
+            turned=np.array(back.quaternion),
+            moved=self._run.moved,
+        )
 
     def set_motion(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None

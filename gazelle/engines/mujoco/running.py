@@ -81,6 +81,7 @@ class RunningWorlds:
         stale: Whether the placement of links that are not roots has to be computed.
         computed: How often it was.
         placed: Whether something was put elsewhere since the last step.
+        moved: 1 where a system put something elsewhere since the last step, else 0, shape (1,).
         dropped: MuJoCo's loose bodies that were put elsewhere since the last step, and in which worlds.
         revision: Counts compiled models; 0 before the first.
     """
@@ -109,6 +110,7 @@ class RunningWorlds:
         self.recipe = recipe
         self.pending: CompilerInput | None = None
         self.revision = self.computed = 0
+        self.moved: Floats = np.zeros(1)
         self._drafted: tuple[World, frozenset[str], dict[str, list[TreeLink]]] | None = None
 
     if not TYPE_CHECKING:  # what is compiled is had by attributes that the class names

@@ -96,7 +96,7 @@ class WorldSteps:
         self.find_dropped()
         np.copyto(run.before, run.batch.state)
         failed = self._let_out(count) if run.overlaps.any else self._stepper.advance(count)
-        run.placed = False
+        run.placed, run.moved[0] = False, 0.0
         self._made += count
         # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
         faults = run.state.faults
@@ -113,7 +113,7 @@ class WorldSteps:
 
     def _let_out(self, count: int) -> set[int]:
         """Make the steps with what overlaps rising; returns those in which MuJoCo gave up."""
-        if self._run.placed:
+        if self._run.placed or self._run.moved[0]:
             self._run.overlaps.clear(self._run.batch)
         failed: set[int] = set()
         while count > 0:

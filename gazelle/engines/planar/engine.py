@@ -22,7 +22,6 @@ from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.joint_rows import PlanarJointRow, PlanarJointRows
 from gazelle.engines.planar.link_rows import PlanarLinkRow, PlanarLinkRows
 from gazelle.engines.planar.model_rows import PlanarModelRow, PlanarModelRows
-from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.ray_casting import PlanarRays
 from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.engines.planar.skeleton import FROZEN
@@ -145,10 +144,6 @@ class PlanarEngine:
     def command_models(self, models: tuple[str, ...], law: TwistCommands) -> None:
         """Let a law with a row for each of some models give them their velocities."""
         self.models[models].command(law)
-
-    def follow(self, model: str, path: PathFollower) -> None:
-        """Let a path carry a model, which has to be kinematic."""
-        path.carry(self._run.fleet.bodies, self._run.layout.bodies[model])
 
     def surround(self, before: Sequence[System], after: Sequence[System]) -> None:
         """Have systems updated at the beginning and the end of every step, until models change.

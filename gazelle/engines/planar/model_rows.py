@@ -9,13 +9,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Bools, Floats, Indices, Worlds
+from gazelle.description import Pose
 from gazelle.engines.motion import Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.build import PlanarLayout
+from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.engines.planar.twist_commands import TwistCommands
 from gazelle.errors import EngineError
+from gazelle.native.paths import Path
+from gazelle.native.system import System
 from gazelle.rotations import conjugate, from_yaw, multiply, yaw_of
+
+_SAME = 1e-12  # how far components of quaternions may be apart to be taken as equal
 
 
 class PlanarModelRow:
@@ -55,6 +61,20 @@ class PlanarModelRow:
         if each.leaning:
             found[:, c.YAW] = yaw_of(self.placement(worlds).quaternion)
         return found
+
+    def path(self, path: Path) -> System | None:
+        """Return what moves the model along a path; None where that does not keep it upright."""
+        flat = not path.spin[:2].any()
+        if path.times.size:
+            flat = np.ptp(path.quaternions, axis=0).max() < _SAME and not path.spin.any()
+        if not flat:
+            return None
+        first = self._run.model(self._name).model.pose
+        lean = (Pose(yaw=-first.yaw) * first).quaternion
+        pose = path.quaternions[:1] if path.times.size else path.attitude[None]
+        heading = float(yaw_of(multiply(pose, conjugate(np.asarray(lean)[None])))[0])
+        bodies, body = self._run.fleet.bodies, self._run.layout.bodies[self._name]
+        return PathFollower(path, bodies, body, heading)
 
     def set_placement(
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
