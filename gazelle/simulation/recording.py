@@ -112,7 +112,8 @@ class Recorder(Closeable):
         """Do what was asked; write it down unless it is part of something larger."""
         if self._depth:
             return method(*args, **options)
-        line: dict[str, Any] = {"call": name, "arguments": encode(args)}
+        given = args[:1] if name == "step" else args  # systems write the state before
+        line: dict[str, Any] = {"call": name, "arguments": encode(given)}
         if options:
             line["options"] = encode(options)
         self._note_writes()

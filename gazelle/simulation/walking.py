@@ -260,9 +260,6 @@ class StepLoop:
             measured = (each.kernel for each in self._plan.groups)
             systems = [*self._systems, *(each for each in measured if each is not None)]
         systems += self.in_step.kernels
-        if not systems:
-            self._engine.step(count)
-            return
         try:
             self._engine.step(count, systems, self._simulation.clock.now_ns)
         finally:

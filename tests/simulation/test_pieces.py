@@ -22,7 +22,7 @@ def sim(monkeypatch):
     monkeypatch.setattr(walking, "time", ticking)
     before, pieces = sim.engine.step, []
 
-    def step(count=1):
+    def step(count=1, systems=(), now_ns=0):
         clock.now += count * STEP_S
         pieces.append(count)
         before(count)
