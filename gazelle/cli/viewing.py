@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gazelle.closing import Closeable
 
@@ -62,11 +62,16 @@ def watched(progress: Progress, args: argparse.Namespace) -> Progress:
     def watch(env: object) -> Closeable:
         from gazelle.viewer.live import LiveView
 
-        simulation = _simulation_of(env)
-        if simulation is None:
+        owner = _simulated(env)
+        if owner is None:
             progress.say("there is nothing to view: the task has no simulation")
             return _Nothing()
-        view = LiveView(simulation, port=args.view, only_looking=True)
+        view = LiveView(
+            owner.simulation,
+            port=args.view,
+            only_looking=True,
+            goals=lambda: getattr(owner, "goal_places", None),
+        )
         progress.say(f"view {view.url}")
         return view
 
@@ -80,15 +85,14 @@ class _Nothing(Closeable):
         """There is nothing to close."""
 
 
-def _simulation_of(env: object) -> Simulation | None:
-    """What runs in a vector environment: its own, its task's, or its first copy's."""
-    from gazelle.simulation import Simulation
-
+def _simulated(env: object) -> Any:
+    """Return what owns the simulation of a vector environment, or of its first copy; or None."""
     bare = getattr(env, "unwrapped", env)
     first = next(iter(getattr(bare, "envs", ())), None)
-    inner = getattr(first, "unwrapped", None)
-    for owner in (bare, getattr(bare, "task", None), inner, getattr(inner, "task", None)):
-        found = getattr(owner, "simulation", None)
-        if isinstance(found, Simulation):
-            return found
+    for found in (bare, getattr(first, "unwrapped", None)):
+        owner = found
+        while owner is not None:
+            if getattr(owner, "simulation", None) is not None:
+                return owner
+            owner = getattr(owner, "task", None)
     return None

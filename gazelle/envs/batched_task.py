@@ -24,6 +24,9 @@ from gazelle.errors import TaskError
 
 Info = dict[str, NDArray[Any]]
 
+GOAL = "goal"
+"""In an info: the places that `BatchedTask.goal_places` gives."""
+
 SCENARIO = "scenario"
 """In the info of a first moment: see `BatchedTask.scenario`."""
 
@@ -135,6 +138,16 @@ class BatchedTask(ABC):
         self.nworld = nworld
         self.max_episode_steps = max_episode_steps
         self.elapsed = np.zeros(nworld, dtype=np.int64)
+        self._goals_told: Floats | None = None
+
+    @property
+    def goal_places(self) -> Floats | None:
+        """Goals of the running episodes in the world frame [m], shape (nworld, 2 or 3), to draw them.
+
+        By default what the info tells as ``goal``; None before the first episode, and of a task
+        without such an entry.
+        """
+        return self._goals_told
 
     @property
     def row_space(self) -> gym.spaces.Box:
@@ -164,6 +177,7 @@ class BatchedTask(ABC):
         seen, told = self._look(worlds)
         observation = checked_observation(seen, len(worlds), self.row_space.shape)
         info = checked_info(told, len(worlds))
+        self._note_goals(info, worlds)
         if self.max_episode_steps is not None:
             info["is_timeout"] = np.zeros(len(worlds), dtype=np.bool_)
         scenario = self.scenario(worlds)
@@ -195,6 +209,7 @@ class BatchedTask(ABC):
         reward = checked_reward(verdict.reward, nworld)
         terminated = checked_ends("terminated", verdict.terminated, nworld)
         info = checked_info(verdict.info, nworld)
+        self._note_goals(info)
         self.elapsed += 1
         truncated = np.zeros(nworld, dtype=np.bool_)
         if self.max_episode_steps is not None:
@@ -253,6 +268,20 @@ class BatchedTask(ABC):
         observation[over], reward[over] = first, 0.0
         terminated[over] = truncated[over] = False
         return Transition(observation, reward, terminated, truncated, _put(last.info, start, over))
+
+    def _note_goals(self, info: Info, worlds: Worlds | None = None) -> None:
+        """Keep the goals of these worlds, all if None, for `goal_places`."""
+        told = info.get(GOAL)
+        if told is None or told.ndim != 2 or told.shape[1] not in (2, 3):
+            return
+        if worlds is None:
+            self._goals_told = told
+            return
+        whole = np.zeros((self.nworld, told.shape[1]))
+        if self._goals_told is not None:
+            whole[:] = self._goals_told
+        whole[worlds] = told
+        self._goals_told = whole
 
     def get_state(self) -> dict[str, Any]:
         """The whole state, simulation and random numbers included: a dict of arrays and bytes."""

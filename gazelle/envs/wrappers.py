@@ -74,6 +74,11 @@ class TaskWrapper(BatchedTask):
         return self.task.scenario_names
 
     @property
+    def goal_places(self) -> Floats | None:
+        """As the other task's."""
+        return self.task.goal_places
+
+    @property
     def floor_plan(self) -> FloorPlan | None:  # type: ignore[override]  # the other task's
         """As the other task's."""
         return self.task.floor_plan

@@ -18,6 +18,7 @@ from gazelle.simulation.inputs import one_world
 from gazelle.viewer.page.camera_insets import CameraInsets
 from gazelle.viewer.page.context import ROOT, OptionalLayer, PageContext, PageLayer, spots_of
 from gazelle.viewer.page.driving import DriveControls
+from gazelle.viewer.page.goal_layer import GoalLayer, GoalPlaces
 from gazelle.viewer.page.joint_sliders import JointSliders
 from gazelle.viewer.page.model_tools import ModelTools
 from gazelle.viewer.page.motion_layer import MotionLayer
@@ -48,6 +49,8 @@ class LiveView(Closeable):
         port: Of the server; any free one if 0.
         rate: Pictures a second at most.
         only_looking: Whether nothing can be changed on the page.
+        goals: Function that returns the goals of a task that runs in these worlds [m], shape
+            (worlds * n, 2 or 3), world by world, or None; called between two steps.
 
     Attributes:
         url: Where the page is.
@@ -66,6 +69,7 @@ class LiveView(Closeable):
         port: int = 0,
         rate: float = 20.0,
         only_looking: bool = False,
+        goals: GoalPlaces | None = None,
     ) -> None:
         left = simulation.nworld - one_world(world, simulation.nworld)
         count = min(_BESIDE, left) if worlds is None else worlds
@@ -74,7 +78,7 @@ class LiveView(Closeable):
         if not rate > 0.0:
             raise Error(f"a view needs a rate above zero, not {rate:g}")
         self._simulation, self._period = simulation, 1.0 / rate
-        self._stop = threading.Event()
+        self._goals, self._stop = goals, threading.Event()
         self._server = PageServer(simulation.world.name or "Gazelle", port)
         self.url = self._server.url
         try:
@@ -126,6 +130,8 @@ class LiveView(Closeable):
                 "Planned motions": motions,
                 "Camera pictures": CameraInsets(context),
             }
+            if self._goals is not None:
+                self._optional["Goals of the task"] = GoalLayer(context, self._goals)
             self._plots = PlotLayer(context)
             self._offer()
             self._layers: tuple[PageLayer, ...] = (

@@ -96,6 +96,11 @@ class FetchTask(GoalSimulationTask):
             goals[raised, 2] += 0.5 * IN_THE_AIR * (drawn[raised, 4] + 1.0)
         return goals
 
+    @property
+    def goal_places(self) -> Floats:
+        """Where the gripper or the object has to be [m], shape (nworld, 3)."""
+        return self.goals
+
     def scenario(self, worlds: Worlds) -> Floats:
         """Goal and place of the object at the start [m], shape (n, 5)."""
         return np.hstack((self.goals[worlds], self.memory["object"][worlds]))

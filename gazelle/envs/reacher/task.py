@@ -86,6 +86,11 @@ class ReachTask(SimulationTask):
         """Joint angles at the start [rad] and the goal [m], shape (n, 9)."""
         return np.hstack((self.memory["start"][worlds], self.memory["goal"][worlds]))
 
+    @property
+    def goal_places(self) -> Floats:
+        """Where the tool has to be [m], shape (nworld, 3)."""
+        return self.memory["goal"]
+
     def start(self, worlds: Worlds) -> None:
         """Posture and goal are drawn."""
         shares = self.draw(0.0, 1.0, worlds, len(self._joints) + 1)
