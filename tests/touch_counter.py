@@ -42,7 +42,7 @@ class Touches:
         ]
         touched = {
             other
-            for other in self._simulation.engine.contacts(own)[1].others
+            for other in self._simulation.engine.contacts([own]).named().others
             if other.partition("::")[0] not in (self._model, *self._ground)
         }
         now = self._simulation.time

@@ -6,7 +6,6 @@ from gazelle.description import World
 from gazelle.engines.carrying import CarryingEngine, as_carrying_engine
 from gazelle.engines.engine import PARAMETERS, DivergenceError, Engine
 from gazelle.engines.history import CHANGES, Call
-from gazelle.engines.late_engine import LateEngine
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.reactions import Contacts, ContactTable, Wrench
@@ -26,7 +25,6 @@ __all__ = [
     "Engine",
     "EngineFactory",
     "Hits",
-    "LateEngine",
     "Motion",
     "Placement",
     "RangeRays",
@@ -62,6 +60,6 @@ def make_engine(
         EngineError: There is no such engine, or it cannot simulate the world.
     """
     engine = find(name)(world, nworld, time_step=time_step, threads=threads)
-    if isinstance(engine, LateEngine) and not late:
+    if not late:
         engine.prepare()
     return engine

@@ -15,9 +15,8 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Model, World
 from gazelle.engines.history import Call
-from gazelle.engines.motion import Hits
 from gazelle.engines.range_rays import RangeRays, RangeTable
-from gazelle.engines.reactions import Contacts, ContactTable
+from gazelle.engines.reactions import ContactTable
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError
@@ -96,6 +95,15 @@ class Engine(Protocol):
     def revision(self) -> int:
         """Count of changes of models; systems have to be bound to the state again after one."""
 
+    def prepare(self) -> None:
+        """Compile the world with all that was asked for, so that the next step is one like others.
+
+        An engine may put that off until motors and kinematic models are known.
+
+        Raises:
+            EngineError: The world cannot be simulated.
+        """
+
     def step(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
         """Advance every world by ``count`` physics steps, and update systems that are due.
 
@@ -116,27 +124,19 @@ class Engine(Protocol):
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no forces."""
 
-    def contacts(
-        self, collisions: Sequence[str], worlds: Worlds | None = None
-    ) -> tuple[Worlds, Contacts]:
-        """Return the points where some collisions touch others now, world by world.
+    def contacts(self, sets: Sequence[Sequence[str]], worlds: Worlds | None = None) -> ContactTable:
+        """Return the points where collisions touch others now, set by set and world by world.
 
-        A contact between two of them is listed once, for the one that is named first. Forces
-        are those of the next physics step; nothing moves.
+        A contact between two collisions of a set is listed once, for the one that is named first.
+        Forces are those of the next physics step; nothing moves.
 
         Args:
-            collisions: Scoped names, ``model::link::collision``.
+            sets: Scoped names, ``model::link::collision``, of each set.
             worlds: Which worlds, in this order; all if None.
-
-        Returns:
-            The world of each contact, shape (k,), and the contacts.
 
         Raises:
             EngineError: There is no such collision, or the engine knows no contacts.
         """
-
-    def contact_table(self, sets: Sequence[tuple[str, ...]]) -> ContactTable:
-        """Return the contacts of each of some sets of collisions in all worlds, as arrays."""
 
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
         """Give a joint a motor that holds a velocity, zero at first, with limited effort.
@@ -200,25 +200,6 @@ class Engine(Protocol):
 
         Raises:
             EngineError: A value cannot be; nothing is changed.
-        """
-
-    def cast_rays(
-        self,
-        link: str,
-        origins: Floats,
-        directions: Floats,
-        worlds: Worlds | None = None,
-        *,
-        ignore_own: bool = False,
-    ) -> Hits:
-        """Follow rays to the nearest collision shape.
-
-        Args:
-            link: The link that the rays move with.
-            origins: In the link frame [m], shape (rays, 3).
-            directions: Unit vectors in the link frame, shape (rays, 3).
-            worlds: Which worlds.
-            ignore_own: Whether rays pass through the shapes of the link.
         """
 
     def range_kind(self, rays: RangeRays) -> Hashable | None:

@@ -42,10 +42,22 @@ class ContactTable:
     others: Indices
     terms: Floats
 
+    def named(self) -> Contacts:
+        """Return the contacts by the names of their collisions, in the same order."""
+        return Contacts(
+            collisions=tuple(self.names[i] for i in self.collisions.tolist()),
+            others=tuple(self.names[i] for i in self.others.tolist()),
+            position=self.terms[:, :3],
+            normal=self.terms[:, 3:6],
+            depth=self.terms[:, 6],
+            force=self.terms[:, 7:10],
+            torque=self.terms[:, 10:],
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class Contacts:
-    """The points where some collisions touch others in one world, in the world frame.
+    """The points where some collisions touch others, in the world frame.
 
     Attributes:
         collisions: Scoped names, ``model::link::collision``, of those asked for, length k.

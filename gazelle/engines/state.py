@@ -12,7 +12,7 @@ from typing import Protocol
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Bools, Floats, Indices, Worlds
-from gazelle.engines.motion import Motion, Placement
+from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.reactions import Wrench
 from gazelle.native.paths import Path
 from gazelle.native.system import System
@@ -39,6 +39,23 @@ class LinkRow(LinkRows, Protocol):
 
     def centre(self, worlds: Worlds | None = None) -> Floats:
         """Return the centre of mass [m], shape (n, 3)."""
+
+    def cast_rays(
+        self,
+        origins: Floats,
+        directions: Floats,
+        worlds: Worlds | None = None,
+        *,
+        ignore_own: bool = False,
+    ) -> Hits:
+        """Follow rays that move with the link to the nearest collision shape.
+
+        Args:
+            origins: In the link frame [m], shape (rays, 3).
+            directions: Unit vectors in the link frame, shape (rays, 3).
+            worlds: Which worlds.
+            ignore_own: Whether rays pass through the shapes of the link.
+        """
 
     def set_placement(
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None

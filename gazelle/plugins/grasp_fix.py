@@ -76,7 +76,8 @@ class GraspFix(ModelPlugin):
                 self._count(arm, np.array(free))
 
     def _count(self, arm: _Arm, worlds: Worlds) -> None:
-        squeezed = self._squeezed(*self._simulation.engine.contacts(arm.collisions, worlds))
+        found = self._simulation.engine.contacts([arm.collisions], worlds)
+        squeezed = self._squeezed(found.worlds, found.named())
         looked_at = set(worlds.tolist())
         for key in [key for key in arm.counts if key[0] in looked_at and key not in squeezed]:
             arm.counts[key] -= 1

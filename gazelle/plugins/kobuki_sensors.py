@@ -83,7 +83,7 @@ class Cliffs:
         rays = directions_of(model.angles, model.vertical_angles) @ pose.matrix()[:3, :3].T
         origins = np.asarray(pose.position) + least * rays
         link = sensor.name.rpartition("::")[0]
-        hits = self._engine.cast_rays(link, origins, rays, ignore_own=True)
+        hits = self._engine.links[link].cast_rays(origins, rays, ignore_own=True)
         return np.asarray(np.minimum(hits.distance.min(axis=1) + least, _FAR), np.float64)
 
     def reset(self, worlds: Worlds | None) -> None:

@@ -65,8 +65,9 @@ class Touch(ModelPlugin):
 
     def on_update(self, time: float) -> None:
         """Look at what is touched."""
-        where, found = self._engine.contacts(self._collisions, np.flatnonzero(self._enabled))
-        hits = np.array([self._target in name for name in found.others], np.bool_)
+        found = self._engine.contacts([self._collisions], np.flatnonzero(self._enabled))
+        where, others = found.worlds, found.named().others
+        hits = np.array([self._target in name for name in others], np.bool_)
         touches = np.zeros(len(self._enabled), np.bool_)
         touches[where] = True
         touches[where[~hits]] = False

@@ -64,7 +64,8 @@ class ContactModel(NoisySensor):
         """
         chosen = np.arange(self._engine.nworld) if worlds is None else np.asarray(worlds)
         values = np.full((len(chosen), self._most, _WIDTH), np.nan)
-        where, touching = self._engine.contacts(self.collisions, chosen)
+        table = self._engine.contacts([self.collisions], chosen)
+        where, touching = table.worlds, table.named()
         if len(touching):
             # Contacts come world by world: the first of each world, and each one's place in it.
             first = np.flatnonzero(np.diff(where, prepend=-1))
@@ -161,7 +162,7 @@ class ContactGroup(FromPython):
 
     def measure_all(self, interval: float) -> Floats:  # noqa: ARG002  touch has no drift
         """Contacts now, shape (nworld, n, most * 15); see ``ContactModel.measure``."""
-        found = self._engine.contact_table(self._sets)
+        found = self._engine.contacts(self._sets)
         shape = self._engine.nworld, len(self._sets), self._most
         values = np.full((*shape, _WIDTH), np.nan)
         if len(found.sets):

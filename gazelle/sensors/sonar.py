@@ -130,8 +130,8 @@ class SonarModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        hits = self._engine.cast_rays(
-            self._link, self._origins, self._directions, worlds, ignore_own=True
+        hits = self._engine.links[self._link].cast_rays(
+            self._origins, self._directions, worlds, ignore_own=True
         )
         low, high = self.settings.range_min, self.settings.range_max
         nearest = np.where(hits.from_inside, 0.0, hits.distance).min(axis=1, keepdims=True) + low

@@ -74,7 +74,9 @@ class FallWatch:
         origins = np.vstack([radius * ring for radius in _RINGS])
         down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
         try:
-            hits = self._engine.cast_rays(name, rotate(back, origins), rotate(back, down), worlds)
+            hits = self._engine.links[name].cast_rays(
+                rotate(back, origins), rotate(back, down), worlds
+            )
         except EngineError:  # the plane has no below
             return True
         return bool(np.isfinite(hits.distance).any())

@@ -107,7 +107,7 @@ def _penetrates(simulation: Simulation, robot: Robot) -> bool:
         for collision in link.collisions
     ]
     try:
-        found = simulation.engine.contacts(own)[1]
+        found = simulation.engine.contacts([own]).named()
     except EngineError:  # an engine without contacts
         return False
     grounds = _planes(simulation)

@@ -18,7 +18,6 @@ from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import (
     CarryingEngine,
     Engine,
-    LateEngine,
     as_carrying_engine,
     make_engine,
 )
@@ -125,8 +124,7 @@ class Simulation(Closeable):
             for plugin in loaded.plugins:
                 load_world_plugin(self, plugin)
             self.entities.adopt_all(loaded.models)
-        if isinstance(self._engine, LateEngine):
-            self._engine.prepare()
+        self._engine.prepare()
 
     @property
     def engine(self) -> Engine:

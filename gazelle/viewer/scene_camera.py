@@ -111,7 +111,7 @@ class SceneCamera:
         origins = rotate(back, eyes - place.position[0])
         directions = rotate(back, -np.array(ways) / lengths[:, None])
         try:
-            hits = engine.cast_rays(first.name, origins, directions, self._world)
+            hits = engine.links[first.name].cast_rays(origins, directions, self._world)
         except EngineError:  # the plane has rays of one height only
             return ways[0]
         clear = (hits.distance[0] >= lengths - _NEAR) & ~hits.from_inside[0]

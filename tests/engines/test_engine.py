@@ -200,7 +200,7 @@ def test_rays_measure_the_distance_to_a_wall_and_know_the_inside():
     engine = make(scenes.wall("wall", 2.0, 0.0, 0.0, length=0.2), scenes.box(pose=Pose(z=0.2)))
     origins = np.array([[0.15, 0.0, 0.0], [0.0, 0.0, 0.0], [0.15, 0.0, 0.0]])
     directions = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
-    hits = engine.cast_rays("box::link", origins, directions)
+    hits = engine.links["box::link"].cast_rays(origins, directions)
     np.testing.assert_allclose(hits.distance[0], [1.75, 0.1, np.inf], atol=1e-12)
     np.testing.assert_array_equal(hits.from_inside[0], [False, True, False])
 

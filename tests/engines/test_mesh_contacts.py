@@ -161,7 +161,7 @@ def test_ground_of_many_triangles_is_one_field_of_heights(tmp_path, mesh, fields
             engine.step()
         for ball in balls:
             name = f"{ball.name}::{ball.links[0].name}::{ball.links[0].collisions[0].name}"
-            if len(engine.contacts([name])[1].depth):
+            if len(engine.contacts([[name]]).named().depth):
                 touched += 1
                 position = engine.models[ball.name].placement().position[0]
                 assert closest(placed, position)[1] == pytest.approx(0.1, abs=0.012)

@@ -46,7 +46,7 @@ def test_beams_meet_the_triangles_of_the_file(largest, place, tmp_path, monkeypa
     thing = scenes.solid("thing", Mesh(file.name, file), static=True)
     eye = scenes.solid("eye", scenes.Sphere(1e-3), pose=scenes.Pose(z=50.0))
     engine = make_engine("mujoco", scenes.world(thing, eye))
-    hits = engine.cast_rays("eye::link", start - (0.0, 0.0, 50.0), along, ignore_own=True)
+    hits = engine.links["eye::link"].cast_rays(start - (0.0, 0.0, 50.0), along, ignore_own=True)
     found = hits.distance[0]
     size = float(np.linalg.norm(mesh.extents))
     same = np.isclose(found, expected, atol=1e-3 * size) | (np.isinf(found) & np.isinf(expected))

@@ -26,7 +26,7 @@ def seen(folder, mesh, origins, directions, *, static=True, pose=Pose()):  # noq
     eye = scenes.solid("eye", scenes.Sphere(1e-3), pose=Pose(z=50.0))
     engine = make_engine("mujoco", scenes.world(thing, eye))
     local = origins - np.array([0.0, 0.0, 50.0])
-    return engine.cast_rays("eye::link", local, directions, ignore_own=True)
+    return engine.links["eye::link"].cast_rays(local, directions, ignore_own=True)
 
 
 def bowl(sections=48):
@@ -138,7 +138,7 @@ def test_what_rays_meet_collides_with_nothing(tmp_path):
     engine = make_engine("mujoco", scenes.world(scenes.ground(), hoop, ball))
     for _ in range(300):
         engine.step()
-    assert not len(engine.contacts(["hoop::link::c"])[1].depth)
+    assert not len(engine.contacts([["hoop::link::c"]]).named().depth)
 
 
 def test_rays_pass_through_the_shapes_of_their_own_link(tmp_path):
@@ -149,7 +149,7 @@ def test_rays_pass_through_the_shapes_of_their_own_link(tmp_path):
         wall = scenes.solid("wall", scenes.Box((0.1, 2, 2)), pose=Pose(x=1.0), static=True)
         engine = make_engine("mujoco", scenes.world(hoop, wall))
         start, along = np.zeros((1, 3)), np.array([[1.0, 0.0, 0.0]])
-        near = engine.cast_rays("hoop::link", start, along)
-        far = engine.cast_rays("hoop::link", start, along, ignore_own=True)
+        near = engine.links["hoop::link"].cast_rays(start, along)
+        far = engine.links["hoop::link"].cast_rays(start, along, ignore_own=True)
         assert near.distance[0, 0] == pytest.approx(0.3, abs=2e-3)
         assert far.distance[0, 0] == pytest.approx(0.95, abs=1e-4)

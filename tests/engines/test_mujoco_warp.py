@@ -178,13 +178,15 @@ def test_rays_meet_the_same():
     for engine in engines:
         place = np.array([(0.0, 0.0, 0.4), (0.3, -0.2, 0.4)])
         engine.models["eye"].set_placement(place, (0.0, 0.0, 0.0, 1.0))
-        found.append(engine.cast_rays("eye::link", np.zeros((90, 3)), along, ignore_own=True))
+        found.append(engine.links["eye::link"].cast_rays(np.zeros((90, 3)), along, ignore_own=True))
     one, other = (each.distance for each in found)
     assert np.isfinite(one).sum() > 80
     assert (np.isfinite(one) == np.isfinite(other)).all()
     assert other[np.isfinite(one)] == pytest.approx(one[np.isfinite(one)], abs=1e-5)
-    few = engines[1].cast_rays(
-        "eye::link", np.zeros((90, 3)), along, np.array([1]), ignore_own=True
+    few = (
+        engines[1]
+        .links["eye::link"]
+        .cast_rays(np.zeros((90, 3)), along, np.array([1]), ignore_own=True)
     )
     assert np.array_equal(few.distance, other[1:])
 

@@ -140,7 +140,7 @@ def test_measuring_in_a_run_of_contacts_changes_no_bit():
             engine.step(5)
             if measure:
                 engine.joints["burger::wheel_left_joint"].wrench()
-                engine.contacts(["burger::base_footprint::caster"])[1]
+                engine.contacts([["burger::base_footprint::caster"]]).named()
         return engine.snapshot()
 
     np.testing.assert_array_equal(run(measure=True), run(measure=False))
@@ -151,7 +151,7 @@ def test_wheels_and_caster_carry_the_robot():
     engine.step(2000)
     wheels = [f"burger::wheel_{side}_link::c" for side in ("left", "right")]
     caster = "burger::base_footprint::caster"
-    touching = engine.contacts([*wheels, caster])[1]
+    touching = engine.contacts([[*wheels, caster]]).named()
     weight = (0.944735 + 2 * 0.02849894) * G
     assert touching.force[:, 2].sum() == pytest.approx(weight, rel=0.01)
     assert set(touching.collisions) == {*wheels, caster}
@@ -174,7 +174,7 @@ def test_contacts_are_seen_from_the_collision_that_is_asked_for():
     engine.models["ball"].set_placement((0, 0, 30.0), (0, 0, 0, 1), np.array([1]))
     engine.step(1000)
     ball, plane = "ball::link::c", "ground_plane::link::c"
-    on_ball, on_plane = engine.contacts([ball])[1], engine.contacts([plane])[1]
+    on_ball, on_plane = engine.contacts([[ball]]).named(), engine.contacts([[plane]]).named()
     assert (on_ball.collisions, on_ball.others) == ((ball,), (plane,))
     assert (on_plane.collisions, on_plane.others) == ((plane,), (ball,))
     np.testing.assert_allclose(on_ball.force, [[0, 0, G]], rtol=1e-2, atol=1e-6)
@@ -182,15 +182,15 @@ def test_contacts_are_seen_from_the_collision_that_is_asked_for():
     np.testing.assert_allclose(on_plane.normal, -on_ball.normal)
     np.testing.assert_allclose(on_ball.position, [[0, 0, 0]], atol=1e-3)
     assert 0.0 <= on_ball.depth[0] < 1e-3
-    assert len(engine.contacts([ball, plane])[1]) == 1
+    assert len(engine.contacts([[ball, plane]]).named()) == 1
     aside = on_ball.torque_about(np.array([1.0, 0.0, 0.0]))
     np.testing.assert_allclose(aside, [[0.0, G, 0.0]], rtol=1e-2, atol=1e-3)
-    assert len(engine.contacts([ball], np.array([1]))[1]) == 0
+    assert len(engine.contacts([[ball]], np.array([1])).named()) == 0
 
 
 def test_a_flying_ball_touches_nothing():
     engine = make_engine("mujoco", scenes.world(scenes.ground(), scenes.ball(pose=Pose(z=3.0))))
-    empty = engine.contacts(["ball::link::c"])[1]
+    empty = engine.contacts([["ball::link::c"]]).named()
     assert len(empty) == 0
     assert empty.force.shape == empty.position.shape == (0, 3)
 
@@ -200,16 +200,16 @@ def test_names_that_are_not_there_are_errors():
     with pytest.raises(EngineError, match="no joint between moving links 'box::j'"):
         engine.joints["box::j"].wrench()
     with pytest.raises(EngineError, match="no collision 'box::link::x'"):
-        engine.contacts(["box::link::x"])[1]
+        engine.contacts([["box::link::x"]]).named()
 
 
 def test_a_resting_stack_presses_with_all_that_is_above():
     boxes = [scenes.box(f"b{i}", pose=Pose(z=0.1 + 0.2 * i), mass=1.0 + i) for i in range(2)]
     engine = make_engine("mujoco", scenes.world(scenes.ground(), *boxes))
     engine.step(1500)
-    between = engine.contacts(["b1::link::c"])[1]
+    between = engine.contacts([["b1::link::c"]]).named()
     assert between.force[:, 2].sum() == pytest.approx(2.0 * G, rel=0.01)
-    lower = engine.contacts(["b0::link::c"])[1]
+    lower = engine.contacts([["b0::link::c"]]).named()
     below = [i for i, name in enumerate(lower.others) if name.startswith("ground")]
     assert lower.force[below, 2].sum() == pytest.approx(3.0 * G, rel=0.01)
     assert math.isclose(lower.force[:, 2].sum(), 1.0 * G, rel_tol=0.01)
@@ -274,16 +274,20 @@ def test_contacts_of_many_worlds_are_those_of_each():
     engine.step(50)
     names = [n for n in engine.running.layout.collisions if n.startswith(("burger", "box"))]
     worlds = np.array([3, 2, 0])
-    where, every = engine.contacts(names, worlds)
+    table = engine.contacts([names], worlds)
+    where, every = table.worlds, table.named()
     assert len(set(where.tolist())) == 3
     for world in worlds.tolist():
-        rows, alone = np.flatnonzero(where == world), engine.contacts(names, np.array([world]))[1]
+        rows, alone = (
+            np.flatnonzero(where == world),
+            engine.contacts([names], np.array([world])).named(),
+        )
         assert [every.others[i] for i in rows] == list(alone.others)
         assert [every.collisions[i] for i in rows] == list(alone.collisions)
         for field in ("position", "normal", "depth", "force", "torque"):
             np.testing.assert_array_equal(getattr(every, field)[rows], getattr(alone, field))
     assert (where == 2).sum() < (where == 0).sum()
-    assert len(engine.contacts(names, np.array([], np.intp))[1]) == 0
+    assert len(engine.contacts([names], np.array([], np.intp)).named()) == 0
 
 
 @pytest.mark.parametrize("model", ["pyramid_model", "cone_model"])
@@ -293,7 +297,7 @@ def test_contact_forces_are_those_that_mujoco_tells(model):
     ode = replace(world.profile.ode, friction_model=model)
     engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)))
     engine.step(100)
-    found = engine.contacts(list(engine.running.layout.collisions))[1]
+    found = engine.contacts([list(engine.running.layout.collisions)]).named()
     known, data = engine.reactions.probe(0)
     forces = np.zeros((data.ncon, 6))
     for index, row in enumerate(forces):

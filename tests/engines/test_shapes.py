@@ -40,7 +40,7 @@ def test_the_plane_of_a_body_that_moves_stays_where_it_begins(spin):
     across = (z - 0.5) * np.cos(0.2) - y * np.sin(0.2)  # of the plane
     assert across == pytest.approx(0.1, abs=1e-3)
     assert y < -0.04  # rolls down
-    assert engine.contacts(("tilted::link::c",))[1].others[0].startswith("ball")
+    assert engine.contacts([("tilted::link::c",)]).named().others[0].startswith("ball")
 
 
 def saved_mesh(folder, mesh):

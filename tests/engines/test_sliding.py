@@ -184,7 +184,7 @@ def test_what_is_pushed_slowly_rubs_with_all_of_its_friction(model, step, mu, sp
     forces = []
     for _ in range(round(0.2 / step)):
         engine.step()
-        forces.append(float(np.abs(engine.contacts(["p::f::c"])[1].force[:, 0].sum())))
+        forces.append(float(np.abs(engine.contacts([["p::f::c"]]).named().force[:, 0].sum())))
     assert np.mean(forces) == pytest.approx(mu * G, rel=0.005)
 
 

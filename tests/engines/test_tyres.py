@@ -85,7 +85,7 @@ def test_links_of_one_model_still_collide_only_if_they_say_so():
     # The body's box reaches into its wheels: it lies still all the same.
     assert np.abs(engine.links["base::body"].motion().linear).max() < 1e-3
     names = [f"{wheel}::c" for wheel in WHEELS]
-    assert set(engine.contacts(names)[1].others) == {"ground_plane::link::collision"}
+    assert set(engine.contacts([names]).named().others) == {"ground_plane::link::collision"}
 
 
 def test_what_is_no_wheel_does_not_slip():

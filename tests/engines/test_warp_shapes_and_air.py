@@ -65,7 +65,10 @@ def test_rays_see_a_mesh_as_it_is(tmp_path):
     starts = np.column_stack([np.linspace(-0.5, 0.5, 41), np.zeros(41), np.zeros(41)])
     down = np.tile((0.0, 0.0, -1.0), (41, 1))
     one, other = (
-        make_engine(name, world).cast_rays("eye::link", starts, down, ignore_own=True).distance
+        make_engine(name, world)
+        .links["eye::link"]
+        .cast_rays(starts, down, ignore_own=True)
+        .distance
         for name in NAMES
     )
     assert 5 < np.isfinite(one).sum() < 20

@@ -84,10 +84,10 @@ def test_the_lowest_point_touches_the_ground_however_it_is_turned(tmp_path, geom
     file = sdf(tmp_path, f"<model name='m'><pose>1 2 -5 {turn}</pose>{link}</model>")
     with gazelle.Simulation(file, threads=1) as sim:
         collision = ["m::l::c"]
-        assert sim.engine.contacts(collision)[1].depth.max(initial=0.0) < 1e-3
+        assert sim.engine.contacts([collision]).named().depth.max(initial=0.0) < 1e-3
         sunk = sim.robots["m"].pose
         sim.robots["m"].set_pose((sunk.x, sunk.y, sunk.z - 0.002), sunk.quaternion)
-        assert 1e-3 < sim.engine.contacts(collision)[1].depth.max(initial=0.0) < 3e-3
+        assert 1e-3 < sim.engine.contacts([collision]).named().depth.max(initial=0.0) < 3e-3
 
 
 @pytest.mark.parametrize("pose", ["0 0 3 0 0 0", "0 0 0.5 0 0 0"])

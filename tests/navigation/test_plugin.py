@@ -38,7 +38,7 @@ class Courier:
         end = self.sim.time + within
         while not self.seeker.arrived.all() and self.sim.time < end:
             self.sim.run(seconds=0.05)
-            others = self.sim.engine.contacts(self.own)[1].others
+            others = self.sim.engine.contacts([self.own]).named().others
             self.touched |= {name for name in others if not name.startswith(FLOORS)}
         return bool(self.seeker.arrived.all())
 
@@ -88,7 +88,7 @@ def reachable(courier, count, seed):
     for height in (0.02, 0.085, 0.25):
         starts = np.concatenate((at, np.full((*taken.shape, 1), height)), axis=-1).reshape(-1, 3)
         along = np.tile((1.0, 0.0, 0.0), (len(starts), 1))
-        hits = courier.sim.engine.cast_rays("courier::base_footprint", starts, along)
+        hits = courier.sim.engine.links["courier::base_footprint"].cast_rays(starts, along)
         taken |= (hits.from_inside[0] | (hits.distance[0] < cell)).reshape(taken.shape)
     taken &= np.hypot(at[..., 0], at[..., 1]) > 0.3  # its own wheels
     open_to = flooded(~dilate(taken, 0.33 / cell), np.hypot(*np.moveaxis(at, -1, 0)).argmin())

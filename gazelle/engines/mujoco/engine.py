@@ -28,7 +28,7 @@ from gazelle.engines.mujoco.motors import motor_again
 from gazelle.engines.mujoco.parameters import ParameterStore
 from gazelle.engines.mujoco.placing import note_moves
 from gazelle.engines.mujoco.process import settle
-from gazelle.engines.mujoco.ray_access import RayAccess
+from gazelle.engines.mujoco.ray_access import RangeFinders
 from gazelle.engines.mujoco.reactions import JointReactions
 from gazelle.engines.mujoco.rows import rows_of
 from gazelle.engines.mujoco.running import RunningWorlds
@@ -113,14 +113,13 @@ class MujocoEngine:
             lambda names: MujocoModelRows(run, names, self.links),
         )
         hanging = HangingLinks(lambda: run.world, self.links, self.joints)
-        holding, rays = LinkHolding(run, self.links), RayAccess(run, self.links)
+        holding, rays = LinkHolding(run, self.links), RangeFinders(run, self.links)
         self.attach, self.detach = holding.attach, holding.detach
-        self.cast_rays = rays.cast_rays
         self.range_kind, self.range_table = rays.range_kind, rays.range_table
         self.add_motor, self.make_kinematic = run.add_motor, run.make_kinematic
         self.parameter, self.set_parameter = run.parameter, run.set_parameter
         touches = ContactAccess(run, steps, self.reactions)
-        self.contacts, self.contact_table = touches.contacts, touches.contact_table
+        self.contacts = touches.contacts
         self._made = WorldSteps(run, steps, self.reset)
         self._systems = CarriedSystems(run)
         self.expect_systems = self._systems.expect_systems

@@ -9,11 +9,12 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.hanging_links import HangingLinks
-from gazelle.engines.motion import Motion, Placement
+from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import LinkSlot, MujocoLayout
 from gazelle.engines.mujoco.link_columns import LinkColumns, find_links
 from gazelle.engines.mujoco.placing import put_root
+from gazelle.engines.mujoco.ray_access import cast_from
 from gazelle.engines.mujoco.rows import rows_of
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.state import LinkRow
@@ -94,6 +95,18 @@ class MujocoLinkRow(MujocoLinkRows):
             return place.position
         offset = self._run.parameter("link_centre", self._name, worlds)
         return place.position + rotate(place.quaternion, offset)
+
+    def cast_rays(
+        self,
+        origins: Floats,
+        directions: Floats,
+        worlds: Worlds | None = None,
+        *,
+        ignore_own: bool = False,
+    ) -> Hits:
+        """Follow rays that move with the link to the nearest collision shape."""
+        place, rays = self.placement(worlds), (origins, directions)
+        return cast_from(self._run, self._name, place, rays, worlds, ignore_own=ignore_own)
 
     def set_placement(
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None

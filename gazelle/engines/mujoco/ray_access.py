@@ -7,7 +7,7 @@ from collections.abc import Hashable, Sequence
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.motion import Hits
+from gazelle.engines.motion import Hits, Placement
 from gazelle.engines.mujoco.rays import behind, nearest
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
@@ -17,8 +17,42 @@ from gazelle.native.system import System
 from gazelle.rotations import turns
 
 
-class RayAccess:
-    """The part of ``gazelle.engines.engine.Engine`` that casts rays.
+def cast_from(
+    run: RunningWorlds,
+    link: str,
+    place: Placement,
+    rays: tuple[Floats, Floats],
+    worlds: Worlds | None,
+    *,
+    ignore_own: bool,
+) -> Hits:
+    """Follow rays of a link to the nearest collision shape.
+
+    Args:
+        run: Worlds that run.
+        link: Scoped name.
+        place: Pose of the link.
+        rays: Origins and directions in its frame, shapes (rays, 3).
+        worlds: Which worlds.
+        ignore_own: Whether rays pass through the shapes of the link.
+    """
+    turn = turns(place.quaternion)
+    start, along = place.position[:, None, :] + rays[0] @ turn, rays[1] @ turn
+    body = run.layout.link(link).body if ignore_own else 0
+    if ignore_own and not body:
+        inside = f"{link}::"
+        own = [
+            geom
+            for name, geoms in run.layout.collisions.items()
+            if name.startswith(inside)
+            for geom in geoms
+        ]
+        return behind(run.batch, start, along, worlds, own)
+    return nearest(run.batch, start, along, worlds, body)[0]
+
+
+class RangeFinders:
+    """The part of ``gazelle.engines.engine.Engine`` for range finders.
 
     Args:
         run: Worlds that run.
@@ -27,31 +61,6 @@ class RayAccess:
 
     def __init__(self, run: RunningWorlds, links: Table[LinkRow, LinkRows]) -> None:
         self._run, self._links = run, links
-
-    def cast_rays(
-        self,
-        link: str,
-        origins: Floats,
-        directions: Floats,
-        worlds: Worlds | None = None,
-        *,
-        ignore_own: bool = False,
-    ) -> Hits:
-        """Follow rays to the nearest collision shape; see the protocol."""
-        place = self._links[link].placement(worlds)
-        turn = turns(place.quaternion)
-        start, along = place.position[:, None, :] + origins @ turn, directions @ turn
-        body = self._run.layout.link(link).body if ignore_own else 0
-        if ignore_own and not body:
-            inside = f"{link}::"
-            own = [
-                geom
-                for name, geoms in self._run.layout.collisions.items()
-                if name.startswith(inside)
-                for geom in geoms
-            ]
-            return behind(self._run.batch, start, along, worlds, own)
-        return nearest(self._run.batch, start, along, worlds, body)[0]
 
     def range_kind(self, rays: RangeRays) -> Hashable | None:
         """Return what is equal for rays that ``range_table`` casts together."""

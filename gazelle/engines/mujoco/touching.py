@@ -15,7 +15,7 @@ from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.layout import MujocoLayout, look_up
 from gazelle.engines.mujoco.reactions import JointReactions
 from gazelle.engines.mujoco.running import RunningWorlds
-from gazelle.engines.reactions import Contacts, ContactTable
+from gazelle.engines.reactions import ContactTable
 
 # What ``_read_contacts`` says of a world where nothing touches.
 _NOTHING = tuple(
@@ -82,22 +82,7 @@ class _GeomList:
         self.numbers = np.full(count, -1)
         for number, (name, geoms) in enumerate(layout.collisions.items()):
             self.names[geoms], self.numbers[geoms] = name, number
-        self._ranks: dict[tuple[str, ...], NDArray[np.intp]] = {}
         self._layers: dict[tuple[tuple[str, ...], ...], list[_Layer]] = {}
-
-    def ranks(self, layout: MujocoLayout, collisions: tuple[str, ...]) -> NDArray[np.intp]:
-        """How early each geom's collision is named; the last number is that of those that are not.
-
-        Raises:
-            EngineError: There is no such collision.
-        """
-        known = self._ranks.get(collisions)
-        if known is None:
-            known = np.full(len(self.names) + 1, len(collisions))
-            for rank, name in enumerate(collisions):
-                known[look_up("collision", name, layout.collisions)] = rank
-            self._ranks[collisions] = known
-        return known
 
     def layers(self, layout: MujocoLayout, sets: tuple[tuple[str, ...], ...]) -> list[_Layer]:
         """Sets of collisions in as few layers as need be; one where none is in two of them.
@@ -110,7 +95,8 @@ class _GeomList:
             known = self._layers[sets] = []
             for number, collisions in enumerate(sets):
                 found = [look_up("collision", name, layout.collisions) for name in collisions]
-                every = np.concatenate([np.asarray(geoms, np.intp) for geoms in found])
+                geoms = [np.asarray(each, np.intp) for each in found]
+                every = np.concatenate([np.zeros(0, np.intp), *geoms])
                 layer = next((each for each in known if (each.sets[every] < 0).all()), None)
                 if layer is None:
                     layer = _Layer(*np.full((2, len(self.names) + 1), -1))
@@ -134,37 +120,15 @@ class ContactAccess:
         # The layout for which geoms were listed last, and the list.
         self._listed: tuple[MujocoLayout, _GeomList] | None = None
 
-    def contacts(
-        self, collisions: Sequence[str], worlds: Worlds | None = None
-    ) -> tuple[Worlds, Contacts]:
-        """Return the points where some collisions touch others; see the protocol."""
-        layout = self._run.now()
-        listed = self._list_of(layout)
-        ranks = listed.ranks(layout, tuple(collisions))
-        found = self._all_contacts(np.arange(self._run.nworld) if worlds is None else worlds)
-        acts = ranks[found.geoms].min(axis=1, initial=ranks[-1]) < ranks[-1]
-        chosen = np.flatnonzero(acts & (found.address >= 0))
-        pairs = found.geoms[chosen]
-        mine = ranks[pairs].argmin(axis=1)
-        terms, rows = self._terms(found, chosen, mine), np.arange(len(chosen))
-        return found.worlds[chosen], Contacts(
-            collisions=tuple(listed.names[pairs[rows, mine]]),
-            others=tuple(listed.names[pairs[rows, 1 - mine]]),
-            position=terms[:, :3],
-            normal=terms[:, 3:6],
-            depth=terms[:, 6],
-            force=terms[:, 7:10],
-            torque=terms[:, 10:],
-        )
-
-    def contact_table(self, sets: Sequence[tuple[str, ...]]) -> ContactTable:
+    def contacts(self, sets: Sequence[Sequence[str]], worlds: Worlds | None = None) -> ContactTable:
         """Return the contacts of each of some sets of collisions; see the protocol."""
         layout = self._run.now()
         listed = self._list_of(layout)
-        found = self._all_contacts(np.arange(self._run.nworld))
+        found = self._all_contacts(np.arange(self._run.nworld) if worlds is None else worlds)
         acting = np.flatnonzero(found.address >= 0)
         parts = [
-            _touches_of(layer, found.geoms[acting]) for layer in listed.layers(layout, tuple(sets))
+            _touches_of(layer, found.geoms[acting])
+            for layer in listed.layers(layout, tuple(map(tuple, sets)))
         ]
         which, rows, mine = (np.concatenate(each) for each in zip(*parts, strict=True))
         chosen = acting[rows]

@@ -92,14 +92,14 @@ class PlanarEngine:
         )
         self.links: Table[PlanarLinkRow, PlanarLinkRows] = Table(
             lambda: run.layout.owners,
-            lambda name: PlanarLinkRow(run, name, self.models.__getitem__, hanging),
+            lambda name: PlanarLinkRow(run, name, self.models.__getitem__, hanging, rays.caster),
             lambda names: PlanarLinkRows(run, names),
         )
-        hanging = HangingLinks(lambda: run.recipe.world, self.links, self.joints, FROZEN)
         rays = PlanarRays(run, self._kinematic)
-        self.cast_rays, self.caster = rays.cast_rays, rays.caster
+        hanging = HangingLinks(lambda: run.recipe.world, self.links, self.joints, FROZEN)
+        self.caster = rays.caster
         self.range_kind, self.range_table = rays.range_kind, rays.range_table
-        self.contacts, self.contact_table = refusals.contacts, refusals.contact_table
+        self.contacts = refusals.contacts
         self.attach, self.detach = refusals.attach, refusals.detach
         self.set_parameter = refusals.set_parameter
 
@@ -156,6 +156,9 @@ class PlanarEngine:
     def bodies(self) -> dict[str, int]:
         """Index in the fleet of each model that can move."""
         return dict(self._run.layout.bodies)
+
+    def prepare(self) -> None:
+        """Do nothing: a planar world is built at once."""
 
     # -- time --------------------------------------------------------------------------
 

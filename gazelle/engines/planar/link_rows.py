@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Bools, Floats, Indices, Worlds
 from gazelle.description import Pose
 from gazelle.engines.hanging_links import HangingLinks
-from gazelle.engines.motion import Motion, Placement
+from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.build import PlanarLayout
 from gazelle.engines.planar.model_rows import PlanarModelRow
+from gazelle.engines.planar.rays import Caster
 from gazelle.engines.planar.refusals import refuse
 from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, unit
@@ -28,6 +29,7 @@ class PlanarLinkRow:
         name: Scoped name.
         model: Returns the row of a model.
         hanging: Moves links by the joints that they hang on.
+        caster: Returns what casts rays of a link.
     """
 
     def __init__(
@@ -36,8 +38,10 @@ class PlanarLinkRow:
         name: str,
         model: Callable[[str], PlanarModelRow],
         hanging: HangingLinks,
+        caster: Callable[[str, Floats, Floats], Caster],
     ) -> None:
         self._run, self._name, self._model, self._hanging = run, name, model, hanging
+        self._caster = caster
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the pose of the link."""
@@ -75,6 +79,18 @@ class PlanarLinkRow:
         inertial = skeleton.bones[self._name].link.inertial
         offset = Pose() if inertial is None else inertial.pose
         return place.position + rotate(place.quaternion, np.asarray(offset.position)[None])
+
+    def cast_rays(
+        self,
+        origins: Floats,
+        directions: Floats,
+        worlds: Worlds | None = None,
+        *,
+        ignore_own: bool = False,
+    ) -> Hits:
+        """Follow level rays to the nearest collision shape of another model."""
+        del ignore_own  # rays never meet their own model
+        return Hits(*self._caster(self._name, origins, directions).cast(worlds))
 
     def set_placement(
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None

@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.motion import Hits
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.fans import Scanner
 from gazelle.engines.planar.rays import Caster, KeptCaster, RayFan, caster_of, fan_of
@@ -33,21 +32,8 @@ class PlanarRays:
         self._casters: dict[tuple[str, bytes, bytes, float], KeptCaster] = {}
         run.on_change.append(self._casters.clear)
 
-    def cast_rays(
-        self,
-        link: str,
-        origins: Floats,
-        directions: Floats,
-        worlds: Worlds | None = None,
-        *,
-        ignore_own: bool = False,  # noqa: ARG002  rays never meet their own model
-    ) -> Hits:
-        """Follow level rays to the nearest collision shape of another model."""
-        distance, inside = self.caster(link, origins, directions).cast(worlds)
-        return Hits(distance, inside)
-
     def caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
-        """What casts the rays of ``cast_rays``: the same one as long as nothing turns its link.
+        """What casts the rays of ``LinkRow.cast_rays``: the same one as long as nothing turns its link.
 
         Raises:
             EngineError: The rays are not level, or their link not the same in all worlds.

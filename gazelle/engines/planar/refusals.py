@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Worlds
-from gazelle.engines.reactions import Contacts, ContactTable
+from gazelle.engines.reactions import ContactTable
 from gazelle.errors import EngineError
 
 
@@ -20,12 +20,7 @@ def refuse(what: str) -> EngineError:
     )
 
 
-def contacts(collisions: Sequence[str], worlds: Worlds | None = None) -> tuple[Worlds, Contacts]:
-    """Refused."""
-    raise refuse("contact points")
-
-
-def contact_table(sets: Sequence[tuple[str, ...]]) -> ContactTable:
+def contacts(sets: Sequence[Sequence[str]], worlds: Worlds | None = None) -> ContactTable:
     """Refused."""
     raise refuse("contact points")
 

@@ -154,10 +154,10 @@ class ContactLayer:
             return None
         context = self._context
         try:
-            which, found = context.simulation.engine.contacts(self._names, context.worlds)
+            table = context.simulation.engine.contacts([self._names], context.worlds)
         except EngineError:  # an engine that knows no contacts
             return np.zeros((0, 2, 3))
-        rows = np.searchsorted(context.worlds, which)
+        found, rows = table.named(), np.searchsorted(context.worlds, table.worlds)
         start = found.position + context.spots[rows]
         force = np.linalg.norm(found.force, axis=1, keepdims=True)
         length = 0.1 * np.log1p(force)
@@ -268,7 +268,7 @@ class RayLayer:
     def _spatial(self, model: LidarModel) -> Iterator[tuple[Floats, Floats, Any]]:
         context = self._context
         engine = context.simulation.engine
-        found = engine.cast_rays(model.link, model.origins, model.directions, context.worlds)
+        found = engine.links[model.link].cast_rays(model.origins, model.directions, context.worlds)
         place = engine.links[model.link].placement(context.worlds)
         reach = model.lidar.range_max - model.lidar.range_min
         for number, spot in enumerate(context.spots):

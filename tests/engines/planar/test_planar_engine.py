@@ -82,7 +82,7 @@ def test_scans_agree_with_mujoco_whatever_the_shape(tmp_path):
     for pose in ((0.0, 0.0, 0.0), (0.4, 0.3, 1.0), (-0.3, -0.8, -2.0)):
         for engine in (deep, flat):
             engine.models["scanner"].set_placement((*pose[:2], 0.0), from_yaw(np.array(pose[2])))
-        a, b = (e.cast_rays("scanner::base", origins, along) for e in (deep, flat))
+        a, b = (e.links["scanner::base"].cast_rays(origins, along) for e in (deep, flat))
         with np.errstate(invalid="ignore"):
             off = np.abs(a.distance - b.distance)
         both_inf = np.isinf(a.distance) & np.isinf(b.distance)
@@ -93,7 +93,7 @@ def test_scans_agree_with_mujoco_whatever_the_shape(tmp_path):
 def test_rays_that_begin_inside_something_say_so():
     origins, along = rays(begin=0.28)
     world = scenes.world(still("pillar", Cylinder(0.5, 2.0), Pose(0.2)), scanner_model())
-    a, b = (e.cast_rays("scanner::base", origins, along) for e in both(world))
+    a, b = (e.links["scanner::base"].cast_rays(origins, along) for e in both(world))
     assert (a.from_inside == b.from_inside).all()
     assert b.from_inside.any()
     assert a.distance == pytest.approx(b.distance, abs=1e-3)
@@ -102,7 +102,7 @@ def test_rays_that_begin_inside_something_say_so():
 def test_rays_that_lean_are_refused():
     engine = make_engine("planar", scenes.world(scanner_model()))
     with pytest.raises(EngineError, match="level plane"):
-        engine.cast_rays("scanner::base", np.zeros((1, 3)), np.array([[0.6, 0.0, 0.8]]))
+        engine.links["scanner::base"].cast_rays(np.zeros((1, 3)), np.array([[0.6, 0.0, 0.8]]))
 
 
 def drive(engine, world, command, pose=None, seconds=5.0):
@@ -224,9 +224,9 @@ def test_a_static_model_can_be_placed_and_is_seen_there():
     world = scenes.world(still("pillar", Cylinder(0.2, 1.0), Pose(2.0, 0.0, 0.5)), scanner_model())
     engine = make_engine("planar", world, 2)
     engine.models["pillar"].set_placement((1.0, 0.0, 0.5), from_yaw(np.array(0.2)), np.array([1]))
-    hits = engine.cast_rays("scanner::base", *rays(1, 0.3))
-    forward = engine.cast_rays(
-        "scanner::base", np.array([[0.0, 0.0, 0.3]]), np.array([[1.0, 0, 0]])
+    hits = engine.links["scanner::base"].cast_rays(*rays(1, 0.3))
+    forward = engine.links["scanner::base"].cast_rays(
+        np.array([[0.0, 0.0, 0.3]]), np.array([[1.0, 0, 0]])
     )
     assert np.isinf(hits.distance).all()
     assert forward.distance[:, 0] == pytest.approx([1.8, 0.8])
@@ -239,7 +239,7 @@ def test_what_needs_forces_is_refused_with_a_hint():
     for work in (
         lambda: engine.joints[joint].set_effort(1.0),
         lambda: engine.links[link].set_wrench(np.zeros(3), np.zeros(3)),
-        lambda: engine.contacts(["a"])[1],
+        lambda: engine.contacts([["a"]]).named(),
         lambda: engine.attach(link, link),
         lambda: engine.set_parameter("link_mass", link, 1.0),
     ):
