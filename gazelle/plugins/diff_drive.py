@@ -22,7 +22,7 @@ from gazelle.plugins.odometry import (
     OdometrySystem,
     TrueOdometry,
 )
-from gazelle.plugins.wheel_motors import WheelMotors, Wheels, WheelSystem
+from gazelle.plugins.wheel_motors import WheelMotors, WheelSystem, wheel_law
 from gazelle.simulation import (
     JointStates,
     ModelPlugin,
@@ -176,12 +176,14 @@ class EncoderDrives(OdometrySystem[DiffDrive]):
     def __init__(self, plugins: Sequence[DiffDrive]) -> None:
         super().__init__(plugins)
         self._rolled = ReckoningGroup([each.reckoning for each in plugins])
-        self._wheels = Wheels([each.motors for each in plugins])
+        self._law = wheel_law([each.motors for each in plugins])
+        simulation = plugins[0].motors.robot.simulation
+        self._clock, self._rows = simulation.clock, simulation.nworld * len(plugins)
 
     def update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
         """Count and drive."""
         self._rolled.advance()
-        self._wheels.tell()
+        self._law.bring(0, self._rows, self._clock.now_ns)
 
 
 def _source(parameters: Parameters) -> str:

@@ -110,7 +110,7 @@ class SlidingSystem(OdometrySystem[PlanarMove]):
         self._models = tuple(each.robot.name for each in plugins)
         told = [each.command for each in plugins]
         self.commands = CommandGroup(self._simulation.clock, told, self._simulation.nworld)
-        native: object = self._simulation.native
+        native: object = self._simulation.engine
         if isinstance(native, SystemEngine):
             law = TwistCommands(self.commands.linear, self.commands.angular)
             native.command_models(self._models, law)

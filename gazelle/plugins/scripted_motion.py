@@ -62,8 +62,8 @@ class ScriptedMotion(ModelPlugin):
 
     def bind(self) -> System | None:
         """Return what moves the model in the engine's steps; None where Python does."""
-        engine = self.robot.simulation.native
-        if engine is None or self.splines:
+        engine = self.robot.simulation.engine
+        if self.splines:
             return None
         path = Path(
             self.times,

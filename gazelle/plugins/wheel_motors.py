@@ -7,10 +7,10 @@ from typing import Protocol
 
 import numpy as np
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Worlds
 from gazelle.plugins.diff_drive_law import DiffDriveLaw, WheelTables
 from gazelle.plugins.odometry import OdometryPlugin, OdometrySystem
-from gazelle.simulation import JointArray, JointHandle, Robot, TwistInput
+from gazelle.simulation import JointHandle, Robot, TwistInput
 
 
 class WheelMotors:
@@ -56,76 +56,39 @@ class WheelMotors:
         self.tables.sent[slice(None) if worlds is None else worlds] = np.nan
 
 
-class Wheels:
-    """The wheels of some robots, driven by one law; commands and speeds are in tables of all.
+def wheel_law(motors: Sequence[WheelMotors]) -> DiffDriveLaw:
+    """Return the law of some robots, which writes the speeds that the engine's motors hold.
+
+    Commands and speeds are in tables of all from then on.
 
     Args:
         motors: Of each robot.
-        eager: Whether ``tell`` is needed when nothing was commanded, too.
-
-    Attributes:
-        law: What drives them.
     """
-
-    def __init__(self, motors: Sequence[WheelMotors], *, eager: bool = True) -> None:
-        self._simulation = motors[0].robot.simulation
-        self._tables = WheelTables.empty(self._simulation.nworld, len(motors))
-        for part, each in enumerate(motors):
-            each.join(self._tables.column(part))
-        self.law = DiffDriveLaw(
-            self._tables,
-            separation=[each.separation for each in motors],
-            radius=[each.radius for each in motors],
-            acceleration=[each.acceleration for each in motors],
-        )
-        self._eager = eager or any(each.acceleration > 0.0 for each in motors)
-        wheels = [
-            (wheel, 2 * part + side)
-            for part, each in enumerate(motors)
-            for side in (0, 1)
-            for wheel in each.sides[side]
-        ]
-        self._names = tuple(wheel.name for wheel, _ in wheels)
-        self._joints = JointArray([wheel for wheel, _ in wheels])
-        self._columns = np.array([column for _, column in wheels], np.intp)
-        self._followed: Floats | None = None
-
-    def bind(self) -> DiffDriveLaw | None:
-        """Return the law that writes the engine's motors itself; None where it cannot."""
-        engine = self._simulation.native
-        if engine is None:
-            return None
-        targets, columns = engine.joints[self._names].motor_targets()
-        self.law.send_to(targets, columns, self._columns)
-        return self.law
-
-    @property
-    def waiting(self) -> bool:
-        """Whether they are eager, a command is new, or motors forgot theirs."""
-        if self._eager or self._followed is None or np.isnan(self._tables.sent).any():
-            return True
-        return not np.array_equal(self._followed, self._commands())
-
-    def _commands(self) -> Floats:
-        return np.stack((self._tables.linear[..., 0], self._tables.angular[..., 2]))
-
-    def tell(self) -> None:
-        """Bring the law to this moment, and tell the motors what is new to them."""
-        sent = self._tables.sent
-        before = sent.copy()
-        self.law.bring(0, self._tables.last_ns.size, self._simulation.clock.now_ns)
-        if not self._eager:
-            self._followed = self._commands()
-        changed = (sent != before).any(axis=(0, 2))
-        if changed.any():
-            chosen = None if changed.all() else changed[self._columns // 2]
-            self._joints.drive(sent.reshape(len(sent), -1)[:, self._columns], chosen)
+    simulation = motors[0].robot.simulation
+    tables = WheelTables.empty(simulation.nworld, len(motors))
+    for part, each in enumerate(motors):
+        each.join(tables.column(part))
+    law = DiffDriveLaw(
+        tables,
+        separation=[each.separation for each in motors],
+        radius=[each.radius for each in motors],
+        acceleration=[each.acceleration for each in motors],
+    )
+    wheels = [
+        (wheel.name, 2 * part + side)
+        for part, each in enumerate(motors)
+        for side in (0, 1)
+        for wheel in each.sides[side]
+    ]
+    rows = simulation.engine.joints[tuple(name for name, _ in wheels)]
+    targets, columns = rows.motor_targets()
+    law.send_to(targets, columns, np.array([side for _, side in wheels], np.intp))
+    return law
 
 
 class WheelPlugin(OdometryPlugin, Protocol):
     """A drive of two sides."""
 
-    update_rate: float | None
     motors: WheelMotors
 
 
@@ -138,14 +101,4 @@ class WheelSystem(OdometrySystem[WheelPlugin]):
 
     def __init__(self, plugins: Sequence[WheelPlugin]) -> None:
         super().__init__(plugins)
-        self._wheels = Wheels([each.motors for each in plugins], eager=bool(plugins[0].update_rate))
-        self.kernel = self._wheels.bind()
-
-    @property
-    def active(self) -> bool:
-        """Whether motors have to be told anything."""
-        return self._wheels.waiting
-
-    def update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
-        """Drive."""
-        self._wheels.tell()
+        self.kernel = wheel_law([each.motors for each in plugins])

@@ -196,7 +196,7 @@ class ControlLoop(ModelPlugin):
         if not (laws or self.active):
             # A class of a user's own may have more to do than it lets see when it is asked.
             self._resting = type(hardware) is JointHardware
-            return InStep(None, math.inf, lasting=True) if self._resting else None
+            return InStep((), math.inf, lasting=True) if self._resting else None
         cycle = hardware.in_step
         if cycle is None:
             return None
@@ -208,7 +208,7 @@ class ControlLoop(ModelPlugin):
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
         self._handed = True
         # Without controllers nobody says when there is nothing left to do.
-        return InStep(cycle, self.manager.wake_ns(), bool(laws) and self.manager.patient)
+        return InStep((cycle,), self.manager.wake_ns(), bool(laws) and self.manager.patient)
 
     @property
     def _control_ns(self) -> int:

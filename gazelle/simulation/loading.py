@@ -33,7 +33,7 @@ def run_stage(simulation: RobotHost) -> StageFleet | None:
         return None
     clock, requests, seed = simulation.clock, simulation.requests, simulation.seed
     fleet = StageFleet(engine, clock, requests, seed, make_controllers)
-    runner = StageRunner(fleet, simulation.loop, lambda: simulation.native is not None)
+    runner = StageRunner(fleet, simulation.loop)
     simulation.plugins.append(make_scheduled(runner, "stage", ""))
     return fleet
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
-from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
 
 P = TypeVar("P")
@@ -28,13 +27,13 @@ class InStep:
     """Work of a system that engines do within their steps, for some time.
 
     Attributes:
-        kernel: Updated in each step; None while there is nothing to do.
+        kernels: Updated in each step, in order; none while there is nothing to do.
         until_ns: When Python has to update the system [ns]; infinite for never.
         lasting: Whether this holds, and ``settle`` may wait, until something is done to the system
             (``SystemsInStep.invalidate``). Else the system is asked again after some steps.
     """
 
-    kernel: JointSystem | None
+    kernels: tuple[System, ...]
     until_ns: float
     lasting: bool = False
 

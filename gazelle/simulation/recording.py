@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 from typing import IO, Any, Protocol
@@ -20,6 +20,9 @@ from numpy.typing import NDArray
 from gazelle.closing import Closeable
 from gazelle.engines import CHANGES, Call, DivergenceError, Engine
 from gazelle.errors import Error
+from gazelle.native.joint_system import JointSystem
+from gazelle.native.system import System
+from gazelle.simulation.clock import Schedule
 from gazelle.simulation.encoding import encode
 from gazelle.simulation.running_state import RunningState
 
@@ -67,7 +70,8 @@ class Recorder(Closeable):
     """Writes down a run until it is closed; a context manager.
 
     It listens to the methods of the engine that change something, whoever calls them, and compares the
-    state before each with that after the call before.
+    state before each with that after the call before. As long as it records, systems are updated from
+    here, one step at a time, so that what they write is found.
 
     Args:
         simulation: What runs.
@@ -85,14 +89,14 @@ class Recorder(Closeable):
         self._pending: dict[str, Any] = {}
         self._steps = 0
         self._write(first)
-        # What systems change is not called: plugins do it themselves meanwhile.
-        self._native, simulation.native = simulation.native, None
-        self._carrier, simulation.carrier = simulation.carrier, None
         own = vars(self._engine)  # some engines keep methods of their parts there
         self._methods = {name: own[name] for name in CHANGES if name in own}
         self._seen = self._engine.peek().copy()
+        self._step = self._engine.step
         for name in CHANGES:
-            setattr(self._engine, name, partial(self._called, name, getattr(self._engine, name)))
+            method = getattr(self._engine, name)
+            listener = self._stepped if name == "step" else partial(self._called, name, method)
+            setattr(self._engine, name, listener)
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
@@ -102,13 +106,46 @@ class Recorder(Closeable):
                     delattr(self._engine, name)
                     if name in self._methods:
                         setattr(self._engine, name, self._methods[name])
-                self._simulation.native = self._native
-                self._simulation.carrier = self._carrier
                 self._note_writes()
                 self._flush()
                 self._file.close()
 
-    def _called(self, name: str, method: Callable[..., Any], *args: Any, **options: Any) -> Any:
+    def _stepped(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
+        """Make steps, and update systems between them."""
+        if self._depth or not systems:
+            self._called("step", self._step, count, (), now_ns)
+            return
+        step_ns = self._simulation.clock.step_ns
+        for number in range(count):
+            time = now_ns + number * step_ns
+            self._update([each for each in systems if not each.late], time)
+            try:
+                self._called("step", self._step, 1, (), time, past=number)
+            except DivergenceError as error:
+                raise DivergenceError(
+                    error.message, error.worlds, error.before, error.steps, number + 1
+                ) from None
+            self._update([each for each in systems if each.late], time + step_ns)
+
+    def _update(self, systems: Sequence[System], time: int) -> None:
+        """Update those that are due; those of joints come after the others, as in engines."""
+        for system in sorted(systems, key=lambda each: isinstance(each, JointSystem)):
+            if system.due > time:
+                continue
+            carrier = self._simulation.carrier
+            if isinstance(system, JointSystem) and carrier is not None:
+                carrier.read_joints(system)
+            system.bring(0, self._engine.nworld * system.rows, time)
+            if isinstance(system, JointSystem) and carrier is not None:
+                carrier.push_joints(system)
+            if system.rate > 0.0:
+                schedule = Schedule(system.rate)
+                schedule.done(time)
+                system.due = schedule.due_ns
+
+    def _called(
+        self, name: str, method: Callable[..., Any], *args: Any, past: int = 0, **options: Any
+    ) -> Any:
         """Do what was asked; write it down unless it is part of something larger."""
         if self._depth:
             return method(*args, **options)
@@ -122,13 +159,13 @@ class Recorder(Closeable):
             result = method(*args, **options)
         except DivergenceError as error:
             line["diverged"] = [int(world) for world in error.worlds]
-            self._note(name, line, args)
+            self._note(name, line, args, past)
             raise
         except Error:
             raise  # nothing was changed
         finally:
             self._depth -= 1
-        self._note(name, line, args)
+        self._note(name, line, args, past)
         return result
 
     def _note_writes(self) -> None:
@@ -143,18 +180,19 @@ class Recorder(Closeable):
         time_ns = self._simulation.clock.now_ns
         self._write({"call": "write_state", "arguments": arguments, "time": time_ns})
 
-    def _note(self, name: str, line: dict[str, Any], args: tuple[Any, ...]) -> None:
-        line["time"] = self._simulation.clock.now_ns
+    def _note(self, name: str, line: dict[str, Any], args: tuple[Any, ...], past: int) -> None:
+        step_ns = self._simulation.clock.step_ns
+        line["time"] = self._simulation.clock.now_ns + past * step_ns
         self._seen = self._engine.peek().copy()
         if name != "step":
             self._flush()
             self._write(line)
             return
         count = args[0] if args else 1
-        line["time"] += count * self._simulation.clock.step_ns
+        line["time"] += count * step_ns
         line["hash"] = state_hash(self._seen)
         # Steps that were cut only to look who waits are one run of steps.
-        if not (self._pending and self._simulation.loop.cut):
+        if not (self._pending and (past or self._simulation.loop.cut)):
             self._flush()
             self._steps = 0
         self._steps += count

@@ -21,7 +21,6 @@ class RunningState(Protocol):
         clock: Simulated time.
         seed: Decides all random numbers.
         engine_name: As it was asked for.
-        native: The engine while it updates systems; None while Python does what they do.
         carrier: The engine, if it takes controllers of joints into its steps; else None.
     """
 
@@ -29,7 +28,6 @@ class RunningState(Protocol):
     clock: Clock
     seed: int
     engine_name: str
-    native: Engine | None
     carrier: CarryingEngine | None
 
     @property

@@ -77,8 +77,7 @@ class Simulation(Closeable):
         physics: Time step, gravity, solver and the like; settable in the middle of a run.
         parameters: Masses, friction and the like, which each world can have of its own.
         ports: Of the plugins of the world; those of models are on their ``Robot``.
-        native: The engine while it updates systems; None while Python does what they do.
-        carrier: Likewise, if it takes controllers into its steps.
+        carrier: The engine, if it takes controllers into its steps.
         events: Tell who must follow what is spawned, deleted and reset.
         requests: What threads ask for; hold it with ``with`` to do several things at one moment.
         entities, loop: Make and end models, and make the steps; for the thread that owns the state.
@@ -109,7 +108,6 @@ class Simulation(Closeable):
         self.requests = RequestQueue(self._engine.nworld)
         self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
-        self.native: Engine | None = self._engine
         self.carrier: CarryingEngine | None = as_carrying_engine(self._engine)
         self.seed, self.clock, self.paused = seed_of(seed), Clock(self._engine.time_step), False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)

@@ -23,7 +23,6 @@ class StepPlan:
         plugins: All, in the order they were loaded.
         sensors: All.
         nworld: Number of worlds.
-        native: Whether the engine updates systems.
         followed: Whether Python measures sensors all the same.
 
     Attributes:
@@ -42,12 +41,11 @@ class StepPlan:
         sensors: Iterable[SampledSensor],
         nworld: int,
         *,
-        native: bool = False,
         followed: bool = False,
     ) -> None:
         awake = [unit for unit in sensors if unit.awake]
         # Sensors first: asking for their kind may change the engine.
-        self.sensors, self.groups = group_sensors(awake, native=native and not followed)
+        self.sensors, self.groups = group_sensors(awake, native=not followed)
         due = [each for each in plugins if each.schedule is not None]
         self.plugins = make_systems(due, nworld)
         made = [each for each in self.plugins if isinstance(each, ScheduledSystem)]
@@ -55,9 +53,8 @@ class StepPlan:
         late = set(map(id, self.late))
         self.early = [each for each in self.plugins if id(each) not in late]
         self.settled: tuple[list[System], list[Schedule]] | None = None
-        if native:
-            systems, schedules, others = with_kernels(self.plugins)
-            self.settled = None if others else (systems, schedules)
+        systems, schedules, others = with_kernels(self.plugins)
+        self.settled = None if others else (systems, schedules)
 
     def release(self) -> None:
         """Let everything be updated by itself again."""

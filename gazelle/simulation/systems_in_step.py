@@ -8,7 +8,7 @@ from collections.abc import Set as AbstractSet
 
 import numpy as np
 
-from gazelle.native.joint_system import JointSystem
+from gazelle.native.system import System
 from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.plugin_system import InStep
 from gazelle.simulation.scheduled_systems import ScheduledSystem
@@ -29,7 +29,7 @@ class SystemsInStep:
     """
 
     def __init__(self) -> None:
-        self.kernels: list[JointSystem] = []
+        self.kernels: list[System] = []
         self.soonest_ns = math.inf
         self._holds: Hashable = None
         self.plan(())
@@ -95,14 +95,9 @@ class SystemsInStep:
             return
         pairs = zip(self._entries, self._found, strict=True)
         known = [(entry, found) for entry, found in pairs if found is not None]
-        self.kernels = [found.kernel for _, found in known if found.kernel is not None]
+        self.kernels = [kernel for _, found in known for kernel in found.kernels]
         self.soonest_ns = min((found.until_ns for _, found in known), default=math.inf)
         self._brief = [entry for entry, found in known if not found.lasting]
-
-    def release(self) -> None:
-        """Let Python update all."""
-        if any(found is not None for found in self._found):
-            self.plan(self._entries)
 
     def settle(self) -> None:
         """Let those whose answers do not last take over what was done in steps."""

@@ -172,9 +172,7 @@ class StepLoop:
                 self._systems, self._schedules = plan.settled
                 set_due(self._systems, self._schedules)
                 return ()
-            plugins: list[Scheduled] = list(plan.early)
-            if simulation.native is not None:
-                self._systems, self._schedules, plugins = with_kernels(plan.early)
+            self._systems, self._schedules, plugins = with_kernels(plan.early)
             fresh = plugins
             if asked:
                 fresh = [each for each in plugins if asked.isdisjoint(each.members())]
@@ -192,22 +190,15 @@ class StepLoop:
 
     def _not_in_step(self, updated: set[int]) -> list[ScheduledSystem]:
         """Return those that may act in steps, and that Python updates now."""
-        if self._simulation.carrier is None:
-            self.in_step.release()
-            return self._plan.late
         return self.in_step.ask(self._simulation.clock.now_ns, self._holds(), updated)
 
     def _holds(self) -> Hashable:
         """What plugins go by that say what carries them, besides what is done to them."""
-        simulation, carrier = self._simulation, self._simulation.carrier
-        revision = -1 if carrier is None else carrier.revision
-        return revision, simulation.clock.step_ns, self._loads.turned
+        return self._engine.revision, self._simulation.clock.step_ns, self._loads.turned
 
     def _is_settled(self) -> bool:
         """Whether what was asked before plugins were updated holds still."""
-        if self._planned != self._now():
-            return False
-        return self._simulation.carrier is None or self.in_step.is_current(self._holds())
+        return self._planned == self._now() and self.in_step.is_current(self._holds())
 
     def _steps_in_step(self) -> int:
         """Steps until Python has to update what is carried now."""
@@ -228,25 +219,23 @@ class StepLoop:
         now = self._now()
         if self._planned != now:
             self.release()
-            native, entities = self._simulation.native, self._entities
+            entities = self._entities
             self._plan = StepPlan(
                 entities.plugins,
                 entities.sensors,
                 self._simulation.nworld,
-                native=native is not None,
                 # What follows moves before sensors measure, so that Python comes between.
                 followed=bool(self.followers),
             )
             self.in_step.plan(self._plan.late)
             # Asking who can be grouped may change the engine.
-            self._planned = *now[:3], -1 if native is None else native.revision
+            self._planned = *now[:3], self._engine.revision
         return self._plan
 
     def _now(self) -> tuple[int, bool, int, int]:
         """What a plan holds for."""
-        native = self._simulation.native
         count, changes = len(self._entities.plugins), self._simulation.requests.changes
-        return changes, bool(self.followers), count, -1 if native is None else native.revision
+        return changes, bool(self.followers), count, self._engine.revision
 
     def release(self) -> None:
         """Let everything be updated by itself, until a new plan is made."""
@@ -255,10 +244,8 @@ class StepLoop:
 
     def _step(self, count: int) -> None:
         """Make steps, and update systems whenever they are due."""
-        systems: list[System] = []
-        if self._simulation.native is not None:
-            measured = (each.kernel for each in self._plan.groups)
-            systems = [*self._systems, *(each for each in measured if each is not None)]
+        measured = (each.kernel for each in self._plan.groups)
+        systems = [*self._systems, *(each for each in measured if each is not None)]
         systems += self.in_step.kernels
         try:
             self._engine.step(count, systems, self._simulation.clock.now_ns)
@@ -268,11 +255,10 @@ class StepLoop:
     def _follow(self) -> None:
         """See what systems have done."""
         self.in_step.settle()
-        if self._simulation.native is not None:
-            for schedule, system in zip(self._schedules, self._systems, strict=True):
-                schedule.follow(system.due)
-            for group in self._plan.groups:
-                group.follow()
+        for schedule, system in zip(self._schedules, self._systems, strict=True):
+            schedule.follow(system.due)
+        for group in self._plan.groups:
+            group.follow()
 
     def _step_piece(self, wanted: int) -> int:
         """Make as many steps at once as are not too long; returns how many."""
@@ -332,8 +318,9 @@ class StepLoop:
 
     def _steps_to_systems(self) -> int:
         """Return the steps until an engine updates a system of plugins."""
-        systems = [] if self._simulation.native is None else self._systems
-        due = [each.due for each in systems if each.rate or not getattr(each, "steady", False)]
+        due = [
+            each.due for each in self._systems if each.rate or not getattr(each, "steady", False)
+        ]
         clock = self._simulation.clock
         if not due:
             return sys.maxsize

@@ -69,7 +69,7 @@ def robot(number, kind):
 
 
 def yard(kind, *, native=True, together=True, **options):
-    """A running world of four robots and a wall; without ``native`` Python updates them.
+    """A running world of four robots and a wall; without ``native`` Python publishes odometry.
 
     Without ``together`` it updates each by itself.
     """
@@ -78,7 +78,9 @@ def yard(kind, *, native=True, together=True, **options):
     text = f"<sdf version='1.7'><world name='w'>{physics}{POST}{models}</world></sdf>"
     sim = gazelle.Simulation(formats.load_string(text), "planar", **options)
     if not native:
-        sim.native = None
+        for each in sim.robots.values():
+            for name in each.outputs.keys() & {"odom", "odom_tf"}:
+                each.outputs[name].subscribe(lambda _: None)
     if not together:
         part(sim)
     return sim

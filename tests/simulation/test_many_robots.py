@@ -59,10 +59,14 @@ def world(count):
 
 
 def yard(count=12, *, native=True, **options):
-    """A running world of robots; without ``native`` each part is updated by itself, from Python."""
+    """A running world of robots; without ``native`` Python measures each by itself, and publishes."""
     sim = gazelle.Simulation(formats.load_string(world(count)), "planar", seed=3, **options)
     if not native:
-        sim.native = None
+        for each in sim.robots.values():
+            for unit in each.sensors.values():
+                unit.kind = lambda: None
+            if "odom" in each.outputs:
+                each.outputs["odom"].subscribe(lambda _: None)
     for name, each in sim.robots.items():
         if name.startswith("r"):
             each.sensors["eyes"].latest()

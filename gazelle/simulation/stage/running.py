@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.native.system import System
 from gazelle.simulation.plugin import WorldPlugin
+from gazelle.simulation.plugin_system import InStep, PluginSystem
 from gazelle.simulation.stage.fleet import StageFleet
 from gazelle.states import Restorable, restore_all, states_of
 
@@ -26,54 +28,39 @@ class Steps(Protocol):
 
 
 class StageRunner(WorldPlugin):
-    """Has native code do what Stage's robots do in a step; in Python what is not all native.
+    """Robots of Stage files, as a plugin that is reset, saved and restored.
 
     Args:
         fleet: The robots.
         steps: Makes steps.
-        is_native: Whether systems are updated, or what they would do is to be done in Python by
-            calls of the engine, as somebody records these.
     """
 
     update_rate = 0.0
 
-    def __init__(self, fleet: StageFleet, steps: Steps, is_native: Callable[[], bool]) -> None:
-        self._fleet, self._steps, self._is_native = fleet, steps, is_native
+    def __init__(self, fleet: StageFleet, steps: Steps) -> None:
+        self._fleet, self._steps = fleet, steps
+        self.system = StageSystem
         self._following = False
-        self._bound: tuple[int, bool, int] | None = None
-        self._told = np.zeros(0)
+        self._bound: tuple[int, int] | None = None
 
-    @property
-    def active(self) -> bool:
-        """Whether something has to be done in Python before the next step."""
-        acting = self._bind()
-        return acting or not self._is_native()
-
-    def on_update(self, time: float) -> None:  # noqa: ARG002  controllers look at the clock
-        """Ask the controllers; write down what drives are told if somebody records."""
+    def control(self) -> None:
+        """Let controllers act in Python."""
         for controller in self._fleet.controllers:
             controller.update()
-        if not self._is_native():
-            wanted = self._fleet.fleet.command
-            if not np.array_equal(wanted, self._told):
-                self._told = wanted.copy()
-                self._fleet.engine.command(self._told)
 
-    def _bind(self) -> bool:
-        """Have the engine update what is native now; whether controllers act in Python."""
-        fleet, is_native = self._fleet, self._is_native()
-        motion = fleet.motion
-        now = fleet.engine.revision, is_native, len(motion.last)
-        if now == self._bound and not fleet.controllers:
-            return False
-        self._bound = now
-        native = self._systems() if is_native else None
-        fleet.engine.surround([*(native or ()), *motion.first], motion.last)
+    def bind(self) -> tuple[System, ...] | None:
+        """Return the kernels of all controllers, once the engine has those of motion; None for Python."""
+        fleet, motion = self._fleet, self._fleet.motion
+        now = fleet.engine.revision, len(motion.last)
+        if now != self._bound:
+            self._bound = now
+            fleet.engine.surround(motion.first, motion.last)
         self._follow(wanted=bool(fleet.devices))
-        return native is None and bool(fleet.controllers)
+        systems = self._systems()
+        return None if systems is None else tuple(systems)
 
     def _systems(self) -> list[System] | None:
-        """What the controllers do, in native code; None if that is not all."""
+        """Return what the controllers do, in native code; None if that is not all."""
         found: list[System] = []
         for controller in self._fleet.controllers:
             its = controller.systems()
@@ -132,3 +119,18 @@ class StageRunner(WorldPlugin):
             "devices": fleet.devices,
             **parts,
         }
+
+
+class StageSystem(PluginSystem[StageRunner]):
+    """The controllers of Stage's robots, in native code unless a user's own act in Python."""
+
+    single = True
+
+    def update(self, time: float) -> None:  # noqa: ARG002  controllers look at the clock
+        """Let controllers act."""
+        self.plugins[0].control()
+
+    def in_step(self) -> InStep | None:
+        """Return the controllers' kernels, if those are all."""
+        kernels = self.plugins[0].bind()
+        return None if kernels is None else InStep(kernels, math.inf)

@@ -17,6 +17,7 @@ from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
 from gazelle.errors import TaskError
 from gazelle.plugins.scripted_motion import ScriptedMotion
+from tests.envs.turtlebot3.test_systems_of_tasks import listen
 
 HELD_OUT = {"starts": "held-out", "goals": "held-out"}
 ENGINES = ["planar", "mujoco"]
@@ -122,7 +123,7 @@ def test_a_task_on_systems_begins_as_one_on_plugins(stage):
     plugins, systems = (
         TurtleBot3Task(stage, 16, continuous=False, settings=settings) for _ in range(2)
     )
-    plugins.scene.simulation.native = None  # plugins then act themselves
+    listen(plugins)
     everywhere = np.arange(16)
     np.testing.assert_allclose(
         systems.begin(everywhere)[0], plugins.begin(everywhere)[0], atol=1e-5

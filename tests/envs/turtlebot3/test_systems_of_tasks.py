@@ -10,12 +10,19 @@ from gazelle.envs.options import NavigationSettings
 from gazelle.envs.turtlebot3.task import TurtleBot3Task
 
 
+def listen(task):
+    """Have Python update what a kernel updates without listeners."""
+    for robot in task.scene.simulation.robots.values():
+        for name in robot.outputs.keys() & {"odom", "odom_tf"}:  # a scan would draw more noise
+            robot.outputs[name].subscribe(lambda _: None)
+
+
 def tasks(stage, nworld=32, *, continuous=False, **options):
     settings = NavigationSettings(engine="planar", seed=5, threads=1, **options)
     made = [
         TurtleBot3Task(stage, nworld, continuous=continuous, settings=settings) for _ in range(2)
     ]
-    made[0].scene.simulation.native = None  # plugins then act themselves
+    listen(made[0])
     return made
 
 
@@ -25,7 +32,6 @@ def tasks(stage, nworld=32, *, continuous=False, **options):
 )
 def test_a_task_on_systems_gives_what_one_on_plugins_gives(stage, rays, continuous):
     plugins, systems = tasks(stage, continuous=continuous, lidar_samples=rays, max_episode_steps=35)
-    assert systems.scene.simulation.native is not None
     everywhere = np.arange(32)
     np.testing.assert_allclose(
         systems.begin(everywhere)[0], plugins.begin(everywhere)[0], atol=1e-6
