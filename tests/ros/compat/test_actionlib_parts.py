@@ -49,3 +49,13 @@ def test_tf2_ros_gives_its_messages_too(node):
     tf2_ros = importlib.import_module("tf2_ros")
     assert tf2_ros.TransformStamped is load_message("geometry_msgs/TransformStamped")
     assert tf2_ros.TFMessage is load_message("tf2_msgs/TFMessage")
+
+
+@pytest.mark.parametrize(
+    "module", ["action_client", "action_server", "simple_action_client", "simple_action_server"]
+)
+def test_the_status_of_goals_is_found_in_each_module(actionlib, module):
+    """``smach_ros`` imports it from ``actionlib.simple_action_client``."""
+    found = importlib.import_module(f"actionlib.{module}").GoalStatus
+    assert found is actionlib.GoalStatus
+    assert found.to_string(found.ACTIVE) == "ACTIVE"

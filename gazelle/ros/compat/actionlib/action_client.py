@@ -6,10 +6,25 @@ from typing import Any
 
 from gazelle.ros import actions
 from gazelle.ros.actions.client import ClientGoalHandle
-from gazelle.ros.actions.states import CommState, TerminalState, name_of
+from gazelle.ros.actions.states import CommState, TerminalState
+from gazelle.ros.compat.actionlib.goal_messages import (
+    GoalID,
+    GoalStatus,
+    GoalStatusArray,
+    get_name_of_constant,
+)
 from gazelle.ros.compat.rospy.state import process
 
-__all__ = ["ActionClient", "ClientGoalHandle", "CommState", "TerminalState"]
+__all__ = [
+    "ActionClient",
+    "ClientGoalHandle",
+    "CommState",
+    "GoalID",
+    "GoalStatus",
+    "GoalStatusArray",
+    "TerminalState",
+    "get_name_of_constant",
+]
 
 
 class ActionClient(actions.ActionClient):
@@ -22,8 +37,3 @@ class ActionClient(actions.ActionClient):
 
     def __init__(self, ns: str, ActionSpec: Any) -> None:  # noqa: N803  # actionlib's name
         super().__init__(process.require(), ns, ActionSpec)
-
-
-def get_name_of_constant(C: Any, n: int) -> str:  # noqa: N803  # actionlib's name
-    """The name of a state in a class of states."""
-    return name_of(C, n)

@@ -7,9 +7,17 @@ from typing import Any
 
 from gazelle.ros import actions
 from gazelle.ros.actions.server import ServerGoalHandle
+from gazelle.ros.compat.actionlib.goal_messages import GoalID, GoalStatus, GoalStatusArray
 from gazelle.ros.compat.rospy.state import process
 
-__all__ = ["ActionServer", "ServerGoalHandle", "nop_cb"]
+__all__ = [
+    "ActionServer",
+    "GoalID",
+    "GoalStatus",
+    "GoalStatusArray",
+    "ServerGoalHandle",
+    "nop_cb",
+]
 
 _Callback = Callable[[ServerGoalHandle], Any]
 

@@ -6,9 +6,22 @@ from typing import Any
 
 from gazelle.ros import actions
 from gazelle.ros.actions.states import SimpleGoalState
+from gazelle.ros.compat.actionlib.action_client import (
+    ActionClient,
+    CommState,
+    get_name_of_constant,
+)
+from gazelle.ros.compat.actionlib.goal_messages import GoalStatus
 from gazelle.ros.compat.rospy.state import process
 
-__all__ = ["SimpleActionClient", "SimpleGoalState"]
+__all__ = [
+    "ActionClient",
+    "CommState",
+    "GoalStatus",
+    "SimpleActionClient",
+    "SimpleGoalState",
+    "get_name_of_constant",
+]
 
 
 class SimpleActionClient(actions.SimpleActionClient):

@@ -6,9 +6,11 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.ros import actions
+from gazelle.ros.compat.actionlib.action_server import ActionServer, ServerGoalHandle
+from gazelle.ros.compat.actionlib.goal_messages import GoalStatus
 from gazelle.ros.compat.rospy.state import process
 
-__all__ = ["SimpleActionServer"]
+__all__ = ["ActionServer", "GoalStatus", "ServerGoalHandle", "SimpleActionServer"]
 
 
 class SimpleActionServer(actions.SimpleActionServer):
