@@ -86,7 +86,7 @@ ADVICE = {
         ("python_qt_binding", "qt_gui", "qt_dotgraph", "rqt_gui", "rqt_gui_py", "rviz"), _WINDOW
     ),
     **dict.fromkeys(
-        ("smach", "smach_ros", "smach_msgs"),
+        ("smach_ros.ActionServerWrapper", "smach_ros.IntrospectionClient"),
         _SOURCE.format("executive_smach, https://github.com/ros/executive_smach,"),
     ),
     "camera_info_manager": _SOURCE.format("camera_info_manager_py"),

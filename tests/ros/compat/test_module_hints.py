@@ -7,7 +7,7 @@ import pytest
 
 import gazelle.ros as ros
 from gazelle.errors import RosError
-from gazelle.ros.compat.finder import own_modules
+from gazelle.ros.compat.finder import own_modules, substitutes
 from gazelle.ros.compat.module_hints import ADVICE, PIP, module_hint
 from gazelle.ros.compat.script import run_script
 from gazelle.ros.messages import load_message
@@ -35,7 +35,7 @@ def run(monkeypatch):
         ("from catkin_pkg.package import parse_package", "pip install catkin_pkg"),
         ("from urdf_parser_py.urdf import URDF", "pip install urdfdom-py"),
         ("from pykdl_utils.kdl_kinematics import KDLKinematics", "kdl_parser_py"),
-        ("import smach_ros", "executive_smach"),
+        ("import diagnostic_updater", "https://github.com/ros/diagnostics"),
         ("from foo_msgs.msg import Foo", "'foo_msgs' are not bundled"),
         ("from python_qt_binding import QtGui", "gazelle view"),
         ("import netifaces", "pip install netifaces2"),
@@ -62,6 +62,7 @@ def test_a_missing_module_is_one_line_that_says_what_to_do(run, tmp_path, monkey
         ("from std_msgs.msg import Strng", "'std_msgs.msg' has no 'Strng'", "'String'"),
         ("import std_msgs.srv", "no module 'std_msgs.srv'", "no definitions of services"),
         ("import tf.transformation", "no module 'tf.transformation'", "'transformations'"),
+        ("from smach_ros import ActionServerWrapper", "has no 'Action", "executive_smach"),
         ("from gym.core import Rapper", "'gym.core' has no 'Rapper'", "'Wrapper'"),
         ("import json.nothing", "no module 'json.nothing'", "'json' has no module 'nothing'"),
     ],
@@ -113,7 +114,7 @@ def test_of_what_nobody_knows_nothing_is_said(name):
 
 
 def test_the_tables_name_nothing_that_is_here():
-    assert not {*PIP, *ADVICE} & own_modules()
+    assert not {*PIP, *ADVICE} & {*own_modules(), *substitutes()}
     assert not PIP.keys() & ADVICE.keys()
 
 
