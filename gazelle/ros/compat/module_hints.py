@@ -90,7 +90,6 @@ ADVICE = {
         _SOURCE.format("executive_smach, https://github.com/ros/executive_smach,"),
     ),
     "camera_info_manager": _SOURCE.format("camera_info_manager_py"),
-    "diagnostic_updater": _SOURCE.format("diagnostics, https://github.com/ros/diagnostics,"),
     "catkin": "it is of ROS's build tool: rospkg, which is here, finds packages and their files",
     "flexbe_core": _SOURCE.format("flexbe_behavior_engine"),
     "genmsg": "definitions are read without it: import PACKAGE.msg is enough",
@@ -124,6 +123,7 @@ ADVICE = {
     "pcl": "it is C++: sensor_msgs.point_cloud2 and ros_numpy read clouds",
     "py_trees_ros": _SOURCE.format("py_trees_ros"),
     "roswtf": "'gazelle node info' and 'gazelle topic info' say who speaks with whom",
+    "stage_ros": "stage_ros has no messages and services of its own: put the fork that has them on ROS_PACKAGE_PATH",
     "sound_play": _SOURCE.format("audio_common"),
 }
 """From a module to what to do where pip does not bring it."""

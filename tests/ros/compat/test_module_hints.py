@@ -35,7 +35,7 @@ def run(monkeypatch):
         ("from catkin_pkg.package import parse_package", "pip install catkin_pkg"),
         ("from urdf_parser_py.urdf import URDF", "pip install urdfdom-py"),
         ("from pykdl_utils.kdl_kinematics import KDLKinematics", "kdl_parser_py"),
-        ("import diagnostic_updater", "https://github.com/ros/diagnostics"),
+        ("import bondpy", "https://github.com/ros/bond_core"),
         ("from foo_msgs.msg import Foo", "'foo_msgs' are not bundled"),
         ("from python_qt_binding import QtGui", "gazelle view"),
         ("import netifaces", "pip install netifaces2"),
