@@ -116,9 +116,6 @@ ADVICE = {
         ),
         _PICTURES,
     ),
-    "interactive_markers": _SOURCE.format(
-        "interactive_markers, https://github.com/ros-visualization/interactive_markers,"
-    ),
     "moveit_python": _SOURCE.format("moveit_python"),
     "pcl": "it is C++: sensor_msgs.point_cloud2 and ros_numpy read clouds",
     "py_trees_ros": _SOURCE.format("py_trees_ros"),
