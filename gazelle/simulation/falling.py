@@ -7,7 +7,8 @@ import warnings
 
 import numpy as np
 
-from gazelle.description import Model
+from gazelle.array_types import Floats
+from gazelle.description import Model, World
 from gazelle.engines import Engine
 from gazelle.errors import EngineError, SimulationWarning, describe
 from gazelle.rotations import conjugate, rotate
@@ -32,6 +33,10 @@ class FallWatch:
         self._engine = engine
         self._period = 0
         self._warned: set[str] = set()
+        self._world: World | None = None
+        self._watched: list[Model] = []
+        self._links: tuple[str, ...] = ()
+        self._lowest: Floats = np.zeros(0)
 
     def look(self, now_ns: int) -> None:
         """Look for models that fall, once in half a simulated second."""
@@ -39,20 +44,30 @@ class FallWatch:
         if period == self._period:
             return
         self._period = period
-        models = [
+        if self._world is not self._engine.world:
+            self._watch(self._engine.world)
+        if not self._watched:
+            return
+        heights = self._engine.links[self._links].placement().position[:, :, 2]
+        if not (heights < self._lowest).any():
+            return
+        worlds = heights.argmin(axis=0)
+        for column in np.flatnonzero(heights.min(axis=0) < self._lowest).tolist():
+            world, model = int(worlds[column]), self._watched[column]
+            if model.name not in self._warned:
+                self._judge(model, world, float(heights[world, column]), now_ns / 1e9)
+
+    def _watch(self, world: World) -> None:
+        """Look for models of a world from now on."""
+        self._world = world
+        self._watched = [
             model
-            for model in self._engine.world.models
+            for model in world.models
             if not model.static and model.links and model.name not in self._warned
         ]
-        if not models:
-            return
-        places = self._engine.links[tuple(_first_link(model) for model in models)].placement()
-        starts = np.array([(model.pose * model.links[0].pose).z for model in models])
-        heights = places.position[:, :, 2]
-        worlds = heights.argmin(axis=0)
-        for column in np.flatnonzero(heights.min(axis=0) < starts - _DEPTH).tolist():
-            world = int(worlds[column])
-            self._judge(models[column], world, float(heights[world, column]), now_ns / 1e9)
+        self._links = tuple(_first_link(model) for model in self._watched)
+        starts = [(model.pose * model.links[0].pose).z for model in self._watched]
+        self._lowest = np.array(starts) - _DEPTH
 
     def _judge(self, model: Model, world: int, height: float, seconds: float) -> None:
         if self._has_ground(model, world):
