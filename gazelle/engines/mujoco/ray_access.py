@@ -8,13 +8,13 @@ import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.motion import Hits, Placement
-from gazelle.engines.mujoco.rays import behind, nearest
+from gazelle.engines.mujoco.rays import behind, beside, nearest
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.range_rays import RangeRays
 from gazelle.engines.state import LinkRow, LinkRows
 from gazelle.engines.table import Table
+from gazelle.native.ray_frames import carried_rays
 from gazelle.native.system import System
-from gazelle.rotations import turns
 
 
 def cast_from(
@@ -36,8 +36,9 @@ def cast_from(
         worlds: Which worlds.
         ignore_own: Whether rays pass through the shapes of the link.
     """
-    turn = turns(place.quaternion)
-    start, along = place.position[:, None, :] + rays[0] @ turn, rays[1] @ turn
+    origins, directions = (np.ascontiguousarray(each, np.float64)[None] for each in rays)
+    at, turned = place.position[:, None], place.quaternion[:, None]
+    start, along = carried_rays(at, turned, origins, directions, beside(run))
     body = run.layout.link(link).body if ignore_own else 0
     if ignore_own and not body:
         inside = f"{link}::"
@@ -47,8 +48,8 @@ def cast_from(
             if name.startswith(inside)
             for geom in geoms
         ]
-        return behind(run.batch, start, along, worlds, own)
-    return nearest(run.batch, start, along, worlds, body)[0]
+        return behind(run, start, along, worlds, own)
+    return nearest(run, start, along, worlds, body)[0]
 
 
 class RangeFinders:
@@ -94,10 +95,8 @@ class MujocoRanges:
     def cast(self, worlds: Worlds | None = None) -> Floats:
         """Return distances now [m], shape (n, finders, rays)."""
         place = self._links.placement(worlds)
-        turn = turns(place.quaternion.reshape(-1, 4)).reshape(-1, len(self._origins), 3, 3)
-        start = place.position[:, :, None, :] + self._origins @ turn
-        along = self._directions @ turn
-        shape = start.shape
-        flat = (shape[0], shape[1] * shape[2], 3)
-        hits = nearest(self._run.batch, start.reshape(flat), along.reshape(flat), worlds)[0]
-        return np.where(hits.from_inside, -np.inf, hits.distance).reshape(shape[:3])
+        rays = self._origins, self._directions, beside(self._run)
+        start, along = carried_rays(place.position, place.quaternion, *rays)
+        hits = nearest(self._run, start, along, worlds)[0]
+        hits.distance[hits.from_inside] = -np.inf
+        return hits.distance.reshape(-1, *self._origins.shape[:2])

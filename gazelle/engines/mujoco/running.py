@@ -12,7 +12,7 @@ import numpy as np
 from mujoco.batch import Batch
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Bools, Floats, Worlds
 from gazelle.description import World
 from gazelle.engines.mujoco.attachments import Attachment
 from gazelle.engines.mujoco.compiler import Compiled, CompilerInput, compile_world, trees_of
@@ -25,6 +25,7 @@ from gazelle.engines.mujoco.motors import AXES, motor_of, refuse_motors
 from gazelle.engines.mujoco.overlaps import Overlaps
 from gazelle.engines.mujoco.parameters import ParameterStore, as_rows, check
 from gazelle.engines.mujoco.rows import rows_of
+from gazelle.engines.mujoco.shapes import OPEN_GROUP
 from gazelle.engines.mujoco.transfer import carry_over
 from gazelle.engines.mujoco.views import StateViews
 from gazelle.engines.tree import TreeLink
@@ -46,6 +47,7 @@ _COMPILED = frozenset(
         "overlaps",
         "initial",
         "before",
+        "sheets",
         "sleepy",
         "stale",
         "placed",
@@ -77,6 +79,7 @@ class RunningWorlds:
         overlaps: What is let out slowly of what it was put into.
         initial: The state that a reset puts back.
         before: Room for the states before a step, shape as those.
+        sheets: Geoms that have no inside, shape (geoms,).
         sleepy: Whether bodies may fall asleep.
         stale: Whether the placement of links that are not roots has to be computed.
         computed: How often it was.
@@ -94,6 +97,7 @@ class RunningWorlds:
     overlaps: Overlaps
     initial: Floats
     before: Floats
+    sheets: Bools
     sleepy: bool
     stale: bool
     placed: bool
@@ -137,6 +141,7 @@ class RunningWorlds:
         self.batch, self.layout, self.state = batch, layout, StateViews.of(batch)
         self.overlaps = Overlaps(compiled, recipe.world, self.nworld)
         self.overlaps.begin(batch)
+        self.sheets = compiled.model.geom_group == OPEN_GROUP
         self.placed, self.dropped, self.stale = False, {}, True
         self.revision += 1
         if recipe.hooks:
