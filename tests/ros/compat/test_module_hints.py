@@ -125,6 +125,12 @@ def test_the_tables_name_nothing_that_is_here():
         ("mav_msgs/Actuators", "25741daf38ed25442e3a66a855ee8d9c"),
         ("jsk_recognition_msgs/BoundingBoxArray", "c8f4a8bb1acd18ce778d183912bb472d"),
         ("jsk_recognition_msgs/RectArray", "e83b38fbaea3a641fa77f009f9bf492e"),
+        ("apriltag_ros/AprilTagDetectionArray", "2b6c03434883a5c9897c13b5594dbd91"),
+        ("ar_track_alvar_msgs/AlvarMarkers", "943fe17bfb0b4ea7890368d0b25ad0ad"),
+        ("vision_msgs/Classification3D", "2c0fe97799b60ee2995363b3fbf44715"),
+        ("vision_msgs/Detection2DArray", "402071f61477de256df9f1aa45e6e4c8"),
+        ("vision_msgs/Detection3DArray", "05c51d9aea1fb4cfdc8effb94f197b6f"),
+        ("vision_msgs/VisionInfo", "eee36f8dc558754ceb4ef619179d8b34"),
     ],
 )
 def test_definitions_are_those_of_ros(name, digest):
