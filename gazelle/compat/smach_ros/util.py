@@ -8,11 +8,11 @@ from typing import Any
 from gazelle.ros.compat import rospy
 
 _LOOK_S = 0.1
-_LOOKS = 50
+_LOOKS = 15
 
 
 def set_preempt_handler(sc: Any) -> None:
-    """Ask a container to end early when the node shuts down, and wait some seconds for it."""
+    """Ask a container to end early when the node shuts down, and wait a second or so for it."""
 
     def end(_reason: str = "") -> None:
         sc.request_preempt()

@@ -184,3 +184,21 @@ def test_userdata_from_the_network_is_not_unpickled(node, smach, smach_ros):
     until(lambda: sm.get_initial_states() == ["B"])
     assert "evil" not in sm.userdata
     server.stop()
+
+
+def test_a_machine_is_asked_to_end_before_the_node_does(node, smach, smach_ros):
+    class Machine:
+        asked = looked = 0
+
+        def request_preempt(self):
+            self.asked += 1
+            assert not node.is_shutdown()
+
+        def is_running(self):
+            self.looked += 1
+            return self.looked < 3
+
+    machine = Machine()
+    smach_ros.set_preempt_handler(machine)
+    node.signal_shutdown("test")
+    assert (machine.asked, machine.looked) == (1, 3)
