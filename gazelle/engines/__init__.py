@@ -12,7 +12,6 @@ from gazelle.engines.reactions import Contacts, ContactTable, Wrench
 from gazelle.engines.registry import EngineFactory, find
 from gazelle.engines.registry import names as engine_names
 from gazelle.engines.registry import register as register_engine
-from gazelle.engines.system_engine import SystemEngine
 
 __all__ = [
     "CHANGES",
@@ -28,7 +27,6 @@ __all__ = [
     "Motion",
     "Placement",
     "RangeRays",
-    "SystemEngine",
     "Wrench",
     "as_carrying_engine",
     "engine_names",

@@ -195,8 +195,8 @@ class JointRow(Protocol):
         """
 
 
-class ModelRows(Protocol):
-    """Models of all worlds."""
+class ModelFrames(Protocol):
+    """Frames of one or several models of all worlds."""
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the poses of the models' frames, which move with the canonical links."""
@@ -210,7 +210,21 @@ class ModelRows(Protocol):
         """
 
 
-class ModelRow(ModelRows, Protocol):
+class ModelRows(ModelFrames, Protocol):
+    """Several models of all worlds."""
+
+    def twist(self, linear: Floats, angular: Floats) -> System | None:
+        """Return what gives the models level velocities, as ``set_ground_motion``, in every step.
+
+        It is good for one ``revision`` of the engine. None where only ``set_ground_motion`` can.
+
+        Args:
+            linear: Forward and to the left [m/s], may be written later, shape (nworld, models, 3).
+            angular: The third is the turning rate [rad/s], likewise.
+        """
+
+
+class ModelRow(ModelFrames, Protocol):
     """One model of all worlds."""
 
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:

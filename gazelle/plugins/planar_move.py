@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
-from gazelle.engines import SystemEngine
-from gazelle.engines.planar.twist_commands import TwistCommands
 from gazelle.plugins.command_timeout import CommandGroup, CommandTimeout
 from gazelle.plugins.odometry import OdometryOutputs, OdometrySystem, TrueOdometry
 from gazelle.simulation import (
@@ -110,11 +108,8 @@ class SlidingSystem(OdometrySystem[PlanarMove]):
         self._models = tuple(each.robot.name for each in plugins)
         told = [each.command for each in plugins]
         self.commands = CommandGroup(self._simulation.clock, told, self._simulation.nworld)
-        native: object = self._simulation.engine
-        if isinstance(native, SystemEngine):
-            law = TwistCommands(self.commands.linear, self.commands.angular)
-            native.command_models(self._models, law)
-            self.kernel = law
+        models = self._simulation.engine.models[self._models]
+        self.kernel = models.twist(self.commands.linear, self.commands.angular)
 
     def update(self, time: float) -> None:  # noqa: ARG002  commands hold for ever
         """Move."""

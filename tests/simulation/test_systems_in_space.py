@@ -178,3 +178,33 @@ def test_python_has_no_part_in_paths_that_engines_follow(path, native):
         before = sim.robots["mover"].position
         sim.run(0.3)
         assert abs(sim.robots["mover"].position - before).max() > 0.1
+
+
+@pytest.mark.parametrize("lean", ["0 0 .4", ".3 -.2 2"])
+def test_bases_that_slide_go_as_engines_set_them(lean):
+    """Of several links, with a frame that is not the link's, leaning, in worlds of their own."""
+    wheel = drives.WHEEL.format("left", 0.0, 0.12, drives.SOLID.format(0.3, 4e-4), "base")
+    base = f"<link name='base'><pose>.03 .02 .1 .1 0 .2</pose>{drives.SOLID.format(3, 0.03)}</link>{wheel}"
+    text = "".join(
+        f"<model name='r{i}'><pose>{i} 0 1 {lean}</pose>{base}<plugin name='d' "
+        "filename='libgazebo_ros_planar_move.so'/></model>"
+        for i in range(2)
+    )
+    text = f"<sdf version='1.7'><world name='w'><gravity>0 0 0</gravity>{text}</world></sdf>"
+    with gazelle.Simulation(formats.load_string(text), "mujoco", nworld=2) as sim:
+        command = np.random.default_rng(0).normal(size=(2, 2, 3))
+        linear, angular = np.zeros((2, 2, 2, 3))
+        linear[..., :2], angular[..., 2] = command[..., :2], command[..., 2]
+        names = ("r0", "r1")
+        for number, name in enumerate(names):
+            sim.robots[name].inputs["cmd_vel"].send(linear[:, number], angular[:, number])
+        sim.run(0.3)
+        assert sim.loop._plan.settled is not None
+        models, joints = sim.engine.models[names], sim.engine.joints[("r0::left_joint",)]
+        sim.engine.update(models.twist(linear, angular))
+        found = sim.engine.peek().copy(), sim.engine.links["r0::left"].motion()
+        models.set_ground_motion(command)
+        wanted = sim.engine.peek().copy(), sim.engine.links["r0::left"].motion()
+        np.testing.assert_allclose(found[0], wanted[0], rtol=0.0, atol=1e-12)
+        np.testing.assert_allclose(found[1].linear, wanted[1].linear, rtol=0.0, atol=1e-12)
+        assert (joints.velocity() == 0.0).all()

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.description import Pose
 from gazelle.engines.motion import Placement
+from gazelle.engines.mujoco.laws.level_motion import LevelMotion
 from gazelle.engines.mujoco.layout import ModelSlot, MujocoLayout
 from gazelle.engines.mujoco.placing import put_root
 from gazelle.engines.mujoco.rows import rows_of
@@ -124,7 +125,7 @@ class MujocoModelRow:
             state.mocap_quat[:, mocap],
             arm=np.array(back.position),
             turned=np.array(back.quaternion),
-            moved=self._run.moved,
+            moved=self._run.moved[:1],
         )
 
     def set_motion(
@@ -284,3 +285,31 @@ class MujocoModelRows:
             self._run.state.qvel[worlds[:, None, None], roots.rates] = velocity
             self._run.state.qvel[worlds[:, None], roots.dofs] = 0.0
         self._run.stale = True
+
+    def twist(self, linear: Floats, angular: Floats) -> System | None:
+        """Return what gives the models their velocities; None where not one free link carries each."""
+        layout, state = self._run.now(), self._run.state
+        slots = [layout.model(name) for name in self._names]
+        free = [layout.link(slot.canonical).free for slot in slots]
+        places = [(each.position.start, each.velocity.start) for each in free if each is not None]
+        if len(places) < len(slots) or any(len(slot.roots) > 1 for slot in slots):
+            return None
+        dofs = [
+            (owner, column)
+            for owner, slot in enumerate(slots)
+            for name in slot.joints
+            for each in layout.joint(name)
+            for column in range(each.velocity.start, each.velocity.stop)
+        ]
+        owners, columns = np.array(dofs, np.intp).reshape(-1, 2).T.copy()
+        return LevelMotion(
+            linear,
+            angular,
+            state.qpos,
+            state.qvel,
+            np.array(places, np.intp),
+            np.array([(*slot.offset.position, *slot.offset.quaternion) for slot in slots]),
+            owners,
+            columns,
+            self._run.moved[1:],
+        )

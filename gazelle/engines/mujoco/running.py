@@ -84,7 +84,8 @@ class RunningWorlds:
         stale: Whether the placement of links that are not roots has to be computed.
         computed: How often it was.
         placed: Whether something was put elsewhere since the last step.
-        moved: 1 where a system put something elsewhere since the last step, else 0, shape (1,).
+        moved: 1 where a system put something elsewhere since the last step, and where one changed
+            velocities, else 0, shape (2,).
         dropped: MuJoCo's loose bodies that were put elsewhere since the last step, and in which worlds.
         revision: Counts compiled models; 0 before the first.
     """
@@ -114,7 +115,7 @@ class RunningWorlds:
         self.recipe = recipe
         self.pending: CompilerInput | None = None
         self.revision = self.computed = 0
-        self.moved: Floats = np.zeros(1)
+        self.moved: Floats = np.zeros(2)
         self._drafted: tuple[World, frozenset[str], dict[str, list[TreeLink]]] | None = None
 
     if not TYPE_CHECKING:  # what is compiled is had by attributes that the class names
@@ -245,7 +246,7 @@ class RunningWorlds:
 
     def refresh(self) -> None:
         """Compute the placement and motion of links that are not roots."""
-        if self.stale:
+        if self.stale or self.moved[0] or self.moved[1]:
             self.batch.forward(stage=VELOCITY_STAGE)
             self.stale = False
             self.computed += 1

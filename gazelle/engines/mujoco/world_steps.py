@@ -96,7 +96,7 @@ class WorldSteps:
         self.find_dropped()
         np.copyto(run.before, run.batch.state)
         failed = self._let_out(count) if run.overlaps.any else self._stepper.advance(count)
-        run.placed, run.moved[0] = False, 0.0
+        run.placed, run.moved[:] = False, 0.0
         self._made += count
         # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
         faults = run.state.faults

@@ -25,7 +25,6 @@ from gazelle.engines.planar.model_rows import PlanarModelRow, PlanarModelRows
 from gazelle.engines.planar.ray_casting import PlanarRays
 from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.engines.planar.skeleton import FROZEN
-from gazelle.engines.planar.twist_commands import TwistCommands
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.system import System
@@ -140,10 +139,6 @@ class PlanarEngine:
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
         """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
         self._run.add_motor(joint, max_effort)
-
-    def command_models(self, models: tuple[str, ...], law: TwistCommands) -> None:
-        """Let a law with a row for each of some models give them their velocities."""
-        self.models[models].command(law)
 
     def surround(self, before: Sequence[System], after: Sequence[System]) -> None:
         """Have systems updated at the beginning and the end of every step, until models change.

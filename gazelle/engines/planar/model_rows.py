@@ -230,8 +230,9 @@ class PlanarModelRows:
         joints = np.array([column for span in spans for column in span], np.intp)
         self._run.rates[rows[:, None], joints] = 0.0
 
-    def command(self, law: TwistCommands) -> None:
-        """Let a law with a row for each of the models give them their velocities."""
-        columns = self._columns()
+    def twist(self, linear: Floats, angular: Floats) -> System:
+        """Return what gives the models their velocities."""
+        columns, law = self._columns(), TwistCommands(linear, angular)
         bodies = np.where(columns.loose, columns.body, -1)
         law.carry(self._run.fleet.bodies, bodies, self._run.rates, columns.first, columns.width)
+        return law
