@@ -13,7 +13,7 @@ import gazelle
 
 PACKAGE = Path(gazelle.__file__).parent
 COMPAT = ("ros/compat/", "compat/")
-"""Modules with the names and interfaces of ROS's own packages, of openai_ros', frobs_rl's and gym's."""
+"""Modules with the names and interfaces of ROS's own packages, of openai_ros', frobs_rl's, smach's and gym's."""
 
 GIVEN_BY_ROS = frozenset(
     [
@@ -29,6 +29,7 @@ GIVEN_BY_ROS = frozenset(
         "Publisher",
         "Rate",
         "Service",
+        "State",
         "SimpleActionClient",
         "SimpleActionServer",
         "Subscriber",

@@ -49,7 +49,7 @@ class _Callbacks:
 
 
 @dataclass
-class _Shown:
+class _PublishedMarker:
     """A marker that has been published."""
 
     marker: Any
@@ -59,7 +59,7 @@ class _Shown:
 
 
 @dataclass
-class _Pending:
+class _PendingMarker:
     """A change that has not been published; ``marker`` is None for one that is erased."""
 
     marker: Any
@@ -82,8 +82,8 @@ class InteractiveMarkerServer:
         self.server_id = rospy.get_name() + server_id
         self.seq_num = 0
         self._lock = threading.RLock()
-        self._shown: dict[str, _Shown] = {}
-        self._pending: dict[str, _Pending] = {}
+        self._shown: dict[str, _PublishedMarker] = {}
+        self._pending: dict[str, _PendingMarker] = {}
         self.init_pub = rospy.Publisher(
             f"{topic_ns}/update_full", InteractiveMarkerInit, latch=True, queue_size=100
         )
@@ -110,7 +110,7 @@ class InteractiveMarkerServer:
             feedback_type: For which feedback; see `setCallback`.
         """
         with self._lock:
-            pending = self._pending.setdefault(marker.name, _Pending(None))
+            pending = self._pending.setdefault(marker.name, _PendingMarker(None))
             pending.marker, pending.moved = marker, False
         if feedback_cb != _KEPT:
             self.setCallback(marker.name, feedback_cb, feedback_type)
@@ -126,7 +126,7 @@ class InteractiveMarkerServer:
         return True
 
     def _move(self, name: str, pose: Any, header: Any) -> None:
-        pending = self._pending.setdefault(name, _Pending(None, moved=True))
+        pending = self._pending.setdefault(name, _PendingMarker(None, moved=True))
         if pending.marker is None or pending.moved:
             marker = copy.copy(self._shown[name].marker)
             pending.marker, pending.moved = marker, True
@@ -137,13 +137,13 @@ class InteractiveMarkerServer:
         with self._lock:
             if name not in self._pending and name not in self._shown:
                 return False
-            self._pending[name] = _Pending(None)
+            self._pending[name] = _PendingMarker(None)
         return True
 
     def clear(self) -> None:
         """Take all markers away."""
         with self._lock:
-            self._pending = {name: _Pending(None) for name in self._shown}
+            self._pending = {name: _PendingMarker(None) for name in self._shown}
 
     def setCallback(  # noqa: N802  # ROS's name
         self, name: str, feedback_cb: Callback | None, feedback_type: int = DEFAULT_FEEDBACK_CB
@@ -175,7 +175,7 @@ class InteractiveMarkerServer:
             self._publish(update)
             self.publishInit()
 
-    def _apply(self, name: str, pending: _Pending, update: Any) -> None:
+    def _apply(self, name: str, pending: _PendingMarker, update: Any) -> None:
         """Make a change, and add it to a message."""
         shown, marker = self._shown.get(name), pending.marker
         if marker is None:
@@ -183,7 +183,7 @@ class InteractiveMarkerServer:
                 update.erases.append(name)
         elif not pending.moved:
             if shown is None:
-                self._shown[name] = _Shown(marker, pending.callbacks)
+                self._shown[name] = _PublishedMarker(marker, pending.callbacks)
             else:
                 shown.marker = marker
             update.markers.append(marker)
@@ -218,7 +218,7 @@ class InteractiveMarkerServer:
             function(feedback)
 
     @staticmethod
-    def _is_anothers(shown: _Shown, client: str) -> bool:
+    def _is_anothers(shown: _PublishedMarker, client: str) -> bool:
         if shown.used is None or shown.client == client:
             return False
         return bool((rospy.get_rostime() - shown.used).to_sec() < _OTHERS_WAIT_S)

@@ -19,7 +19,7 @@ _BOXES = {_NO_BOX: "", _CHECKED: "[x] ", _UNCHECKED: "[ ] "}
 
 
 @dataclass
-class _Entry:
+class _MenuItem:
     """An entry, with the handles of those below it."""
 
     title: str
@@ -39,7 +39,7 @@ class MenuHandler:
     UNCHECKED = _UNCHECKED
 
     def __init__(self) -> None:
-        self._entries: dict[int, _Entry] = {}
+        self._entries: dict[int, _MenuItem] = {}
         self._top: list[int] = []
         self._markers: set[str] = set()
 
@@ -67,7 +67,7 @@ class MenuHandler:
                 return None
             siblings = self._entries[parent].below
         handle = len(self._entries) + 1
-        self._entries[handle] = _Entry(title, command_type, command, callback)
+        self._entries[handle] = _MenuItem(title, command_type, command, callback)
         siblings.append(handle)
         return handle
 
