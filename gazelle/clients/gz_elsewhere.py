@@ -25,7 +25,7 @@ OPTIONS_NOT_HERE = {
     "topic": "-l, -e, -i, -z, -b and -d are there; 'gazelle topic pub' publishes, 'gazelle view' shows",
     "world": "-p, -s, -m, -r and -o are there; -r puts back the time too",
 }
-"""What is there of sub-commands that have more options in Gazebo."""
+"""Options that are there, of sub-commands that have more in Gazebo."""
 
 
 def add_elsewhere(commands: argparse._SubParsersAction) -> None:  # type: ignore[type-arg]

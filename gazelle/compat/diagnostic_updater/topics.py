@@ -1,4 +1,4 @@
-"""Tasks about how often and how late messages come."""
+"""Tasks on the frequency and the age of messages."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class FrequencyStatusParam:
 
 
 class FrequencyStatus(DiagnosticTask):
-    """Whether something happens often enough: ``tick`` says that it does."""
+    """Task that compares the frequency of an event, noted by ``tick``, with limits."""
 
     def __init__(self, params: FrequencyStatusParam, name: str = "FrequencyStatus") -> None:
         super().__init__(name)
@@ -95,7 +95,7 @@ class TimeStampStatusParam:
 
 
 class TimeStampStatus(DiagnosticTask):
-    """Whether stamps are neither too old nor in the future: ``tick`` takes them."""
+    """Task that compares the age of stamps, taken by ``tick``, with limits."""
 
     def __init__(
         self, params: TimeStampStatusParam | None = None, name: str = "Timestamp Status"
@@ -156,7 +156,7 @@ class Heartbeat(DiagnosticTask):
 
 
 class HeaderlessTopicDiagnostic(CompositeDiagnosticTask):
-    """How often messages of a topic come.
+    """Task on the frequency of a topic's messages.
 
     Args:
         name: Of the topic.
@@ -180,7 +180,7 @@ class HeaderlessTopicDiagnostic(CompositeDiagnosticTask):
 
 
 class TopicDiagnostic(HeaderlessTopicDiagnostic):
-    """How often and how late messages of a topic come.
+    """Task on the frequency and the age of a topic's messages.
 
     Args:
         name: Of the topic.

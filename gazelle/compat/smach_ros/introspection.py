@@ -1,4 +1,4 @@
-"""What a state machine is and does, on topics, for ``smach_viewer`` and its like."""
+"""Topics with the structure and the active states of state machines, for ``smach_viewer``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _PERIOD_S = 2.0
 
 
 class _Proxy:
-    """Publishes what one container is and does.
+    """Publisher of the structure and the active states of one container.
 
     Args:
         server: Its topics are below this.
@@ -101,7 +101,7 @@ def _packed(userdata: UserData) -> str:
 
 
 class IntrospectionServer:
-    """Publishes what a container and those within it are and do.
+    """Publisher of the structure and the active states of a container and those within it.
 
     Args:
         server_name: Its topics are below this.
