@@ -244,9 +244,11 @@ class StepLoop:
 
     def _step(self, count: int) -> None:
         """Make steps, and update systems whenever they are due."""
-        measured = (each.kernel for each in self._plan.groups)
-        systems = [*self._systems, *(each for each in measured if each is not None)]
-        systems += self.in_step.kernels
+        systems: Sequence[System] = self._systems
+        if self._plan.groups or self.in_step.kernels:
+            measured = (each.kernel for each in self._plan.groups)
+            systems = [*self._systems, *(each for each in measured if each is not None)]
+            systems += self.in_step.kernels
         try:
             self._engine.step(count, systems, self._simulation.clock.now_ns)
         finally:
@@ -254,9 +256,11 @@ class StepLoop:
 
     def _follow(self) -> None:
         """See what systems have done."""
-        self.in_step.settle()
+        if self._plan.late:
+            self.in_step.settle()
         for schedule, system in zip(self._schedules, self._systems, strict=True):
-            schedule.follow(system.due)
+            if system.due != schedule.due_ns:
+                schedule.follow(system.due)
         for group in self._plan.groups:
             group.follow()
 

@@ -15,8 +15,10 @@ import numpy as np
 from mujoco.batch import SimulationError
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.description import World
 from gazelle.engines.motion import Motion
 from gazelle.engines.mujoco.laws import spun
+from gazelle.engines.mujoco.layout import MujocoLayout
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.mujoco.suspects import suspect
 from gazelle.engines.mujoco.wind import wind_strength
@@ -38,11 +40,17 @@ class ForcedSteps:
         self._run, self._motion = run, motion
         self.holds_back = False
         self._spun = False  # whether it was said that something turns too fast
+        self._plain: tuple[MujocoLayout, World] | None = None  # where no such force ever acts
 
     def advance(self, count: int) -> set[int]:
         """Step all worlds; returns those in which MuJoCo gave up."""
-        tyres = self._run.layout.tyres
+        layout, world, plain = self._run.layout, self._run.world, self._plain
+        if plain is not None and plain[0] is layout and plain[1] is world:
+            return self._step_batch(count)
+        tyres = layout.tyres
         if not tyres and not self._is_forced():
+            if not layout.limits.dofs.size:
+                self._plain = layout, world
             return self._step_batch(count)
         failed: set[int] = set()
         for _ in range(count):

@@ -57,13 +57,27 @@ class WorldSteps:
         if self._kept[0] != systems:
             self._kept = systems, *self._sorted(systems)
         _, joints, loop = self._kept
-        with self._acting(joints, now_ns):
-            if loop is None:
-                self._advance(count)
-            else:
-                loop.step = round(self._run.time_step * _NANOSECONDS)
-                loop.time = now_ns
-                loop.run_around(now_ns + count * loop.step, self._advance)
+        if joints:
+            with self._acting(joints, now_ns):
+                self._run_around(loop, count, now_ns)
+        else:
+            self._run_around(loop, count, now_ns)
+
+    def _run_around(self, loop: SystemLoop | None, count: int, now_ns: int) -> None:
+        """Make steps, and update systems between them."""
+        if loop is None:
+            self._advance(count)
+            return
+        step = round(self._run.time_step * _NANOSECONDS)
+        until = now_ns + count * step
+        for each in loop.systems:
+            if each.due <= until:
+                break
+        else:  # nothing is due, as in most single steps
+            self._advance(count)
+            return
+        loop.step, loop.time = step, now_ns
+        loop.run_around(until, self._advance)
 
     def _sorted(self, systems: Sequence[System]) -> tuple[list[JointSystem], SystemLoop | None]:
         """Systems that act within MuJoCo's steps, and those that act between them."""
@@ -74,9 +88,6 @@ class WorldSteps:
     @contextmanager
     def _acting(self, joints: Sequence[JointSystem], now_ns: int) -> Iterator[None]:
         """Let systems of joints act while it lasts."""
-        if not joints:
-            yield
-            return
         hooks, stepper = self._run.hooks, self._stepper
         hooks.begin(joints, now_ns, round(self._run.time_step * _NANOSECONDS))
         stepper.holds_back = True
@@ -93,10 +104,12 @@ class WorldSteps:
         """Make steps at whose beginning and end alone something may be changed."""
         run = self._run
         run.stale = True
-        self.find_dropped()
+        if run.dropped:
+            self.find_dropped()
         np.copyto(run.before, run.batch.state)
         failed = self._let_out(count) if run.overlaps.any else self._stepper.advance(count)
-        run.placed, run.moved[:] = False, 0.0
+        run.placed = False
+        run.moved.fill(0.0)
         self._made += count
         # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
         faults = run.state.faults
