@@ -33,6 +33,8 @@ class ImuArray:
             return None if its is None else (its, periods[column])
 
         for columns in of_one_kind(range(len(models)), kind):
+            if len(columns) == 1:
+                continue  # a single one is measured faster by itself
             group = ImuModel.together([models[i] for i in columns])
             self._groups.append((np.array(columns, np.intp), periods[columns[0]], group))
             self._alone = [each for each in self._alone if each[0] not in columns]
