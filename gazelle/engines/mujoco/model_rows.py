@@ -57,7 +57,9 @@ class MujocoModelRow:
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
         """Return the pose seen from above: x, y [m] and heading [rad], shape (n, 3)."""
         place = self.placement(worlds)
-        return np.column_stack((place.position[:, :2], yaw_of(place.quaternion)))
+        pose = np.empty(place.position.shape)
+        pose[:, :2], pose[:, 2] = place.position[:, :2], yaw_of(place.quaternion)
+        return pose
 
     def set_placement(
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
