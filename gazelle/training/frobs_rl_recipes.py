@@ -19,6 +19,15 @@ _KOBUKI = Recipe(
     settings=PPOSettings(n_steps=32, batch_size=1024, n_epochs=4),
 )
 
+# Goals up to 71 m away among boxes: copies that circle show nothing for the rest of long episodes. With
+# whole ones 83 to 100 % arrive as the seed has it, with a fifth of the steps 98 to 99 %.
+_KOBUKI_FAR = dataclasses.replace(
+    _KOBUKI,
+    gamma=0.98,
+    training_options={**_KOBUKI.training_options, "max_episode_steps": 200},
+    evaluation_options={"max_episode_steps": 1000},
+)
+
 # Arms turn further in a step than to the goal and back: steps are taken small at first, and what
 # counts is what the very next ones bring. Coarse steps of physics hold joints' speeds as well.
 _REACH_SETTINGS = PPOSettings(
@@ -59,7 +68,8 @@ FROBS_RL: dict[str, Recipe] = {
         angles=tuple(range(6)),
         settings=dataclasses.replace(_REACH_SETTINGS, initial_std=0.1),
     ),
-    **dict.fromkeys(("KobukiEmpty", "KobukiDynamic1", "KobukiDynamic2", "KobukiDynamic3"), _KOBUKI),
+    **dict.fromkeys(("KobukiEmpty", "KobukiDynamic3"), _KOBUKI),
+    **dict.fromkeys(("KobukiDynamic1", "KobukiDynamic2"), _KOBUKI_FAR),
     # Points of the way stand behind walls: each is paid for, and the way to the next one from there.
     "KobukiMaze": dataclasses.replace(
         _KOBUKI,
