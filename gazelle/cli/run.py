@@ -6,7 +6,7 @@ worlds').
   gazelle run my_robot.urdf.xacro
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger@-2,-0.5
-  gazelle run fleet --view
+  gazelle run fleet --wander --view
   gazelle run pick_and_place --spawn fetch --ros --moveit
   gazelle run map.yaml --engine planar --spawn turtlebot3_burger --ros
 
@@ -65,6 +65,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--paused", action="store_true", help="load, but do not start the clock")
     parser.add_argument("--seed", metavar="N", type=int, default=0, help="default 0")
+    parser.add_argument(
+        "--wander",
+        action="store_true",
+        help="let the robots of a Stage file go ahead and turn away from what is near",
+    )
     add_ground(parser)
     add_view(parser)
     parser.add_argument("--ros", action="store_true", help="be a node on a ROS 1 graph")
@@ -104,10 +109,16 @@ def run(args: argparse.Namespace) -> int:
         args.parser.error("--moveit is for a ROS graph; add --ros")
     if args.rosbridge is not None and not args.ros:
         args.parser.error("--rosbridge is for a ROS graph; add --ros")
+    if args.wander and args.ros:
+        args.parser.error("on a ROS graph robots drive by cmd_vel; leave out --wander or --ros")
     from gazelle import formats
 
     sys.path[:0] = args.plugins
     world = formats.open_world(args.file, ground=args.ground)
+    if args.wander:
+        from gazelle.simulation.stage import with_wander
+
+        world = with_wander(world)
     _take_from_file(args, world.stage)
     if args.ros:
         from gazelle.bridges import refuse_twin
@@ -122,6 +133,7 @@ def run(args: argparse.Namespace) -> int:
         start_wanted_controllers(sim, args)
         sys.stdout.write(f"world '{sim.world.name}': {_listed(sim)}\n")
         sys.stdout.writelines(f"{line}\n" for line in said if line)
+        sys.stdout.write(_undriven(sim, args))
         sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
         sys.stdout.flush()
         with viewing(sim, args) as page:
@@ -136,6 +148,14 @@ def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:
     args.engine, args.rate = args.engine or "planar", _pace(args.rate, stage.speedup)
     if args.seconds is None and not args.paused and stage.quit_time > 0.0:
         args.seconds = stage.quit_time
+
+
+def _undriven(sim: Simulation, args: argparse.Namespace) -> str:
+    """Return a line that says how to move the robots of a Stage file if nothing does, else ""."""
+    if sim.stage is None or args.ros or not sim.stage.robots or sim.stage.controllers:
+        return ""
+    view = "" if args.view is None else ", or the page"
+    return f"nothing drives the robots: --wander does, or --ros with cmd_vel{view}\n"
 
 
 def _listed(sim: Simulation) -> str:

@@ -211,6 +211,18 @@ def test_run_of_a_stage_file_takes_other_robots_too(cli, tmp_path):
     assert "simulated 1.00 s" in err
 
 
+def test_a_fleet_that_stands_says_how_it_moves(cli):
+    line = "nothing drives the robots: --wander does"
+    code, out, _ = cli("run", "fleet", "--for", 0.2, "--rate", "max")
+    assert (code, line in out) == (0, True)
+    code, out, _ = cli("run", "fleet", "--for", 0.2, "--rate", "max", "--wander")
+    assert (code, line in out) == (0, False)
+    code, out, _ = cli("run", "empty", "--for", 0.1, "--rate", "max")
+    assert (code, line in out) == (0, False)
+    code, _, err = cli("run", "fleet", "--for", 0.1, "--wander", "--ros")
+    assert (code, "leave out --wander or --ros" in err) == (2, True)
+
+
 @pytest.mark.parametrize("world", ["fleet", "empty"])
 def test_run_says_where_its_view_is(cli, world):
     pytest.importorskip("viser", reason="the extra 'web' is not installed")

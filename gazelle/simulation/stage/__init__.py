@@ -9,7 +9,7 @@ __path__ = search_path([str(Path(__file__).parent)])
 from gazelle.engines.stage_robots import Ranger, StageRobot
 from gazelle.simulation.stage.actuators import Actuator
 from gazelle.simulation.stage.cameras import CameraPictures, MountedCamera, cameras_of
-from gazelle.simulation.stage.controllers import register_controller
+from gazelle.simulation.stage.controllers import register_controller, with_wander
 from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.fleet import StageFleet
 from gazelle.simulation.stage.fleet_controller import FleetController
@@ -32,4 +32,5 @@ __all__ = [
     "StageSimulation",
     "cameras_of",
     "register_controller",
+    "with_wander",
 ]

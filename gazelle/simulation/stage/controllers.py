@@ -7,12 +7,15 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.description import Model, World
+from gazelle.description.stage import StageController
 from gazelle.engines.stage_robots import Ranger, StageRobot
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.formats.stage.models import known_controllers
@@ -69,6 +72,29 @@ def make_controllers(simulation: StageFleet) -> list[FleetController]:
         if maker is not None:
             made += maker(simulation, wanted)
     return made
+
+
+def with_wander(world: World) -> World:
+    """Return the world of a Stage file with ``wander`` for each robot that no controller drives.
+
+    Raises:
+        SimulationError: It is of no Stage file.
+    """
+    if world.stage is None:
+        raise SimulationError(
+            f"only robots of Stage files wander, and '{world.name}' is none",
+            hint="robots of other files drive by 'cmd_vel', from --ros or the page of --view",
+        )
+    return replace(world, models=tuple(map(_wandering, world.models)))
+
+
+def _wandering(model: Model) -> Model:
+    stage = model.stage
+    if stage is None or stage.position is None:
+        return model
+    if any(placed.model.controllers for placed in stage.walk()):
+        return model
+    return replace(model, stage=replace(stage, controllers=(StageController("wander"),)))
 
 
 class Wander(FleetController):

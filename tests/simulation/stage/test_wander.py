@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 from stage_samples import write
 
-from gazelle.simulation.stage import StageSimulation
+from gazelle import formats
+from gazelle.errors import SimulationError
+from gazelle.simulation import Simulation
+from gazelle.simulation.stage import StageSimulation, with_wander
 from gazelle.simulation.stage.controllers import Wander
 from gazelle.simulation.stage.wandering import Wandering
 
@@ -158,3 +161,20 @@ def test_who_listens_hears_of_every_step(start):
     sim.subscribe(lambda: times.append(sim.time))
     sim.step(5)
     assert times == pytest.approx([0.1, 0.2, 0.3, 0.4, 0.5])
+
+
+def test_robots_that_nothing_drives_wander_if_asked_to(tmp_path):
+    """And those that a controller drives keep theirs; what has no drive stands."""
+    own = 'position ( size [.1 .1 .1] ctrl "lasernoise 0.1" ' + SCANNER.format(9)
+    text = own + " pose [0 3 0 0] )" + wall(5, 5)
+    text += "position ( size [.1 .1 .1] " + SCANNER.format(9) + " pose [0 0 0 0] )"
+    world = with_wander(formats.load(write(tmp_path, text)))
+    with Simulation(world, "planar") as sim:
+        assert sim.stage.controllers
+        sim.run(2.0)
+        assert np.hypot(*sim.stage.poses[0, :, :2].T).tolist() == pytest.approx([3.0, 0.8], abs=0.1)
+
+
+def test_only_robots_of_stage_files_wander():
+    with pytest.raises(SimulationError, match="only robots of Stage files"):
+        with_wander(formats.load("empty"))
