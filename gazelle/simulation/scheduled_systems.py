@@ -36,6 +36,7 @@ class ScheduledSystem:
                 entry.schedule = self.schedule
         self._subscribed = [entry for entry in entries if entry.is_subscribed]
         self._parted = False
+        self._only = entries[0] if len(entries) == 1 else None
 
     @property
     def kernel(self) -> System | None:
@@ -71,7 +72,7 @@ class ScheduledSystem:
 
     @property
     def _gone(self) -> bool:
-        return self._entries[0].detached and len(self._entries) == 1
+        return self._only is not None and self._only.detached
 
     def members(self) -> list[int]:
         """Return the identities of its plugins."""
@@ -106,7 +107,7 @@ class ScheduledSystem:
             self._act(clock)
         if self._parted:
             self._update_alone(clock)
-        else:
+        elif self._subscribed:
             self._publish(clock)
         schedule.done(clock.now_ns)
 
@@ -115,7 +116,7 @@ class ScheduledSystem:
         try:
             if system.kernel is not None:
                 system.kernel.bring(0, self._nworld * system.kernel.rows, clock.now_ns)
-            elif system.active:
+            elif not self._subscribed or system.active:  # else it was asked already
                 system.update(clock.now)
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
             self._fail(error, f"at {clock.now:g} s")
@@ -142,7 +143,7 @@ class ScheduledSystem:
         """Update each row by itself, so that it is seen whose fault it is."""
         for entry in self._entries:
             own = make_system([entry], self._nworld)
-            if own is not None:
+            if own is not None and own.is_active(clock):
                 own._act(clock)  # noqa: SLF001  its own class
                 own._publish(clock)  # noqa: SLF001
 
