@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Bools, Floats, Indices, Worlds
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.reactions import Wrench
-from gazelle.native.paths import Path
+from gazelle.native.paths import ModelPath
 from gazelle.native.system import System
 
 
@@ -195,7 +195,7 @@ class JointRow(Protocol):
         """
 
 
-class ModelFrames(Protocol):
+class FrameRows(Protocol):
     """Frames of one or several models of all worlds."""
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
@@ -210,7 +210,7 @@ class ModelFrames(Protocol):
         """
 
 
-class ModelRows(ModelFrames, Protocol):
+class ModelRows(FrameRows, Protocol):
     """Several models of all worlds."""
 
     def twist(self, linear: Floats, angular: Floats) -> System | None:
@@ -224,7 +224,7 @@ class ModelRows(ModelFrames, Protocol):
         """
 
 
-class ModelRow(ModelFrames, Protocol):
+class ModelRow(FrameRows, Protocol):
     """One model of all worlds."""
 
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
@@ -252,7 +252,7 @@ class ModelRow(ModelFrames, Protocol):
             worlds: Which worlds.
         """
 
-    def path(self, path: Path) -> System | None:
+    def path(self, path: ModelPath) -> System | None:
         """Return what moves the model, which is kinematic, along a path when it is updated.
 
         It is good for one ``revision`` of the engine. None where only ``set_placement`` can.

@@ -16,7 +16,7 @@ from gazelle.array_types import Floats
 
 
 @dataclass(frozen=True, slots=True)
-class Path:
+class ModelPath:
     """Poses over time: straight lines between way-points, or an even turn where there are none.
 
     Attributes:
@@ -58,7 +58,7 @@ class PathSystem(System):
         path: Its path.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: ModelPath) -> None:
         System.__init__(self)
         self.legs, self.epoch, self.loop = path.legs, path.epoch, path.loop
         self.start = np.array([*path.start, *path.attitude])
@@ -96,7 +96,7 @@ class PosePath(PathSystem):
 
     def __init__(
         self,
-        path: Path,
+        path: ModelPath,
         position: Floats,
         quaternion: Floats,
         *,

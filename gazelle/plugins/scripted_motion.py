@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, Pose
 from gazelle.errors import SimulationError
-from gazelle.native.paths import Path
+from gazelle.native.paths import ModelPath
 from gazelle.native.system import System
 from gazelle.plugins.splines import PoseSpline
 from gazelle.rotations import multiply
@@ -65,7 +65,7 @@ class ScriptedMotion(ModelPlugin):
         engine = self.robot.simulation.engine
         if self.splines:
             return None
-        path = Path(
+        path = ModelPath(
             self.times,
             self.positions,
             self.quaternions,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 from gazelle.array_types import Floats, Picture
-from gazelle.engines.planar import Fleet, PlanarEngine, Scanner, Table, footprint_of
+from gazelle.engines.planar import Fleet, PlanarEngine, PrimitiveTable, Scanner, footprint_of
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.simulation.inputs import one_world
@@ -103,7 +103,7 @@ class TopView:
                 for x, y in self._frame.path(beams[hits]):
                     draw.rectangle((x - 1, y - 1, x + 1, y + 1), fill=_HIT)
 
-    def _draw_statics(self, draw: ImageDraw.ImageDraw, table: Table) -> None:
+    def _draw_statics(self, draw: ImageDraw.ImageDraw, table: PrimitiveTable) -> None:
         segments = table.segments
         starts, ends = self._frame.path(segments[:, :2]), self._frame.path(segments[:, 2:])
         for start, end in zip(starts, ends, strict=True):

@@ -19,7 +19,7 @@ from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.state import LinkRow, LinkRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError
-from gazelle.native.paths import Path, PosePath
+from gazelle.native.paths import ModelPath, PosePath
 from gazelle.native.system import System
 from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, unit, yaw_of
 
@@ -114,7 +114,7 @@ class MujocoModelRow:
             turned = multiply(turn, link.quaternion)
             put_root(self._run, self._run.layout.link(root), moved, turned, worlds)
 
-    def path(self, path: Path) -> System | None:
+    def path(self, path: ModelPath) -> System | None:
         """Return what moves the model along a path; None where several links carry it."""
         slot = self._run.now().model(self._name)
         mocap = self._run.layout.link(slot.roots[0]).mocap

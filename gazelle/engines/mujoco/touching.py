@@ -95,8 +95,8 @@ class _GeomList:
             known = self._layers[sets] = []
             for number, collisions in enumerate(sets):
                 found = [look_up("collision", name, layout.collisions) for name in collisions]
-                geoms = [np.asarray(each, np.intp) for each in found]
-                every = np.concatenate([np.zeros(0, np.intp), *geoms])
+                pieces = [np.asarray(each, np.intp) for each in found]
+                every = np.concatenate([np.zeros(0, np.intp), *pieces])
                 layer = next((each for each in known if (each.sets[every] < 0).all()), None)
                 if layer is None:
                     layer = _Layer(*np.full((2, len(self.names) + 1), -1))

@@ -14,7 +14,7 @@ from gazelle.engines.planar.engine import PlanarEngine
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Body, Drive, Fleet
 from gazelle.engines.planar.footprints import footprint_of, outline_of
-from gazelle.engines.planar.shapes import Table
+from gazelle.engines.planar.shapes import PrimitiveTable
 from gazelle.geometry.planar_part import PlanarPart
 
 __all__ = [
@@ -27,9 +27,9 @@ __all__ = [
     "Mount",
     "PlanarEngine",
     "PlanarPart",
+    "PrimitiveTable",
     "RangeNoise",
     "Scanner",
-    "Table",
     "footprint_of",
     "outline_of",
 ]

@@ -13,7 +13,7 @@ from gazelle.engines.planar import columns as c
 from gazelle.engines.planar import scan_columns as k
 from gazelle.engines.planar.clear_space import measure_clear
 from gazelle.engines.planar.grid_cells import list_statics
-from gazelle.engines.planar.shapes import Raster, Table
+from gazelle.engines.planar.shapes import PrimitiveTable, Raster
 
 LISTED = 1e-6  # by which statics are listed in cells that they do not pass [m]
 _CELLS = 12.0  # a static primitive
@@ -40,7 +40,7 @@ class Clearing:
     clear: NDArray[np.int8]
 
 
-def clearing_of(table: Table, *, solid: bool) -> Clearing:
+def clearing_of(table: PrimitiveTable, *, solid: bool) -> Clearing:
     """A grid with the cells of the table's bitmap, or some for each of the primitives.
 
     Args:
@@ -63,7 +63,7 @@ def clearing_of(table: Table, *, solid: bool) -> Clearing:
     return _measured(fine, start, items, np.zeros(columns * rows, np.int8))
 
 
-def _of_raster(table: Table, raster: Raster) -> Clearing | None:
+def _of_raster(table: PrimitiveTable, raster: Raster) -> Clearing | None:
     """The cells of a bitmap, and more around them where there is more; None if too many."""
     (x, y, yaw), (wide, deep) = raster.pose, raster.cell
     if min(wide, deep) < _LEAST:

@@ -17,7 +17,7 @@ from gazelle.engines.planar.bodies import Bodies
 from gazelle.engines.planar.grid_cells import put_back, relink, relink_some
 from gazelle.engines.planar.moving import Moving, Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
-from gazelle.engines.planar.shapes import Table, pieces_of, primitives_of
+from gazelle.engines.planar.shapes import PrimitiveTable, pieces_of, primitives_of
 from gazelle.errors import EngineError
 from gazelle.geometry.planar_part import PlanarPart
 from gazelle.native.loop import SystemLoop
@@ -102,7 +102,7 @@ class Fleet:
     def __init__(
         self,
         bodies: Sequence[Body],
-        statics: Sequence[PlanarPart] | Table = (),
+        statics: Sequence[PlanarPart] | PrimitiveTable = (),
         *,
         nworld: int = 1,
         time_step: float = 0.1,

@@ -8,7 +8,7 @@ from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.clearing import turned
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.shapes import Table
+from gazelle.engines.planar.shapes import PrimitiveTable
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ def footprint_of(fleet: Fleet, body: int) -> Footprint:
     return found
 
 
-def outline_of(fleet: Fleet, body: int, world: int = 0) -> Table:
+def outline_of(fleet: Fleet, body: int, world: int = 0) -> PrimitiveTable:
     """Return what rays meet of a body, in the frame of its world."""
     first, last = fleet.kinds[body, [c.FIRST_LOOK, c.LAST_LOOK]].astype(int)
     x, y, _, cos, sin, z = fleet.rows[world * fleet.nbody + body, :6]
@@ -48,4 +48,4 @@ def outline_of(fleet: Fleet, body: int, world: int = 0) -> Table:
     rows[:, [c.LOW, c.HIGH]] += z
     # ``turned`` gives coordinates in a frame that is at (x, y): here it is the way back.
     turned(rows, cos, -sin, -(cos * x + sin * y), sin * x - cos * y)
-    return Table(rows, fleet.tags[first:last])
+    return PrimitiveTable(rows, fleet.tags[first:last])

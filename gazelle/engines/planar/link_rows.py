@@ -133,7 +133,7 @@ class PlanarLinkRow:
 
 
 @dataclass(frozen=True, slots=True)
-class _Columns:
+class _LinkColumns:
     """Some links in the fleet's tables.
 
     Attributes:
@@ -155,7 +155,7 @@ class _Columns:
     hinged: tuple[tuple[int, str, str], ...]
 
     @classmethod
-    def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _Columns:
+    def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _LinkColumns:
         """Look links up.
 
         Raises:
@@ -190,12 +190,12 @@ class PlanarLinkRows:
 
     def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
         self._run, self._names = run, names
-        self._found: tuple[PlanarLayout, _Columns] | None = None
+        self._found: tuple[PlanarLayout, _LinkColumns] | None = None
 
-    def _columns(self) -> _Columns:
+    def _columns(self) -> _LinkColumns:
         layout, found = self._run.layout, self._found
         if found is None or found[0] is not layout:
-            found = self._found = layout, _Columns.find(self._run, self._names)
+            found = self._found = layout, _LinkColumns.find(self._run, self._names)
         return found[1]
 
     def placement(self, worlds: Worlds | None = None) -> Placement:

@@ -17,7 +17,7 @@ from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.engines.planar.twist_commands import TwistCommands
 from gazelle.errors import EngineError
-from gazelle.native.paths import Path
+from gazelle.native.paths import ModelPath
 from gazelle.native.system import System
 from gazelle.rotations import conjugate, from_yaw, multiply, yaw_of
 
@@ -62,7 +62,7 @@ class PlanarModelRow:
             found[:, c.YAW] = yaw_of(self.placement(worlds).quaternion)
         return found
 
-    def path(self, path: Path) -> System | None:
+    def path(self, path: ModelPath) -> System | None:
         """Return what moves the model along a path; None where that does not keep it upright."""
         flat = not path.spin[:2].any()
         if path.times.size:
@@ -147,7 +147,7 @@ class PlanarModelRow:
 
 
 @dataclass(frozen=True, slots=True)
-class _Columns:
+class _ModelColumns:
     """Some models in the fleet's tables.
 
     Attributes:
@@ -169,7 +169,7 @@ class _Columns:
     turned: Floats
 
     @classmethod
-    def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _Columns:
+    def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _ModelColumns:
         """Look models up.
 
         Raises:
@@ -197,12 +197,12 @@ class PlanarModelRows:
 
     def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
         self._run, self._names = run, names
-        self._found: tuple[PlanarLayout, _Columns] | None = None
+        self._found: tuple[PlanarLayout, _ModelColumns] | None = None
 
-    def _columns(self) -> _Columns:
+    def _columns(self) -> _ModelColumns:
         layout, found = self._run.layout, self._found
         if found is None or found[0] is not layout:
-            found = self._found = layout, _Columns.find(self._run, self._names)
+            found = self._found = layout, _ModelColumns.find(self._run, self._names)
         return found[1]
 
     def placement(self, worlds: Worlds | None = None) -> Placement:

@@ -12,7 +12,7 @@ from cython.cimports.gazelle.native.elementary import cos, sin
 from cython.cimports.gazelle.native.paths import PathSystem
 from cython.cimports.libc.math import floor
 
-from gazelle.native.paths import Path
+from gazelle.native.paths import ModelPath
 
 PI = 3.141592653589793
 
@@ -28,7 +28,7 @@ class PathFollower(PathSystem):
         heading: At the beginning [rad].
     """
 
-    def __init__(self, path: Path, bodies: Bodies, body: int, heading: float) -> None:
+    def __init__(self, path: ModelPath, bodies: Bodies, body: int, heading: float) -> None:
         PathSystem.__init__(self, path)
         self.bodies, self.body, self.heading = bodies, body, heading
 

@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.array_types import Floats, Ints32
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.clearing import Clearing, clearing_of, corners_of, listed
-from gazelle.engines.planar.shapes import Table, primitives_of
+from gazelle.engines.planar.shapes import PrimitiveTable, primitives_of
 from gazelle.geometry.planar_part import PlanarPart
 
 _FEW = 100  # primitives up to which all in one cell are drawn faster than they are looked for
@@ -36,7 +36,7 @@ class StaticScene:
         near_items: Indices of primitives, cell by cell.
     """
 
-    table: Table
+    table: PrimitiveTable
     grid: Floats
     start: Ints32
     items: Ints32
@@ -64,7 +64,12 @@ class StaticScene:
 
 
 def scene_of(
-    parts: Sequence[PlanarPart] | Table, extent: Floats, side: float, *, nbody: int, nworld: int
+    parts: Sequence[PlanarPart] | PrimitiveTable,
+    extent: Floats,
+    side: float,
+    *,
+    nbody: int,
+    nworld: int,
 ) -> StaticScene:
     """Statics with a grid over them and over an extent.
 
@@ -75,7 +80,7 @@ def scene_of(
         nbody: Bodies in a world.
         nworld: Worlds.
     """
-    table = parts if isinstance(parts, Table) else primitives_of(parts)
+    table = parts if isinstance(parts, PrimitiveTable) else primitives_of(parts)
     corners = np.vstack((extent, corners_of(table.rows)))
     low, high = corners.min(axis=0), corners.max(axis=0)
     width, height = np.maximum(high - low, 1e-3)

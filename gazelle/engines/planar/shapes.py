@@ -40,7 +40,7 @@ class Raster:
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class PrimitiveTable:
     """Primitives that rays meet, and the tags of the parts they are of.
 
     Attributes:
@@ -69,18 +69,18 @@ class Table:
     def _round(self) -> Bools:
         return np.asarray((self.rows[:, c.KIND].astype(int) & int(c.CIRCLE)) != 0)
 
-    def between(self, low: float, high: float) -> Table:
+    def between(self, low: float, high: float) -> PrimitiveTable:
         """Return the primitives with a part above one height and below another [m]."""
         kept = (self.rows[:, c.LOW] < high) & (self.rows[:, c.HIGH] > low)
-        return Table(self.rows[kept], self.tags[kept])
+        return PrimitiveTable(self.rows[kept], self.tags[kept])
 
 
-def joined(first: Table, second: Table) -> Table:
+def joined(first: PrimitiveTable, second: PrimitiveTable) -> PrimitiveTable:
     """The primitives of two tables; the raster is that of the first, if it has one."""
     if not len(second.rows):
         return first
     rows, tags = np.vstack((first.rows, second.rows)), np.concatenate((first.tags, second.tags))
-    return Table(rows, tags, first.raster)
+    return PrimitiveTable(rows, tags, first.raster)
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +102,7 @@ class _Rows:
     tags: list[NDArray[np.int64]] = field(default_factory=list)
 
 
-def primitives_of(parts: Iterable[PlanarPart]) -> Table:
+def primitives_of(parts: Iterable[PlanarPart]) -> PrimitiveTable:
     """The segments and circles of parts.
 
     Raises:
@@ -124,8 +124,8 @@ def primitives_of(parts: Iterable[PlanarPart]) -> Table:
         found.rows.append(np.hstack((lines, same)))
         found.tags.append(np.full(len(lines), part.tag))
     if not found.rows:
-        return Table(np.zeros((0, c.PRIMITIVE)), np.zeros(0, np.int64))
-    return Table(np.vstack(found.rows), np.concatenate(found.tags).astype(np.int64))
+        return PrimitiveTable(np.zeros((0, c.PRIMITIVE)), np.zeros(0, np.int64))
+    return PrimitiveTable(np.vstack(found.rows), np.concatenate(found.tags).astype(np.int64))
 
 
 def pieces_of(parts: Iterable[PlanarPart]) -> CollisionPieces:

@@ -19,7 +19,7 @@ from gazelle.description import (
 )
 from gazelle.engines.planar.fans import Fan, Mount
 from gazelle.engines.planar.fleet import Body, Drive
-from gazelle.engines.planar.shapes import Table
+from gazelle.engines.planar.shapes import PrimitiveTable
 from gazelle.engines.planar.stage_walls import table_of
 from gazelle.engines.stage_robots import Ranger, Rider, StageRobot, without_actuators
 from gazelle.engines.stage_shapes import parts_of
@@ -57,7 +57,7 @@ class StageLayout:
     things: list[StageModel] = field(default_factory=list)
     placed: list[StageModel] = field(default_factory=list)
     still: list[StageModel] = field(default_factory=list)
-    statics: Table = field(default_factory=lambda: table_of(()))
+    statics: PrimitiveTable = field(default_factory=lambda: table_of(()))
     fans: list[Fan] = field(default_factory=list)
     mounts: list[list[Mount]] = field(default_factory=list)
     noises: list[list[tuple[float, float, float]]] = field(default_factory=list)

@@ -9,12 +9,12 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StageBitmap
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.shapes import Raster, Table, primitives_of
+from gazelle.engines.planar.shapes import PrimitiveTable, Raster, primitives_of
 from gazelle.engines.stage_shapes import bitmap_lines, blocks_of, heights_of
 from gazelle.geometry.planar_part import PlanarPart
 
 
-def table_of(models: Iterable[PlacedStageModel]) -> Table:
+def table_of(models: Iterable[PlacedStageModel]) -> PrimitiveTable:
     """Return the primitives of static models; of bitmaps only their outlines."""
     parts: list[PlanarPart] = []
     pictures: list[tuple[PlacedStageModel, StageBitmap]] = []
@@ -30,7 +30,7 @@ def table_of(models: Iterable[PlacedStageModel]) -> Table:
         if seen and (raster is None or bitmap.cells.size > raster.cells.size):
             raster = _raster_of(placed, bitmap, first, first + len(own))
         first += len(own)
-    return Table(all_rows, np.zeros(len(all_rows), np.int64), raster)
+    return PrimitiveTable(all_rows, np.zeros(len(all_rows), np.int64), raster)
 
 
 def _raster_of(placed: PlacedStageModel, bitmap: StageBitmap, first: int, last: int) -> Raster:

@@ -13,7 +13,7 @@ from gazelle.engines.planar import Body, Fan, Fleet, Mount, PlanarPart, Scanner
 from gazelle.engines.planar import scan_columns as k
 from gazelle.engines.planar.clear_space import measure_clear
 from gazelle.engines.planar.clearing import clearing_of
-from gazelle.engines.planar.shapes import Table
+from gazelle.engines.planar.shapes import PrimitiveTable
 from gazelle.engines.planar.stage_walls import table_of
 from gazelle.simulation.stage.outlines import distances, outlines_of
 
@@ -53,7 +53,7 @@ def fleet_of(models, circle, poses, z=0.5):
     rows = np.zeros((1, table.rows.shape[1]))
     rows[0] = [circle[0], circle[1], circle[2], 0.0, -math.inf, math.inf, 1.0, 1.0]
     assert len(post.rows) == 0
-    whole = Table(
+    whole = PrimitiveTable(
         np.vstack((table.rows, rows)), np.zeros(len(table.rows) + 1, np.int64), table.raster
     )
     return Fleet([Body((), tuple(pose), z=z) for pose in poses], whole)
@@ -160,7 +160,7 @@ def test_a_picture_of_a_million_cells_is_left_out_where_much_more_is_around_it()
     model = StageModel("model", "dot", bitmap=bitmap)
     dot = PlacedStageModel(model, "dot", StagePose())
     table = table_of([dot])
-    far = Table(
+    far = PrimitiveTable(
         np.vstack((table.rows, [500.0, 500.0, 1.0, 0.0, -1.0, 1.0, 1.0, 1.0])),
         np.zeros(len(table.rows) + 1, np.int64),
         table.raster,
