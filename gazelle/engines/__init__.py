@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from gazelle.description import World
-from gazelle.engines.carrying import CarryingEngine, as_carrying_engine
 from gazelle.engines.engine import PARAMETERS, DivergenceError, Engine
 from gazelle.engines.history import CHANGES, Call
 from gazelle.engines.motion import Hits, Motion, Placement
@@ -17,7 +16,6 @@ __all__ = [
     "CHANGES",
     "PARAMETERS",
     "Call",
-    "CarryingEngine",
     "ContactTable",
     "Contacts",
     "DivergenceError",
@@ -28,7 +26,6 @@ __all__ = [
     "Placement",
     "RangeRays",
     "Wrench",
-    "as_carrying_engine",
     "engine_names",
     "make_engine",
     "register_engine",

@@ -118,8 +118,8 @@ class Engine(Protocol):
                 back in their initial state; all others made ``made`` steps.
         """
 
-    def update(self, system: System) -> None:
-        """Update a system now, whatever its rate."""
+    def update(self, system: System, now_ns: int = 0) -> None:
+        """Update a system now, whatever its rate; one of joints reads them and acts on them."""
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no forces."""

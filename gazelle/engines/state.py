@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Bools, Floats, Indices, Worlds
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.reactions import Wrench
+from gazelle.native.joint_system import JointSystem
 from gazelle.native.paths import ModelPath
 from gazelle.native.system import System
 
@@ -124,6 +125,24 @@ class JointRows(Protocol):
             velocity: [m/s or rad/s], shape (nworld, joints).
             chosen: Those to set, shape (nworld, joints).
         """
+
+    @property
+    def in_step(self) -> bool:
+        """Whether systems of the joints can act within the engine's steps."""
+
+    def bind(self, system: JointSystem, *, in_step: bool = False) -> None:
+        """Tell a system where the joints are, good for one ``Engine.revision``.
+
+        Args:
+            system: To be bound.
+            in_step: Whether steps are to call it; what has to be compiled for that is.
+        """
+
+    def read(self, system: JointSystem) -> None:
+        """Let a bound system read positions and velocities now."""
+
+    def act(self, system: JointSystem) -> None:
+        """Apply the efforts and motors' velocities that a bound system has set."""
 
     def set_motor_velocity(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
         """Set the velocities that motors hold [m/s or rad/s].

@@ -36,7 +36,7 @@ from gazelle.control.joint_law import (
 )
 from gazelle.control.limits import limit_law
 from gazelle.control.pid import Pid, PidGains
-from gazelle.engines import CarryingEngine
+from gazelle.engines.state import JointRows
 from gazelle.errors import SimulationError
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.sensor_hardware import sensor_interfaces
@@ -105,7 +105,7 @@ class JointHardware(SimulatedHardware):
         self._placed: Floats = np.full((self.nworld, len(names)), math.nan)
         self._memory = JointMemory.empty(self.nworld, len(names))
         self.cycle = ControlCycle(self.nworld, len(names))
-        self._bound: int | None = None
+        self._bound = -1, False  # revision of the engine, and whether its steps can call the cycle
         self.law = JointLaw(self._ports(), self._memory, turning, endless)
         self._limits = limit_law([each.limits for each in self._joints])
         self._pid = Pid([each.gains or PidGains() for each in self._joints], self.nworld)
@@ -201,23 +201,19 @@ class JointHardware(SimulatedHardware):
         self.read(time, 0.0)
 
     def _look(self) -> None:
-        """Ask the engine where joints are."""
-        carrier = self._carrier()
-        if carrier is not None:
-            carrier.read_joints(self.cycle)
-        else:
-            rows = self.robot.simulation.engine.joints[tuple(self._names)]
-            self.cycle.position_in[:], self.cycle.velocity_in[:] = rows.position(), rows.velocity()
+        """Read where the joints are."""
+        if self._names:
+            self._rows().read(self.cycle)
 
-    def _carrier(self) -> CarryingEngine | None:
-        """The engine, if it is to be told of all joints at once."""
-        carrier = self.robot.simulation.carrier
-        if carrier is None or not self._names:
-            return None
-        if self._bound != carrier.revision:
-            carrier.bind_joints(self.cycle, self._names)
-            self._bound = carrier.revision
-        return carrier
+    def _rows(self, *, in_step: bool = False) -> JointRows:
+        """Return the joints, to which the cycle is bound."""
+        engine = self.robot.simulation.engine
+        rows = engine.joints[tuple(self._names)]
+        wanted = in_step or self._bound[1]
+        if self._bound != (engine.revision, wanted):
+            rows.bind(self.cycle, in_step=wanted)
+            self._bound = engine.revision, wanted
+        return rows
 
     def stop_emergency(self, stopped: Bools) -> None:
         """Take the power from joints, and hold those where they are that hold positions."""
@@ -246,13 +242,12 @@ class JointHardware(SimulatedHardware):
         own = type(self)
         if own.read is not JointHardware.read or own.write is not JointHardware.write:
             return None
-        carrier = self.robot.simulation.carrier
-        if carrier is None or self._put_names or self._loads.turns(self._names) or not self._names:
+        simulation = self.robot.simulation
+        if not (self._names and simulation.controls_in_step) or self._put_names:
             return None
-        if not carrier.carries:
+        if self._loads.turns(self._names) or not self._rows().in_step:
             return None
-        carrier.expect_systems()
-        self._carrier()
+        self._rows(in_step=True)
         return self.cycle
 
     def write(self, time: float, period: float) -> None:  # noqa: ARG002  it needs no time
@@ -264,11 +259,11 @@ class JointHardware(SimulatedHardware):
 
     def _act(self) -> None:
         """Let act what changed."""
-        cycle, carrier = self.cycle, self._carrier()
+        cycle = self.cycle
         if not (cycle.pushed_out.any() or cycle.driven_out.any()):
             return
-        if carrier is not None and not self._loads.turns(self._names):
-            carrier.push_joints(cycle)
+        if not self._loads.turns(self._names):
+            self._rows().act(cycle)
             return
         for index in np.flatnonzero(cycle.pushed_out.any(axis=0)).tolist():
             rows = np.flatnonzero(cycle.pushed_out[:, index])

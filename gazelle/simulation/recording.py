@@ -132,12 +132,7 @@ class Recorder(Closeable):
         for system in sorted(systems, key=lambda each: isinstance(each, JointSystem)):
             if system.due > time:
                 continue
-            carrier = self._simulation.carrier
-            if isinstance(system, JointSystem) and carrier is not None:
-                carrier.read_joints(system)
-            system.bring(0, self._engine.nworld * system.rows, time)
-            if isinstance(system, JointSystem) and carrier is not None:
-                carrier.push_joints(system)
+            self._engine.update(system, time)
             if system.rate > 0.0:
                 schedule = Schedule(system.rate)
                 schedule.done(time)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from gazelle.description import World
-from gazelle.engines import CarryingEngine, Engine
+from gazelle.engines import Engine
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.loads import Loads
 from gazelle.simulation.requests import RequestQueue
@@ -21,14 +21,14 @@ class RunningState(Protocol):
         clock: Simulated time.
         seed: Decides all random numbers.
         engine_name: As it was asked for.
-        carrier: The engine, if it takes controllers of joints into its steps; else None.
+        controls_in_step: Whether controllers act within the engine's steps, where it can.
     """
 
     requests: RequestQueue
     clock: Clock
     seed: int
     engine_name: str
-    carrier: CarryingEngine | None
+    controls_in_step: bool
 
     @property
     def nworld(self) -> int:

@@ -16,9 +16,7 @@ from gazelle.array_types import Worlds
 from gazelle.closing import Closeable
 from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import (
-    CarryingEngine,
     Engine,
-    as_carrying_engine,
     make_engine,
 )
 from gazelle.errors import SimulationError
@@ -77,7 +75,7 @@ class Simulation(Closeable):
         physics: Time step, gravity, solver and the like; settable in the middle of a run.
         parameters: Masses, friction and the like, which each world can have of its own.
         ports: Of the plugins of the world; those of models are on their ``Robot``.
-        carrier: The engine, if it takes controllers into its steps.
+        controls_in_step: Whether controllers act within the engine's steps, where it can.
         events: Tell who must follow what is spawned, deleted and reset.
         requests: What threads ask for; hold it with ``with`` to do several things at one moment.
         entities, loop: Make and end models, and make the steps; for the thread that owns the state.
@@ -108,7 +106,7 @@ class Simulation(Closeable):
         self.requests = RequestQueue(self._engine.nworld)
         self._shared_engine = shared(self._engine, self.requests)
         self.engine_name = engine
-        self.carrier: CarryingEngine | None = as_carrying_engine(self._engine)
+        self.controls_in_step = True
         self.seed, self.clock, self.paused = seed_of(seed), Clock(self._engine.time_step), False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
         self._loads = Loads(self._engine, self.clock)

@@ -169,7 +169,7 @@ def test_what_a_plugin_does_to_a_robot_holds_from_the_same_step_on(what):
     ends = []
     for native in (True, False):
         sim, robot = arm("Effort", nworld=2)
-        sim.carrier = sim.carrier if native else None
+        sim.controls_in_step = native
         robot.controllers.load("arm", PID)
         robot.controllers.start("arm")
         entry = next(each for each in sim.plugins if isinstance(each.plugin, ControlLoop))
@@ -200,7 +200,7 @@ def test_a_snapshot_in_the_middle_is_that_of_a_run_from_python():
     states = []
     for native in (True, False):
         sim, robot = arm("Effort", nworld=2)
-        sim.carrier = sim.carrier if native else None
+        sim.controls_in_step = native
         robot.controllers.load("arm", PID)
         kind = "joint_state_controller/JointStateController"
         robot.controllers.load("states", {"type": kind, "publish_rate": 30.0})
@@ -218,7 +218,7 @@ def test_a_step_of_another_length_is_known_to_robots_that_are_not_asked():
     ends = []
     for native in (True, False):
         sim, (robot,) = arms(1, PID)
-        sim.carrier = sim.carrier if native else None
+        sim.controls_in_step = native
         robot.controllers["arm"].inputs["command"].send(JointTargets((0.3, 0.1)))
         sim.step(20)
         sim.physics.time_step = 0.0007

@@ -119,7 +119,7 @@ def test_steps_carry_it_and_change_no_bit(kind, open_loop, monkeypatch):
     assert sum(counts) == 240
     assert not updates
     sim, controller = based(kind, open_loop=open_loop)
-    sim.carrier = None
+    sim.controls_in_step = False
     outside = run(sim, controller)
     assert len(updates) == 240
     assert np.abs(inside[0]).max() > 0.01

@@ -38,7 +38,7 @@ gains = st.fixed_dictionaries(
 def test_no_physics_step_is_stronger_than_limits_allow(pid, targets, within):
     """Whatever gains and targets are, and wherever controllers are brought."""
     sim, robot = arm("Effort", nworld=2)
-    sim.carrier = sim.carrier if within else None
+    sim.controls_in_step = within
     own = {name: {"pid": pid} for name in JOINTS}
     of = "effort_controllers/JointGroupPositionController"
     robot.controllers.load("arm", {"type": of, "joints": JOINTS, **own})

@@ -53,7 +53,7 @@ class Lab:
     def __init__(self, nworld, *, native, threads):
         self.sim = gazelle.Simulation(World("lab"), nworld=nworld, threads=threads)
         if not native:
-            self.sim.carrier = None
+            self.sim.controls_in_step = False
         self.kept = None
         for _ in range(2):
             self.spawn()

@@ -39,7 +39,7 @@ def test_all_at_once_are_put_where_each_by_itself_is_to_the_bit():
     ends = []
     for at_once in (True, False):
         sim, robot = arms()
-        sim.carrier = sim.carrier if at_once else None
+        sim.controls_in_step = at_once
         sim.step(3)
         send(robot, 0.7, -0.4)
         sim.step(50)

@@ -92,7 +92,7 @@ def story(kind, law, *, native, nworld=3, replace=None, threads=2, listen=False,
     """A run with much in it; returns states of the worlds, and of the goals."""
     sim, robot = arm(kind, nworld=nworld, replace=replace, threads=threads)
     if not native:
-        sim.carrier = None
+        sim.controls_in_step = False
     if gains:
         robot.settings["pid_gains"].send(dict.fromkeys(JOINTS, gains))
     controllers(robot, kind, law)
@@ -192,7 +192,7 @@ def test_grippers_and_sensors_need_no_python_unless_somebody_asks(carried, kind,
     ends, told = [], []
     for native in (True, False):
         sim, robot = arm(kind.title(), nworld=2, replace=WITH_IMU)
-        sim.carrier = sim.carrier if native else None
+        sim.controls_in_step = native
         if gains:
             robot.settings["pid_gains"].send(dict.fromkeys(JOINTS, gains))
         given = {"joint": "elbow", "max_effort": 30.0, "gains": {"elbow": GAINS}}
@@ -252,7 +252,7 @@ def test_a_controller_in_python_is_updated_in_every_step_beside_ours(native):
     Weak.updates = 0
     sim, robot = arm("Effort")
     if not native:
-        sim.carrier = None
+        sim.controls_in_step = False
     robot.controllers.load("weak", {"type": "test_within_steps/Weak", "joint": "elbow"})
     of = "effort_controllers/JointPositionController"
     robot.controllers.load("ours", {"type": of, "joint": "shoulder", "pid": GAINS})
@@ -294,7 +294,7 @@ def test_forces_of_other_hands_add_up_as_they_do_without_controllers(carried):
     ends = []
     for native in (True, False):
         sim, robot = arm("Effort")
-        sim.carrier = sim.carrier if native else None
+        sim.controls_in_step = native
         controllers(robot, "Effort", "pid")
         sim.run(0.2)
         robot.joints["elbow"].apply_effort(5.0, start=0.3, duration=0.2)
@@ -308,7 +308,7 @@ def test_several_robots_each_with_its_own(carried):
     sims = []
     for native in (True, False):
         sim = gazelle.Simulation(World("w"), nworld=2)
-        sim.carrier = sim.carrier if native else None
+        sim.controls_in_step = native
         for number, law in enumerate(("pid", "trajectory", "group")):
             text = arm_text("Effort").replace("two_link_arm", f"arm_{number}")
             robot = sim.spawn(

@@ -17,7 +17,6 @@ from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.limits import MAX_WORLDS, check_world, physics_step, whole_number
 from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.carrying import CarriedSystems
 from gazelle.engines.mujoco.compiler import CompilerInput
 from gazelle.engines.mujoco.forcing import ForcedSteps
 from gazelle.engines.mujoco.holding import LinkHolding
@@ -37,8 +36,16 @@ from gazelle.engines.mujoco.world_steps import WorldSteps
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean
+from gazelle.native.joint_system import JointSystem
 from gazelle.native.processors import processors
 from gazelle.native.system import System
+
+# Integrators that look at forces once in a step.
+_ONCE = (
+    mujoco.mjtIntegrator.mjINT_EULER,
+    mujoco.mjtIntegrator.mjINT_IMPLICIT,
+    mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+)
 
 _NO_STAGE = mujoco.mjtStage.mjSTAGE_NONE.value
 
@@ -98,7 +105,7 @@ class MujocoEngine:
         self.joints: Table[JointRow, JointRows] = Table(
             run.joint_names,
             lambda name: MujocoJointRow(run, name, self.reactions.joint_wrench),
-            lambda names: MujocoJointRows(run, names),
+            lambda names: MujocoJointRows(run, names, self._acts_in_step),
         )
         self.links: Table[LinkRow, LinkRows] = Table(
             run.link_names,
@@ -121,10 +128,10 @@ class MujocoEngine:
         touches = ContactAccess(run, steps, self.reactions)
         self.contacts = touches.contacts
         self._made = WorldSteps(run, steps, self.reset)
-        self._systems = CarriedSystems(run)
-        self.expect_systems = self._systems.expect_systems
-        self.bind_joints = self._systems.bind_joints
-        self.read_joints, self.push_joints = self._systems.read_joints, self._systems.push_joints
+
+    def _acts_in_step(self) -> bool:
+        """Return whether steps can call systems of joints: the integrator looks once at forces."""
+        return self._run.batch.model.opt.integrator in _ONCE
 
     def _kinematic(self, model: str) -> None:
         """Make a model kinematic by the engine's own call, which a recorder listens to."""
@@ -167,9 +174,14 @@ class MujocoEngine:
         """Advance every world by ``count`` physics steps, and update systems that are due."""
         self._made.make(whole_number("the number of steps", count, 0), systems, now_ns)
 
-    def update(self, system: System) -> None:
-        """Update a system now, whatever its rate."""
-        system.bring(0, self._run.nworld * system.rows, 0)
+    def update(self, system: System, now_ns: int = 0) -> None:
+        """Update a system now, whatever its rate; one of joints reads them and acts on them."""
+        if isinstance(system, JointSystem):
+            system.read(self._run.state.qpos, self._run.state.qvel)
+        system.bring(0, self._run.nworld * system.rows, now_ns)
+        if isinstance(system, JointSystem):
+            system.act(self._run.state.qfrc_applied, self._run.state.userdata)
+            self._run.stale = True
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no forces."""
@@ -244,11 +256,6 @@ class MujocoEngine:
         if self._run.revision:  # before the first nothing can be bound, and nothing is changed
             self._run.now()
         return self._run.revision
-
-    @property
-    def carries(self) -> bool:
-        """Whether it can, the way it integrates."""
-        return self._systems.looks_once
 
     # -- saving ------------------------------------------------------------------------
 

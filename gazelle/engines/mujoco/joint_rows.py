@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,7 @@ from gazelle.engines.mujoco.rows import rows_of
 from gazelle.engines.mujoco.running import RunningWorlds
 from gazelle.engines.reactions import Wrench
 from gazelle.errors import EngineError
+from gazelle.native.joint_system import JointSystem
 
 _SIDES = ("lower", "upper")
 
@@ -134,10 +135,13 @@ class MujocoJointRows:
     Args:
         run: Worlds that run.
         names: Scoped names.
+        in_step: Returns whether the engine's steps can call systems.
     """
 
-    def __init__(self, run: RunningWorlds, names: tuple[str, ...]) -> None:
-        self._run, self._names = run, names
+    def __init__(
+        self, run: RunningWorlds, names: tuple[str, ...], in_step: Callable[[], bool]
+    ) -> None:
+        self._run, self._names, self._in_step = run, names, in_step
         self._found: tuple[MujocoLayout, JointColumns] | None = None
         self._motors: tuple[MujocoLayout, Indices] | None = None
         self._limits: tuple[tuple[int, int], Floats, Floats] | None = None
@@ -182,6 +186,34 @@ class MujocoJointRows:
             )
             known = self._limits = writes, lower, np.maximum(lower, upper)
         return known[1:]
+
+    @property
+    def in_step(self) -> bool:
+        """Whether systems of the joints can act within steps: the integrator looks once at forces."""
+        return self._in_step()
+
+    def bind(self, system: JointSystem, *, in_step: bool = False) -> None:
+        """Tell a system where the joints are, good for one revision."""
+        recipe = self._run.latest
+        if in_step and not recipe.hooks:
+            self._run.change(replace(recipe, hooks=self._run.hooks.address))
+        layout = self._run.now()
+        columns = self._columns(layout)
+        largest = [layout.limits.effort.get(name, (np.inf,))[0] for name in self._names]
+        driven = self._run.recipe.motors
+        motors = [layout.motor(n).targets.start if n in driven else -1 for n in self._names]
+        system.bind(
+            columns.places, columns.dofs, np.array(largest, np.float64), np.array(motors, np.intp)
+        )
+
+    def read(self, system: JointSystem) -> None:
+        """Let a bound system read positions and velocities now."""
+        system.read(self._run.state.qpos, self._run.state.qvel)
+
+    def act(self, system: JointSystem) -> None:
+        """Apply the efforts and motors' velocities that a bound system has set."""
+        system.act(self._run.state.qfrc_applied, self._run.state.userdata)
+        self._run.stale = True
 
     def set_motor_velocity(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
         """Set the velocities that the motors hold [m/s or rad/s]."""

@@ -161,11 +161,13 @@ class PlanarEngine:
         """Advance every world by ``count`` physics steps, and update systems that are due."""
         self._run.steps.make(systems, whole_number("the number of steps", count, 0), now_ns)
 
-    def update(self, system: System) -> None:
+    def update(self, system: System, now_ns: int = 0) -> None:
         """Update a system now, whatever its rate, on all threads."""
         fleet = self._run.fleet
         rows = fleet.nworld * system.rows
-        fleet.pool.share(lambda first, last, _: system.bring(first, last, 0), rows, system.least)
+        fleet.pool.share(
+            lambda first, last, _: system.bring(first, last, now_ns), rows, system.least
+        )
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Put worlds back to their initial state: poses, rest, no commands."""

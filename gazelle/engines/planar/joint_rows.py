@@ -11,6 +11,7 @@ from gazelle.engines.planar.refusals import refuse
 from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.engines.reactions import Wrench
 from gazelle.errors import EngineError
+from gazelle.native.joint_system import JointSystem
 
 
 class PlanarJointRow:
@@ -93,6 +94,29 @@ class PlanarJointRows:
         columns = self._columns()[joints]
         self._run.angles[worlds, columns] = position[chosen]
         self._run.rates[worlds, columns] = velocity[chosen]
+
+    in_step = False
+
+    def bind(self, system: JointSystem, *, in_step: bool = False) -> None:
+        """Do nothing: the plane's steps call no systems of joints."""
+
+    def read(self, system: JointSystem) -> None:
+        """Let a system read positions and velocities now."""
+        system.position_in[:], system.velocity_in[:] = self.position(), self.velocity()
+
+    def act(self, system: JointSystem) -> None:
+        """Set the motors' velocities that a system has set.
+
+        Raises:
+            EngineError: It has set efforts.
+        """
+        if system.pushed_out.any():
+            raise refuse(f"efforts on '{self._names[0]}' and others")
+        worlds, joints = np.nonzero(system.driven_out)
+        for name in {self._names[joint] for joint in joints.tolist()}:
+            motor_column(self._run, name)
+        self._run.targets[worlds, self._columns()[joints]] = system.speed_out[worlds, joints]
+        system.driven_out[:] = 0
 
     def set_motor_velocity(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
         """Set the velocities that the motors hold [m/s or rad/s]."""

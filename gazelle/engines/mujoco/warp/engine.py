@@ -31,9 +31,8 @@ class WarpEngine(MujocoEngine):
         EngineError: The world cannot be simulated by MuJoCo Warp.
     """
 
-    @property
-    def carries(self) -> bool:
-        """No: controllers of joints are not on the device, and are brought between steps."""
+    def _acts_in_step(self) -> bool:
+        """Return False: controllers of joints are not on the device, and act between steps."""
         return False
 
     def on_device(self, kind: str, joint: str) -> Any:
