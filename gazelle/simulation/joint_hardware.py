@@ -75,7 +75,9 @@ class JointHardware(SimulatedHardware):
         self._joints = tuple(setup.joints)
         names = [each.name for each in self._joints]
         self._handles = [robot.joints[name] for name in names]
-        self._names = [handle.name for handle in self._handles]
+        self._names = tuple(handle.name for handle in self._handles)
+        self._engine = robot.simulation.engine
+        self._rows = self._engine.joints[self._names]
         self._loads = robot.simulation.loads
         described = [robot.joint_description(name) for name in names]
         for handle, joint in zip(self._handles, described, strict=True):
@@ -203,17 +205,15 @@ class JointHardware(SimulatedHardware):
     def _look(self) -> None:
         """Read where the joints are."""
         if self._names:
-            self._rows().read(self.cycle)
+            self._bound_rows().read(self.cycle)
 
-    def _rows(self, *, in_step: bool = False) -> JointRows:
+    def _bound_rows(self, *, in_step: bool = False) -> JointRows:
         """Return the joints, to which the cycle is bound."""
-        engine = self.robot.simulation.engine
-        rows = engine.joints[tuple(self._names)]
         wanted = in_step or self._bound[1]
-        if self._bound != (engine.revision, wanted):
-            rows.bind(self.cycle, in_step=wanted)
-            self._bound = engine.revision, wanted
-        return rows
+        if self._bound != (self._engine.revision, wanted):
+            self._rows.bind(self.cycle, in_step=wanted)
+            self._bound = self._engine.revision, wanted
+        return self._rows
 
     def stop_emergency(self, stopped: Bools) -> None:
         """Take the power from joints, and hold those where they are that hold positions."""
@@ -245,9 +245,9 @@ class JointHardware(SimulatedHardware):
         simulation = self.robot.simulation
         if not (self._names and simulation.controls_in_step) or self._put_names:
             return None
-        if self._loads.turns(self._names) or not self._rows().in_step:
+        if self._loads.turns(self._names) or not self._rows.in_step:
             return None
-        self._rows(in_step=True)
+        self._bound_rows(in_step=True)
         return self.cycle
 
     def write(self, time: float, period: float) -> None:  # noqa: ARG002  it needs no time
@@ -263,7 +263,7 @@ class JointHardware(SimulatedHardware):
         if not (cycle.pushed_out.any() or cycle.driven_out.any()):
             return
         if not self._loads.turns(self._names):
-            self._rows().act(cycle)
+            self._bound_rows().act(cycle)
             return
         for index in np.flatnonzero(cycle.pushed_out.any(axis=0)).tolist():
             rows = np.flatnonzero(cycle.pushed_out[:, index])
@@ -285,8 +285,7 @@ class JointHardware(SimulatedHardware):
             speed[np.abs(speed) > _JUMP] = 0.0
         self._placed[:, put] = np.where(good, wanted, before)
         self._memory.placed_speed[:, put] = speed
-        rows = self.robot.simulation.engine.joints[self._put_names]
-        rows.place(wanted - speed * period, speed, good)
+        self._engine.joints[self._put_names].place(wanted - speed * period, speed, good)
 
     # -- beginning anew ----------------------------------------------------------------
 
