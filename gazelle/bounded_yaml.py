@@ -61,12 +61,15 @@ def refuse_deep(text: str | bytes) -> None:
             depth -= 1
 
 
-def check(text: bytes) -> None:
-    """Refuse a document that another loader shall read; see ``safe_load``."""
+def compose(text: str | bytes) -> yaml.Node | None:
+    """Return the root node of a document; see ``safe_load``."""
     import yaml
 
     refuse_deep(text)
-    yaml.compose(text, bounded(yaml.SafeLoader))
+    root: yaml.Node | None = yaml.compose(
+        text, bounded(getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    )
+    return root
 
 
 @functools.cache
@@ -83,7 +86,28 @@ def bounded(loader: type[Any]) -> type[Any]:
         def get_single_node(self) -> yaml.Node | None:
             return _counted(super().get_single_node())
 
+        def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:  # noqa: FBT001, FBT002
+            try:
+                return super().construct_object(node, deep)
+            except _NO_VALUE as error:
+                raise _no_value(node) from error
+
     return Bounded
+
+
+_SHOWN = 60  # characters of a value in an error
+_NO_VALUE = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
+"""Errors of PyYAML's constructors for text that a tag does not allow, such as ``!!int ''``."""
+
+
+def _no_value(node: yaml.Node) -> yaml.YAMLError:
+    """Return the error for a node that is no value of its tag."""
+    import yaml
+
+    kind = str(node.tag).rpartition(":")[2]
+    shown = f"'{node.value[:_SHOWN]}'" if isinstance(node, yaml.ScalarNode) else "this"
+    problem = f"{shown} is no value of the kind '{kind}'"
+    return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 
 def _counted(node: yaml.Node | None) -> yaml.Node | None:

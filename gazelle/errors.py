@@ -78,6 +78,12 @@ class SimulationError(Error):
     """A request to a running simulation cannot be met."""
 
 
+class UnknownNameError(SimulationError, KeyError):
+    """A table of a running simulation has nothing of that name."""
+
+    __str__ = Exception.__str__
+
+
 class ControlError(Error):
     """A controller is misconfigured or misused."""
 

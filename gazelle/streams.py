@@ -114,7 +114,9 @@ def seed_of(seed: Any) -> int:
 
 
 def _keys_of(seed: int, name: str, nworld: int) -> UInts64:
-    digest = hashlib.blake2b(f"{seed_of(seed)}:{name}".encode(), digest_size=8).digest()
+    digest = hashlib.blake2b(
+        f"{seed_of(seed)}:{name}".encode(errors="surrogatepass"), digest_size=8
+    ).digest()
     worlds = np.arange(1, nworld + 1, dtype=np.uint64)
     return _mix(_mix(worlds * _GOLDEN) + np.uint64(int.from_bytes(digest)))
 

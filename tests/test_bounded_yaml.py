@@ -66,3 +66,15 @@ def test_aliases_that_make_little_are_taken(read):
     ]
     assert read("") is None
     assert len(read("\n".join(f"k{i}: [1, 2, 3]" for i in range(300)))) == 300
+
+
+@pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize(
+    "value",
+    ["!!int ''", "!!float a", "!!timestamp 1", "2001-99-99", "!!bool x", "9" * 5000, "!!int 0x"],
+    ids=lambda value: value[:12],
+)
+def test_values_that_their_tag_does_not_allow(value, reader):
+    read, error = READERS[reader]
+    with pytest.raises(error, match=r"is no value of the kind|no YAML|not YAML"):
+        read(f"data: {value}")

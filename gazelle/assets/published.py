@@ -18,6 +18,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 from gazelle.errors import closest_of
+from gazelle.path_texts import can_be_path
 
 _NAMED = 6
 
@@ -66,6 +67,8 @@ def _place(path: Path, root: Path | None) -> tuple[Path, str] | None:
     """Return the package that a path without a file lies in, and the path in it."""
     root = Path(__file__).parent if root is None else root
     plain = Path(os.path.normpath(path))
+    if not can_be_path(plain):
+        return None
     if not plain.is_relative_to(root) or plain.exists():
         return None
     name, *inner = plain.relative_to(root).parts

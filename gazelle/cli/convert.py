@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast, get_args
 
 from gazelle.errors import Error, FormatError, did_you_mean
+from gazelle.path_texts import expanded
 
 if TYPE_CHECKING:
     from gazelle.description import Model, World
@@ -67,7 +68,7 @@ def run(args: argparse.Namespace) -> int:
     if args.target == "-":
         sys.stdout.write(_text(content, kind, None))
         return 0
-    file = Path(args.target).expanduser().absolute()
+    file = expanded(args.target).absolute()
     if _is_input(file, world):
         raise FormatError("this is the file that is read", file=str(file), hint="name another")
     formats.write_text(file, _text(content, kind, file.parent))

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle import bounded_yaml
 from gazelle.cli.descriptions_beside import urdf_of
 from gazelle.errors import ControlError, ResolveError
+from gazelle.text_files import read_text
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
@@ -130,7 +131,7 @@ def _start(robot: Robot, file: Path) -> None:
     import yaml
 
     try:
-        given: Any = bounded_yaml.safe_load(file.read_text(encoding="utf-8"))
+        given: Any = bounded_yaml.safe_load(read_text(file))
     except OSError as error:
         raise ResolveError(f"cannot read {file}: {error.strerror}") from error
     except yaml.YAMLError as error:

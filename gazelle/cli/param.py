@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.cli.tools import SubCommands
+from gazelle.text_files import read_text
 from gazelle.writing import write_text
 
 
@@ -81,7 +82,7 @@ def _set(args: argparse.Namespace) -> int:
         args.parser.error("give a value, --textfile or --binfile")
     with _graph() as graph:
         if args.textfile is not None:
-            text = Path(args.textfile).read_text(encoding="utf-8")
+            text = read_text(Path(args.textfile))
             done = set_parameter(graph, args.name, text)
         elif args.binfile is not None:
             done = set_parameter(graph, args.name, Path(args.binfile).read_bytes())

@@ -6,10 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from gazelle.clients.errors import ClientError
+from gazelle.path_texts import expanded
 from gazelle.ros import Node
 from gazelle.ros.builtin import xacro
 from gazelle.ros.launch.packages import Packages
 from gazelle.ros.launch.values import load_yaml
+from gazelle.text_files import read_text
 
 
 def read_urdf(
@@ -32,7 +34,7 @@ def read_urdf(
     file = find_file(path, package)
     if file.suffix == ".xacro" or xacro_args:
         return xacro.expand(file, xacro_args or {})
-    return file.read_text(encoding="utf-8")
+    return read_text(file)
 
 
 def load_urdf(
@@ -77,7 +79,7 @@ def load_parameters(
         RosError: It is no YAML.
     """
     file = find_file(path, package)
-    values = load_yaml(file.read_text(encoding="utf-8"))
+    values = load_yaml(read_text(file))
     if not isinstance(values, dict):
         raise ClientError("a file of parameters is names with values", file=str(file))
     for name, value in values.items():
@@ -90,7 +92,7 @@ def find_file(path: str | Path, package: str | None = None) -> Path:
     Raises:
         ClientError: There is no such package or file.
     """
-    file = Path(path).expanduser()
+    file = expanded(path)
     if package is not None:
         file = Packages().folder(package) / str(path).lstrip("/")
     if not file.is_file():

@@ -23,6 +23,7 @@ from gazelle.clients.poses import (
 from gazelle.clients.states import LiveStates
 from gazelle.closing import Closeable
 from gazelle.ros import Duration, Node, Time, WallClock, load_message
+from gazelle.text_files import read_text
 
 _FOREVER = Duration(-1, 0)
 # What Gazebo answers to a spawn or delete that was carried out already.
@@ -155,7 +156,7 @@ class Gazebo(PhysicsCalls, Closeable):
         self, name: str, path: str | Path, *, package: str | None = None, **where: Unpack[Where]
     ) -> None:
         """Put a model of an SDF file there; see ``spawn_sdf``."""
-        self.spawn_sdf(name, find_file(path, package).read_text(encoding="utf-8"), **where)
+        self.spawn_sdf(name, read_text(find_file(path, package)), **where)
 
     def spawn_sdf_parameter(self, name: str, parameter: str, **where: Unpack[Where]) -> None:
         """Put a model there whose SDF a parameter holds; see ``spawn_sdf`` for where.

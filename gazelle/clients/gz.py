@@ -17,6 +17,7 @@ from gazelle.clients.gazebo import Gazebo
 from gazelle.clients.gz_elsewhere import add_elsewhere, elsewhere
 from gazelle.description.pose import rpy_from_quaternion
 from gazelle.errors import RosError
+from gazelle.text_files import read_text
 
 _TIMEOUT_S = 10.0
 _STATS_S = 0.2
@@ -144,7 +145,7 @@ def _spawn(gazebo: Gazebo, name: str, file: str, place: Sequence[float]) -> None
         RosError: The file cannot be read.
     """
     try:
-        text = published(file).read_text(encoding="utf-8")
+        text = read_text(published(file))
     except OSError as error:
         hint = published_hint(file)
         raise RosError(f"the file cannot be read: {error.strerror}", file=file, hint=hint) from None

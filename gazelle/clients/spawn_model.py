@@ -9,7 +9,6 @@ import re
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
 
@@ -18,10 +17,12 @@ from gazelle.assets import published, published_hint
 from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
 from gazelle.interrupts import stopping
+from gazelle.path_texts import expanded
 from gazelle.ros import Node, load_service
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.compat.rosgraph.roslogging import RosStreamHandler
 from gazelle.ros.errors import RosTimeoutError
+from gazelle.text_files import read_text
 
 # After this wall time without Gazebo's services a word is said; they are waited for all the same [s].
 _PATIENCE_S = 10.0
@@ -227,7 +228,7 @@ def _speaking() -> Iterator[None]:
 
 def _read_file(path: str) -> str:
     try:
-        return published(Path(path).expanduser()).read_text(encoding="utf-8")
+        return read_text(published(expanded(path)))
     except OSError as error:
         message = f"the model cannot be read: {error.strerror}"
         raise RosError(message, file=path, hint=published_hint(path)) from None

@@ -11,6 +11,7 @@ from typing import Any
 
 import yaml
 
+from gazelle import bounded_yaml
 from gazelle.control.hardware import RobotHardware
 from gazelle.control.interfaces import (
     COMMAND_FIELDS,
@@ -23,6 +24,7 @@ from gazelle.control.manager import ControllerManager
 from gazelle.description import Joint, Model
 from gazelle.errors import ControlError, Error, did_you_mean
 from gazelle.formats import Problem, load_model
+from gazelle.text_files import read_text
 
 _PREFIX = "hardware_interface/"
 _NAMES = re.compile(r"^(joints?|(left|right|front|rear)_.*|.*_(joint|wheel|steer)s?)$")
@@ -55,7 +57,7 @@ def is_controllers(file: Path) -> bool:
         return False
     try:
         root = _root(file)
-    except (yaml.YAMLError, OSError, UnicodeDecodeError):
+    except (yaml.YAMLError, OSError, Error):
         return True  # it says itself what is wrong with it
     return any(True for _ in _entries(root)) or any(True for _ in _gains(root))
 
@@ -74,7 +76,7 @@ def check_controllers(path: str | os.PathLike[str], robot: str | os.PathLike[str
     except yaml.MarkedYAMLError as error:
         line = None if error.problem_mark is None else error.problem_mark.line + 1
         return [Problem("error", f"this is no YAML: {error.problem}", file, line)]
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
+    except yaml.YAMLError as error:
         return [Problem("error", f"this is no YAML: {error}", file)]
     except Error as error:
         name = error.file or os.fspath(robot)
@@ -238,7 +240,7 @@ def _effort(joint: Joint | None) -> float:
 
 
 def _root(file: Path) -> yaml.Node | None:
-    return yaml.compose(file.read_text(encoding="utf-8"), yaml.SafeLoader)
+    return bounded_yaml.compose(read_text(file))
 
 
 def _entries(node: yaml.Node | None) -> Iterator[_Entry]:
@@ -287,7 +289,7 @@ def _child(node: yaml.Node | None, name: str) -> yaml.Node | None:
 
 
 def _values(node: yaml.MappingNode) -> Mapping[str, Any]:
-    loader = yaml.SafeLoader("")
+    loader = bounded_yaml.bounded(yaml.SafeLoader)("")
     try:
         found: Mapping[str, Any] = loader.construct_document(node)
     finally:

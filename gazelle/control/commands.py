@@ -25,7 +25,7 @@ def rows_of(what: str, given: ArrayLike, width: int, count: int) -> Floats:
     """
     try:
         values = np.asarray(given, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ControlError(f"{what} must be numbers, not {given!r}") from None
     if width == 1 and values.shape in ((), (count,)):
         values = values.reshape(-1, 1)

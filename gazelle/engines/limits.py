@@ -18,6 +18,9 @@ FARTHEST = 1e10
 # More does not fit into the numbers that native code counts with.
 MOST = 2**31 - 1
 
+# A solver that has not ended by then never does: forces are infinite, or no numbers.
+MAX_ITERATIONS = 1000
+
 # A world takes a kilobyte at the very least.
 MAX_WORLDS = 2**20
 
@@ -45,7 +48,7 @@ def physics_step(step: Any) -> float:
     """
     try:
         seconds = float(step)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise EngineError(f"the physics step must be a number [s], not {step!r}") from None
     if not seconds > 0.0 or seconds == math.inf:
         raise EngineError(f"the physics step must be positive and finite, not {seconds:g} s")
@@ -55,6 +58,17 @@ def physics_step(step: Any) -> float:
             hint=f"take {SHORTEST_STEP:g} to {LONGEST_STEP:g} s, such as 0.001",
         )
     return seconds
+
+
+def name_fault(name: Any) -> str | None:
+    """Return why no model, link or joint can be called so; None for a name that one can have."""
+    if not isinstance(name, str) or not name:
+        return "a name is text"
+    if "::" in name:
+        return "'::' parts the names of models and links"
+    if "\x00" in name or any("\ud800" <= each <= "\udfff" for each in name):
+        return "it holds what is no character"
+    return None
 
 
 def check_world(world: World) -> None:
@@ -72,11 +86,13 @@ def check_world(world: World) -> None:
                 f"the {name} must be finite, not {' '.join(f'{each:g}' for each in values)}"
             )
     for model in world.models:
-        if "::" in model.name:
+        why = name_fault(model.name)
+        if why is not None:
+            hint = f"call it '{model.name.replace('::', '_')}'" if "::" in str(model.name) else None
             raise EngineError(
-                f"a model cannot be called '{model.name}': '::' parts the names of models and links",
+                f"a model cannot be called {str(model.name)!r:.60}: {why}",
                 source=model.source,
-                hint=f"call it '{model.name.replace('::', '_')}'",
+                hint=hint,
             )
         if not all(abs(each) <= FARTHEST for each in model.pose.position):
             raise EngineError(

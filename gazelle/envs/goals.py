@@ -87,7 +87,7 @@ def _checked(points: Sequence[tuple[float, float]] | Floats) -> Floats:
     """The points as an array of their own, or an error that says what is wrong."""
     try:
         array = np.array(points, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise TaskError(
             f"goals must be pairs of numbers (x, y) in metres, not {points!r}"
         ) from error

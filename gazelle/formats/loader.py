@@ -15,6 +15,7 @@ from gazelle.formats.model_config import entry_file
 from gazelle.formats.occupancy import load_map
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
+from gazelle.path_texts import can_be_path, expanded, shortened
 
 PathLike = str | os.PathLike[str]
 
@@ -29,7 +30,6 @@ _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")
 _EXPANDED = {"robot", "sdf", "gazebo"}
 _MAP_SUFFIXES = (".yaml", ".yml")
 _SHORT = 60  # characters of a value that a message shows
-_LONGEST_NAME, _LONGEST_PATH = 255, 4095  # bytes, on every system that Gazelle runs on
 _BUNDLED_HINT = "'gazelle worlds' and 'gazelle robots' list what is bundled"
 
 
@@ -159,10 +159,8 @@ def path_text(path: object) -> str:
         text = str(os.fspath(path))
         if text.lstrip().startswith("<"):
             shown, hint = "its text", "load_string() and load_model_string() read text"
-        elif len(text) > _LONGEST_PATH or any(
-            len(part.encode()) > _LONGEST_NAME for part in text.split("/")
-        ):
-            shown = f"{len(text):,} characters"
+        elif not can_be_path(text):
+            raise ResolveError("no file can have this name", file=shortened(text), hint=hint)
         else:
             return text
     raise ResolveError(f"a file is found by its path, URI or name, not by {shown}", hint=hint)
@@ -181,7 +179,7 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
     """
     text = path_text(path)
     if "://" not in text:
-        plain = Path(text).expanduser()
+        plain = expanded(text)
         # Any folder here may be called "office": only that of a model hides what is bundled.
         hidden = _is_other_folder(plain) and _bundled(text, reading.resolver, model=model)
         if plain.exists() and not hidden:
@@ -194,7 +192,7 @@ def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
         close = closest_of(text, names)
         hint = f"{looked}" if "://" in text or "/" in text else close or _BUNDLED_HINT
         if text.startswith(("/", "~", ".")):
-            hint = _beside(Path(text).expanduser())
+            hint = _beside(expanded(text))
         raise ResolveError("there is no such file, URI or bundled name", file=text, hint=hint)
     reading.resolver.look_around(found)
     return entry_file(found)

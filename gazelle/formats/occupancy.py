@@ -12,7 +12,6 @@ import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
@@ -27,6 +26,7 @@ from gazelle.formats import blanks, xml
 from gazelle.formats.picture import read_picture
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
+from gazelle.path_texts import existing_file
 
 if TYPE_CHECKING:
     import yaml
@@ -77,9 +77,7 @@ def load_map(path: PathLike, *, paths: Sequence[PathLike] = ()) -> OccupancyMap:
         FormatError: The YAML or the picture cannot be read; it names file and line.
         ResolveError: There is no such YAML file or picture.
     """
-    file = Path(path).expanduser().absolute()
-    if not file.is_file():
-        raise ResolveError("there is no such file", file=os.fspath(path))
+    file = existing_file(path)
     reading = Reading(Resolver(paths, file=file), folder=file.parent)
     nodes = _read_nodes(xml.read_bytes(file), str(file), reading)
     settings = _read_settings(nodes)

@@ -19,6 +19,7 @@ from urllib.parse import unquote
 
 from gazelle.assets import published
 from gazelle.formats import packages
+from gazelle.path_texts import can_be_path, expanded
 
 MODEL_VARIABLES = (
     "GAZEBO_MODEL_PATH",
@@ -54,7 +55,7 @@ class Resolver:
         file: Path | None = None,
     ) -> None:
         self._environ = os.environ if environ is None else environ
-        self.paths = tuple(Path(path).expanduser().absolute() for path in paths)
+        self.paths = tuple(expanded(path).absolute() for path in paths)
         self._indices: dict[Path, packages.Index] = {}
         self._listings: dict[Path, packages.Listing] = {}
         self._crawled: dict[Path, dict[str, Path]] = {}
@@ -89,6 +90,8 @@ class Resolver:
             uri: ``model://``, ``package://``, ``file://``, an absolute or a relative path.
             base: Folder that a relative path starts from.
         """
+        if not can_be_path(uri.strip().partition("://")[2] or uri):
+            return None
         for candidate in self._candidates(uri.strip(), base):
             found = self._allowed(candidate)
             if found is not None:
@@ -272,7 +275,7 @@ class Resolver:
 
     def _split(self, variable: str) -> list[Path]:
         parts = self._environ.get(variable, "").split(os.pathsep)
-        return [Path(part).expanduser() for part in parts if Path(part).is_absolute()]
+        return [expanded(part) for part in parts if Path(part).is_absolute()]
 
     @cached_property
     def _variable_roots(self) -> list[Path]:
@@ -329,11 +332,3 @@ def _ancestors(file: Path) -> list[Path]:
             break
         folders.append(folder)
     return folders
-
-
-def expanded(path: str) -> Path:
-    """A path with ``~`` as the user's folder; as it is written where there is no such user."""
-    try:
-        return Path(path).expanduser()
-    except RuntimeError:
-        return Path(path)

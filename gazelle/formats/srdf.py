@@ -22,10 +22,11 @@ from gazelle.description import (
     VirtualJoint,
 )
 from gazelle.description.srdf import VirtualJointType
-from gazelle.errors import ResolveError, did_you_mean
+from gazelle.errors import did_you_mean
 from gazelle.formats import values, xacro, xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
+from gazelle.path_texts import existing_file
 
 PathLike = str | os.PathLike[str]
 
@@ -64,9 +65,7 @@ def load_srdf(
         FormatError: The file cannot be read, or says something that cannot be.
         ResolveError: There is no such file.
     """
-    file = Path(path).expanduser().absolute()
-    if not file.is_file():
-        raise ResolveError("there is no such file", file=os.fspath(path))
+    file = existing_file(path)
     reading = Reading(Resolver(paths, file=file), xacro_args=dict(xacro_args or {}))
     with reading.inside(file):
         semantics = read_semantics(read_root(file, reading), reading)

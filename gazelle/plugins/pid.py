@@ -64,7 +64,7 @@ class Gains:
             p, i, d, clamp = (float(given.get(name, 0.0)) for name in ("p", "i", "d", "i_clamp"))
             highest = float(given.get("i_clamp_max", abs(clamp)))
             lowest = float(given.get("i_clamp_min", -abs(clamp)))
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise SimulationError(f"gains must be numbers, not {dict(given)}") from None
         return cls(p, i, d, i_max=highest, i_min=lowest, most=most, least=-most)
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model
-from gazelle.engines.limits import FARTHEST
+from gazelle.engines.limits import FARTHEST, name_fault
 from gazelle.errors import SimulationError
 
 # Parameters of several numbers, which are not one an axis.
@@ -22,7 +22,7 @@ _FAR_FROM_UNIT = 100.0
 _MOST_STEPS = 2**31 - 1
 
 # Nanoseconds of three centuries fit into 64 bits [s].
-_LONGEST_RUN = 9e9
+LONGEST_RUN = 9e9
 
 # Characters of a value that a message shows.
 _LONGEST = 60
@@ -50,7 +50,15 @@ def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
         raise SimulationError(
             f"worlds must be in 0 to {nworld - 1}, or a mask of {nworld}, not {_short(worlds)}"
         )
-    return given.astype(np.intp)
+    indices: Worlds = given.astype(np.intp)
+    if not is_ascending(indices) and len(np.unique(indices)) < len(indices):
+        raise SimulationError(f"worlds must be named once each, not {_short(worlds)}")
+    return indices
+
+
+def is_ascending(worlds: Worlds) -> bool:
+    """Return True if each world has a larger index than the one before."""
+    return len(worlds) < 2 or bool((worlds[1:] > worlds[:-1]).all())
 
 
 def one_world(world: int, nworld: int) -> int:
@@ -100,7 +108,7 @@ def numbers(what: str, values: ArrayLike, width: int, count: int, *, alike: bool
     """
     try:
         given = np.asarray(values, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise SimulationError(f"{what} must be numbers, not {_short(values)}") from None
     if (width == 1 and given.ndim < 2) or (alike and given.shape in ((), (count,))):
         given = given.reshape(-1, 1)
@@ -154,7 +162,10 @@ def number(what: str, value: object) -> float:
     """
     if not isinstance(value, Real):
         raise SimulationError(f"{what} must be a number, not {value!r}")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise SimulationError(f"{what} is too large: {_short(value)}") from None
 
 
 def steps(count: int) -> int:
@@ -181,12 +192,12 @@ def duration(seconds: float) -> float:
         SimulationError: It is negative or not finite.
     """
     try:
-        possible = 0.0 <= seconds <= _LONGEST_RUN
+        possible = 0.0 <= seconds <= LONGEST_RUN
     except TypeError:
         raise SimulationError(f"cannot run for {seconds!r}: that is no time in seconds") from None
     if not possible:
         raise SimulationError(
-            f"cannot run for {seconds} s; time goes forward only, and {_LONGEST_RUN:g} s at most"
+            f"cannot run for {seconds} s; time goes forward only, and {LONGEST_RUN:g} s at most"
         )
     return seconds
 
@@ -198,11 +209,10 @@ def placeable(model: Model) -> Model:
         SimulationError: Its name or its pose cannot be.
     """
     name = model.name
-    if not isinstance(name, str) or not name or "::" in name:
-        why = "'::' parts names" if name and isinstance(name, str) else "a name is text"
+    why = name_fault(name)
+    if why is not None:
         raise SimulationError(
-            f"a model cannot be called '{name}': {why}",
-            source=model.source,
+            f"a model cannot be called {_short(repr(name))}: {why}", source=model.source
         )
     if not np.isfinite((*model.pose.position, *model.pose.quaternion)).all():
         raise SimulationError(

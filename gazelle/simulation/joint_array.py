@@ -68,7 +68,7 @@ class JointArray:
         """
         try:
             wanted = np.broadcast_to(np.asarray(velocity, np.float64), self._shape)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise SimulationError(
                 f"the velocities of {self._shape[1]} motors cannot be {velocity!r}: {error}",
                 hint=f"give a row of {self._shape[1]} for each of {self._shape[0]} worlds",

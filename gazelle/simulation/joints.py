@@ -178,7 +178,7 @@ class JointHandle:
         some = self._some(worlds)
         try:
             self._row.set_motor_velocity(velocity, some)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise SimulationError(
                 f"the velocity of the motor on '{self.name}' cannot be {velocity!r}: {error}",
                 hint="give a number, one for each world, or a row of axes for each world",

@@ -220,5 +220,5 @@ def orientation_of(quaternion: ArrayLike | None, yaw: ArrayLike | None) -> Array
 def _headings(yaw: ArrayLike) -> Floats:
     try:
         return np.asarray(yaw, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise SimulationError(f"a heading must be numbers [rad], not {yaw!r}") from None

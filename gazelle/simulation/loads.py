@@ -19,7 +19,7 @@ from gazelle.engines import Engine
 from gazelle.errors import SimulationError
 from gazelle.rotations import cross, rotate
 from gazelle.simulation.clock import NANOSECONDS, Clock
-from gazelle.simulation.inputs import number
+from gazelle.simulation.inputs import LONGEST_RUN, number
 
 
 @dataclass(slots=True, eq=False)
@@ -186,8 +186,10 @@ class Loads:
         duration = None if duration is None else number("the duration of a force", duration)
         if start is not None and not math.isfinite(start):
             raise SimulationError(f"the start of a force must be finite, not {start}")
+        if start is not None and abs(start) > LONGEST_RUN:
+            raise SimulationError(f"a force cannot start at {start:g} s, {LONGEST_RUN:g} s at most")
         begin = now if start is None else max(now, round(start * NANOSECONDS))
-        if duration is None or math.isinf(duration):
+        if duration is None or duration > LONGEST_RUN:
             return begin, None
         if not duration >= 0.0:
             raise SimulationError(f"the duration of a force must not be {duration} s")

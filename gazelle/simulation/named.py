@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
 
-from gazelle.errors import SimulationError, did_you_mean
+from gazelle.errors import UnknownNameError, did_you_mean
 
 T = TypeVar("T")
 
@@ -28,7 +28,7 @@ class Named(Mapping[str, T]):
         try:
             return self._items[self._own(name)]
         except KeyError:
-            raise SimulationError(
+            raise UnknownNameError(
                 f"there is no {self._kind} '{name}'", hint=did_you_mean(name, self._items)
             ) from None
 

@@ -12,6 +12,9 @@ from gazelle.simulation.inputs import number
 # Simulated time between two looks at the wall clock [s].
 _SLICE = 0.02
 
+SLOWEST = 1e-6
+"""Least real-time factor: a step of a millisecond takes a quarter of an hour."""
+
 
 def run_paced(advance: Callable[[int], None], count: int, step: float, rate: float | None) -> None:
     """Advance by steps, at ``rate`` simulated seconds a wall second at most.
@@ -28,9 +31,9 @@ def run_paced(advance: Callable[[int], None], count: int, step: float, rate: flo
     if rate is None:
         advance(count)
         return
-    if not 0.0 < number("a real-time factor", rate) < math.inf:
+    if not SLOWEST <= number("a real-time factor", rate) < math.inf:
         raise SimulationError(
-            f"a real-time factor must be positive and finite, not {rate!r}",
+            f"a real-time factor must be finite and at least {SLOWEST:g}, not {rate!r}",
             hint="leave it out to run as fast as possible",
         )
     start, done, most = time.monotonic(), 0, max(1, int(_SLICE / step))

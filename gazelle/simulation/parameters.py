@@ -224,9 +224,12 @@ class WorldParameters:
         Args:
             link: Scoped name.
             factor: Shape () or (nworld,).
+
+        Raises:
+            SimulationError: It is not finite, or of another shape.
         """
-        shape = (self._simulation.nworld,)
-        by = np.broadcast_to(np.asarray(factor, np.float64), shape)
+        count = self._simulation.nworld
+        by = np.broadcast_to(finite("the factor of a mass", factor, 1, count)[..., 0], (count,))
         self.link_mass[link] = self.link_mass[link] * by
         self.link_inertia[link] = self.link_inertia[link] * by[:, None]
 

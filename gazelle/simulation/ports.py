@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from enum import Enum
 from types import MappingProxyType
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.errors import SimulationError
+from gazelle.errors import SimulationError, UnknownNameError, did_you_mean
 from gazelle.simulation.inputs import chosen, size_of
 from gazelle.simulation.requests import RequestQueue, StatePart, between_steps
 from gazelle.simulation.settings import Setting, Tuning
@@ -99,7 +99,7 @@ class TwistInput(StatePart):
         """Vectors of so many worlds, shape (count, 3) or (1, 3)."""
         try:
             values = np.asarray(given, np.float64)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise SimulationError(
                 f"the command on '{self.topic}' must be numbers, not {given!r}"
             ) from None
@@ -327,6 +327,14 @@ class PortTable(dict[str, T]):
         if isinstance(port, StatePart):
             port.bind(self._requests)
         super().__setitem__(name, port)
+
+    def __missing__(self, name: str) -> NoReturn:
+        """Say what there is.
+
+        Raises:
+            UnknownNameError: There is no port of this name.
+        """
+        raise UnknownNameError(f"there is no '{name}' here", hint=did_you_mean(name, self))
 
     def update(self, ports: Mapping[str, T] = MappingProxyType({}), /, **more: T) -> None:  # type: ignore[override]
         """Add ports; a dict's own would not tell them which simulation they belong to."""

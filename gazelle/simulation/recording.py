@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from gazelle.closing import Closeable
 from gazelle.engines import CHANGES, Call, DivergenceError, Engine
-from gazelle.errors import Error
+from gazelle.errors import Error, SimulationError
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
+from gazelle.path_texts import shortened
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.encoding import encode
 from gazelle.simulation.running_state import RunningState
@@ -76,6 +77,9 @@ class Recorder(Closeable):
     Args:
         simulation: What runs.
         path: Where to write; an existing file is replaced.
+
+    Raises:
+        SimulationError: The file cannot be written.
     """
 
     def __init__(self, simulation: RecordedRun, path: str | Path) -> None:
@@ -84,7 +88,14 @@ class Recorder(Closeable):
         self._engine: Engine = simulation.engine
         now_ns = simulation.clock.now_ns
         first = header(simulation, self._engine.history(), self._engine.snapshot(), now_ns)
-        self._file: IO[str] = self.path.open("w", encoding="utf-8")
+        try:
+            self._file: IO[str] = self.path.open("w", encoding="utf-8")
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            name = shortened(str(path))
+            raise SimulationError(
+                f"the recording cannot be written: {reason}", file=name
+            ) from error
         self._depth = 0
         self._pending: dict[str, Any] = {}
         self._steps = 0

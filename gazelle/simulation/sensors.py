@@ -13,7 +13,7 @@ from gazelle.array_types import Worlds
 from gazelle.description import Sensor
 from gazelle.sensors import GroupedModel, SensorModel
 from gazelle.simulation.clock import NANOSECONDS, Schedule
-from gazelle.simulation.inputs import chosen, one_world
+from gazelle.simulation.inputs import chosen, is_ascending, one_world
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import FramePrefix, Output
 from gazelle.simulation.requests import between_steps
@@ -72,7 +72,11 @@ class SampledSensor:
     @between_steps
     def measure(self, worlds: Worlds | None = None) -> NDArray[Any]:
         """Measure now, out of turn, shape (n, channels); the last reading stays as it is."""
-        return self._model.measure(chosen(worlds, self._simulation.nworld), self.period)
+        some = chosen(worlds, self._simulation.nworld)
+        if some is None or is_ascending(some):
+            return self._model.measure(some, self.period)
+        order = np.argsort(some)
+        return self._model.measure(some[order], self.period)[np.argsort(order)]
 
     @between_steps
     def read(self, world: int = 0) -> Any:

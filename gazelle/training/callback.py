@@ -19,6 +19,7 @@ from gazelle.training.periodic import PeriodicEvaluation
 from gazelle.training.progress import Progress
 from gazelle.training.runs import Run
 from gazelle.training.statistics import EpisodeLog
+from gazelle.training.tables import rows_until
 from gazelle.writing import naming
 
 _COLUMNS = (
@@ -62,10 +63,7 @@ class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
     """
 
     def __init__(self, file: Path, steps: int) -> None:
-        rows: list[dict[str, str]] = []
-        if file.exists():
-            with file.open(newline="", encoding="utf-8") as old:
-                rows = [row for row in csv.DictReader(old) if int(row["time/steps"]) <= steps]
+        rows = rows_until(file, "time/steps", steps)
         self._path = file
         self._file = file.open("w", newline="", encoding="utf-8")
         self._writer = csv.DictWriter(self._file, _COLUMNS, restval="", extrasaction="ignore")

@@ -9,6 +9,7 @@ from typing import Any
 from gazelle.training.actor import Actor
 from gazelle.training.evaluation import Evaluation, evaluate
 from gazelle.training.runs import Run
+from gazelle.training.tables import rows_until
 from gazelle.training.tasks import evaluation_options
 from gazelle.writing import replacing
 
@@ -73,9 +74,7 @@ class PeriodicEvaluation:
         best = state["best"]
         self._best = None if best is None else (float(best[0]), float(best[1]))
         if self._file.exists():
-            with self._file.open(newline="", encoding="utf-8") as old:
-                rows = [row for row in csv.DictReader(old) if int(row["steps"]) <= steps]
-            self._write(rows, "w")
+            self._write(rows_until(self._file, "steps", steps), "w")
 
     def _add_row(self, found: Evaluation, steps: int, *, best: bool) -> None:
         row = {
@@ -92,7 +91,7 @@ class PeriodicEvaluation:
     def _write(self, rows: list[dict[str, Any]], mode: str) -> None:
         fresh = mode == "w" or not self._file.exists()
         with self._file.open(mode, newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, _COLUMNS)
+            writer = csv.DictWriter(file, _COLUMNS, extrasaction="ignore")
             if fresh:
                 writer.writeheader()
             writer.writerows(rows)

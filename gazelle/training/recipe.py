@@ -11,8 +11,10 @@ from gazelle.errors import TaskError, did_you_mean
 from gazelle.training.bearing import Bearing, bearing_of
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.heeded import check_heeded
+from gazelle.training.number_checks import check_numbers
 
 Activation = Literal["tanh", "relu"]
+ACTIVATIONS = ("tanh", "relu")
 
 ALGORITHM_NAMES = ("ppo", "dqn", "sac", "td3", "ddpg")
 """The names of the algorithms; `gazelle.training.ALGORITHMS` says how they are built."""
@@ -180,9 +182,14 @@ class Recipe:
         if self.algo not in known:
             hint = did_you_mean(self.algo, known)
             raise TaskError(f"there is no algorithm '{self.algo}'", hint=hint)
-        for name in ("steps", "num_envs", "learning_rate", "reward_scale"):
+        check_numbers(self)
+        check_numbers(self.settings)
+        for name in ("learning_rate", "reward_scale"):
             if not getattr(self, name) > 0:
                 raise TaskError(f"{name} must be above 0, not {getattr(self, name)}")
+        if self.activation not in ACTIVATIONS:
+            hint = did_you_mean(str(self.activation), ACTIVATIONS)
+            raise TaskError(f"there is no activation '{self.activation}'", hint=hint)
         if not 0 <= self.gamma <= 1:
             raise TaskError(f"gamma must be between 0 and 1, not {self.gamma}")
         if self.cut_observations is not None and not self.cut_observations > 0:

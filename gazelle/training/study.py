@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import FormatError, TaskError, did_you_mean
+from gazelle.text_files import read_text
 from gazelle.training.importing import TaskModule
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
 from gazelle.writing import naming, replacing
@@ -195,7 +196,7 @@ class _Table:
         self._file = self._path.open("a", newline="", encoding="utf-8")
 
     def _read(self) -> None:
-        lines = self._path.read_text(encoding="utf-8").splitlines(keepends=True)
+        lines = read_text(self._path).splitlines(keepends=True)
         reader = csv.DictReader(line for line in lines if line.endswith("\n"))
         self._columns = [*(reader.fieldnames or ())]
         lacking = [name for name in self._names if name not in self._columns]

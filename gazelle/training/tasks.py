@@ -229,7 +229,7 @@ def plain_options(options: dict[str, Any]) -> dict[str, Any]:
     for key, value in plain.items():
         try:
             json.dumps(value)
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise TaskError(
                 f"the option {key} is a {type(value).__name__}, which no run can keep",
                 hint="give numbers, text, lists or the path of a file",

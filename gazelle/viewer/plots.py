@@ -12,6 +12,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError, MissingExtraError, did_you_mean
+from gazelle.text_files import read_text
 from gazelle.writing import replacing
 
 if TYPE_CHECKING:
@@ -145,14 +146,15 @@ def read_table(path: Path) -> dict[str, Floats]:
         FormatError: There is no such file, or no row in it.
     """
     try:
-        with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
+        rows = list(csv.DictReader(read_text(path).splitlines(keepends=True)))
     except OSError as error:
         raise FormatError(f"cannot read it: {error.strerror}", file=str(path)) from error
     if not rows:
         hint = "a training writes its first row after some updates"
         raise FormatError("the table has no rows", file=str(path), hint=hint)
-    columns = {name: np.array([_number(row[name]) for row in rows]) for name in rows[0]}
+    # Cells beyond the columns of the first row have no name.
+    names = [name for name in rows[0] if name is not None]
+    columns = {name: np.array([_number(row[name]) for row in rows]) for name in names}
     return {name: values for name, values in columns.items() if not np.isnan(values).all()}
 
 

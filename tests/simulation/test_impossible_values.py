@@ -1,6 +1,7 @@
 """Values that cannot be are one error of Gazelle's, at the place where they are given."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ import gazelle
 from gazelle import formats
 from gazelle.description import Pose
 from gazelle.engines.laws import with_profile
+from gazelle.engines.mujoco import to_mjcf
 from gazelle.engines.planar import Body, Fan, Fleet, Mount, RangeNoise
 from gazelle.errors import EngineError, Error, SimulationError
 from gazelle.simulation.stage import StageSimulation
@@ -60,7 +62,7 @@ def test_a_name_with_what_parts_names(engine, name):
     world = scenes.world(scenes.box(name, static=True))
     refuses("parts the names", lambda: gazelle.Simulation(world, engine))
     with gazelle.Simulation(scenes.world(), engine) as sim:
-        refuses("parts names", lambda: sim.spawn(scenes.box(), name=name))
+        refuses("parts the names", lambda: sim.spawn(scenes.box(), name=name))
 
 
 @pytest.mark.parametrize("given", [None, 3, 1.5, True, [], {}, b"empty", object()])
@@ -305,3 +307,91 @@ def test_names_that_are_none(name):
         for call in (sim.delete, lambda name: gazelle.Simulation("empty", name)):
             refuses("there is no", lambda call=call: call(name))
         refuses("on_fault|there is no", lambda: gazelle.Simulation("empty", on_fault=name))
+
+
+# -- what every handle does with wrong values ---------------------------------------------
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_worlds_are_named_once_and_in_any_order(engine):
+    with gazelle.Simulation(
+        scenes.world(scenes.ground(), scenes.burger()), engine, nworld=3
+    ) as sim:
+        robot = sim.robots["burger"]
+        robot.set_pose([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0)])
+        assert robot.placement([2, 0]).position[:, 0].tolist() == [2.0, 0.0]
+        for unit in robot.sensors.values():
+            rows = unit.measure([0, 1, 2])
+            assert unit.measure([2, 0]).shape == rows[[2, 0]].shape
+            refuses("named once", lambda u=unit: u.measure([0, 0]))
+            refuses("named once", lambda u=unit: u.measure([0] * 10_000))
+        refuses("named once", lambda: robot.set_pose((0.0, 0.0, 0.0), worlds=[1, 0, 1]))
+        refuses("named once", lambda: sim.reset([2, 2]))
+
+
+@pytest.mark.parametrize("table", ["inputs", "outputs", "services", "settings", "links", "joints"])
+def test_a_table_says_what_it_has(table):
+    with gazelle.Simulation(scenes.world(scenes.ground(), scenes.burger())) as sim:
+        names = getattr(sim.robots["burger"], table)
+        for name in ("", "cmd_vell", "::", "a" * 10_000):
+            refuses("there is no", lambda name=name: names[name])
+            with pytest.raises(KeyError):
+                names[name]
+            assert names.get(name) is None
+        near = sim.robots["burger"].inputs
+        refuses("did you mean 'cmd_vel'", lambda: near["cmd_vell"])
+
+
+@pytest.mark.parametrize(
+    "path", ["", ".", "no/such/file", "/dev/null/a", "\x00", "\ud800", "a" * 300]
+)
+def test_a_recording_that_cannot_be_written(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with gazelle.Simulation("empty") as sim:
+        refuses("the recording cannot be written", lambda: sim.record(path))
+        sim.step()
+
+
+@pytest.mark.parametrize("name", ["\x00", "\ud800", "a\x00b"])
+def test_names_that_hold_what_is_no_character(name):
+    with gazelle.Simulation(scenes.world()) as sim:
+        refuses("cannot be called", lambda: sim.spawn(scenes.box(), name=name))
+        refuses("cannot be called", lambda: gazelle.Simulation(scenes.world(scenes.box(name))))
+        sim.step()
+
+
+def test_numbers_that_are_too_large_for_any_computer():
+    huge = 10**400
+    with gazelle.Simulation(scenes.world(scenes.ground(), scenes.burger(), scenes.box())) as sim:
+        robot, box = sim.robots["burger"], sim.robots["box"].links["link"]
+        joint = robot.joints["wheel_left_joint"]
+        calls = [
+            lambda: setattr(sim.physics, "gravity", (0.0, 0.0, huge)),
+            lambda: setattr(sim.parameters, "gravity", [huge]),
+            lambda: sim.parameters.scale_mass(box.name, huge),
+            lambda: sim.parameters.scale_mass(box.name, [1.0, 2.0]),
+            lambda: sim.run(0.001, rate=huge),
+            lambda: sim.run(0.001, rate=1e-320),
+            lambda: joint.apply_effort(1.0, start=huge),
+            lambda: joint.apply_effort(1.0, start=1e308),
+            lambda: joint.apply_effort(1.0, duration=huge),
+            lambda: joint.add_motor(huge),
+            lambda: joint.drive([huge]),
+            lambda: robot.set_pose((0.0, 0.0, 0.0), yaw=[huge]),
+            lambda: sim.attach(next(iter(robot.links.values())), box, settling=huge),
+            lambda: gazelle.Simulation("empty", time_step=huge),
+        ]
+        for call in calls:
+            refuses(".", call)
+        joint.apply_effort(0.0, duration=1e308)
+        sim.step()
+
+
+@pytest.mark.parametrize(("given", "used"), [(2**31 - 1, 1000), (10**5, 1000), (999, 999), (0, 1)])
+def test_a_solver_that_finds_nothing_ends(given, used):
+    """MuJoCo's goes on for as long as it is allowed to where numbers are no numbers."""
+    world = scenes.world(scenes.box())
+    ode = replace(world.profile.ode, iters=given)
+    text = to_mjcf(with_profile(world, replace(world.profile, ode=ode)))
+    found = re.search(r'iterations="(\d+)"', text)
+    assert int(found[1] if found else 100) == used

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 
 import pytest
 
@@ -11,6 +12,7 @@ from gazelle.training.contracts import contract_of, task_contract
 from gazelle.training.recipes import (
     RECIPES,
     OffPolicySettings,
+    PPOSettings,
     Recipe,
     recipe_for,
     recipe_from_dict,
@@ -141,3 +143,34 @@ def test_others_learn_the_task_itself_and_a_twin_is_its_own():
     assert with_continuous_actions(find_task("TurtleBot3Stage2")) == find_task(
         "TurtleBot3Stage2Continuous"
     )
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("steps", [0, -1, 1.5, math.nan, 10**400, True, "many"]),
+        ("num_envs", [0, -1, 2.0, 10**30]),
+        ("net_arch", [(0,), (-1,), (2.5,), (10**9,), (64,) * 1000, [64]]),
+        ("gamma", [-0.1, 1.1, math.nan, math.inf]),
+        ("learning_rate", [0.0, -1.0, math.nan, math.inf, 10**400]),
+        ("activation", ["", "gelu"]),
+        ("training_options", [[], 1]),
+        ("scale_observations", [1, "yes"]),
+    ],
+)
+def test_numbers_of_a_recipe_that_cannot_be(name, values):
+    for value in values:
+        with pytest.raises(TaskError, match=name):
+            Recipe(**{name: value})
+
+
+@pytest.mark.parametrize("kind", [PPOSettings, OffPolicySettings])
+def test_numbers_of_settings_that_cannot_be(kind):
+    algo = "ppo" if kind is PPOSettings else "sac"
+    for each in dataclasses.fields(kind):
+        wrong = {"int": [0, -1, 1.5, 10**30], "float": [-1.0, math.nan, math.inf], "bool": [1, 0.0]}
+        for value in wrong.get(each.type, []):
+            if each.name == "learning_starts" and value == 0:
+                continue
+            with pytest.raises(TaskError, match=each.name):
+                Recipe(algo=algo, settings=kind(**{each.name: value}))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from gazelle.array_types import Worlds
+from gazelle.engines.limits import LONGEST_STEP
 from gazelle.engines.motion import Placement
 from gazelle.engines.mujoco.attachments import Attachment
 from gazelle.engines.mujoco.rows import rows_of
@@ -36,7 +35,7 @@ class LinkHolding:
         settling: float | None = None,
     ) -> None:
         """Hold two links together as they are to each other now; see the protocol."""
-        if settling is not None and not (math.isfinite(settling) and settling > 0.0):
+        if settling is not None and not 0.0 < settling <= LONGEST_STEP:
             raise EngineError(f"links cannot come together within {settling} s", hint="above 0")
         pair = Attachment(parent, child, settling)
         ends = [self._run.now().link(link).body for link in (parent, child)]

@@ -95,7 +95,7 @@ def motor_of(
         )
     try:
         given = np.asarray(max_effort, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise EngineError(
             f"the largest effort of the motor on '{joint}' must be a number, not {max_effort!r}"
         ) from None

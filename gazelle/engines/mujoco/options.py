@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 from gazelle.description import World
-from gazelle.engines.limits import MOST
+from gazelle.engines.limits import MAX_ITERATIONS
 from gazelle.engines.mujoco.loose import SLEEP_SPEED, has_loose, lets_sleep, looks_ahead
 from gazelle.errors import EngineError, did_you_mean
 
@@ -55,7 +55,7 @@ def set_options(
     option.cone = _cone(world, kinematic)
     option.solver = mujoco.mjtSolver.mjSOL_NEWTON
     # Newton's method is done after a few; the file's number is where it gives up.
-    option.iterations = min(max(1, world.profile.ode.iters), MOST)
+    option.iterations = min(max(1, world.profile.ode.iters), MAX_ITERATIONS)
     option.ls_iterations = _LINE_SEARCH_ITERATIONS
     option.gravity = list(world.gravity)
     option.magnetic = list(world.magnetic_field)

@@ -346,7 +346,7 @@ def as_rows(kind: str, name: str, shape: tuple[int, ...], values: ArrayLike) -> 
     """
     try:
         rows: Floats = np.broadcast_to(np.asarray(values, np.float64), shape)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise EngineError(
             f"the {kind} of '{name}' must be numbers of the shape ({shape[1]},) or {shape}, "
             f"not {' '.join(str(values).split())[:60]}"

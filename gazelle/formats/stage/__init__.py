@@ -5,11 +5,9 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Sequence
-from pathlib import Path
 
 from gazelle.description import World
 from gazelle.description.stage import StageWorld
-from gazelle.errors import ResolveError
 from gazelle.formats import xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
@@ -17,6 +15,7 @@ from gazelle.formats.stage.building import no_garbage
 from gazelle.formats.stage.parser import script_of
 from gazelle.formats.stage.scene import scene_of
 from gazelle.formats.stage.world import read_world
+from gazelle.path_texts import existing_file
 
 SUFFIXES = (".world", ".inc")
 
@@ -57,9 +56,7 @@ def load_stage(
             and line.
         ResolveError: There is no such file, or one that it names is not there.
     """
-    file = Path(path).expanduser().absolute()
-    if not file.is_file():
-        raise ResolveError("there is no such file", file=os.fspath(path))
+    file = existing_file(path)
     reading = Reading(Resolver(paths, file=file))
     with reading.inside(file), no_garbage():
         script = script_of(str(file), xml.read_bytes(file), reading)

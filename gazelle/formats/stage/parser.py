@@ -17,6 +17,7 @@ from gazelle.formats import blanks, xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.stage.entity import Entity, Property
 from gazelle.formats.stage.lexer import Script, Token, TokenKind, parse_value, tokenize
+from gazelle.path_texts import expanded
 
 MAX_DEPTH = 64
 """Entities in each other, macros in macros."""
@@ -196,7 +197,7 @@ def find_beside(uri: str, script: Script, reading: Reading, folder: Path | None)
     if found is not None:
         return found
     for entry in os.environ.get(SEARCH_VARIABLE, "").split(os.pathsep):
-        candidate = Path(entry).expanduser() / Path(uri).name
+        candidate = expanded(entry) / Path(uri).name
         if entry and candidate.is_file() and reading.resolver.readable(candidate):
             return candidate
     return None

@@ -14,6 +14,7 @@ from gazelle.formats.write.sdf import write_sdf
 from gazelle.formats.write.urdf import write_urdf
 from gazelle.formats.write.writing import Writing
 from gazelle.formats.write.xml import document
+from gazelle.path_texts import expanded
 
 Format = Literal["sdf", "urdf"]
 
@@ -44,7 +45,7 @@ def save(
         FormatError: The format is not known, or cannot say what there is to write; or the
             file cannot be written.
     """
-    file = Path(path).expanduser().absolute()
+    file = expanded(path).absolute()
     text = _text(content, format or format_of(file), Writing(file.parent))
     write_text(file, text)
 

@@ -14,6 +14,8 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from gazelle.path_texts import expanded
+
 _REST = ("-e", "-x", "--", "--execute")
 """Options after which the rest of the command line is the program, or a text for a shell."""
 _WORD = ("-e", "--command")
@@ -110,7 +112,7 @@ def _command(words: list[str]) -> list[str]:
 def _started(name: str, why: str, command: list[str]) -> tuple[list[str], Path]:
     """A command and its log; one line says so."""
     folder = os.environ.get("ROS_LOG_DIR") or f"{os.environ.get('ROS_HOME') or '~/.ros'}/log"
-    base = Path(folder).expanduser()
+    base = expanded(folder)
     base.mkdir(parents=True, exist_ok=True)
     shown = command[2] if command[:2] == ["/bin/sh", "-c"] else shlex.join(command)
     program = Path((shlex.split(shown, posix=False) or [name])[0]).name

@@ -159,6 +159,8 @@ def load_file(
         text = sys.stdin.read() if filename == "-" else Path(filename).read_text(encoding="utf-8")
     except OSError as error:
         raise RosParamException(f"file [{filename}] does not exist: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise RosParamException(f"file [{filename}] is no text in UTF-8: {error.reason}") from None
     return load_str(text, filename, default_namespace, verbose)
 
 

@@ -141,7 +141,7 @@ _SWITCHES = {"authenticate": None, "bson_only_mode": None}
 def _number(name: str, value: Any) -> float:
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = -1.0
     if isinstance(value, bool) or not 0.0 <= number < float("inf"):
         raise RosError(f"{name} is {value!r}; it wants a number, not below zero")

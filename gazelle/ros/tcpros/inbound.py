@@ -136,7 +136,7 @@ class InboundLink:
             return
         try:
             self.endpoint = self._read_answer(value)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             self._try_again(ProtocolError(f"requestTopic of {self.uri} answered {value!r}"))
         except ProtocolError as refusal:
             self._try_again(refusal)

@@ -15,6 +15,7 @@ from gazelle.ros.launch.params import flatten
 from gazelle.ros.launch.values import load_yaml, load_yaml_documents
 from gazelle.ros.tools.errors import ToolError
 from gazelle.ros.tools.graph import GraphInspector
+from gazelle.text_files import read_text
 
 _NAMESPACE_KEY = "_ns"
 
@@ -120,7 +121,7 @@ def load_parameters(
         ToolError: The file cannot be read, or is not YAML.
     """
     try:
-        text = sys.stdin.read() if file in {"", "-"} else Path(file).read_text(encoding="utf-8")
+        text = sys.stdin.read() if file in {"", "-"} else read_text(Path(file))
     except OSError as error:
         raise ToolError(f"the file {file} cannot be read: {error.strerror}") from None
     try:

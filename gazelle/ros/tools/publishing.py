@@ -19,6 +19,7 @@ from gazelle.ros.tools.errors import ToolError
 from gazelle.ros.tools.fields import texts_as_texts
 from gazelle.ros.tools.graph import GraphInspector
 from gazelle.ros.tools.watching import tool_node
+from gazelle.text_files import read_text
 
 ONCE_S = 3.0
 """How long a message is offered with ``--once``, so that subscribers can come."""
@@ -68,7 +69,7 @@ def file_documents(path: str) -> list[list[Any]]:
     import yaml
 
     try:
-        text = Path(path).read_text(encoding="utf-8")
+        text = read_text(Path(path))
         return [[each] for each in bounded_yaml.safe_load_all(text) if each is not None]
     except OSError as error:
         raise ToolError(f"{path} cannot be read: {error.strerror}") from None

@@ -16,6 +16,7 @@ from gazelle.clients.errors import ClientError
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
 from gazelle.interrupts import stopping
+from gazelle.path_texts import expanded
 from gazelle.ros import Node
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
@@ -56,7 +57,7 @@ def _learned(node: Node, stage: int) -> Path | None:
     """The folder of a run; None if its training was told to stop."""
     given = str(node.get_param("~run", ""))
     if given:
-        return Path(given).expanduser()
+        return expanded(given)
     from gazelle.training.progress import choose_progress
     from gazelle.training.session import train
 
@@ -66,7 +67,7 @@ def _learned(node: Node, stage: int) -> Path | None:
         algo=str(node.get_param("~algo", "dqn")),
         steps=None if steps is None else int(steps),
         seed=int(node.get_param("~seed", 0)),
-        out=Path(str(node.get_param("~out", "runs"))).expanduser(),
+        out=expanded(str(node.get_param("~out", "runs"))),
         callbacks=[_CALLBACK],
         progress=choose_progress(),
     )

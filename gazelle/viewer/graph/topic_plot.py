@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.interrupts import stopping
+from gazelle.path_texts import expanded
 from gazelle.ros import Node, load_message
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.viewer.plots import plot_series
@@ -99,7 +100,7 @@ def _plot(
     found = parse_arguments(arguments, f"{topic}_plot")
     with found.start() as node, stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
-        file = Path(str(node.get_param("~file", f"{topic}.png"))).expanduser()
+        file = expanded(str(node.get_param("~file", f"{topic}.png")))
         plot = TopicPlot(node, topic, names, horizontal, keep, file)
         sys.stderr.write(f"{node.resolve(topic)} is drawn to {file.resolve()}\n")
         while not stop.is_set() and not node.closed:

@@ -138,7 +138,7 @@ def _numbers_of_array(
 ) -> Iterator[tuple[str, float]]:
     try:
         array = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return
     if array.ndim > 1 and len(array) == nworld:
         array = array[world]

@@ -13,6 +13,7 @@ from gazelle.compat.frobs_rl.common.connection import gazebo, in_folder, log_err
 from gazelle.description.pose import rpy_from_quaternion
 from gazelle.errors import Error
 from gazelle.ros import load_message
+from gazelle.text_files import read_text
 
 
 class SpawnReport(NamedTuple):
@@ -219,4 +220,4 @@ def _held(name: str) -> str:
 
 
 def _text(path: str, package: str | None = None) -> str:
-    return find_file(path, package).read_text(encoding="utf-8")
+    return read_text(find_file(path, package))

@@ -10,6 +10,7 @@ from gazelle.compat.openai_ros.openai_ros_common import ROSLauncher
 from gazelle.compat.openai_ros.running import simulator_runs
 from gazelle.ros.compat import rospy
 from gazelle.ros.launch.values import load_yaml
+from gazelle.text_files import read_text
 
 _CONFIGURATION = "src/openai_ros/task_envs/{}/config"
 
@@ -57,7 +58,7 @@ def begin_task(
 
 def _read(package: str, folder: str, file: str) -> Mapping[str, Any]:
     path = find_file(f"{folder}/{file}", package)
-    values: Mapping[str, Any] = load_yaml(path.read_text(encoding="utf-8"))
+    values: Mapping[str, Any] = load_yaml(read_text(path))
     return values
 
 

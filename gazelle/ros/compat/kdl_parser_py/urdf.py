@@ -9,11 +9,12 @@ from typing import Any
 from gazelle.errors import RosError
 from gazelle.ros.compat.PyKDL import Frame, Joint, Rotation, Segment, Tree, Vector
 from gazelle.ros.robot.tree import MOVABLE, JointTree, TreeJoint, read_joints
+from gazelle.text_files import read_text
 
 
 def treeFromFile(filename: str) -> tuple[bool, Tree | None]:
     """Return the tree of a URDF file."""
-    return treeFromString(Path(filename).read_text(encoding="utf-8"))
+    return treeFromString(read_text(Path(filename)))
 
 
 def treeFromParam(param: str) -> tuple[bool, Tree | None]:

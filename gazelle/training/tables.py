@@ -1,0 +1,35 @@
+"""Tables of a run that a training adds rows to."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+from gazelle.errors import FormatError
+from gazelle.text_files import read_text
+
+
+def rows_until(file: Path, column: str, steps: int) -> list[dict[str, str]]:
+    """Return the rows of a table up to a number of control steps; none if there is no table.
+
+    Args:
+        file: The table.
+        column: Where it has the number of control steps.
+        steps: Rows beyond these are left out.
+
+    Raises:
+        FormatError: A row has no such number.
+    """
+    if not file.exists():
+        return []
+    rows = []
+    for number, row in enumerate(csv.DictReader(read_text(file).splitlines(keepends=True)), 2):
+        try:
+            done = int(row[column])
+        except (KeyError, TypeError, ValueError):
+            hint = "a training writes this table: delete it, or put back how it was"
+            message = f"expected a whole number in the column '{column}'"
+            raise FormatError(message, file=str(file), line=number, hint=hint) from None
+        if done <= steps:
+            rows.append({name: value for name, value in row.items() if name is not None})
+    return rows

@@ -1,0 +1,78 @@
+"""Files of text and their names, whatever they hold, are one clear error."""
+
+import pytest
+
+import gazelle
+from gazelle import FormatError, ResolveError, formats
+from gazelle.clients.descriptions import load_parameters
+from gazelle.control.checking import check_controllers, is_controllers
+from gazelle.formats.stage import load_stage
+from gazelle.path_texts import MAX_NAME, MAX_PATH, can_be_path, existing_file, expanded
+from gazelle.text_files import read_text
+from gazelle.training.tables import rows_until
+
+NAMES = ["a" * (MAX_NAME + 1), "a/" * MAX_PATH, "a\x00b", "\ud800", "~nobody_is_called_this/a.sdf"]
+LOADERS = {
+    "load": formats.load,
+    "load_map": formats.load_map,
+    "load_model": formats.load_model,
+    "load_srdf": formats.load_srdf,
+    "load_stage": load_stage,
+    "Simulation": gazelle.Simulation,
+}
+
+
+@pytest.mark.parametrize("data", [b"a: 1\nb: \xff\n", b"a: 1\nb: caf\xe9\n", b"\n\xed\xa0\x80"])
+def test_what_is_no_text_is_an_error_with_its_line(tmp_path, data):
+    file = tmp_path / "a.yaml"
+    file.write_bytes(data)
+    with pytest.raises(FormatError, match=r"a\.yaml:2: this is no text in UTF-8") as caught:
+        read_text(file)
+    assert caught.value.hint == "save it as UTF-8"
+    assert is_controllers(file)
+    assert "UTF-8" in check_controllers(file, "fetch")[0].message
+    with pytest.raises(FormatError, match="UTF-8"):
+        load_parameters(None, file)
+
+
+@pytest.mark.parametrize("name", NAMES, ids=range(len(NAMES)))
+@pytest.mark.parametrize("loader", LOADERS)
+def test_names_that_no_file_can_have(loader, name):
+    with pytest.raises(ResolveError) as caught:
+        LOADERS[loader](name)
+    assert len(str(caught.value)) < 3 * MAX_NAME
+
+
+@pytest.mark.parametrize("name", NAMES, ids=range(len(NAMES)))
+@pytest.mark.parametrize("scheme", ["", "model://", "package://turtlebot3_gazebo/", "file://"])
+def test_names_in_files_that_no_file_can_have(scheme, name):
+    assert formats.Resolver().find(scheme + name) is None
+
+
+def test_what_can_be_a_path():
+    assert can_be_path("a" * MAX_NAME)
+    assert can_be_path("é/b")
+    assert not any(map(can_be_path, NAMES[:4]))
+    assert str(expanded(NAMES[4])) == NAMES[4]
+    with pytest.raises(ResolveError, match="there is no such file"):
+        existing_file(NAMES[4])
+
+
+@pytest.mark.parametrize("row", ["", "x,1", "1.5,1", ",1", "1,2,3,x\nnan,4"])
+def test_tables_of_a_run_that_somebody_changed(tmp_path, row):
+    file = tmp_path / "progress.csv"
+    file.write_text(f"steps,loss\n64,0.5\n{row}\n128,0.25\n")
+    if not row:
+        assert rows_until(file, "steps", 100) == [{"steps": "64", "loss": "0.5"}]
+        return
+    with pytest.raises(FormatError, match=r"progress\.csv:\d: expected a whole number"):
+        rows_until(file, "steps", 100)
+
+
+def test_a_table_without_the_column_or_without_text(tmp_path):
+    file = tmp_path / "progress.csv"
+    assert rows_until(file, "steps", 1) == []
+    for data in (b"loss\n1\n", b"steps\n\xff\n"):
+        file.write_bytes(data)
+        with pytest.raises(FormatError):
+            rows_until(file, "steps", 1)

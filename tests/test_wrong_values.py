@@ -1,0 +1,110 @@
+"""Wrong values for all that is public of a simulation are errors of Gazelle's, see ``wrong_values``."""
+
+from __future__ import annotations
+
+import public_handles
+import pytest
+import scenes
+import wrong_values
+from wrong_values import Findings
+
+from gazelle import Simulation
+from gazelle.description import Pose
+from gazelle.sensors import View, look_at
+
+# Called by the owner of the thing, with what it made itself.
+OWN = {
+    "InitialPoses": {"apply", "forget", "restore"},
+    "Robot": {"add_manager", "back_to", "bind", "mark"},
+    "SensorUnit": {"join", "leave", "reading", "reseed", "reset", "restore", "update"},
+    "TwistInput": {"keep_in"},
+    "WorldParameters": {"reseed", "restore"},
+}
+ENDING = {"close", "pause", "unpause"}
+
+
+def world():
+    return scenes.world(scenes.ground(), scenes.burger(), scenes.box(pose=Pose(1.0, 1.0, 1.0)))
+
+
+def skipped(handle, name):
+    kind = public_handles.kind_of(handle).__name__
+    return kind == "Loads" or name in ENDING or name in OWN.get(kind, ())
+
+
+def good_values(sim):
+    """What else is given to a call, by the parameter's name or by what it is."""
+    robot = sim.robots["burger"]
+    named = {
+        "view": View(look_at((2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), 4, 4),
+        "parent": next(iter(robot.links.values())),
+        "child": sim.robots["box"].links["link"],
+        "model": scenes.box("new"),
+        "joint": "wheel_left_joint",
+        "link": "burger::base_footprint",
+        "position": (0.0, 0.0, 0.0),
+        "seconds": 0.001,
+        "path": "file.jsonl",
+        "listener": lambda *_: None,
+    }
+    by_word = {
+        "Vector3": (0.0, 0.0, 1.0),
+        "ArrayLike": 1.0,
+        "Sequence": [],
+        "str": "a",
+        "float": 1.0,
+    }
+
+    def good(name, annotation):
+        found = (value for word, value in by_word.items() if word in annotation)
+        return named[name] if name in named else next(found, 1)
+
+    return good
+
+
+def kinds(sim):
+    """A path for each kind of handle, and for each port and sensor."""
+    found = {}
+    for path, handle in public_handles.handles(sim):
+        kind = public_handles.kind_of(handle).__name__
+        alone = kind in ("Input", "Output", "SensorUnit", "Service", "Tuning")
+        found.setdefault(path if alone else (kind, path.count("[")), path)
+    return list(found.values())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("nworld", [1, 2])
+@pytest.mark.parametrize("engine", ["mujoco", "planar"])
+def test_handles_refuse_wrong_values(engine, nworld):
+    findings = Findings()
+    with wrong_values.limits():
+        sim = Simulation(world(), engine, nworld=nworld, threads=1)
+        for path in kinds(sim):
+            handle = dict(public_handles.handles(sim))[path]
+            wrong_values.try_members(path, handle, good_values(sim), findings, skipped)
+            if path != "sim":
+                findings.attempt(f"a step after {path}", sim.step)
+            if path == "sim" or not {"burger", "box"} <= set(sim.robots):
+                sim.close()
+                sim = Simulation(world(), engine, nworld=nworld, threads=1)
+        sim.close()
+    assert not findings.foreign
+    assert not findings.late
+    assert findings.count > 2000
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["mujoco", "planar"])
+def test_a_simulation_refuses_wrong_values(engine):
+    findings = Findings()
+
+    def make(positional, named):
+        with Simulation(*positional, **{"engine": engine, **named}) as sim:
+            sim.step()
+
+    with wrong_values.limits():
+        for name, value, positional, named in wrong_values.calls(Simulation, lambda *_: world()):
+            what = f"Simulation({name}={wrong_values.shown(value)})"
+            findings.attempt(what, lambda p=positional, n=named: make(p, n))
+    assert not findings.foreign
+    assert findings.count > 100
