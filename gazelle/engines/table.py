@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Generic, TypeVar, overload
 
 Row_co = TypeVar("Row_co", covariant=True)
@@ -36,6 +36,10 @@ class Table(Generic[Row_co, Rows_co]):
     def names(self) -> tuple[str, ...]:
         """Names of all rows."""
         return tuple(self._names())
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the names of all rows."""
+        return iter(self._names())
 
     @overload
     def __getitem__(self, names: str) -> Row_co: ...

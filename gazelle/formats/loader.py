@@ -159,8 +159,10 @@ def path_text(path: object) -> str:
         text = str(os.fspath(path))
         if text.lstrip().startswith("<"):
             shown, hint = "its text", "load_string() and load_model_string() read text"
-        elif not can_be_path(text):
+        elif "\x00" in text:
             raise ResolveError("no file can have this name", file=shortened(text), hint=hint)
+        elif not can_be_path(text):
+            shown = f"{len(text):,} characters"
         else:
             return text
     raise ResolveError(f"a file is found by its path, URI or name, not by {shown}", hint=hint)

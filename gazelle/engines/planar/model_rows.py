@@ -99,7 +99,7 @@ class PlanarModelRow:
         pose = np.empty((count, 3))
         pose[:, :2], pose[:, 2] = place[:, :2], yaw
         body = self._run.layout.bodies[self._name]
-        self._run.fleet.place(body, pose if count > 1 else pose[0], worlds)
+        self._run.fleet.place(body, pose[0] if count == 1 else pose, worlds)
         if not (each.loose and each.skeleton.wheels):
             self._run.fleet.rows[self._run.rows(body, worlds), c.Z] = place[:, 2]
 

@@ -37,14 +37,15 @@ class Caster:
     def ranges(self, worlds: Worlds | None) -> Floats:
         """Distance from where the scanner measures [m], shape (n, rays); see ``signed``."""
         found = self.signed.scan(worlds)
-        return found.reshape(len(found), -1)
+        return found.reshape(len(found), math.prod(found.shape[1:]))
 
     def cast(self, worlds: Worlds | None) -> tuple[Floats, NDArray[np.bool_]]:
         """Distance of what each ray meets [m], infinite for nothing, and whether from inside."""
         ranges = self.scanner.scan(worlds)
         count = len(ranges)
-        flat = ranges.reshape(count, -1)[:, self.order]
-        names = self.scanner.names[: count * ranges.shape[1]].reshape(count, -1)[:, self.order]
+        width = math.prod(ranges.shape[1:])
+        flat = ranges.reshape(count, width)[:, self.order]
+        names = self.scanner.names[: count * ranges.shape[1]].reshape(count, width)[:, self.order]
         return np.where(names == 0.0, np.inf, flat - self.begin), names < 0.0
 
 

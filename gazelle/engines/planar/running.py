@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import World
+from gazelle.engines.limits import physics_step
 from gazelle.engines.planar.anatomy import Anatomy
 from gazelle.engines.planar.build import FleetInput, PlanarLayout, build, rolling_bases
 from gazelle.engines.planar.fleet import Fleet
@@ -116,7 +117,12 @@ class RunningPlane:
         axes = self.axes(joint)
         if axes.stop - axes.start != 1:
             raise EngineError(f"a motor needs a joint of one axis; '{joint}' has more")
-        most = float(np.asarray(max_effort, np.float64).reshape(-1)[0])
+        try:
+            most = float(np.asarray(max_effort, np.float64).reshape(1)[0])
+        except (TypeError, ValueError, OverflowError):
+            raise EngineError(
+                f"the largest effort of the motor on '{joint}' must be a number, not {max_effort!r}"
+            ) from None
         if not most > 0.0:
             raise EngineError(f"the largest effort of a motor must be positive, not {most:g}")
         self.recipe = replace(self.recipe, motors={**self.recipe.motors, joint: most})
@@ -132,9 +138,7 @@ class RunningPlane:
 
     def update_world(self, world: World) -> None:
         """Take over all of a world but its models: physics, gravity, air, lights, scene."""
-        step = world.profile.max_step_size
-        if not step > 0.0:
-            raise EngineError(f"the physics step must be positive, not {step:g} s")
+        step = physics_step(world.profile.max_step_size)
         models = self.recipe.world.models
         self.recipe = replace(self.recipe, world=replace(world, models=models), time_step=step)
         if step != self.fleet.time_step:

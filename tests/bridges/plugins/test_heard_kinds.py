@@ -21,6 +21,7 @@ from gazelle.simulation.values import (
     EmergencyStop,
     GeoReference,
     JointPath,
+    LinkName,
     LinkPair,
     MotorPower,
     Number,
@@ -170,6 +171,11 @@ def asks_pair(question, request, response):
     assert response.ok
 
 
+def asks_link(question, request, response):
+    assert (question.model, question.link) == (request.model_name, request.link_name)
+    assert response.ok
+
+
 def asks_bias(question, request, _response):
     assert np.array_equal(question.values, xyz(request.bias), equal_nan=True)
 
@@ -184,6 +190,7 @@ ASKS = {
     (None, None): lambda question, _request, _response: None,
     (PathRequest, ServiceOutcome): asks_path,
     (LinkPair, bool): asks_pair,
+    (LinkName, bool): asks_link,
     (Bias, None): asks_bias,
     (GeoReference, None): asks_reference,
 }
