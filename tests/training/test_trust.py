@@ -84,6 +84,7 @@ def test_a_user_who_names_another_module_has_that_imported_alone(tmp_path, evil,
     with pytest.raises(TaskError, match="imports code: 'evil_code'"):
         command(folder, imports=["mine"])
     assert not evil.exists()
+    sys.modules.pop("mine", None)  # other tests have modules of that name
 
 
 def test_a_module_of_a_name_that_is_imported_is_not_taken_for_that_from_elsewhere(tmp_path, evil):
