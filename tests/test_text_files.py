@@ -1,13 +1,17 @@
 """Files of text and their names, whatever they hold, are one clear error."""
 
+import contextlib
+
 import pytest
 
 import gazelle
-from gazelle import FormatError, ResolveError, formats
+from gazelle import FormatError, ResolveError, RosError, formats
 from gazelle.clients.descriptions import load_parameters
 from gazelle.control.checking import check_controllers, is_controllers
+from gazelle.formats import model_config
 from gazelle.formats.stage import load_stage
 from gazelle.path_texts import MAX_NAME, MAX_PATH, can_be_path, existing_file, expanded
+from gazelle.ros.launch import load_launch_text
 from gazelle.text_files import read_text
 from gazelle.training.tables import rows_until
 
@@ -76,3 +80,28 @@ def test_a_table_without_the_column_or_without_text(tmp_path):
         file.write_bytes(data)
         with pytest.raises(FormatError):
             rows_until(file, "steps", 1)
+
+
+@pytest.mark.parametrize("text", ["a" * 300, "b/" * 3000, "model.sdf" * 40])
+def test_a_manifest_that_names_what_can_be_no_file(tmp_path, text):
+    (tmp_path / "model.config").write_text(f"<model><sdf version='1.6'>{text}</sdf></model>")
+    with pytest.raises(FormatError, match="can be no file"):
+        formats.load(tmp_path)
+
+
+@pytest.mark.parametrize("version", ["9" * 5000, "\u00b2", "1." + "8" * 5000, "", "..", "a.b"])
+def test_a_manifest_of_no_version(tmp_path, version):
+    (tmp_path / "model.sdf").write_text("<sdf version='1.6'><model name='m'/></sdf>")
+    text = f"<model><sdf version='{version}'>model.sdf</sdf></model>"
+    (tmp_path / "model.config").write_text(text, encoding="utf-8")
+    assert model_config.entry_file(tmp_path).name == "model.sdf"
+
+
+@pytest.mark.parametrize("place", ["$(find NAME)/a.yaml", "$(find fetch_control)/NAME"])
+@pytest.mark.parametrize("name", ["a" * 300, "a/" * 3000])
+def test_names_in_launch_files_that_no_file_can_have(place, name):
+    text = f'<launch><param name="a" value="{place.replace("NAME", name)}"/></launch>'
+    plan = None
+    with contextlib.suppress(RosError):
+        plan = load_launch_text(text)
+    assert plan is None or plan.parameters

@@ -7,8 +7,13 @@ from pathlib import Path
 from gazelle.description import Parameters
 from gazelle.errors import FormatError
 from gazelle.formats import xml
+from gazelle.path_texts import can_be_path
 
 NEWEST = (1, 12)
+
+
+_DIGITS = 9
+"""Of a part of a version."""
 
 
 def entry_file(path: Path) -> Path:
@@ -31,7 +36,10 @@ def entry_file(path: Path) -> Path:
     entries = [node for node in root.find_all("sdf") if node.text]
     if not entries:
         raise FormatError("a model.config needs an <sdf> element", source=root.source)
-    file = (path / max(entries, key=_rank).text).resolve()
+    name = max(entries, key=_rank).text
+    if not can_be_path(name):
+        raise FormatError("the <sdf> names what can be no file", source=root.source)
+    file = (path / name).resolve()
     if not file.is_relative_to(path.resolve()):
         raise FormatError("the <sdf> must name a file in its own folder", source=root.source)
     return path / file.relative_to(path.resolve())
@@ -39,5 +47,5 @@ def entry_file(path: Path) -> Path:
 
 def _rank(node: Parameters) -> tuple[int, ...]:
     parts = node.attributes.get("version", "1.0").split(".")
-    version = tuple(int(part) for part in parts if part.isdigit())
+    version = tuple(int(part) for part in parts if part.isdecimal() and len(part) <= _DIGITS)
     return version if version <= NEWEST else (0,)

@@ -98,7 +98,7 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
             learner.replay_buffer.set_state(state["memory"])
         _restore_environment(learner, state)
         _set_generators(learner, state["generators"])
-    except (KeyError, ValueError, TypeError) as error:
+    except (ArithmeticError, AttributeError, LookupError, ValueError, TypeError) as error:
         hint = "it is damaged, or was written by another version"
         raise FormatError(
             f"cannot use the checkpoint: {error}", file=str(folder), hint=hint

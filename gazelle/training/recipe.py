@@ -234,9 +234,9 @@ def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     Raises:
         TaskError: A key is not part of a recipe, or its algorithm takes no notice of a value.
     """
-    kind = _settings_of(values.get("algo", "ppo"))
-    settings = kind(**_checked(kind, values.get("settings", {})))
-    rest = _checked(Recipe, {key: item for key, item in values.items() if key != "settings"})
+    rest = _checked(Recipe, values)
+    kind = _settings_of(rest.get("algo", "ppo"))
+    settings = kind(**_checked(kind, rest.pop("settings", {})))
     for name in {"net_arch", "angles"} & set(rest):
         rest[name] = tuple(rest[name])
     if rest.get("bearing") is not None:
@@ -246,7 +246,9 @@ def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     return Recipe(**rest, settings=settings)
 
 
-def _checked(kind: type[Any], values: dict[str, Any]) -> dict[str, Any]:
+def _checked(kind: type[Any], values: Any) -> dict[str, Any]:
+    if not isinstance(values, dict):
+        raise TaskError(f"a {kind.__name__} is names with values, not {values!r:.60}")
     known = {field.name for field in dataclasses.fields(kind)}
     for key in values:
         if key not in known:

@@ -174,3 +174,13 @@ def test_numbers_of_settings_that_cannot_be(kind):
                 continue
             with pytest.raises(TaskError, match=each.name):
                 Recipe(algo=algo, settings=kind(**{each.name: value}))
+
+
+@pytest.mark.parametrize("wrong", [1, [], None, "ppo"])
+def test_a_recipe_that_is_no_mapping(wrong):
+    with pytest.raises(TaskError, match="names with values"):
+        recipe_from_dict(wrong)
+    for name in ("settings", "goal_reward"):
+        if wrong is not None:
+            with pytest.raises(TaskError, match="names with values"):
+                recipe_from_dict({name: wrong})

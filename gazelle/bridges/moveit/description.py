@@ -31,6 +31,11 @@ def robot_of_parameters(node: Node, description: str = DESCRIPTION) -> RobotMode
     plain = RobotModel(model, semantics)
     given = find_parameter(node, f"{description}_planning", {})
     entries = given.get("joint_limits") if isinstance(given, Mapping) else None
+    if not isinstance(entries or {}, Mapping):
+        raise PlanningError(
+            f"the parameter '{description}_planning/joint_limits' is limits by joint, "
+            f"not {entries!r:.60}"
+        )
     return RobotModel(model, semantics, _limits(plain, entries or {}))
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import RosError
+from gazelle.path_texts import can_be_path
 from gazelle.ros.builtin import bundled
 from gazelle.ros.builtin.package import BuiltinPackage
 
@@ -136,7 +137,7 @@ def stand_in(name: str) -> Path | None:
     ``rospkg`` and ``$(find)`` find such packages by it, as they do where ROS is installed.
     """
     folder = _SHARE / name
-    plain = name and name not in {".", ".."} and "/" not in name
+    plain = name not in {"", ".", ".."} and "/" not in name and can_be_path(name)
     return folder if plain and (folder / "package.xml").is_file() else None
 
 

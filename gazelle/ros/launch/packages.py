@@ -13,6 +13,7 @@ from pathlib import Path
 
 from gazelle.assets import published
 from gazelle.errors import did_you_mean
+from gazelle.path_texts import can_be_path
 from gazelle.ros.builtin import registry
 from gazelle.ros.launch.errors import LaunchError, MissingPackageError
 from gazelle.ros.messages import search
@@ -97,7 +98,7 @@ class Packages:
         if not _is_program(folder / relative):
             for space in self._spaces(package, folder):
                 resource = space / "share" / package / relative
-                if resource.exists():
+                if can_be_path(resource) and resource.exists():
                     return str(resource)
         text = os.path.join(folder, relative)  # noqa: PTH118  # keeps the text as it is
         found = published(text)
@@ -109,7 +110,7 @@ class Packages:
         if folder is None:
             return []
         places = [space / "lib" / package / kind for space in self._spaces(package, folder)]
-        found = [path for path in places if path.is_file()]
+        found = [path for path in places if can_be_path(path) and path.is_file()]
         found += sorted(_files_named(folder, kind), key=lambda path: not _is_program(path))
         return found
 
@@ -194,7 +195,7 @@ def is_python(path: Path) -> bool:
 
 
 def _is_program(path: Path) -> bool:
-    return path.is_file() and os.access(path, os.X_OK)
+    return can_be_path(path) and path.is_file() and os.access(path, os.X_OK)
 
 
 def _files_named(root: Path, name: str) -> Iterator[Path]:
