@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -38,6 +39,7 @@ def run(file: Path, environment: dict[str, str]) -> Outcome:
     """Run a test file in an environment; one that does not end in time has failed."""
     home = Path(environment["ROS_HOME"])
     results = home / "results"
+    shutil.rmtree(results, ignore_errors=True)  # of a run before, which is tried again
     results.mkdir(parents=True)
     environment = environment | {"ROS_LOG_DIR": str(home / "log")}
     begin = time.monotonic()
