@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
 from typing import Any
 
@@ -9,7 +10,30 @@ from gazelle.compat.smach.exceptions import InvalidUserCodeError
 from gazelle.compat.smach.log import logerr
 
 
-class UserData:
+class ItemsAsAttributes(ABC):
+    """Items that are attributes, too; names with an underscore are attributes alone."""
+
+    @abstractmethod
+    def __getitem__(self, key: str) -> Any:
+        """Return an item."""
+
+    @abstractmethod
+    def __setitem__(self, key: str, item: Any) -> None:
+        """Set an item."""
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return self[name]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name.startswith("_"):
+            object.__setattr__(self, name, value)
+        else:
+            self[name] = value
+
+
+class UserData(ItemsAsAttributes):
     """Values by name, as attributes or as items."""
 
     def __init__(self) -> None:
@@ -34,19 +58,8 @@ class UserData:
     def __setitem__(self, key: str, item: Any) -> None:
         self._data[key] = item
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return self[name]
 
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name.startswith("_"):
-            object.__setattr__(self, name, value)
-        else:
-            self[name] = value
-
-
-class Remapper:
+class Remapper(ItemsAsAttributes):
     """View of a container's data with a state's names, of the keys that the state has declared.
 
     Args:
@@ -93,14 +106,3 @@ class Remapper:
                 f"the state writes userdata '{key}', which is none of its output_keys "
                 f"{sorted(self._output)}: it is left out"
             )
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return self[name]
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if name.startswith("_"):
-            object.__setattr__(self, name, value)
-        else:
-            self[name] = value
