@@ -33,7 +33,7 @@ def skipped(handle, name):
 
 
 def good_values(sim):
-    """What else is given to a call, by the parameter's name or by what it is."""
+    """Return good values of a call, by the parameter's name or by what it is."""
     robot = sim.robots["burger"]
     named = {
         "view": View(look_at((2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), 4, 4),

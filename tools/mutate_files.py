@@ -56,7 +56,7 @@ MOST_BESIDE = 2**21
 
 @dataclass
 class Outcome:
-    """What became of a file.
+    """Outcome of a file.
 
     Attributes:
         said: One of the words above.

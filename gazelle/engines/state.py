@@ -128,7 +128,7 @@ class JointRows(Protocol):
 
     @property
     def in_step(self) -> bool:
-        """Whether systems of the joints can act within the engine's steps."""
+        """True where systems of the joints can act within the engine's steps."""
 
     def bind(self, system: JointSystem, *, in_step: bool = False) -> None:
         """Tell a system where the joints are, good for one ``Engine.revision``.

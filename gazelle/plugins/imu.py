@@ -62,7 +62,7 @@ class ImuPlugin(Noisy, Publishing):
 
     @property
     def output(self) -> Output[ImuReading]:
-        """What it publishes."""
+        """Output that it publishes."""
         return self._output
 
     def _measure(self) -> ImuReading:

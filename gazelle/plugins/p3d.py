@@ -110,12 +110,12 @@ class P3D(Noisy, Publishing):
 
     @property
     def robot(self) -> Robot:
-        """Whose body it is."""
+        """Robot that has the body."""
         return self._robot
 
     @property
     def output(self) -> Output[TruePose]:
-        """What it publishes."""
+        """Output that it publishes."""
         return self._output
 
 

@@ -112,7 +112,7 @@ class LidarModel:
 
     @property
     def by_system(self) -> bool:
-        """Whether a system of the engine measures it; else Python does."""
+        """True where a system of the engine measures it; else Python does."""
         return self._own().kernel is not None
 
     def kind(self) -> Hashable | None:

@@ -60,11 +60,11 @@ class MeasuredTogether(Protocol):
 
     @property
     def kernel(self) -> System | None:
-        """What measures them within an engine's steps; None where only Python does."""
+        """System that measures them within an engine's steps; None where only Python does."""
 
     @property
     def latest(self) -> tuple[NDArray[Any], NDArray[np.int64]]:
-        """What the kernel measured last, shape (nworld, n, channels), and when, (nworld, n) [ns]."""
+        """Last measurement of the kernel, shape (nworld, n, channels), and its time, (nworld, n) [ns]."""
 
     def measure_all(self, interval: float) -> NDArray[Any]:
         """Measure now, shape (nworld, n, channels): the bits of each by itself.
@@ -80,7 +80,7 @@ class GroupedModel(SensorModel, Protocol):
 
     @property
     def by_system(self) -> bool:
-        """Whether what measures many has a kernel, which the engine updates in its steps."""
+        """True where what measures many has a kernel, which the engine updates in its steps."""
 
     def kind(self) -> Hashable | None:
         """Equal for those that ``together`` takes now; None for one that is measured alone."""

@@ -277,7 +277,7 @@ class ControlSystem(PluginSystem[ControlLoop]):
 
     @property
     def active(self) -> bool:
-        """Whether there is a controller, or a joint that has to be held."""
+        """True where there is a controller, or a joint that has to be held."""
         return self.plugins[0].active
 
     def update(self, time: float) -> None:

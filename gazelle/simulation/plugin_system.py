@@ -16,7 +16,7 @@ class Published(Protocol):
 
     @property
     def wanted(self) -> bool:
-        """Whether it has subscribers."""
+        """True while it has subscribers."""
 
     def publish(self) -> None:
         """Publish a new value to all subscribers."""
@@ -65,7 +65,7 @@ class PluginSystem(Generic[P]):
 
     @property
     def active(self) -> bool:
-        """Whether ``update`` has anything to do now."""
+        """True while ``update`` has anything to do."""
         return self.acts
 
     def update(self, time: float) -> None:

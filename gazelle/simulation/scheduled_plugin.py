@@ -32,7 +32,7 @@ class ScheduledPlugin:
     requests: RequestQueue | None = None
     detached: bool = False
     alone: bool = False
-    """Whether it is a system by itself, whatever its kind, as it failed together with others."""
+    """True for a system by itself, whatever its kind, as it failed together with others."""
 
     def members(self) -> list[int]:
         """Return its identity, as a system returns those of its plugins."""
@@ -71,12 +71,12 @@ class ScheduledPlugin:
 
     @property
     def is_subscribed(self) -> bool:
-        """Whether anything that its system publishes has subscribers."""
+        """True while anything that its system publishes has subscribers."""
         return self._ask(self._has_subscribers, "when asked") is True
 
     @property
     def needs_system(self) -> bool:
-        """Whether its system has anything to do for it."""
+        """True while its system has anything to do for it."""
         kind = self.plugin.system
         return kind is not None and (kind.acts or self.is_subscribed)
 

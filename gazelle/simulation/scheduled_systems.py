@@ -40,12 +40,12 @@ class ScheduledSystem:
 
     @property
     def kernel(self) -> System | None:
-        """What engines update in its place; None while Python has a part in it."""
+        """Kernel that engines update in its place; None while Python has a part in it."""
         return None if self._subscribed or self._parted else self._system.kernel
 
     @property
     def may_act_in_step(self) -> bool:
-        """Whether it is worth calling ``in_step``."""
+        """True where it is worth calling ``in_step``."""
         return type(self._system).in_step is not PluginSystem.in_step
 
     def in_step(self) -> InStep | None:

@@ -1,4 +1,4 @@
-"""What people do with a file of each kind that Gazelle reads, and which files are of which kind.
+"""Readers of a file of each kind that Gazelle reads, and the kinds of files.
 
 Readers return nothing; they raise what Gazelle raises.
 """
@@ -163,7 +163,7 @@ def _graph() -> tuple[gazelle.ros.Master, gazelle.ros.Node]:
 
 
 def rosparam(path: Path) -> None:
-    """What ``rosparam load`` sets."""
+    """Read a file as ``rosparam load`` does."""
     from gazelle.ros.tools import params
     from gazelle.ros.tools.graph import GraphInspector
 

@@ -22,7 +22,7 @@ def made(task, copies, **options):
 
 
 def shown(view):
-    """Where marks are after one picture, shape (n, 3)."""
+    """Return the places of marks after one picture, shape (n, 3)."""
     view._picture()
     return view._optional["Goals of the task"]._marks.batched_positions.copy()
 

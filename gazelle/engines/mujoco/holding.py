@@ -50,7 +50,7 @@ class LinkHolding:
         self._run.batch.eq_active[rows_of(worlds), layout.attachments[pair.name]] = 1.0
 
     def _body_placement(self, link: str, worlds: Worlds | None) -> Placement:
-        """Where MuJoCo's body of a link is: the world's at the origin."""
+        """Return the pose of MuJoCo's body of a link: the world's at the origin."""
         place = self._links[link].placement(worlds)
         if self._run.layout.link(link).body != 0:
             return place

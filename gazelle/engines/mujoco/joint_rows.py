@@ -189,7 +189,7 @@ class MujocoJointRows:
 
     @property
     def in_step(self) -> bool:
-        """Whether systems of the joints can act within steps: the integrator looks once at forces."""
+        """True where systems of the joints can act in steps: the integrator looks once at forces."""
         return self._in_step()
 
     def bind(self, system: JointSystem, *, in_step: bool = False) -> None:

@@ -1,4 +1,4 @@
-"""Where the poses and velocities of links are in MuJoCo's arrays."""
+"""Columns of the poses and velocities of links in MuJoCo's arrays."""
 
 from __future__ import annotations
 

@@ -156,7 +156,7 @@ class ContactAccess:
         return _ContactRows(np.repeat(chosen, counts[:, 0]), starts, *every)
 
     def _terms(self, found: _ContactRows, rows: Indices, mine: Indices) -> Floats:
-        """What acts in some contacts on one of their two geoms, as ``ContactTable.terms``."""
+        """Return what acts in contacts on one of their two geoms, as ``ContactTable.terms``."""
         axes = found.axes[rows].reshape(-1, 3, 3)
         cone = self._run.batch.model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
         rubs = None if cone else found.rubs[rows]

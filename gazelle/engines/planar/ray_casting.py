@@ -33,7 +33,7 @@ class PlanarRays:
         run.on_change.append(self._casters.clear)
 
     def caster(self, link: str, origins: Floats, directions: Floats) -> Caster:
-        """What casts the rays of ``LinkRow.cast_rays``: the same one as long as nothing turns its link.
+        """Return the caster of ``LinkRow.cast_rays``: the same one as long as nothing turns its link.
 
         Raises:
             EngineError: The rays are not level, or their link not the same in all worlds.

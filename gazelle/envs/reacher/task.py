@@ -88,7 +88,7 @@ class ReachTask(SimulationTask):
 
     @property
     def goal_places(self) -> Floats:
-        """Where the tool has to be [m], shape (nworld, 3)."""
+        """Return the goals of the tool [m], shape (nworld, 3)."""
         return self.memory["goal"]
 
     def start(self, worlds: Worlds) -> None:
