@@ -167,8 +167,8 @@ def _alone(file: Path) -> Iterator[None]:
 def take(file: Path, other: Path, oldest: str) -> list[Claim]:
     """Enter what another checkout measured at a commit or later; return the claims that changed.
 
-    Where both have a seed, the other one's trial is taken. Trials of before that commit go with
-    the first newer one.
+    Where both have a seed, the other one's trial is taken. Trials of before that commit go once
+    the newer ones are as many, so that no claim gets fewer seeds than it had.
     """
     changed = []
     with _alone(file):
@@ -177,9 +177,12 @@ def take(file: Path, other: Path, oldest: str) -> list[Claim]:
             here = claims.find(claim.key) or replace(claim, trials=())
             new = _since(claim, oldest)
             if new.trials:
-                taken = _since(here, oldest)
+                taken = here
                 for trial in new.trials:
                     taken = taken.with_trial(trial)
+                newer = _since(taken, oldest)
+                if len(newer.trials) >= len(here.trials):
+                    taken = newer
                 if taken != here:
                     changed.append(taken)
                     claims = claims.with_claim(taken)

@@ -146,10 +146,23 @@ def test_what_another_checkout_measured_is_taken(campaign, tmp_path, monkeypatch
     first = replace(untouched, train="gazelle train New", task="New", trials=(trial(0, "theirs"),))
     replace(read_claims(), claims=(mine, untouched)).write(here)
     replace(read_claims(), claims=(theirs, untouched, first)).write(there)
-    taken = claim(trial(0, "theirs"), trial(1, "mine"), trial(2, "theirs", success=4))
+    taken = claim(
+        trial(0, "theirs"), trial(1, "mine"), trial(2, "theirs", success=4), trial(9, "old")
+    )
     assert campaign.take(here, there, "oldest") == [taken, first]
     assert set(read_claims(here).claims) == {taken, first, untouched}
     assert campaign.take(here, there, "oldest") == []
+    replace(
+        read_claims(), claims=(claim(*theirs.trials[:2], trial(5, "theirs"), trial(6, "theirs")),)
+    ).write(there)
+    campaign.take(here, there, "oldest")
+    (found,) = (each for each in read_claims(here).claims if each.key == mine.key)
+    assert {each.seed for each in found.trials} == {0, 1, 2, 5, 6}
+
+
+def test_every_published_rate_has_at_least_three_seeds():
+    few = [each.key for each in read_claims().claims if len({t.seed for t in each.trials}) < 3]
+    assert not few
 
 
 def test_a_first_figure_takes_the_place_of_the_line_that_says_why_there_is_none(tmp_path):
