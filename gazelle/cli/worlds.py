@@ -1,23 +1,17 @@
-"""List the worlds that come with Gazelle, and their files."""
+"""List the worlds that come with Gazelle: what each is, or its file."""
 
 from __future__ import annotations
 
 import argparse
-import sys
 
-from gazelle.cli import showing
+from gazelle.cli.bundled import configure, show
 
-
-def configure(parser: argparse.ArgumentParser) -> None:
-    """There are no arguments."""
-    del parser
+__all__ = ["configure", "run"]
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
-    del args
+    """Print the list; return the exit code."""
     from gazelle import assets
 
-    rows = [(name, str(path)) for name, path in assets.worlds().items()]
-    sys.stdout.write(showing.table([("WORLD", "FILE"), *rows]))
+    show("WORLD", assets.worlds(), long=args.long)
     return 0
