@@ -13,13 +13,16 @@ from gazelle.engines import Engine
 from gazelle.errors import EngineError, SimulationWarning, describe
 from gazelle.rotations import conjugate, rotate
 
-_PERIOD_NS = 500_000_000
+_PERIOD_NS = 1_000_000_000
+"""Simulated time between two looks; falling by `_DEPTH` takes longer [ns]."""
+
 _DEPTH = 10.0
 """Least distance below its start of a model that may have fallen out of the world [m]."""
 
 _RINGS = (2.0, 5.0)
 """Radii around the model at which ground below it counts [m]; the model itself is narrower."""
 _TURNS = np.arange(8) * math.pi / 4.0
+_DOWN = np.array([0.0, 0.0, -1.0])
 
 
 class FallWatch:
@@ -39,7 +42,7 @@ class FallWatch:
         self._lowest: Floats = np.zeros(0)
 
     def look(self, now_ns: int) -> None:
-        """Look for models that fall, once in half a simulated second."""
+        """Look for models that fall, once in a simulated second."""
         period = now_ns // _PERIOD_NS
         if period == self._period:
             return
@@ -65,6 +68,8 @@ class FallWatch:
             for model in world.models
             if not model.static and model.links and model.name not in self._warned
         ]
+        if self._watched and not self._can_fall(self._watched[0]):
+            self._watched = []
         self._links = tuple(_first_link(model) for model in self._watched)
         starts = [(model.pose * model.links[0].pose).z for model in self._watched]
         self._lowest = np.array(starts) - _DEPTH
@@ -87,14 +92,19 @@ class FallWatch:
         back = conjugate(self._engine.links[name].placement(worlds).quaternion[0])
         ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
         origins = np.vstack([radius * ring for radius in _RINGS])
-        down = np.broadcast_to([0.0, 0.0, -1.0], origins.shape)
-        try:
-            hits = self._engine.links[name].cast_rays(
-                rotate(back, origins), rotate(back, down), worlds
-            )
-        except EngineError:  # the plane has no below
-            return True
+        down = np.broadcast_to(_DOWN, origins.shape)
+        hits = self._engine.links[name].cast_rays(rotate(back, origins), rotate(back, down), worlds)
         return bool(np.isfinite(hits.distance).any())
+
+    def _can_fall(self, model: Model) -> bool:
+        """Return whether the engine knows an up and a down; planar ones do not."""
+        row, world = self._engine.links[_first_link(model)], np.array([0])
+        down = rotate(conjugate(row.placement(world).quaternion[0]), _DOWN)
+        try:
+            row.cast_rays(np.zeros((1, 3)), down[None], world)
+        except EngineError:
+            return False
+        return True
 
     def _cause(self, model: Model) -> str:
         if not _collides(model):
