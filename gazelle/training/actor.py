@@ -80,7 +80,7 @@ class Actor:
 
     @property
     def discrete(self) -> bool:
-        """Whether actions are numbers of choices."""
+        """True if actions are discrete (indices of choices)."""
         return self.head in {"categorical", "greedy"}
 
     @property
@@ -93,7 +93,7 @@ class Actor:
         return _present(self.low), _present(self.high)
 
     def begin(self, copies: int) -> PolicyMemory | None:
-        """What it remembers of so many episodes that begin; None for a policy without a memory."""
+        """Return the empty memory of this many new episodes; None for a policy without a memory."""
         return None if self.memory is None else self.memory.empty(copies)
 
     def outputs(self, obs: Floats32, memory: PolicyMemory | None = None) -> Floats32:
@@ -283,7 +283,7 @@ def _refuse_unfit(actor: Actor) -> None:
 
 
 def _feature_arrays(features: Features) -> dict[str, npt.NDArray[Any]]:
-    """What is added to observations, as arrays by name."""
+    """Return the parameters of added features as arrays by name."""
     arrays: dict[str, npt.NDArray[Any]] = {name: getattr(features, name) for name in _FEATURES}
     if features.bearing is not None:
         to = features.bearing
@@ -292,7 +292,7 @@ def _feature_arrays(features: Features) -> dict[str, npt.NDArray[Any]]:
 
 
 def _features(file: Any) -> Features:
-    """What `_feature_arrays` gave."""
+    """Read the features that `_feature_arrays` wrote."""
     bearing = None
     if _BEARING in file:
         x, y, yaw, *goal = file[_BEARING].tolist()
@@ -312,7 +312,7 @@ def _picture_arrays(pictures: PictureLayers) -> dict[str, npt.NDArray[Any]]:
 
 
 def _picture_layers(file: Any) -> PictureLayers:
-    """What `_picture_arrays` gave."""
+    """Read the layers that `_picture_arrays` wrote."""
     height, width, channels, pooling = map(int, file[_PICTURE])
     numbers = range(sum(name.startswith("convolution_bias") for name in file))
     return PictureLayers(
@@ -334,7 +334,7 @@ def _memory_arrays(memory: MemoryLayers) -> dict[str, npt.NDArray[Any]]:
 
 
 def _memory_layers(file: Any) -> MemoryLayers:
-    """What `_memory_arrays` gave."""
+    """Read the layers that `_memory_arrays` wrote."""
     numbers = range(sum(name.startswith(_MEMORY[0]) for name in file))
     return MemoryLayers(*(tuple(file[f"{name}{i}"] for i in numbers) for name in _MEMORY))
 

@@ -1,4 +1,4 @@
-"""Where a fixed goal is, seen from a base whose place is observed: for tasks that publish no more.
+"""Distance and direction to a fixed goal, computed from the observed position of the base.
 
 A network must tell 0.05 m from 0.1 m beside a goal that x and y of a whole hall are
 scaled by, and know sines and cosines to steer there. So it is given the logarithm of the distance,
@@ -31,7 +31,7 @@ SHORTEST = 1e-3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bearing:
-    """Which entries of observations say where the base is, and where it should go."""
+    """Indices of the observation entries with the base's pose, and the goal's position."""
 
     x: int
     """Entry with the base's x [m]."""

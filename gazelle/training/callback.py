@@ -1,4 +1,4 @@
-"""What happens between two rollouts: curves, checkpoints, stopping on request."""
+"""Training callback between rollouts: curves, checkpoints, stopping on request."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         learner.set_logger(Logger(str(folder), [table, TensorBoardOutputFormat(str(folder))]))
 
     def get_state(self) -> dict[str, Any]:
-        """What a checkpoint must remember of the callback."""
+        """Return the state of the callback for a checkpoint."""
         return {
             "episodes": self.episodes.get_state(),
             "logged_at": self.logged_at,

@@ -22,10 +22,10 @@ CONTRACT = "contract.json"
 
 
 def task_contract(env: VectorEnv[Any, Any, Any]) -> PolicyContract:
-    """What a task's policies see and do.
+    """Return the contract of a task: its policies' observations and actions.
 
-    A task says so by an attribute ``contract`` of its environment, a `PolicyContract`; of one
-    without it, the spaces are told.
+    A task declares it in an attribute ``contract`` of its environment, a `PolicyContract`; without
+    one, the contract is derived from the spaces.
     """
     told = told_by(env, "contract")
     if not isinstance(told, PolicyContract):
@@ -38,7 +38,7 @@ def task_contract(env: VectorEnv[Any, Any, Any]) -> PolicyContract:
 
 
 def contract_of(told: PolicyContract, config: RunConfig) -> PolicyContract:
-    """What a policy that is trained like this sees and does.
+    """Return the contract of a policy trained with this configuration.
 
     Args:
         told: By its task, see `task_contract`.

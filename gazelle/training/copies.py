@@ -53,12 +53,12 @@ class TaskCopies:
 
     @property
     def num_envs(self) -> int:
-        """How many."""
+        """Number of copies."""
         return self.env.num_envs
 
     @property
     def obs(self) -> Floats32:
-        """What is acted on next, shape (N, ...)."""
+        """Observations that the policy acts on next, shape (N, ...)."""
         return self._stepper.obs
 
     @property
@@ -68,7 +68,7 @@ class TaskCopies:
 
     @property
     def goal_replay(self) -> GoalReplay | None:
-        """How steps are taught with other goals; None if the task has no goals."""
+        """Relabelling of steps with other goals; None if the task has no goals."""
         return goal_replay(self.env, self._stepper.rows)
 
     @property
@@ -78,7 +78,7 @@ class TaskCopies:
 
     @property
     def contract(self) -> PolicyContract:
-        """What the task says of what its policies see and do."""
+        """Contract of the task: the observations and actions of its policies."""
         return task_contract(self.env)
 
     def reset(self, seed: int | None = None) -> Floats32:
@@ -97,12 +97,12 @@ class TaskCopies:
         return step
 
     def scaled(self, step: TrainingStep) -> Floats32:
-        """What the learner is given for a step, shape (N,)."""
+        """Return the scaled rewards that the learner receives for a step, shape (N,)."""
         rewards: Floats32 = (step.taught * self.reward_scale).astype(np.float32)
         return rewards
 
     def get_state(self) -> dict[str, Any] | None:
-        """What `set_state` needs to go on from here; None if the environment cannot save it."""
+        """Return the state that `set_state` restores; None if the environment cannot save it."""
         getter = getattr(self.env.unwrapped, "get_state", None)
         if getter is None or getattr(self.env.unwrapped, "set_state", None) is None:
             return None

@@ -1,4 +1,4 @@
-"""What the updates of actors with critics have in common: `FastDDPG`, `FastTD3` and `FastSAC`."""
+"""Common update of the actor-critic learners `FastDDPG`, `FastTD3` and `FastSAC`."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class CriticUpdate:
     critic: Any
 
     def _target(self, batch: Any) -> torch.Tensor:
-        """What the critics should say, shape (n, 1)."""
+        """Return the critics' target values, shape (n, 1)."""
         raise NotImplementedError
 
     def _improve_critic(self, features: torch.Tensor, batch: Any) -> torch.Tensor:

@@ -23,7 +23,7 @@ _ADAM = {"weight_decay": 0, "amsgrad": False, "maximize": False, "capturable": F
 
 
 def fits_dense_update(policy: Any) -> bool:
-    """Whether a Stable-Baselines3 policy and its optimiser are what `DenseUpdate` knows."""
+    """Return whether `DenseUpdate` supports a Stable-Baselines3 policy and its optimiser."""
     if not hasattr(policy, "mlp_extractor") or hasattr(policy, "lstm_actor"):
         return False
     if learns_features(policy) or getattr(policy, "use_sde", False):
@@ -164,7 +164,7 @@ class _Perceptron:
         self._given: list[torch.Tensor] = []
 
     def forward(self, x: torch.Tensor) -> torch.Tensor:
-        """What the last layer gives for rows of features."""
+        """Return the output of the last layer for rows of features."""
         self._given = [x]
         for weight, bias in self._weights[:-1]:
             x = nn.functional.linear(x, weight, bias)

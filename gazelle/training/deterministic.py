@@ -25,14 +25,14 @@ _STEADY = 0.5  # of the noise that a demonstrator's actions get
 
 
 class _Imitated(NamedTuple):
-    """What a demonstrator saw, shape (n, entries), and did, shape (n, actions)."""
+    """Observations of a demonstrator, shape (n, entries), and its actions, shape (n, actions)."""
 
     features: torch.Tensor
     actions: torch.Tensor
 
 
 class _Deterministic(CriticUpdate, TD3):  # type: ignore[misc]  # untyped base
-    """What `FastDDPG` and `FastTD3` have in common.
+    """Common base of `FastDDPG` and `FastTD3`.
 
     Attributes:
         demonstrator: Acts before the first update, if set.
@@ -65,7 +65,7 @@ class _Deterministic(CriticUpdate, TD3):  # type: ignore[misc]  # untyped base
 
     @torch.no_grad()
     def _target(self, batch: Any) -> torch.Tensor:
-        """What the critics should say, shape (n, 1)."""
+        """Return the critics' target values, shape (n, 1)."""
         following = self.actor.features_extractor(batch.next_observations)
         actions = self._outputs(self.actor_target.mu, following)
         if self.target_policy_noise:

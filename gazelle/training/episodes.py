@@ -1,4 +1,4 @@
-"""How episodes ended, and what that says of a policy's attempts at its goals."""
+"""Outcomes of episodes, and the attempts at goals counted from them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ OUTCOMES = ("is_success", "is_collision", "is_timeout")
 
 
 def begins_early(steps: Ints64, limit: int) -> Bools:
-    """Whether attempts that begin after so many control steps of their episodes count."""
+    """Return a mask of attempts that begin early enough in their episodes [control steps] to count."""
     early: Bools = 2 * steps < limit
     return early
 
@@ -59,24 +59,24 @@ class Episodes:
 
     @functools.cached_property
     def succeeded(self) -> Bools:
-        """Whether the last step reached a goal, or stayed at it."""
+        """True where the last step reached a goal or stayed at it."""
         return self._told("is_success")
 
     @functools.cached_property
     def collisions(self) -> Bools:
-        """Whether the last attempt ended in a collision."""
+        """True where the last attempt ended in a collision."""
         return self._told("is_collision")
 
     @functools.cached_property
     def timeouts(self) -> Bools:
-        """Whether time ran out for the last attempt."""
+        """True where the last attempt ran out of time."""
         late = self.outcomes.get("is_timeout", self.truncated)
         on_the_way = (self.goals > 0) & (2 * self.since_goal <= self.lengths)
         return late & ~self.collisions & ~self.succeeded & ~on_the_way
 
     @functools.cached_property
     def counted(self) -> Bools:
-        """Whether the last attempt began early enough to count."""
+        """True where the last attempt began early enough to count."""
         if self.limit is None:
             return np.ones(len(self.slots), np.bool_)
         early = begins_early(self.lengths - self.since_goal, self.limit)
@@ -90,7 +90,7 @@ class Episodes:
 
     @functools.cached_property
     def others(self) -> Bools:
-        """Whether the last attempt ended in no way that the environment has a name for."""
+        """True where the last attempt ended in a way that the environment has no name for."""
         late = self.outcomes.get("is_timeout", self.truncated)
         return ~late & ~self.collisions & ~self.succeeded
 

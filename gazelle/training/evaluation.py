@@ -1,4 +1,4 @@
-"""How good is a policy: rates with intervals over a fixed number of episodes."""
+"""Evaluation of policies: rates with intervals over a fixed number of episodes."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _MOST_COPIES = 128
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """What an evaluation found.
+    """Result of an evaluation.
 
     Success, collision, time-out and other ends are shares of the goals that were tried, see
     `Episodes`: together they are 1. With one goal an episode they are shares of the episodes.
@@ -164,7 +164,7 @@ def evaluate(
 
 
 def _summed_up(parts: Sequence[EpisodesPlayed], **about: Any) -> Evaluation:
-    """What all parts of the episodes say."""
+    """Combine the parts of an evaluation into one result."""
     ledger = merged([part.ledger for part in parts])
     times = [part.sim_seconds for part in parts if part.sim_seconds is not None]
     return Evaluation(

@@ -31,7 +31,7 @@ _BRANCH = 1  # of seeds: that of evaluations
 
 @dataclass(frozen=True, kw_only=True)
 class EvaluationSetup:
-    """Which policy acts in what."""
+    """Policy, task and options of an evaluation."""
 
     actor: Actor
     """The policy."""
@@ -61,7 +61,7 @@ class EvaluationPart:
 
 @dataclass(frozen=True, slots=True)
 class EpisodesPlayed:
-    """What came of some episodes."""
+    """Episodes played by one worker, with their wall and simulated time."""
 
     ledger: Ledger
     """Each of them."""
@@ -93,7 +93,7 @@ def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int)
 
 
 def _rounds(copies: int, episodes: int, together: int) -> Iterator[npt.NDArray[np.int64]]:
-    """How many episodes each copy runs from one reset to the next, shapes (copies,)."""
+    """Yield the number of episodes each copy runs from one reset to the next, shapes (copies,)."""
     if together == 1:
         share, rest = divmod(episodes, copies)
         yield share + (np.arange(copies) < rest).astype(np.int64)
@@ -185,7 +185,7 @@ class EvaluationHost:
         self._setup = setup
 
     def call(self, part: EvaluationPart) -> EpisodesPlayed:
-        """What came of a part."""
+        """Play the episodes of one part."""
         load_all(self._setup.imports)
         return play_episodes(self._setup, part.copies, part.episodes, part.seed)
 

@@ -29,7 +29,7 @@ _ROUNDED = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Features:
-    """What is added to observations.
+    """Features that are added to observations.
 
     Attributes:
         angles: The entries whose sines and cosines are added, shape (a,).
@@ -52,7 +52,7 @@ class Features:
         angles: Sequence[int] = (),
         bearing: Bearing | None = None,
     ) -> Features:
-        """What the bounds of a space ask for, and what is known of it.
+        """Return the features that the bounds of a space and the given entries call for.
 
         Args:
             space: Of the observations.
@@ -84,7 +84,7 @@ class Features:
 
     @property
     def count(self) -> int:
-        """How many entries are added."""
+        """Number of added entries."""
         steered = 0 if self.bearing is None else bearings.COUNT
         return 2 * len(self.angles) + len(self.magnitudes) + steered
 

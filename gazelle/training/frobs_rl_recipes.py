@@ -1,4 +1,4 @@
-"""How frobs_rl's tasks are best trained."""
+"""Recipes for training frobs_rl's tasks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How steps of a goal environment are taught with goals that were reached later."""
+"""Relabelling of transitions with goals that were reached later (hindsight)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from gazelle.errors import TaskError
 
 @dataclass(frozen=True, slots=True)
 class GoalReplay:
-    """What a replay memory must know of the goals in its rows.
+    """Layout of goals in the rows of a replay memory, and their reward.
 
     Attributes:
         achieved: Where in a row it stands what is reached.
@@ -55,7 +55,7 @@ class GoalReplay:
 
 
 def goal_replay(env: VectorEnv[Any, Any, Any], rows: DictRows | None) -> GoalReplay | None:
-    """How steps of an environment are taught with other goals; None if it has no goals.
+    """Return the relabelling of an environment's steps with other goals; None if it has no goals.
 
     Args:
         env: Has ``compute_reward``, or its copies have.

@@ -20,7 +20,7 @@ from gazelle.errors import TaskError
 
 @dataclass(frozen=True, kw_only=True)
 class GoalReward:
-    """What the learner is paid in place of the task's reward, or beside it."""
+    """Weights of the reward that the learner gets in place of the task's reward, or beside it."""
 
     goal: float = 1.0
     """For a goal that is reached (``is_success``)."""
@@ -68,7 +68,7 @@ class GoalRewards:
         terminated: Bools,
         valid: Bools,
     ) -> Floats:
-        """What a step is worth, shape (N,).
+        """Return the reward of a step, shape (N,).
 
         Args:
             info: Of the step.
@@ -99,7 +99,7 @@ class GoalRewards:
         return result
 
     def get_state(self) -> dict[str, Floats]:
-        """What a resumed training goes on with."""
+        """Return the state that a resumed training continues from."""
         return {"distance": self.distance, "waypoints": self.waypoints}
 
     def set_state(self, state: Mapping[str, Any]) -> None:

@@ -47,7 +47,7 @@ class GraphResults(BaseCallback):  # type: ignore[misc]  # untyped base
 
 
 class _ResultWriter(KVWriter):  # type: ignore[misc]  # untyped base
-    """What a learner logs, as messages; closed with its logger, however the training ends."""
+    """Logger output that publishes curves as messages; closed with its logger."""
 
     def __init__(self, model: Any, publisher: Any, node: Node) -> None:
         self._model, self._publisher, self._node = model, publisher, node

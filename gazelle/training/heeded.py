@@ -1,4 +1,4 @@
-"""Which algorithms take notice of which of a recipe's values.
+"""Table of recipe values and the algorithms that use them.
 
 A value that changes nothing is an error and not a comment, so it is said here, once, which
 algorithms read it; a test compares this with what they read.
@@ -49,7 +49,7 @@ SOME_HEED: dict[str, tuple[str, ...]] = {
 
 
 def heeds(algo: str, name: str) -> bool:
-    """Whether an algorithm takes notice of a value that such a recipe has."""
+    """Return whether an algorithm uses a value that such a recipe has."""
     return algo in SOME_HEED.get(name, (algo,))
 
 
@@ -73,13 +73,13 @@ def heeded_only(algo: str, holder: Held) -> Held:
 
 
 def unheeded_error(algo: str, name: str, others: Iterable[str]) -> TaskError:
-    """What is said of a value that only other algorithms take notice of."""
+    """Return the error for a value that only other algorithms use."""
     hint = f"leave it out; {', '.join(others)} would take notice"
     return TaskError(f"{algo} takes no notice of '{name}'", hint=hint)
 
 
 def _unheeded(algo: str, holder: RecipeValues) -> dict[str, Any]:
-    """What an algorithm takes no notice of and is not the default; the defaults by name."""
+    """Return the defaults of changed values that the algorithm ignores, by name."""
     return {
         each.name: each.default
         for each in dataclasses.fields(holder)

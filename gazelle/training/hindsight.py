@@ -137,7 +137,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
     def _achieved(
         self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
     ) -> npt.NDArray[Any]:
-        """What was reached after these steps, shape (n, entries)."""
+        """Return the goals that were achieved by these steps, shape (n, entries)."""
         reached: npt.NDArray[Any] = self.next_observations[rows, slots][:, self._goals.achieved]
         return reached
 

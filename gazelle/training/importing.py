@@ -135,7 +135,7 @@ def modules_to_list(modules: Iterable[TaskModule]) -> list[dict[str, str | None]
 
 
 def modules_from_list(values: Iterable[Mapping[str, Any]]) -> tuple[TaskModule, ...]:
-    """What `modules_to_list` wrote."""
+    """Restore the modules that `modules_to_list` wrote."""
     return tuple(TaskModule(str(value["module"]), value["folder"]) for value in values)
 
 

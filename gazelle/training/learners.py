@@ -152,7 +152,7 @@ ALGORITHMS: dict[str, Callable[[Recipe, VectorEnvAdapter, int], Learner]] = {
 
 
 def _common(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
-    """What all algorithms take."""
+    """Return the arguments that all algorithms share."""
     activation = nn.Tanh if recipe.activation == "tanh" else nn.ReLU
     sees = is_picture(env.observation_space)
     scale = ObservationScale(
@@ -189,7 +189,7 @@ def _step_size(recipe: Recipe) -> float | Callable[[float], float]:
 
 
 def _goal_places(env: VectorEnvAdapter) -> tuple[slice, slice]:
-    """Where in observations stands what is reached and what is wanted.
+    """Return the slices of observations with the achieved and the desired goal.
 
     Raises:
         TaskError: There are no goals.
@@ -206,7 +206,7 @@ def _goal_places(env: VectorEnvAdapter) -> tuple[slice, slice]:
 def _replaying(
     recipe: Recipe, env: VectorEnvAdapter, settings: OffPolicySettings, seed: int
 ) -> dict[str, Any]:
-    """What all algorithms with a replay memory take."""
+    """Return the arguments that all algorithms with a replay memory share."""
     return _common(recipe, env, seed) | {
         "buffer_size": settings.buffer_size,
         "batch_size": settings.batch_size,
@@ -219,7 +219,7 @@ def _replaying(
 
 
 def _noisy(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> dict[str, Any]:
-    """What algorithms take that explore by noise on the action."""
+    """Return the arguments of algorithms that explore by noise on the action."""
     settings = _off_policy(recipe)
     size = env.action_space.shape[0]
     noise = NormalActionNoise(np.zeros(size), np.full(size, settings.action_noise))

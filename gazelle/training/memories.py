@@ -1,4 +1,4 @@
-"""Which replay memory an algorithm learns from."""
+"""Choice of the replay memory of an algorithm."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gazelle.training.vecenv import VectorEnvAdapter
 
 
 def replay_options(recipe: Recipe, env: VectorEnvAdapter) -> dict[str, Any]:
-    """What an algorithm of Stable-Baselines3 is given for its memory.
+    """Return the replay-memory arguments of a Stable-Baselines3 algorithm.
 
     Raises:
         TaskError: The recipe pays in another way than the task, which cannot tell what that had

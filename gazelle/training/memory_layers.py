@@ -1,4 +1,4 @@
-"""What a policy remembers: layers of long short-term memory in numpy, and their state.
+"""Memory of a policy: layers of long short-term memory in numpy, and their state.
 
 S. Hochreiter and J. Schmidhuber, "Long short-term memory", Neural Computation 9 (1997) 1735-1780,
 with the forget gate of F. A. Gers et al. (2000), as `torch.nn.LSTM` has it: its gates are input,
@@ -18,7 +18,7 @@ _GATES = 4
 
 @dataclass(slots=True)
 class PolicyMemory:
-    """What a policy remembers in N copies of a task; empty when an episode begins.
+    """Memory of a policy in N copies of a task; empty when an episode begins.
 
     Attributes:
         hidden: What the layers gave last, shape (layers, N, units), float32.
@@ -59,7 +59,7 @@ class MemoryLayers:
         return PolicyMemory(np.zeros(shape, np.float32), np.zeros(shape, np.float32))
 
     def outputs(self, x: Floats32, memory: PolicyMemory) -> Floats32:
-        """What the last layer gives, shape (N, units); the memory takes note of it.
+        """Return the output of the last layer, shape (N, units), and update the memory.
 
         Args:
             x: What the first layer is given, shape (N, inputs), float32.

@@ -106,7 +106,7 @@ class _Graph:
 
 
 def _add_features(graph: _Graph, features: Features, name: str) -> str:
-    """What `Features.added_to` does."""
+    """Add the operators of `Features.added_to`; return the output's name."""
     parts = [name]
     if len(features.angles):
         angles = graph.add("Gather", name, graph.constant(features.angles, np.int64), axis=1)
@@ -123,7 +123,7 @@ def _add_features(graph: _Graph, features: Features, name: str) -> str:
 
 
 def _add_bearing(graph: _Graph, bearing: Bearing, name: str) -> list[str]:
-    """What `Bearing.of` does."""
+    """Add the operators of `Bearing.of`; return the outputs' names."""
     dx, dy = (
         graph.add("Sub", graph.constant(side), _entry(graph, name, entry))
         for entry, side in zip((bearing.x, bearing.y), bearing.goal, strict=True)
@@ -148,7 +148,7 @@ def _entry(graph: _Graph, name: str, entry: int) -> str:
 
 
 def _add_pictures(graph: _Graph, pictures: PictureLayers, name: str) -> str:
-    """What `PictureLayers.features` does."""
+    """Add the operators of `PictureLayers.features`; return the output's name."""
     shape = graph.constant([-1, *pictures.shape], np.int64)
     name = graph.add("Transpose", graph.add("Reshape", name, shape), perm=[0, 3, 1, 2])
     name = graph.add("Mul", name, graph.constant(1.0 / 255.0))
@@ -164,7 +164,7 @@ def _add_pictures(graph: _Graph, pictures: PictureLayers, name: str) -> str:
 
 
 def _add_layers(graph: _Graph, actor: Actor, name: str) -> str:
-    """What `Actor.outputs` does."""
+    """Add the operators of `Actor.outputs`; return the output's name."""
     last = len(actor.weights) - 1
     for number, (weight, bias) in enumerate(zip(actor.weights, actor.biases, strict=True)):
         name = graph.add("MatMul", name, graph.constant(weight))
@@ -175,7 +175,7 @@ def _add_layers(graph: _Graph, actor: Actor, name: str) -> str:
 
 
 def _add_head(graph: _Graph, actor: Actor, name: str) -> str:
-    """What `Actor.mode` and `Actor.to_env` do."""
+    """Add the operators of `Actor.mode` and `Actor.to_env`; return the output's name."""
     if actor.discrete:
         best = graph.add("ArgMax", name, axis=1, keepdims=0)
         return graph.add("Add", best, graph.constant(actor.first_action, np.int64))

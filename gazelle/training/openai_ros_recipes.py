@@ -1,4 +1,4 @@
-"""How openai_ros' tasks are best trained."""
+"""Recipes for training openai_ros' tasks."""
 
 from __future__ import annotations
 

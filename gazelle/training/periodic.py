@@ -40,7 +40,7 @@ class PeriodicEvaluation:
         self._file = run.folder / "evaluations.csv"
 
     def due(self, steps: int) -> bool:
-        """Whether it is time for one."""
+        """Return whether the next evaluation is due."""
         every = self.run.config.eval_every
         return every > 0 and steps - self.evaluated_at >= every
 
@@ -65,7 +65,7 @@ class PeriodicEvaluation:
         return found
 
     def get_state(self) -> dict[str, Any]:
-        """What a checkpoint must remember."""
+        """Return the state for a checkpoint."""
         return {"evaluated_at": self.evaluated_at, "best": self._best}
 
     def set_state(self, state: dict[str, Any], steps: int) -> None:

@@ -20,7 +20,7 @@ from gazelle.training.scaling import ObservationScale
 
 
 class PictureFeatures(BaseFeaturesExtractor):  # type: ignore[misc]  # untyped base
-    """What `PictureLayers` does, as a module whose weights are learnt.
+    """Trainable torch module equivalent to `PictureLayers`.
 
     Args:
         observation_space: Of pictures, uint8 of shape (height, width, channels).

@@ -21,17 +21,17 @@ _COARSE = 28  # pixels along a side that the first convolution sees, about
 
 
 def is_picture(space: gym.Space[Any]) -> bool:
-    """Whether observations are colours, uint8 of shape (height, width, channels)."""
+    """Return whether observations are images, uint8 of shape (height, width, channels)."""
     return isinstance(space, gym.spaces.Box) and space.dtype == np.uint8 and len(space.shape) == 3
 
 
 def observation_dtype(space: gym.Space[Any]) -> npt.DTypeLike:
-    """What observations are kept as: bytes of pictures, else float32."""
+    """Return the dtype in which observations are stored: bytes for images, else float32."""
     return np.uint8 if is_picture(space) else np.float32
 
 
 def pooling_of(shape: tuple[int, ...]) -> int:
-    """How many pixels along each side become one before the first convolution."""
+    """Return the number of pixels per side that are pooled into one before the first convolution."""
     return max(1, min(shape[0], shape[1]) // _COARSE)
 
 
@@ -57,7 +57,7 @@ class PictureLayers:
         return int(np.prod(self.shape))
 
     def features(self, pictures: Bytes | Floats32) -> Floats32:
-        """What the layers make of pictures of shape (N, entries): shape (N, features), float32."""
+        """Return the features of images of shape (N, entries): shape (N, features), float32."""
         x = self._pooled(pictures.reshape(-1, *self.shape))
         for weight, bias in zip(self.weights, self.biases, strict=True):
             x = _convolved(x, weight, STRIDE)

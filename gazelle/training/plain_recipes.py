@@ -1,4 +1,4 @@
-"""What each algorithm begins with on a task whose recipe is for another one."""
+"""Default recipe of each algorithm for a task whose recipe is for another algorithm."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ class Playback(Closeable):
         self._obs = step.obs
 
     def look(self) -> Picture:
-        """What the environment draws now, shape (height, width, 3).
+        """Render the environment as it is now, shape (height, width, 3).
 
         Raises:
             TaskError: It draws nothing.

@@ -25,7 +25,7 @@ _GONE = {
 
 @dataclass(frozen=True, slots=True)
 class PolicyFiles:
-    """What an export wrote."""
+    """Files written by an export."""
 
     policy: Path
     """The policy."""

@@ -20,7 +20,7 @@ HALF_LOG_2_PI = 0.5 * float(np.log(2.0 * np.pi))
 
 @dataclass(frozen=True, slots=True)
 class Transitions:
-    """What a rollout brought, n transitions.
+    """Transitions of a rollout, n of them.
 
     Attributes:
         features: What the networks are given, shape (n, features); of pictures these themselves,
@@ -56,7 +56,7 @@ class Transitions:
 
 @dataclass(frozen=True, slots=True)
 class Weights:
-    """How much the parts of the loss count; see `PPOSettings`."""
+    """Weights of the parts of the loss; see `PPOSettings`."""
 
     clip_range: float
     ent_coef: float
@@ -107,7 +107,7 @@ def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Te
 
 
 def learns_features(policy: Any) -> bool:
-    """Whether what makes observations features has weights of its own."""
+    """Return whether the policy's feature extractor has weights of its own."""
     return next(policy.features_extractor.parameters(), None) is not None
 
 

@@ -1,4 +1,4 @@
-"""How a training run shows that it is alive."""
+"""Progress display of a training run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a recipe holds: everything that shapes a training, and how it is kept as JSON."""
+"""Recipe: all parameters of a training, and their form as JSON."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ LIBRARY_ALGORITHMS = {
 
 @dataclass(frozen=True, kw_only=True)
 class PPOSettings:
-    """What only PPO knows (Schulman et al. 2017, arXiv 1707.06347)."""
+    """Settings specific to PPO (Schulman et al. 2017, arXiv 1707.06347)."""
 
     n_steps: int = 64
     """Control steps of each copy between two updates."""
@@ -63,7 +63,7 @@ class PPOSettings:
 
 @dataclass(frozen=True, kw_only=True)
 class OffPolicySettings:
-    """What DQN, DDPG, TD3 and SAC share."""
+    """Settings shared by DQN, DDPG, TD3 and SAC."""
 
     buffer_size: int = 300_000
     """Transitions remembered."""
@@ -119,7 +119,7 @@ Settings = PPOSettings | OffPolicySettings | LibrarySettings
 
 @dataclass(frozen=True, kw_only=True)
 class Recipe:
-    """How one task is trained with one algorithm."""
+    """Recipe for training one task with one algorithm."""
 
     algo: str = "ppo"
     """One of the names in `gazelle.training.ALGORITHMS`."""
@@ -217,7 +217,7 @@ def _check_settings(algo: str, settings: Settings) -> None:
 
 
 def _settings_of(algo: str) -> type[Settings]:
-    """What settings an algorithm takes."""
+    """Return the class of an algorithm's settings."""
     if algo in LIBRARY_ALGORITHMS:
         return LibrarySettings
     return PPOSettings if algo == "ppo" else OffPolicySettings

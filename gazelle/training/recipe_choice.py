@@ -70,7 +70,7 @@ def _may_have_goals(task: str) -> bool:
 
 
 def _has_goals(task: str, options: Mapping[str, Any]) -> bool:
-    """Whether one of its environments has all that hindsight needs."""
+    """Return whether an environment of the task has all that hindsight needs."""
     env = make_task(task, 1, **options)
     try:
         space = env.single_observation_space

@@ -1,4 +1,4 @@
-"""How each task is best trained: one frozen recipe a task.
+"""Recipes of the tasks: one frozen recipe a task.
 
 A recipe holds everything that shapes the result, so a run is described by its
 recipe, its seed and the options of its environment.

@@ -44,7 +44,7 @@ class EpisodeRecord:
 
     @property
     def failed(self) -> bool:
-        """Whether the last attempt failed."""
+        """True if the last attempt failed."""
         return any(self.ends)
 
     def to_row(self) -> dict[str, Any]:
@@ -93,11 +93,11 @@ class Ledger:
 
     @property
     def distinct(self) -> int:
-        """How many different episodes there are."""
+        """Number of different episodes."""
         return len(set(self._keys))
 
     def tells(self, outcome: str) -> bool:
-        """Whether the environment tells this outcome."""
+        """Return whether the environment reports this outcome."""
         return outcome in self._told
 
     def add(self, ended: Episodes, trails: UInts64) -> None:
@@ -122,7 +122,7 @@ class Ledger:
         self._told |= other._told
 
     def rate(self, what: str) -> SuccessRate:
-        """How many of all attempts were ``goals``, or ended as `EpisodeRecord.ends` names."""
+        """Return the rate of attempts that were ``goals``, or ended as `EpisodeRecord.ends` names."""
         ends = np.array([record.ends for record in self.records], dtype=np.int64)
         ends *= np.array([[record.counted] for record in self.records])
         goals = np.array([record.counted_goals for record in self.records], dtype=np.int64)

@@ -1,4 +1,4 @@
-"""What a policy met in some control steps of many copies of a task."""
+"""Rollout of a policy over some control steps of many copies of a task."""
 
 from __future__ import annotations
 

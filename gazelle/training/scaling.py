@@ -73,18 +73,18 @@ class ObservationScale:
 
     @property
     def normalised(self) -> npt.NDArray[np.bool_]:
-        """Which entries are normalised by what was observed, shape (entries,)."""
+        """Mask of the entries that are normalised by observed moments, shape (entries,)."""
         loose: npt.NDArray[np.bool_] = self.moments[_LOOSE].numpy() != 0.0
         return loose
 
     @property
     def cuts(self) -> bool:
-        """Whether anything can be cut."""
+        """True if any entry can be clipped."""
         return self._cut is not None
 
     @property
     def decided(self) -> bool:
-        """Whether it is known yet what is normalised."""
+        """True once it is decided which entries are normalised."""
         return bool(self.tally[_DECIDED])
 
     def observe(self, observations: Floats32) -> None:
@@ -186,7 +186,7 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
         return torch.cat(parts, dim=1) if len(parts) > 1 else parts[0]
 
     def _added(self, flat: torch.Tensor) -> torch.Tensor:
-        """What `Features.added_to` adds, of shape (N, added)."""
+        """Return the features that `Features.added_to` adds, shape (N, added)."""
         angles = flat[:, self._angles]
         share = (flat[:, self._magnitudes] / self._spans).clamp(min=0.0)
         parts = [angles.sin(), angles.cos(), (share + LEAST).log() + MIDDLE]

@@ -44,7 +44,7 @@ _STOPPING = "stopping after this update (Ctrl-C again stops at once) ..."
 
 @dataclass(frozen=True, slots=True)
 class TrainResult:
-    """What a call of `train` or `resume` did."""
+    """Result of a call of `train` or `resume`."""
 
     run: Run
     """The run on disk."""

@@ -51,7 +51,7 @@ class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
 
     @torch.no_grad()
     def _target(self, batch: Any) -> torch.Tensor:
-        """What the critics should say, shape (n, 1)."""
+        """Return the critics' target values, shape (n, 1)."""
         following = self.actor.features_extractor(batch.next_observations)
         actions, logs = self._drawn(following)
         least = self._least_value(self.critic_target, following, actions)

@@ -18,7 +18,7 @@ _ENDS = {"success_rate": "goals", "collision_rate": "collisions", "timeout_rate"
 
 @dataclass(frozen=True, slots=True)
 class SuccessRate:
-    """How often something happened, with a 95 % confidence interval."""
+    """Rate of an event, with a 95 % confidence interval."""
 
     count: int
     """How often it happened."""
@@ -181,7 +181,7 @@ class EpisodeLog:
         self.total += len(rows)
 
     def summary(self) -> dict[str, float]:
-        """What the window shows, as far as the environment tells it.
+        """Return the means over the window, as far as the environment reports them.
 
         ``return`` and ``length`` are means over episodes; ``success_rate``,
         ``collision_rate`` and ``timeout_rate`` are shares of the goals that were tried, see

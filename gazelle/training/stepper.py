@@ -38,7 +38,7 @@ _FEW = 8  # numbers of an info that a record of an episode keeps at most
 
 @dataclass(frozen=True, slots=True)
 class TrainingStep:
-    """What one control step of all N copies brought."""
+    """Result of one control step of all N copies."""
 
     obs: Floats32
     """What the policy acts on next, shape (N, ...)."""
@@ -59,7 +59,7 @@ class TrainingStep:
 
     @property
     def begun(self) -> Bools:
-        """Where ``obs`` is not of the episode that the step was of, shape (N,).
+        """Mask of copies whose ``obs`` belongs to another episode than the step, shape (N,).
 
         A policy with a memory forgets there. In autoreset mode "next step" the last observation of an
         episode is one of them, too, as nothing is done with it.
@@ -170,7 +170,7 @@ class Stepper:
         terminated: Bools,
         valid: Bools,
     ) -> Floats:
-        """What the learner is given for a step."""
+        """Return the rewards that the learner receives for a step."""
         if self._teacher is None:
             return rewards
         paid = self._teacher.of_step(info, last, slots, terminated, valid)
@@ -189,7 +189,7 @@ class Stepper:
         self._there = there
 
     def _begun_late(self) -> Bools:
-        """Whether the running attempts began too late to count, shape (N,)."""
+        """Return a mask of running attempts that began too late to count, shape (N,)."""
         if self._limit is None:
             return np.zeros(self.num_envs, np.bool_)
         return ~begins_early(self._goal_at, self._limit)
@@ -205,7 +205,7 @@ class Stepper:
 
     @property
     def waiting(self) -> Bools:
-        """Which copies will spend the next step on their reset, shape (N,)."""
+        """Mask of copies that will spend the next step on their reset, shape (N,)."""
         return self._resetting
 
     def get_state(self) -> dict[str, Any]:
@@ -313,7 +313,7 @@ def _learnable(space: gym.Space[Any]) -> tuple[gym.spaces.Box, DictRows | None]:
 
 
 def _numbers(info: dict[str, Any], slots: npt.NDArray[np.intp]) -> dict[str, Floats]:
-    """What info holds in numbers, a few a copy, at some copies: shapes (k,) or (k, few)."""
+    """Return the numeric entries of info at some copies by name: shapes (k,) or (k, few)."""
     found = {}
     for name, values in info.items():
         array = np.asarray(values) if not isinstance(values, dict) else np.zeros(0, np.object_)

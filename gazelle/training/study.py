@@ -35,7 +35,7 @@ _OWN = ("seed", "seconds", "error")
 
 @dataclass(frozen=True, kw_only=True)
 class Study:
-    """Which function is called, and with what."""
+    """Function of a study, and the arguments it is called with."""
 
     function: str
     """``module:name`` or ``file.py:name``."""
@@ -68,7 +68,7 @@ class Study:
 
 @dataclass(frozen=True, slots=True)
 class StudyResult:
-    """What became of a study."""
+    """Result of a study."""
 
     rows: list[dict[str, Any]]
     """The whole table."""
@@ -163,7 +163,7 @@ class _Table:
             self._rewrite([])  # without a line that was cut short
 
     def has(self, call: Mapping[str, Any]) -> bool:
-        """Whether there is a row for these arguments."""
+        """Return whether the table has a row for these arguments."""
         return tuple(str(call[name]) for name in self._names) in self._done
 
     def add(self, row: dict[str, Any]) -> None:
@@ -211,7 +211,7 @@ class _Table:
 
 
 def _found(function: str) -> tuple[TaskModule, str]:
-    """Where a function is, and that it is there."""
+    """Find a function by its name: its module, and the name in it."""
     place, colon, name = function.rpartition(":")
     if not colon:
         hint = "expected MODULE:FUNCTION or FILE.py:FUNCTION"

@@ -49,7 +49,7 @@ class SweepTrial:
 
 @dataclass(frozen=True, slots=True)
 class SweepResult:
-    """What a search found."""
+    """Result of a hyperparameter search."""
 
     folder: Path
     """Where its journal and runs are."""
@@ -162,7 +162,7 @@ def _work(job: TrialJob, study: optuna.Study, *, workers: int | None, ray: str |
 def _asked(
     study: optuna.Study, plan: SweepPlan, trials: dict[int, Trial], left: int
 ) -> Iterator[TrialValues]:
-    """What Optuna wants to try next, which depends on what is known by then."""
+    """Yield the values Optuna wants to try next, which depend on the results so far."""
     for _ in range(left):
         trial = study.ask()
         values = {name: _draw(trial, name, space) for name, space in plan.parameters.items()}

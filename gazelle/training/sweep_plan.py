@@ -1,4 +1,4 @@
-"""What a search of hyperparameters tries, from a file."""
+"""Plan of a hyperparameter search, read from a file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _KEYS = {"parameters", "trials", "workers", "steps", "episodes", "metric", "algo
 
 @dataclass(frozen=True, kw_only=True)
 class SweepPlan:
-    """What a search tries."""
+    """Plan of a hyperparameter search."""
 
     parameters: dict[str, dict[str, Any]]
     """By the name of a recipe's value, see `with_values`: ``{"choices": [...]}`` or

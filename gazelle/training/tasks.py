@@ -117,7 +117,7 @@ def _hint(name: str) -> str:
 
 
 def entry_class(task: str, *, vector: bool) -> object:
-    """What makes the environments of a task, usually a class; None if it has none of that kind."""
+    """Return the entry point of a task's environments, usually a class; None if it has none."""
     spec = gym.registry[find_task(task)]
     entry = spec.vector_entry_point if vector else spec.entry_point
     return load_env_creator(entry) if isinstance(entry, str) else entry
@@ -135,9 +135,9 @@ def evaluation_options(task: str, trained: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def fitting_copies(task: str, least: int, options: Mapping[str, Any]) -> int:
-    """How many copies to make where so many are wanted.
+    """Return the number of copies to make for at least `least` wanted ones.
 
-    A task of which not any number can be made says so by a class method or static method
+    A task that cannot be made in any number has a class method or static method
     ``fitting_num_envs`` of its vector environment, which takes a number and options.
     """
     ask = _hook(task, "fitting_num_envs")

@@ -1,4 +1,4 @@
-"""How many threads the number crunching may use, and how exact its products are.
+"""Number of threads for linear algebra, and precision of its matrix products.
 
 Small networks gain nothing from a second thread, and threads that spin while
 they wait take the core that the simulation needs: the same training run is
@@ -80,7 +80,7 @@ def short_turns(*, wanted: bool = True) -> Iterator[None]:
 
 
 def multiplies_bfloat16() -> bool:
-    """Whether this processor multiplies bfloat16 faster than float32."""
+    """Return whether this processor multiplies bfloat16 faster than float32."""
     import torch
 
     able = torch.backends.mkldnn.is_available()  # type: ignore[no-untyped-call]  # of torch

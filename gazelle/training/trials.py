@@ -19,7 +19,7 @@ from gazelle.training.sweep_plan import SweepPlan
 
 @dataclass(frozen=True, kw_only=True)
 class TrialJob:
-    """What all trials of a search share."""
+    """Settings that all trials of a search share."""
 
     task: str
     """A task's id or name."""
@@ -35,7 +35,7 @@ class TrialJob:
 
 @dataclass(frozen=True, slots=True)
 class TrialValues:
-    """What one trial tries."""
+    """Parameter values of one trial."""
 
     number: int
     """From 0."""
@@ -45,7 +45,7 @@ class TrialValues:
 
 @dataclass(frozen=True, slots=True)
 class TrialOutcome:
-    """What came of a trial."""
+    """Outcome of a trial."""
 
     score: float | None = None
     """None if it failed."""
@@ -78,7 +78,7 @@ class TrialHost:
         self._away = away
 
     def call(self, given: TrialValues) -> TrialOutcome:
-        """What came of a trial with these values; one that fails must not end the search."""
+        """Run a trial with these values; a failure is returned, since it must not end the search."""
         try:
             if not self._away:
                 return self._tried(given, self._job.folder / "runs")

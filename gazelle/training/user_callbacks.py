@@ -13,7 +13,7 @@ from gazelle.training.importing import TaskModule, load_all
 
 
 def find_callbacks(texts: Iterable[str]) -> tuple[tuple[TaskModule, ...], tuple[str, ...]]:
-    """Where callbacks are, and their names as a run remembers them.
+    """Find callbacks: their modules, and their names as a run stores them.
 
     Args:
         texts: Each ``module:Class``, or ``file.py:Class``.

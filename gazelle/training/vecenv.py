@@ -63,12 +63,12 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
 
     @property
     def obs(self) -> Floats32:
-        """What is acted on next, shape (N, ...)."""
+        """Observations that the policy acts on next, shape (N, ...)."""
         return self.copies.obs
 
     @property
     def starts(self) -> Bools:
-        """Which copies begin an episode with it, shape (N,)."""
+        """Mask of copies that begin an episode with `obs`, shape (N,)."""
         return self.copies.starts
 
     @property
@@ -83,7 +83,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
 
     @property
     def contract(self) -> PolicyContract:
-        """What the task says of what its policies see and do."""
+        """Contract of the task: the observations and actions of its policies."""
         return self.copies.contract
 
     def watch(self, on_observations: Callable[[Floats32], None]) -> None:
@@ -172,6 +172,6 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         return [result for _ in self._get_indices(indices)]
 
     def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
-        """Whether the single copies are wrapped: they are not."""
+        """Return False for each copy: single copies are not wrapped."""
         del wrapper_class
         return [False for _ in self._get_indices(indices)]

@@ -22,7 +22,7 @@ class GoalFrames:
         self._tree: FrameTree | None = None
 
     def place(self, goal: GoalPlace, frame: str) -> tuple[float, float] | None:
-        """Where a goal is now [m], or None if no transform tells.
+        """Return the position of a goal now [m], or None if no transform is available.
 
         Args:
             goal: In its own frame.

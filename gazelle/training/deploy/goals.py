@@ -1,4 +1,4 @@
-"""Where a deployed policy is to go, and what became of it."""
+"""Goals of a deployed policy and their results."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class GoalPlace:
 
 @dataclass(frozen=True, slots=True)
 class GoalResult:
-    """What became of a goal."""
+    """Result of a goal."""
 
     goal: GoalPlace
     outcome: str

@@ -45,7 +45,7 @@ class _Relay:
 
     @property
     def active(self) -> bool:
-        """Whether the last order was one to drive by."""
+        """True if the last order was a command to drive."""
         return self._last[0]
 
     def obey(self, order: tuple[bool, float, float]) -> None:

@@ -14,7 +14,7 @@ from gazelle.training.deploy.sensing import OdometryReading, ScanReading
 
 
 def scan_of(message: Any) -> ScanReading:
-    """What a sensor_msgs/LaserScan says."""
+    """Convert a sensor_msgs/LaserScan to a reading."""
     return ScanReading(
         np.asarray(message.ranges, dtype=np.float32).astype(np.float64),
         float(message.angle_min),
@@ -25,7 +25,7 @@ def scan_of(message: Any) -> ScanReading:
 
 
 def odometry_of(message: Any) -> OdometryReading:
-    """What a nav_msgs/Odometry says."""
+    """Convert a nav_msgs/Odometry to a reading."""
     place, twist = message.pose.pose, message.twist.twist
     return OdometryReading(
         float(place.position.x),
@@ -37,7 +37,7 @@ def odometry_of(message: Any) -> OdometryReading:
 
 
 def goal_of(message: Any) -> GoalPlace:
-    """What a geometry_msgs/PoseStamped says."""
+    """Convert a geometry_msgs/PoseStamped to a goal."""
     place = message.pose.position
     return GoalPlace(float(place.x), float(place.y), message.header.frame_id.removeprefix("/"))
 

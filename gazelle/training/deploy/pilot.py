@@ -38,7 +38,7 @@ class Acted:
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """What the pilot says at one moment."""
+    """Output of the pilot at one moment."""
 
     command: VelocityCommand
     """What the robot is to do."""
@@ -191,7 +191,7 @@ class Pilot:
     def _judge(
         self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
     ) -> GoalResult | None:
-        """Whether the goal came to its end, and how."""
+        """Return the result of the goal if it has ended, else None."""
         distance = distance_to_goal(odometry, place)
         began = now if self._began is None else self._began
         crashed = self._crashes(scan)
@@ -205,7 +205,7 @@ class Pilot:
         return None
 
     def _crashes(self, scan: ScanReading) -> bool:
-        """Whether something came as near as counts as a collision, and was not so near before."""
+        """Return whether an obstacle has newly come within the collision range."""
         least = self.policy.contract.collision_range
         ranges = scan.ranges[scan.measured()]
         touching = least is not None and len(ranges) > 0 and float(ranges.min()) < least

@@ -20,7 +20,7 @@ from gazelle.training.policy_files import load_policy
 
 
 class Brain(Protocol):
-    """What acts: from observations (N, entries) to the last layer's outputs and the actions."""
+    """Protocol of a policy network: observations (N, entries) to its outputs and actions."""
 
     def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:
         """Outputs of shape (N, outputs), and actions of shape (N,) or (N, actions)."""
@@ -28,7 +28,7 @@ class Brain(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What a policy decided."""
+    """Decision of a policy."""
 
     action: tuple[float, ...]
     """The number of a discrete action, or the numbers of a continuous one."""
@@ -66,7 +66,7 @@ class Policy:
 
 
 def command_of(action: tuple[float, ...], rule: ActionRule) -> VelocityCommand:
-    """What an action means.
+    """Return the velocity command that an action stands for.
 
     Raises:
         TaskError: The rule does not tell, or the action is none of its own.

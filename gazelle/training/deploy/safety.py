@@ -1,4 +1,4 @@
-"""What a deployed policy may not do, whatever it wants."""
+"""Safety limits of a deployed policy; they override its commands."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class VelocityCommand:
 
     @property
     def moves(self) -> bool:
-        """Whether it is more than to stand still."""
+        """True if the command is not zero."""
         return self.linear != 0.0 or self.angular != 0.0
 
 
@@ -62,7 +62,7 @@ class SafetyLimits:
 
     @staticmethod
     def default_stop_distance(contract: PolicyContract) -> float:
-        """What suits a policy: a little more than the range that was a collision [m]."""
+        """Return a suitable stop distance [m]: the collision range of the contract plus a margin."""
         if contract.collision_range is None:
             return _STOP_DISTANCE
         return contract.collision_range + _MARGIN
@@ -94,7 +94,7 @@ class SafetyLimits:
 
 
 def unusable(scan: ScanReading) -> bool:
-    """Whether a scan says too little to drive by."""
+    """Return whether too many rays of a scan failed to drive by it."""
     return len(scan.ranges) == 0 or float(scan.failed().mean()) > _FAILED
 
 

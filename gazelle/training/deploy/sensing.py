@@ -37,12 +37,12 @@ class ScanReading:
     """The farthest [m]."""
 
     def measured(self) -> Bools:
-        """Which rays met something at a distance that the lidar can measure, shape (rays,)."""
+        """Return a mask of the rays with a measurable distance, shape (rays,)."""
         found: Bools = (self.ranges >= self.range_min) & (self.ranges <= self.range_max)
         return found & (self.ranges > 0.0)
 
     def failed(self) -> Bools:
-        """Which rays say nothing at all, shape (rays,): NaN, or 0 as many drivers have it."""
+        """Return a mask of the rays without a reading, shape (rays,): NaN, or 0 as in many drivers."""
         with np.errstate(invalid="ignore"):
             failed: Bools = np.isnan(self.ranges) | (self.ranges == 0.0)
         return failed
@@ -60,7 +60,7 @@ class ScanReading:
 
 @dataclass(frozen=True, slots=True)
 class OdometryReading:
-    """Where a robot is and how it moves, as nav_msgs/Odometry has it."""
+    """Pose and velocity of a robot, as in nav_msgs/Odometry."""
 
     x: float
     """[m]"""

@@ -50,7 +50,7 @@ def call_all(
 def workers_at(
     ray: str | None, workers: int | None, make: Callable[..., Any], *arguments: Any
 ) -> tuple[int, Callable[[], WorkerLink]]:
-    """Where workers are: how many there may be, and what starts one.
+    """Return the number of workers and a function that starts one.
 
     Args:
         ray: The address of a Ray cluster; None for processes on this machine.
@@ -132,7 +132,7 @@ class _Caller(Generic[JobT]):
             self._error = error
 
     def _answer(self, job: JobT) -> Any:
-        """What a worker makes of a job; None if each that tried was lost."""
+        """Send a job to a worker and return its answer; None if each worker that tried was lost."""
         for _ in range(TRIES):
             try:
                 if self._link is None:

@@ -95,5 +95,5 @@ def connected() -> Any:
 
 
 def start_actors(blueprint: Blueprint) -> Callable[[Sequence[int]], WorkerLink]:
-    """What starts a worker, see `Team`."""
+    """Return a function that starts a worker, see `Team`."""
     return lambda numbers: RayLink(ShardHost, blueprint, tuple(numbers))

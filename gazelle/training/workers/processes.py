@@ -91,7 +91,7 @@ class ProcessLink:
 
 
 def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[int]], WorkerLink]:
-    """What starts one of so many workers, see `Team`."""
+    """Return a function that starts one of this many workers, see `Team`."""
     threads = max(1, processors() // workers)
     return lambda numbers: ProcessLink(ShardHost, blueprint, tuple(numbers), threads=threads)
 

@@ -27,7 +27,7 @@ _FEWEST = 8
 
 
 def divided(copies: int, unit: int = 1) -> tuple[int, ...]:
-    """How many copies each shard has: eight shards if possible, of 256 copies at most.
+    """Return the number of copies in each shard: eight shards if possible, of 256 copies at most.
 
     The division depends on nothing else, so that results do not either.
 
@@ -67,7 +67,7 @@ class Blueprint:
 
 @dataclass(frozen=True, slots=True)
 class Spaces:
-    """What the driver must know of a task that only workers make."""
+    """Spaces, period and contract of a task that only workers make."""
 
     observation: gym.Space[Any]
     """Of one copy."""
@@ -128,7 +128,7 @@ class Shard:
         return ShardStep(step.obs, rewards, *ends, step.valid, step.final_obs, step.ended)
 
     def get_state(self) -> dict[str, Any] | None:
-        """What `set_state` needs; None if the environment cannot save its state."""
+        """Return the state for `set_state`; None if the environment cannot save its state."""
         inside = self.copies.get_state()
         if inside is None:
             return None
@@ -159,7 +159,7 @@ class ShardHost:
         return {number: Shard(self._blueprint, number) for number in self._numbers}
 
     def spaces(self) -> Spaces:
-        """What the task looks like."""
+        """Return the spaces, period and contract of the task."""
         copies = next(iter(self._shards.values())).copies
         env = copies.env
         return Spaces(

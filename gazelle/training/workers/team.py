@@ -80,7 +80,7 @@ class Team:
             raise
 
     def spaces(self) -> Spaces:
-        """What the task looks like."""
+        """Return the spaces, period and contract of the task."""
         spaces: Spaces = _asked(self._links[0], "spaces")
         return spaces
 

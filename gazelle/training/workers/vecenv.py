@@ -148,7 +148,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
             infos[shift + slot]["reset_step"] = True
 
     def get_state(self) -> dict[str, Any] | None:
-        """What `set_state` needs to go on from here; None if the task cannot save it."""
+        """Return the state that `set_state` restores; None if the task cannot save it."""
         self.team.call("get_state")
         states = self.team.states
         if states is None:
@@ -186,7 +186,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         return [result for _ in self._get_indices(indices)]
 
     def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
-        """Whether the single copies are wrapped: they are not."""
+        """Return False for each copy: single copies are not wrapped."""
         del wrapper_class
         return [False for _ in self._get_indices(indices)]
 
