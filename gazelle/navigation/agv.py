@@ -21,7 +21,7 @@ _STANDS = 0.25  # of a tolerance, between two updates
 
 
 class Outcome(IntEnum):
-    """How a robot's last motion stands."""
+    """State of a robot's last motion."""
 
     IDLE = 0
     MOVING = 1
@@ -32,7 +32,7 @@ class Outcome(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Limits:
-    """How fast and how exact motions are.
+    """Limits of speed and accuracy of motions.
 
     Attributes:
         linear: Fastest [m/s].
@@ -103,7 +103,7 @@ class Motions:
 
     @property
     def active(self) -> NDArray[np.bool_]:
-        """Whether each robot has a motion to make, shape (count,)."""
+        """True for robots with a motion in progress, shape (count,)."""
         moving: NDArray[np.bool_] = self.outcome == Outcome.MOVING
         return moving
 
@@ -154,7 +154,7 @@ class Motions:
         self.outcome[moving] = Outcome.CANCELLED
 
     def update(self, poses: ArrayLike, time: float) -> Floats:
-        """What to command now.
+        """Return the velocity commands for now.
 
         Args:
             poses: x, y [m] and heading [rad], shape (count, 3).
@@ -188,9 +188,9 @@ class Motions:
         return command
 
     def _still(self, pose: Floats) -> NDArray[np.bool_]:
-        """Who hardly moved since the last update, shape (count,).
+        """Return a mask of robots that hardly moved since the last update, shape (count,).
 
-        Only who stands has arrived: where time runs faster than commands travel, a robot may
+        Only a standing robot has arrived: where time runs faster than commands travel, a robot may
         be seen at the goal in passing.
         """
         moved = np.abs(pose - self._before)

@@ -1,4 +1,4 @@
-"""Where to go next in a world that is not known yet: what ``explore_lite`` decides."""
+"""Choice of the next goal in an unknown world, as ``explore_lite`` does."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class ExploreSettings:
 
 @dataclass(frozen=True, slots=True)
 class NextGoal:
-    """What to do now.
+    """Next goal of the exploration.
 
     Attributes:
         place: Where to go (x, y) [m]; None if there is nothing left to explore.
@@ -80,12 +80,12 @@ class Explorer:
         self._progress = 0.0
 
     def cost(self, frontier: Frontier) -> float:
-        """What a frontier costs, less is better; as the original, in cells times their side twice."""
+        """Return the cost of a frontier; as in the original, in cells times their side twice."""
         s, side = self.settings, self._resolution
         return side * (s.potential_scale * frontier.distance - s.gain_scale * frontier.size)
 
     def is_given_up(self, place: Place) -> bool:
-        """Whether a place is close to one that was given up."""
+        """Return whether a place is close to one that was given up."""
         return any(
             abs(place[0] - x) < self._near and abs(place[1] - y) < self._near
             for x, y in self.given_up
@@ -96,7 +96,7 @@ class Explorer:
         self.given_up.append(place)
 
     def decide(self, time: float, frontiers: Sequence[Frontier]) -> NextGoal:
-        """Where to go.
+        """Choose the next goal.
 
         Args:
             time: Now [s].

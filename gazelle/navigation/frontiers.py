@@ -33,7 +33,7 @@ class Frontier:
 
     @property
     def size(self) -> int:
-        """How many cells."""
+        """Number of cells."""
         return len(self.points)
 
 
@@ -90,7 +90,7 @@ def _beside(cells: Bools) -> Bools:
 
 
 def _components(cells: Indices, shape: tuple[int, ...]) -> Ints64:
-    """Which of some cells hang together, over corners too: a number for each, shape (n,).
+    """Label the connected components of cells, over corners too: a number for each, shape (n,).
 
     Method: each takes the least number among its neighbours, and that one's, until none changes.
     """

@@ -104,9 +104,9 @@ class OccupancyGrid:
         return dilate(self.occupied, distance / self.resolution)
 
     def is_near(self, points: ArrayLike, distance: float) -> Bools:
-        """Whether points, shape (n, 2), lie within a distance [m] of an obstacle; shape (n,).
+        """Return whether points, shape (n, 2), are within a distance [m] of an obstacle; shape (n,).
 
-        The same as ``near_obstacles`` at these points, at a price that depends on them alone.
+        The same as ``near_obstacles`` at these points, at a cost that depends on them alone.
         """
         around = self.cell_of(points)[:, None] + _disc(distance / self.resolution)
         limit = np.array(self.cells.shape)

@@ -1,4 +1,4 @@
-"""How fast a mobile robot may go, and how much room it needs."""
+"""Speed limits of a mobile robot, and the room it needs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gazelle.errors import SimulationError
 
 @dataclass(frozen=True, slots=True)
 class BaseLimits:
-    """What a base can do and what it needs.
+    """Limits of a base and its clearance.
 
     Attributes:
         radius: Of the smallest circle around its turning axis that holds it [m].

@@ -39,7 +39,7 @@ class LiveMap:
 
     @property
     def map_to_odom(self) -> Pose2 | None:
-        """Where the frame of the odometry is on the map; None before the first scan."""
+        """Pose of the odometry frame on the map; None before the first scan."""
         return self._slam.map_to_odom
 
     def update(self, time: float, odom: Pose2, scan: PlanarScan) -> OccupancyMap | None:

@@ -51,7 +51,7 @@ def _way(
 
 
 def is_blocked(grid: OccupancyGrid, path: Floats, here: Floats, limits: BaseLimits) -> bool:
-    """Whether an obstacle has turned up on the rest of a path."""
+    """Return whether an obstacle has turned up on the rest of a path."""
     rest = path[int(np.hypot(*(path - here).T).argmin()) :]
     rest = rest[np.hypot(*(rest - here).T) > limits.radius]
     return bool(grid.is_near(rest, limits.radius + 0.5 * limits.clearance).any())

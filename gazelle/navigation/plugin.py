@@ -70,12 +70,12 @@ class GoToGoal(ModelPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether any world has a goal."""
+        """True if any world has a goal."""
         return any(seeker.goal is not None for seeker in self._seekers.values())
 
     @property
     def arrived(self) -> NDArray[np.bool_]:
-        """Which worlds have reached their last goal, shape (nworld,)."""
+        """True for worlds that have reached their last goal, shape (nworld,)."""
         seekers = (self._seekers.get(world) for world in range(self._nworld))
         return np.array([seeker is not None and seeker.arrived for seeker in seekers])
 

@@ -1,4 +1,4 @@
-"""Where on a map a robot is out of another one's way."""
+"""Refuges on a map: places where a robot is out of another one's way."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class RobotDisc:
     circumscribed: float
 
     def apart(self, other: RobotDisc) -> float:
-        """How far apart the two pass each other in any case [m]."""
+        """Return the distance at which the two pass each other in any case [m]."""
         return self.circumscribed + other.circumscribed + _MARGIN
 
 
@@ -66,7 +66,7 @@ class RefugeMap:
         self._y = self._corner[1] + (np.arange(rows) + 0.5) * self._side
 
     def has(self, places: Floats) -> Bools:
-        """Whether the map has something at places, or close by, shape (n,).
+        """Return whether the map has an obstacle at or close to positions, shape (n,).
 
         Args:
             places: x and y [m], shape (n, 2).
@@ -139,7 +139,7 @@ class RefugeMap:
         return prices.astype(np.float32)
 
     def _away_from(self, way: Floats) -> Floats:
-        """How far each cell is from a way [m], shape (rows, columns)."""
+        """Return the distance of each cell from a path [m], shape (rows, columns)."""
         marked = np.zeros(self._room.shape, np.uint8)
         cells = np.floor((way - self._corner) / self._side).astype(int)
         # The way may be on another robot's map.
@@ -149,7 +149,7 @@ class RefugeMap:
         return away
 
     def _within(self, robot: RobotDisc, radius: float) -> Bools:
-        """Which cells are within a distance of a robot's middle, shape (rows, columns)."""
+        """Return a mask of cells within a distance of a robot's centre, shape (rows, columns)."""
         squares = (self._y[:, None] - robot.y) ** 2 + (self._x[None, :] - robot.x) ** 2
         within: Bools = squares < max(radius, 0.0) ** 2
         return within

@@ -84,7 +84,7 @@ class Traveller(Protocol):
 
     @property
     def body(self) -> RobotDisc | None:
-        """Where it was last seen; None before."""
+        """Footprint at the last known position; None before."""
 
     def stand(self) -> None:
         """Wait."""
@@ -193,7 +193,7 @@ class RightOfWay:
             watch.place, watch.since = here, time
 
     def _stands(self, time: float, traveller: Traveller) -> bool:
-        """Whether it has a goal and does not get on."""
+        """Return whether a robot has a goal but makes no progress."""
         watch = self._watches.get(traveller.name)
         return (
             watch is not None
@@ -282,7 +282,7 @@ class RightOfWay:
         in_way: Sequence[Traveller],
         fixed: Sequence[RobotDisc],
     ) -> list[_Waiting]:
-        """Where those go that are in a leader's way; empty if one of them can go nowhere."""
+        """Return refuges for the robots in a leader's way; empty if one of them has none."""
         first, found = leader.body, list[_Waiting]()
         taken: list[RobotDisc] = []
         for each in in_way:
@@ -338,7 +338,7 @@ class RightOfWay:
     def _is_passed_by(
         self, time: float, traveller: Traveller, present: Sequence[Traveller]
     ) -> bool:
-        """Whether somebody is on the move beside a robot, and had better go by first."""
+        """Return whether a robot should wait for a moving one beside it."""
         body = traveller.body
         for each in present:
             other, watch = each.body, self._watches.get(each.name)
@@ -363,7 +363,7 @@ class RightOfWay:
 
 
 def _blocks(other: Traveller, traveller: Traveller, way: Floats) -> int | None:
-    """Which point of a robot's way another one stands at; None if it is beside it or behind."""
+    """Return the index of the path point that another robot blocks; None if it is beside or behind."""
     body, own = other.body, traveller.body
     if body is None or own is None or not len(way):
         return None

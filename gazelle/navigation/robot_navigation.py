@@ -251,7 +251,7 @@ class RobotNavigation(ModelPlugin):
         return self.pilots[world]
 
     def _localizer(self, world: int) -> Localizer | LiveMap | None:
-        """What says where a world's robot is; None for the truth."""
+        """Return the localizer of a world's robot; None for the true pose."""
         if self._source == "slam":
             return LiveMap(self._values.get("gmapping", {}), _LOST_SEED + world)
         if self._source == "truth":
@@ -323,17 +323,17 @@ class GoalTask:
 
     @property
     def done(self) -> bool:
-        """Whether it is reached or given up, in all of its worlds."""
+        """True if it is reached or given up, in all of its worlds."""
         return not any(pilot.busy for pilot in self.pilots)
 
     @property
     def succeeded(self) -> bool:
-        """Whether it is reached in all of its worlds."""
+        """True if it is reached in all of its worlds."""
         return all(pilot.outcome is GoalOutcome.SUCCEEDED for pilot in self.pilots)
 
     @property
     def text(self) -> str:
-        """What is said of it in the first world that is done."""
+        """Status text of the first world that is done."""
         return next((pilot.text for pilot in self.pilots if pilot.text), "")
 
     def wait(self, seconds: float = 300.0) -> bool:

@@ -47,7 +47,7 @@ def find_way(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
 
 
 def _expand(price: list[float], stride: int, first: int, last: int) -> dict[int, int]:
-    """Which cell each cell is best entered from, until the last one is reached."""
+    """Return the best predecessor of each cell, expanded until the last one is reached."""
     straight = (1, -1, stride, -stride)
     moves = [(each, 1.0) for each in straight]
     moves += [(each + side, _DIAGONAL) for each in straight[2:] for side in straight[:2]]

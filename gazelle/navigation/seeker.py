@@ -75,7 +75,7 @@ class GoalSeeker:
 
     @property
     def goal(self) -> tuple[float, ...] | None:
-        """Where it goes (x, y) or (x, y, yaw); None if nowhere."""
+        """Goal (x, y) or (x, y, yaw); None without one."""
         return None if self._goal is None else tuple(self._goal[~np.isnan(self._goal)].tolist())
 
     def seek(self, goal: Sequence[float]) -> None:
@@ -96,7 +96,7 @@ class GoalSeeker:
         self._turning = False
 
     def update(self, pose: Pose2, scan: LaserScan | None, time: float) -> tuple[float, float]:
-        """What to do now.
+        """Return the velocity command for now.
 
         Args:
             pose: x, y [m] and heading [rad] in the frame of the goal.
@@ -120,7 +120,7 @@ class GoalSeeker:
         return self._velocity
 
     def _wanted(self, pose: Pose2, time: float) -> tuple[float, float]:
-        """What would be right if nothing were in the way."""
+        """Return the velocity that would be right without obstacles."""
         self._plan(pose, time)
         if not len(self.path):
             return 0.0, 0.0
@@ -136,12 +136,12 @@ class GoalSeeker:
         return wanted_velocity(self.path, pose, self.limits)
 
     def _is_there(self, pose: Pose2) -> bool:
-        """Whether the end of the path is reached; turning there may shift the base a little."""
+        """Return whether the end of the path is reached; turning there may shift the base a little."""
         there = self._tolerance * (2.0 if self._turning else 1.0)
         return math.dist(self.path[-1], pose[:2]) <= there
 
     def _replaced(self, time: float) -> bool:
-        """Whether the path ends beside a goal that could be free by now: the map has grown."""
+        """Return whether the path ends beside a goal that may be free by now: the map has grown."""
         if self._goal is None or self._turning or time - self._planned_at < _PLAN_EVERY:
             return False
         return math.dist(self.path[-1], self._goal[:2]) > 1e-6
@@ -174,7 +174,7 @@ class GoalSeeker:
         self._best, self._best_at = math.inf, time
 
     def _is_stuck(self, pose: Pose2, time: float) -> bool:
-        """Whether it has not come nearer for a while, so that it should look around."""
+        """Return whether it made no progress for a while, so that it should look around."""
         ahead = np.hypot(*(self.path - np.array(pose[:2])).T)
         left = len(self.path) - int(ahead.argmin()) + float(ahead.min())
         if left < self._best - 1.0:
@@ -203,7 +203,7 @@ class GoalSeeker:
         self.grid.insert(place, ends, hits)
 
     def _pose_at(self, time: float) -> Pose2:
-        """Where the base was, between the poses it was told."""
+        """Return the base's pose at a time, interpolated between the poses it received."""
         times = [when for when, _ in self._poses]
         after = int(np.searchsorted(times, time))
         if after >= len(times):

@@ -28,7 +28,7 @@ def true_map(
     margin: float = 1.0,
     area: tuple[float, float, float, float] | None = None,
 ) -> OccupancyMap:
-    """What a perfect survey of a world at a height gives.
+    """Return the map that a perfect survey of a world at a height would give.
 
     A cell is occupied where some solid has a part of it, insides of walls and furniture too; all
     others are free. Robots are left out: models with plugins or sensors that can move.
@@ -59,7 +59,7 @@ def true_map(
 
 
 def _parts(world: World, height: float) -> Iterator[list[PlanarPart]]:
-    """What stands at a height, one list for each collision, in the frame of the world."""
+    """Yield the parts of solids at a height, one list for each collision, in the world frame."""
     levels = Levels((height,), height, height)
     for model in world.models:
         if not _moves(model):
@@ -73,7 +73,7 @@ def _parts(world: World, height: float) -> Iterator[list[PlanarPart]]:
 
 
 def _moves(model: Model) -> bool:
-    """Whether it is a robot, not a thing."""
+    """Return whether a model is a robot, not an object."""
     return not model.static and bool(model.plugins or any(link.sensors for link in model.links))
 
 
@@ -147,7 +147,7 @@ def _stamp(occupied: Bools, edges: Floats) -> None:
 
 
 def _taken(occupied: Bools, points: Floats) -> Bools:
-    """Whether points, in cells, are in occupied ones, shape (n,)."""
+    """Return whether points, in cells, are in occupied ones, shape (n,)."""
     cells = np.floor(points).astype(int)
     limit = np.array(occupied.shape[::-1])
     inside = ((cells >= 0) & (cells < limit)).all(axis=1)

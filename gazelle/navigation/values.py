@@ -9,7 +9,7 @@ from gazelle.array_types import Floats
 
 @dataclass(frozen=True, slots=True)
 class GoalPose:
-    """Where to go.
+    """Goal pose.
 
     Attributes:
         x: [m].

@@ -83,23 +83,23 @@ class WorldPilot:
 
     @property
     def goal(self) -> Pose2 | None:
-        """Where it goes: x, y and heading [m, rad]."""
+        """Goal pose: x, y and heading [m, rad]; None without one."""
         return self._stack.move_base.goal if self._put_off is None else self._put_off
 
     @property
     def busy(self) -> bool:
-        """Whether it has a goal, or explores."""
+        """True if it has a goal, or explores."""
         return self.goal is not None or self._exploration is not None
 
     @property
     def makes_way(self) -> bool:
-        """Whether it makes way for others: not if it makes its map, whose frame is its own."""
+        """True if it makes way for others: not if it makes its map, whose frame is its own."""
         explores = self._exploration is not None or isinstance(self._localizer, LiveMap)
         return self.right_of_way.enabled and not explores
 
     @property
     def body(self) -> RobotDisc | None:
-        """Where it was in its last cycle; None before."""
+        """Footprint at the pose of its last cycle; None before."""
         if self._pose is None:
             return None
         costmap = self._stack.whole.costmap
@@ -221,7 +221,7 @@ class WorldPilot:
         return step.velocity
 
     def _is_aside(self, pose: Pose2) -> bool:
-        """Whether it is where it was told to step aside to; it need not turn there."""
+        """Return whether it has reached its refuge; its heading there does not matter."""
         refuge = self._refuge
         if refuge is not None and not self.aside:
             self.aside = math.dist(refuge[:2], pose[:2]) < _ASIDE
@@ -230,7 +230,7 @@ class WorldPilot:
         return self.aside
 
     def _explored(self, exploration: WorldExploration, time: float, pose: Pose2) -> bool:
-        """Whether nothing is left to explore; it stands then."""
+        """Return whether nothing is left to explore; if so, the robot stops."""
         law, grid = self._stack.move_base, self.grid
         if grid is None or not exploration.step(time, pose, grid, law):
             return False
@@ -241,7 +241,7 @@ class WorldPilot:
     def _place(
         self, time: float, true: Pose2, odom: Pose2, scan: PlanarScan, *, fresh: bool
     ) -> tuple[Pose2, Pose2]:
-        """Where the robot is on the map and in the local costmap's frame."""
+        """Return the robot's pose on the map and in the local costmap's frame."""
         localizer = self._localizer
         if localizer is None:
             return true, true

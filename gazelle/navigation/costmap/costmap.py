@@ -18,7 +18,7 @@ _MOST_CELLS = 16_384
 
 
 class Layer(ABC):
-    """What one kind of knowledge says about the cells.
+    """Layer of a costmap: one source of knowledge about the cells.
 
     Attributes:
         name: Within the costmap.
@@ -109,7 +109,7 @@ class Costmap:
 
     @property
     def default(self) -> int:
-        """What cells cost that nothing is known of."""
+        """Cost of unknown cells."""
         return NO_INFORMATION if self.track_unknown else FREE_SPACE
 
     def resize(

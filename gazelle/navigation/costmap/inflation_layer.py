@@ -83,7 +83,7 @@ class InflationLayer(Layer):
         self._all = True
 
     def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:
-        """What is next to what has changed changes, too."""
+        """Grow the changed region by the inflation radius."""
         del pose
         if self._all:
             rows, columns = costmap.cells.shape

@@ -24,7 +24,7 @@ from gazelle.navigation.following import Pose2
 
 @dataclass(frozen=True, slots=True)
 class Observation:
-    """What a sensor saw once.
+    """Sensor reading at one time.
 
     Attributes:
         time: When [s].

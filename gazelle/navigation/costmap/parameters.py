@@ -20,7 +20,7 @@ Values = Mapping[str, Any]
 
 @dataclass(frozen=True, slots=True)
 class SensorTopic:
-    """Where what a sensor sees comes from.
+    """Topic of a sensor that feeds a layer.
 
     Attributes:
         layer: Name of the layer that it is for.

@@ -52,7 +52,7 @@ class StaticLayer(Layer):
 
     @property
     def current(self) -> bool:
-        """Whether there is a map."""
+        """True once there is a map."""
         return self._map is not None
 
     def set_map(self, grid: OccupancyMap, costmap: Costmap) -> None:

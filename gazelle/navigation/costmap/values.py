@@ -1,4 +1,4 @@
-"""What numbers on a costmap mean, and how they are shown."""
+"""Values of a costmap and their form in messages."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ def _clear(
 @cython.cfunc
 @cython.exceptval(check=False)
 def _bits(value: cython.int) -> cython.int:
-    """How many bits are set."""
+    """Count the bits that are set."""
     count: cython.int = 0
     while value != 0:
         value = value & (value - 1)

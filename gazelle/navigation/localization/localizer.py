@@ -1,4 +1,4 @@
-"""Where a robot is on a map, by its odometry and its laser: what ``amcl`` does."""
+"""Localization on a map by odometry and laser, as in ``amcl``."""
 
 from __future__ import annotations
 

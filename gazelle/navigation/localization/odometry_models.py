@@ -1,4 +1,4 @@
-"""How particles move with what odometry says: four models, as ``amcl`` has them.
+"""Motion models of particles: four models of odometry noise, as in ``amcl``.
 
 Models: Thrun, Burgard and Fox, "Probabilistic Robotics", 2005, section 5.4; the variants
 ``-corrected`` take the variance, not the deviation, of what the text says.

@@ -1,4 +1,4 @@
-"""Where a robot may be, as particles: weighing, resampling and what they agree on.
+"""Particle filter of a robot's pose: weighting, resampling and the estimate.
 
 Method: adaptive particle numbers by the Kullback-Leibler distance (D. Fox, "Adapting the sample size
 in particle filters through KLD-sampling", 2003), and random particles when scans fit worse than
@@ -23,7 +23,7 @@ _TURN = math.radians(10.0)
 
 @dataclass(frozen=True, slots=True)
 class PoseEstimate:
-    """What particles agree on.
+    """Pose estimate of a particle filter.
 
     Attributes:
         pose: Mean of the heaviest cluster: x, y [m] and heading [rad], shape (3,).
@@ -107,7 +107,7 @@ class ParticleFilter:
         self.weights = self.weights / total
 
     def effective(self) -> float:
-        """How many particles of equal weight would tell as much."""
+        """Return the effective number of particles."""
         return float(1.0 / (self.weights**2).sum())
 
     def resample(self, anywhere: Callable[[int], Floats]) -> None:
@@ -139,7 +139,7 @@ class ParticleFilter:
         self.converged = bool(off.max() <= _CONVERGED)
 
     def needed(self, bins: Indices) -> Floats:
-        """How many particles so many occupied bins need, between least and most."""
+        """Return the number of particles that this many occupied bins need, between least and most."""
         k = np.maximum(np.asarray(bins, np.float64) - 1.0, 1e-9)
         share = 2.0 / (9.0 * k)
         x = 1.0 - share + np.sqrt(share) * self.quantile
@@ -148,7 +148,7 @@ class ParticleFilter:
         return np.where(np.asarray(bins) <= 1, float(self.most), bounded)
 
     def estimate(self) -> PoseEstimate:
-        """What they agree on: the mean of the heaviest cluster."""
+        """Return the estimate: the mean of the heaviest cluster."""
         labels = PoseBins(self.poses, _SIDE, _TURN).clusters()
         heaviest = int(np.bincount(labels, self.weights).argmax())
         own = np.where(labels == heaviest, self.weights, 0.0)

@@ -37,11 +37,11 @@ class PoseBins:
 
     @property
     def count(self) -> int:
-        """How many bins there are."""
+        """Number of occupied bins."""
         return int(self._count)
 
     def counts(self) -> Indices:
-        """How many bins the first pose, the first two, ... are in, shape (n,)."""
+        """Return the number of bins of the first pose, the first two, ..., shape (n,)."""
         # Bins are numbered as they come.
         highest: Indices = np.maximum.accumulate(np.asarray(self._bins)) + 1
         return highest
@@ -77,7 +77,7 @@ class PoseBins:
     def _slot(
         self, x: cython.longlong, y: cython.longlong, heading: cython.longlong
     ) -> cython.Py_ssize_t:
-        """Where a bin stands in the table, or would stand."""
+        """Return the index of a bin in the hash table, or of the free slot for it."""
         mask: cython.Py_ssize_t = self._slots.shape[0] - 1
         # Neighbours come apart; three primes without meaning.
         slot: cython.Py_ssize_t = (x * 73856093 ^ y * 19349663 ^ heading * 83492791) & mask

@@ -1,4 +1,4 @@
-"""How likely a scan is at many poses on a map.
+"""Likelihood of a scan at many poses on a map.
 
 The models are those of Thrun, Burgard and Fox, "Probabilistic Robotics", 2005, chapter 6, mixed
 over beams as ``amcl`` does it: by the sum of cubes.
@@ -19,7 +19,7 @@ if not cython.compiled:
 
 @cython.cclass
 class LikelihoodField:
-    """How well what a beam ends on fits the map, by the distance to the nearest obstacle there.
+    """Likelihood of beams' ends, by the distance to the nearest obstacle on the map.
 
     Args:
         terms: What a beam's end in each cell adds, shape (rows, columns).
@@ -125,7 +125,7 @@ class LikelihoodField:
     def _place(
         self, poses: cython.double[:, ::1], first: cython.Py_ssize_t, block: cython.p_double
     ) -> cython.void:
-        """Where some robots are and how they are turned, in cells; the last one stands in for none."""
+        """Fill a block with robots' positions and headings, in cells; pad it with the last robot."""
         k: cython.int
         scale: cython.double = 1.0 / self._cell
         for k in range(LANES):
@@ -165,7 +165,7 @@ class LikelihoodField:
 
 @cython.cclass
 class BeamModel:
-    """How well ranges fit those that a ray on the map would have.
+    """Likelihood of ranges, compared with those that rays on the map would have.
 
     Args:
         occupied: Not 0 where a ray ends: at obstacles and at what is unknown, shape (rows, columns).
@@ -211,7 +211,7 @@ class BeamModel:
         return result
 
     def range_at(self, x: float, y: float, heading: float, most: float) -> float:
-        """How far a ray goes on the map [m]."""
+        """Return the range of a ray on the map [m]."""
         return float(self._range(x, y, heading, most))
 
     @cython.cfunc

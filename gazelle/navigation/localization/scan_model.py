@@ -1,4 +1,4 @@
-"""How well a scan of a laser fits a map at many poses: the three models of ``amcl``."""
+"""Likelihood of a laser scan at many poses on a map: the three models of ``amcl``."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from gazelle.navigation.localization.settings import AmclSettings
 
 @dataclass(frozen=True, slots=True)
 class PlanarScan:
-    """What a laser saw.
+    """Planar laser scan.
 
     Attributes:
         ranges: [m], shape (n,); infinite or NaN for nothing.
@@ -47,7 +47,7 @@ class ScanModel:
         self._field: tuple[float, LikelihoodField] | None = None
 
     def scores(self, poses: Floats, scan: PlanarScan, *, converged: bool = False) -> Floats:
-        """What weights are to be multiplied with, up to a common factor, shape (n,).
+        """Return the factors of the weights, up to a common factor, shape (n,).
 
         Args:
             poses: x, y [m] and heading [rad] of the robot, shape (n, 3).
@@ -87,7 +87,7 @@ class ScanModel:
     def _expected(
         self, field: LikelihoodField, poses: Floats, points: Floats, most: float
     ) -> Bools:
-        """Which beams to use, shape (m,): those that enough poses find an obstacle near."""
+        """Return a mask of the beams to use, shape (m,): near an obstacle at enough poses."""
         s = self.settings
         near = field.count_above(poses, points, float(self._term(s.beam_skip_distance, most)))
         used: Bools = near / len(poses) > s.beam_skip_threshold
@@ -98,7 +98,7 @@ class ScanModel:
         return used
 
     def _term(self, distance: Any, most: float) -> Any:
-        """What an end of a beam so far from an obstacle adds [m]."""
+        """Return the term of a beam's end at this distance [m] from an obstacle."""
         s = self.settings
         p = s.laser_z_hit * np.exp(-(distance**2) / (2.0 * s.laser_sigma_hit**2))
         p = p + s.laser_z_rand / most

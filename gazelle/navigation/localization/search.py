@@ -1,4 +1,4 @@
-"""Where a robot may be of which nothing is known but its scan."""
+"""Global localization: candidate poses of a robot from its scan alone."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SHARE = 0.2
 
 
 def count_for(area: float) -> int:
-    """How many poses to try on so much free ground [m²]."""
+    """Return the number of poses to try on this much free ground [m²]."""
     return int(min(area / _SIDE**2 * 2.0 * math.pi / _TURN, _MOST)) + 1
 
 

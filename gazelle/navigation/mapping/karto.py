@@ -144,7 +144,7 @@ class KartoSlam:
     def _match(
         self, frame: _Keyframe, pose: Pose2, others: Sequence[int], kernel: int = 1
     ) -> tuple[Pose2, float]:
-        """Where a scan fits others, and the share of its beams that do."""
+        """Match a scan to others; return its pose and the share of its beams that fit."""
         if not len(frame.beams) or not others:
             return pose, 0.0
         maps = self._draw(others)

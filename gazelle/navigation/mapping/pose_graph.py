@@ -18,7 +18,7 @@ _ROUNDS, _STILL = 10, 1e-6
 
 @dataclass(frozen=True, slots=True)
 class PoseEdge:
-    """What is known of two poses.
+    """Constraint between two poses.
 
     Attributes:
         first: Number of one.

@@ -1,4 +1,4 @@
-"""Where a scan fits a map: hill climbing as ``gmapping`` does it, then sliding along surfaces.
+"""Scan matching on a map: hill climbing as in ``gmapping``, then alignment along surfaces.
 
 The climb: G. Grisetti, C. Stachniss and W. Burgard, "Improved techniques for grid mapping with
 Rao-Blackwellized particle filters", 2007. It counts distances to single ends of earlier beams, and so is
@@ -127,7 +127,7 @@ class ScanMatcher:
         heading: cython.double,
         beams: cython.double[:, ::1],
     ) -> cython.double:
-        """How well ends of beams fit; the likelihood is left in an attribute."""
+        """Score the fit of beams' ends; the likelihood is stored in an attribute."""
         c: cython.double = cos(heading)
         s: cython.double = sin(heading)
         total: cython.double = 0.0
@@ -182,7 +182,7 @@ class ScanMatcher:
         back_x: cython.int,
         back_y: cython.int,
     ) -> cython.Py_ssize_t:
-        """Where a cell is in the pool; -1 if it is not full, or none that the laser can see."""
+        """Return the index of a cell in the pool; -1 if it is not full, or invisible to the laser."""
         maps: TiledMaps = self._maps
         at: cython.Py_ssize_t = maps.find(particle, column, row)
         if at < 0:

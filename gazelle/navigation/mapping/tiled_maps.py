@@ -73,7 +73,7 @@ class TiledMaps:
     @cython.cfunc
     @cython.exceptval(check=False)
     def find(self, particle: cython.int, column: cython.int, row: cython.int) -> cython.Py_ssize_t:
-        """Where a cell is in the pool; -1 if nothing is known there."""
+        """Return the index of a cell in the pool; -1 if nothing is known there."""
         if column < 0 or row < 0 or column >= self._columns * 32 or row >= self._rows * 32:
             return -1
         tile: cython.int = self._tables[particle, row // 32 * self._columns + column // 32]

@@ -1,4 +1,4 @@
-"""What to do when there is no way on: forget obstacles, or look around."""
+"""Recovery behaviours for when there is no way on: clear obstacles, or rotate."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ class RotateRecovery(RecoveryBehavior):
         return float(value_of(values, key, default))
 
     def _has_room(self, pose: Pose2) -> bool:
-        """Whether it hits nothing in what is left to turn."""
+        """Return whether the rest of the turn is free of collisions."""
         costs = self.local.cells
         rollout = TrajectoryRollout(
             costs,

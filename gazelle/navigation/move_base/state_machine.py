@@ -1,4 +1,4 @@
-"""What ``move_base`` does with a goal: plan, follow, recover, until it is reached or given up.
+"""State machine of ``move_base``: plan, follow and recover until a goal is reached or given up.
 
 All in one thread and by a given time: for a node that is the graph's, for robots in a simulation
 the simulated one.
@@ -35,7 +35,7 @@ NOT_PASSED = "Failed to pass global plan to the controller."
 
 
 class Phase(enum.Enum):
-    """What it is doing."""
+    """State of `MoveBase`."""
 
     IDLE = "idle"
     PLANNING = "planning"
@@ -44,7 +44,7 @@ class Phase(enum.Enum):
 
 
 class GoalOutcome(enum.Enum):
-    """How a goal ended."""
+    """Outcome of a goal."""
 
     SUCCEEDED = "succeeded"
     ABORTED = "aborted"
@@ -60,7 +60,7 @@ class _Trigger(enum.Enum):
 
 @dataclass(frozen=True, slots=True)
 class RobotState:
-    """Where a robot is.
+    """Pose and velocity of a robot.
 
     Attributes:
         in_whole: Pose in the global costmap's frame.
@@ -75,7 +75,7 @@ class RobotState:
 
 @dataclass(frozen=True, slots=True)
 class MoveStep:
-    """What to do now.
+    """Result of one control cycle.
 
     Attributes:
         velocity: To have; None if it is not to be changed.

@@ -112,11 +112,11 @@ class DwaPlanner(PlanFollower):
         return float(chosen[0]), float(chosen[1]), float(chosen[2])
 
     def goal_reached(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> bool:
-        """Whether the robot stands at the goal."""
+        """Return whether the robot stands at the goal."""
         return self.has_plan and self._stop.reached(pose, velocity, self.goal(to_local))
 
     def _rollout(self, pose: Pose2, plan: Floats, goal: Pose2) -> TrajectoryRollout:
-        """What to judge commands with: the distances to plan and goal."""
+        """Prepare the scoring of commands: the distances to plan and goal."""
         s, cell = self.settings, self.costmap.resolution
         ahead = s.forward_point_distance
         cells = self.cells_of(plan)
@@ -174,7 +174,7 @@ class DwaPlanner(PlanFollower):
     def _fits(
         self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, wanted: Floats
     ) -> bool:
-        """Whether a command hits nothing; one that is hardly any motion does not, as in the original."""
+        """Return whether a command hits nothing; negligible motion is allowed, as in the original."""
         cost = self._score(rollout, pose, velocity, wanted)[0]
         return bool(cost >= 0.0 or cost == NO_MOTION)
 

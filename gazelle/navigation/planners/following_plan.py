@@ -1,4 +1,4 @@
-"""What local planners share: the part of a plan that is in the local window."""
+"""Base of local planners: the part of a plan that is in the local window."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class PlanFollower(LocalPlannerPlugin):
 
     @property
     def has_plan(self) -> bool:
-        """Whether there is a plan."""
+        """True if there is a plan."""
         return len(self._plan) > 0
 
     def set_plan(self, plan: Floats) -> bool:

@@ -24,7 +24,7 @@ NO_PLAN: Final[Floats] = np.zeros((0, 3))
 
 
 class PotentialPlanner(GlobalPlannerPlugin):
-    """What planners share that go down a potential.
+    """Base of planners that descend a potential.
 
     The potential spreads from the robot, so that goals nearby can be looked at if one cannot be
     reached.
@@ -39,7 +39,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
         self._field: PotentialField | None = None
 
     def prices(self) -> Floats32:
-        """What the length of a cell costs, by its cost; 0 where it is closed; shape (256,)."""
+        """Return the price of crossing a cell, by its cost; 0 where it is closed; shape (256,)."""
         table = _NEUTRAL + _FACTOR * np.arange(256, dtype=np.float32)
         table[INSCRIBED:] = 0.0
         table[NO_INFORMATION] = _UNKNOWN if self.allow_unknown else 0.0

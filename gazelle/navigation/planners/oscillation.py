@@ -35,7 +35,7 @@ class OscillationGuard:
         self._pose: Pose2 = (0.0, 0.0, 0.0)
 
     def forbidden(self, commands: Floats) -> Bools:
-        """Which commands it may not have, shape (n,)."""
+        """Return a mask of the commands that are forbidden, shape (n,)."""
         found = np.zeros(len(commands), np.bool_)
         for axis, only in enumerate(self._only):
             if only:

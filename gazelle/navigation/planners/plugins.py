@@ -1,4 +1,4 @@
-"""What a planner is, and where a type's name leads: built-in ones, and those of others.
+"""Protocols of planners, and lookup of a planner by its type's name: built-in or the user's own.
 
 Own planners are named as ``module:Class`` (``base_local_planner: my_package.planners:Mine``), or are
 registered by the name of their type in this process (`register_global`, `register_local`).
@@ -84,7 +84,7 @@ class LocalPlannerPlugin(ABC):
 
     @abstractmethod
     def goal_reached(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> bool:
-        """Whether the end of the plan is reached, and the robot stands."""
+        """Return whether the end of the plan is reached, and the robot stands."""
 
 
 MakeGlobal = Callable[[str, Costmap, Values], GlobalPlannerPlugin]

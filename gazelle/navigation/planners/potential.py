@@ -1,4 +1,4 @@
-"""How dear it is to get from one cell to all others, and the way down from any of them.
+"""Potential of a grid: the cost from one cell to all others, and descent from any of them.
 
 The potential obeys the eikonal equation: its slope is the price of the cell. Method: each cell from
 its lower neighbours along x and y (J. Sethian, "A fast marching level set method", 1996), cells in
@@ -278,7 +278,7 @@ class PotentialField:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _open(self, n: cython.int) -> cython.bint:
-        """Whether all cells around one have a potential, so that slopes mean something."""
+        """Return whether all cells around one have a potential, so that its slope is defined."""
         row: cython.int
         column: cython.int
         for row in range(-1, 2):

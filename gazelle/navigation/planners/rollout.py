@@ -24,7 +24,7 @@ NO_MOTION = -10.0
 
 @cython.cclass
 class TrajectoryRollout:
-    """What is around, and how to judge commands in it.
+    """Scoring of commands by simulating them over a costmap.
 
     Args:
         costs: Of a costmap, shape (rows, columns).
@@ -175,7 +175,7 @@ class TrajectoryRollout:
         obstacle: cython.double,
         turn: cython.double,
     ) -> cython.double:
-        """What the end of a command costs."""
+        """Return the cost of the final pose of a command."""
         weights = self._weights
         column: cython.int = cython.cast(
             cython.int, floor((x + self._ahead * c - self._x0) / self._cell)
@@ -280,7 +280,7 @@ class TrajectoryRollout:
         return float(self._stands(x, y, cos(heading), sin(heading), column, row))
 
     def can_turn(self, pose: tuple[float, float, float], angle: float, step: float) -> bool:
-        """Whether the robot hits nothing while it turns on the spot.
+        """Return whether the robot can turn on the spot without a collision.
 
         Args:
             pose: x, y [m] and heading [rad].
@@ -304,7 +304,7 @@ def _toward(now: cython.double, wanted: cython.double, most: cython.double) -> c
 
 
 def _clear_of(costs: Bytes, footprint: Floats, resolution: float) -> Bytes:
-    """Where the robot hits nothing, whatever its heading, shape (rows, columns)."""
+    """Return a mask of cells free of collisions at any heading, shape (rows, columns)."""
     corners = np.asarray(footprint, np.float64).reshape(-1, 2)
     reach = float(np.hypot(corners[:, 0], corners[:, 1]).max()) if len(corners) else 0.0
     # What is off the map is hit, too.

@@ -27,7 +27,7 @@ _OLD_NAMES = {
 
 @dataclass(frozen=True, slots=True)
 class VelocityLimits:
-    """What a base can do, and when it has arrived; names and defaults are those of ROS."""
+    """Velocity limits and goal tolerances of a base; names and defaults are those of ROS."""
 
     max_vel_trans: float = 0.55
     min_vel_trans: float = 0.1
@@ -79,7 +79,7 @@ class StopRotate:
         self._latched = False
 
     def at_position(self, pose: Pose2, goal: Pose2) -> bool:
-        """Whether the place of the goal is reached."""
+        """Return whether the position of the goal is reached."""
         near = math.hypot(goal[0] - pose[0], goal[1] - pose[1]) <= self.limits.xy_goal_tolerance
         if near and self.limits.latch_xy_goal_tolerance:
             self._latched = True
@@ -88,7 +88,7 @@ class StopRotate:
         return near or self._latched
 
     def reached(self, pose: Pose2, velocity: Velocity, goal: Pose2) -> bool:
-        """Whether place and heading are reached, and the robot stands."""
+        """Return whether position and heading are reached, and the robot stands."""
         turned = abs(wrapped(goal[2] - pose[2])) <= self.limits.yaw_goal_tolerance
         return self.at_position(pose, goal) and turned and self._stands(velocity)
 

@@ -90,7 +90,7 @@ class TrajectoryPlanner(PlanFollower):
         return super().set_plan(plan)
 
     def goal_reached(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> bool:
-        """Whether the robot stands at the goal."""
+        """Return whether the robot stands at the goal."""
         return self.has_plan and self._stop.reached(pose, velocity, self.goal(to_local))
 
     def command(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> Velocity | None:
@@ -117,7 +117,7 @@ class TrajectoryPlanner(PlanFollower):
         return float(chosen[0]), float(chosen[1]), float(chosen[2])
 
     def _rollout(self, plan: Floats) -> tuple[TrajectoryRollout, Any]:
-        """What to judge commands with, and the distances to the goal."""
+        """Prepare the scoring of commands; return it with the distances to the goal."""
         s, costs = self.settings, self.costmap.cells
         cells = self.cells_of(plan)
         path, goal = grid_distances(costs, cells), grid_distances(costs, cells[-1:])
