@@ -87,7 +87,7 @@ def check(
 
 
 def is_semantic(file: Path) -> bool:
-    """Whether a file is an SRDF: by its name, or an ``.xml`` by what is in it."""
+    """Return whether a file is an SRDF: by its name, or an ``.xml`` by its content."""
     if any(suffix.lower() == ".srdf" for suffix in file.suffixes):
         return True
     try:

@@ -144,7 +144,7 @@ def _piece(
 
 
 def _uv(triangles: Any) -> NDArray[np.float64] | None:
-    """Where in a picture the corners are, shape (m, 3, 2)."""
+    """Return the texture coordinates of the corners, shape (m, 3, 2); None without any."""
     if not triangles.texcoordset or not len(triangles.texcoordset[0]):
         return None
     places = np.asarray(triangles.texcoordset[0], np.float64)[:, :2]

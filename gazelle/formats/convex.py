@@ -187,7 +187,7 @@ def _volumes(surface: WeldedSurface, number: NDArray[np.intp]) -> Floats:
 
 
 def _convex_parts(surface: WeldedSurface, number: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Whether each part is bent one way only along all of its edges.
+    """Return a mask of the parts whose edges all bend the same way.
 
     A closed surface that is, is convex (Van Heijenoort, "On locally convex manifolds",
     Communications on Pure and Applied Mathematics 5, 1952).
@@ -223,7 +223,7 @@ def _cavities(
 
 
 def _is_convex(surface: WeldedSurface, tolerance: float) -> bool:
-    """Whether nothing of the surface lies deeper in its hull than this; too much to tell: no."""
+    """Return whether the surface is nowhere deeper in its hull than this; no if too large to test."""
     if len(surface.vertices) > _MOST_CORNERS:
         return False
     _, first = np.unique(surface.faces, return_index=True)
@@ -253,7 +253,7 @@ def _below(surface: WeldedSurface, hull: Hull, points: Floats, ways: Floats) -> 
 
 
 def _is_deep(hull: Hull, points: Floats, tolerance: float) -> bool:
-    """Whether a point lies deeper in a hull than this."""
+    """Return whether a point lies deeper in a hull than this."""
     start, rows = 0, _FIRST_LOOK
     while start < len(points):
         if float(hull.depth(points[start : start + rows]).max()) > tolerance:

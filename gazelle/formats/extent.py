@@ -39,7 +39,7 @@ def given(*lengths: float) -> tuple[float, ...]:
 
 
 def lengths(shape: Primitive) -> tuple[float, ...]:
-    """What to write of a shape: what was given, as long as the present lengths follow from it."""
+    """Return the lengths to write: those given, as long as the present ones follow from them."""
     present = _present(shape)
     follows = len(shape.given) == len(present) and tuple(map(_taken, shape.given)) == present
     return shape.given if follows else present

@@ -54,7 +54,7 @@ class Rims:
 
     @property
     def rows(self) -> Indices:
-        """Which polygon each corner belongs to, shape (n,)."""
+        """Index of the polygon that each corner belongs to, shape (n,)."""
         return np.repeat(np.arange(len(self.sizes)), self.sizes)
 
 
@@ -133,7 +133,7 @@ class Polygons:
             waiting = waiting[~woken]
 
     def rims(self) -> Rims:
-        """What there is now; a polygon may have no more than two corners left."""
+        """Return the current polygons; one may have no more than two corners left."""
         faces = np.flatnonzero(self._label == np.arange(len(self._label)))
         number = np.empty(len(self._label), np.intp)
         number[faces] = np.arange(len(faces))
@@ -178,14 +178,14 @@ class Polygons:
         return _Pairs(small, large, first, last, before[first], leave, enter_back, nxt[last])
 
     def _alike(self, pairs: _Pairs) -> Bools:
-        """Whether the polygons look the same way, and none goes all around the other."""
+        """Return whether pairs of polygons face the same way, and neither surrounds the other."""
         normals = self.surface.normals
         along = np.einsum("ij,ij->i", normals[pairs.small], normals[pairs.large])
         around = (pairs.enter == pairs.last) | (pairs.leave == self._twin[pairs.last])
         return np.asarray((along >= _COSINE) & ~around)
 
     def _kinds(self, edges: Indices) -> tuple[Bools, Bools]:
-        """Which edges are the longest of both triangles, and which run one way in their planes."""
+        """Return masks of edges: longest of both triangles, and running one way in their planes."""
         along = self.surface.vertices[self.surface.faces]
         along = np.roll(along, -1, axis=1) - along
         lengths = np.einsum("ijk,ijk->ij", along, along)
@@ -245,7 +245,7 @@ class Polygons:
         return low[pairs.large], high[pairs.large]
 
     def _notches(self, pairs: _Pairs) -> Floats:
-        """How deep the corners at the ends of seams lie below straight lines past them [m]."""
+        """Return the depth of the corners at the ends of seams below straight lines past them [m]."""
         normals = self.surface.normals[pairs.large]
         return np.maximum(
             self._notch(pairs.enter, pairs.leave, normals),
@@ -253,7 +253,7 @@ class Polygons:
         )
 
     def _notch(self, enter: Indices, leave: Indices, normals: Floats) -> Floats:
-        """How deep each corner lies below the straight line past it [m]; 0 if it stands out."""
+        """Return the depth of each corner below the straight line past it [m]; 0 if it stands out."""
         points, tail = self.surface.vertices, self._tail
         u = points[tail[leave]] - points[tail[enter]]
         v = points[tail[self._next[leave]]] - points[tail[leave]]
@@ -266,7 +266,7 @@ class Polygons:
         return np.where((turn >= 0.0) | straight, 0.0, depth)
 
     def _fills(self, pairs: _Pairs, depth: float) -> Bools:
-        """Whether no corner of joined polygons lies deeper in its hull than this."""
+        """Return whether no corner of joined polygons lies deeper in its hull than this."""
         there, there_rows = self._walk(pairs.leave_back, pairs.first)
         back, back_rows = self._walk(pairs.leave, self._twin[pairs.last])
         edges, rows = np.concatenate([there, back]), np.concatenate([there_rows, back_rows])

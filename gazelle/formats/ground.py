@@ -76,7 +76,7 @@ def ground_of(mesh: MeshData) -> Ground | None:
 
 
 def _one_sided(mesh: MeshData) -> bool:
-    """Whether no two triangles clearly look up and down: a quick look at what needs no more."""
+    """Return whether no two triangles clearly face up and down: a quick first test."""
     (ax, ay), (bx, by), (cx, cy) = (mesh.vertices[mesh.faces[:, i], :2].T for i in range(3))
     up = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
     least = 1e-6 * float(np.abs(up).max())

@@ -33,7 +33,7 @@ class Hull:
     offsets: Floats
 
     def depth(self, points: Floats) -> Floats:
-        """How deep points inside lie below the surface, shape (n,); negative outside."""
+        """Return the depth of points below the surface, shape (n,); negative outside."""
         gaps = self.offsets[:, None] - self.normals @ points.T
         depth: Floats = gaps.min(axis=0)
         return depth

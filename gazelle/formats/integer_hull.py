@@ -118,7 +118,7 @@ class HullBuilder:
                 self.place[i, axis] = cython.cast(cython.longlong, steps)
 
     def height(self, face: int, x: int, y: int, z: int) -> int:
-        """How far a place is in front of a face, in steps by twice its area."""
+        """Return the distance of a position in front of a face, in steps times twice its area."""
         a = self.corner[face, 0]
         return (
             self.normal[face, 0] * (x - self.place[a, 0])
@@ -127,7 +127,7 @@ class HullBuilder:
         )
 
     def sees(self, point: int, face: int) -> bool:
-        """Whether a point is in front of a face."""
+        """Return whether a point is in front of a face."""
         place = self.place
         return self.height(face, place[point, 0], place[point, 1], place[point, 2]) > 0
 
@@ -153,7 +153,7 @@ class HullBuilder:
         return -1
 
     def is_before(self, face: int, x: float, y: float, z: float) -> bool:
-        """Whether a place between those of the grid is in front of a face."""
+        """Return whether a position between the grid's points is in front of a face."""
         a = self.corner[face, 0]
         return (
             self.normal[face, 0] * (x - self.place[a, 0])

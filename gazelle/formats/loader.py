@@ -205,7 +205,7 @@ def _is_other_folder(path: Path) -> bool:
 
 
 def _beside(file: Path) -> str:
-    """What is where a file was looked for."""
+    """Describe the content of the folder in which a file was expected."""
     folder = file.absolute().parent
     if not folder.is_dir():
         return f"there is no folder {folder}"

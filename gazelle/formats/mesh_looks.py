@@ -1,4 +1,4 @@
-"""How the pieces of a mesh file look: a colour, or a picture on them."""
+"""Appearance of the pieces of a mesh file: a colour or a texture."""
 
 from __future__ import annotations
 

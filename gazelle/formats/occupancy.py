@@ -45,7 +45,7 @@ _FLAGS = {"0": False, "1": True, "false": False, "true": True}
 
 @dataclass(frozen=True, slots=True)
 class MapSettings:
-    """What the YAML file says.
+    """Settings in the YAML file.
 
     Attributes:
         image: The picture, as written.

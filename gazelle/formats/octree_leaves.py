@@ -135,7 +135,7 @@ class OctreeWalk:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _is_occupied(self, start: cython.Py_ssize_t) -> cython.bint:
-        """Whether the float32 at a place is a number of at least zero."""
+        """Return whether the float32 at an offset is a number of at least zero."""
         magnitude: cython.uint = self._data[start + 3] & 127
         magnitude = (magnitude << 8) | self._data[start + 2]
         magnitude = (magnitude << 8) | self._data[start + 1]

@@ -23,7 +23,7 @@ _PICTURES = "textures"
 
 @dataclass(frozen=True, slots=True)
 class ScriptMaterial:
-    """What a script says of a surface; None where it says nothing.
+    """Surface appearance given by a script; None for values it does not give.
 
     Attributes:
         ambient: Colour in ambient light.

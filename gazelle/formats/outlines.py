@@ -31,10 +31,10 @@ class Planar:
 
 
 def hull_rows(polygons: Planar) -> Bools:
-    """Which corners those of the hulls are, shape (n,).
+    """Return a mask of the corners of the polygons' hulls, shape (n,).
 
-    A corner that does not stand out of its polygon is none of the hull: such are left out until
-    there is none. That gives hulls where rims do not cross themselves.
+    A corner that does not stand out of its polygon is not on the hull: such corners are left out
+    until there is none. That gives hulls where rims do not cross themselves.
     """
     kept = np.ones(len(polygons.points), bool)
     left = np.arange(len(kept))
@@ -55,7 +55,7 @@ def hull_rows(polygons: Planar) -> Bools:
 
 
 def filled(polygons: Planar, depth: float) -> Bools:
-    """Whether all corners that are none of the hull are no deeper in it than this, shape (k,)."""
+    """Return whether all corners off the hull are no deeper in it than this, shape (k,)."""
     kept = hull_rows(polygons)
     fits = _turns_once(polygons, kept)
     points, rows = polygons.points[kept], polygons.rows[kept]
@@ -79,7 +79,7 @@ def filled(polygons: Planar, depth: float) -> Bools:
 
 
 def _turns_once(polygons: Planar, kept: Bools) -> Bools:
-    """Whether what is kept of each polygon goes around once and has three corners, shape (k,)."""
+    """Return whether kept corners are at least three and go around once, shape (k,)."""
     points, rows = polygons.points[kept], polygons.rows[kept]
     before, after = _neighbours(rows)
     u, v = points - points[before], points[after] - points

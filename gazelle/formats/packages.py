@@ -23,7 +23,7 @@ Listing = tuple[set[str], list[Path]]
 
 @dataclass(slots=True)
 class Index:
-    """What a search below one folder found.
+    """Result of a search below one folder.
 
     Attributes:
         models: Folders of models by name.
@@ -88,13 +88,13 @@ def crawl(root: Path) -> dict[str, Path]:
 
 
 def is_package(folder: Path, name: str) -> bool:
-    """Whether a folder holds the package of that name, and is not to be ignored."""
+    """Return whether a folder holds the package of that name and is not marked to be ignored."""
     ignored = (folder / IGNORED).exists()
     return not ignored and (folder / "package.xml").is_file() and package_name(folder) == name
 
 
 def is_searched(folder: Path) -> bool:
-    """Whether packages below a folder are looked for: it is none, and does not say no."""
+    """Return whether packages are searched below a folder: it is neither a package nor excluded."""
     stops = (IGNORED, NOT_DEEPER, *MANIFESTS)
     return not any((folder / name).exists() for name in stops)
 

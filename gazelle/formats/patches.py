@@ -89,7 +89,7 @@ def thick_patches(joined: Polygons, closed: NDArray[np.bool_]) -> Patches:
 
 
 def _tolerances(size: float, count: int) -> Iterator[tuple[float, int]]:
-    """How far polygons may be off, and how many are needed for that to be allowed."""
+    """Yield tolerances of polygons, each with the polygon count above which it applies."""
     first = (*_FIRST, FINE) if count <= _MANY else (FINE,)
     yield from ((tolerance, _FEW) for tolerance in first if tolerance < 0.01 * size)
     yield from ((FINE * 2.0**power, MOST_PATCHES) for power in range(32))

@@ -1,4 +1,4 @@
-"""What one load carries along: the resolver, where it stands, and what it found wanting."""
+"""State of one load: the resolver, the current position, and problems found."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class Reading:
 
     @property
     def is_plain(self) -> bool:
-        """Whether neither folders to search nor arguments of xacro files were given."""
+        """True if neither search folders nor arguments of xacro files were given."""
         return not self.resolver.paths and not self.xacro_args
 
     def find(self, uri: str, node: Parameters, *, required: bool = True) -> Path | None:
@@ -169,7 +169,7 @@ def grouped(notes: Iterable[Note]) -> list[str]:
 
 
 def _others(notes: list[Note]) -> str:
-    """How many more remarks of a kind there are, and where."""
+    """Return a text with the number and lines of the other remarks of a kind."""
     if not notes:
         return ""
     lines = [str(note.source.line) for note in notes if note.source and note.source.line]

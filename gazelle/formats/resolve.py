@@ -1,4 +1,4 @@
-"""Where the files behind ``model://``, ``package://``, ``file://`` and relative names are.
+"""Resolution of ``model://``, ``package://``, ``file://`` and relative names to files.
 
 For a model the folders given are searched, then those around the file that name it
 directly, then what comes with Gazelle, and last all folders around the file. For a package
@@ -99,7 +99,7 @@ class Resolver:
         return None
 
     def looked_in(self, uri: str) -> str:
-        """Where ``find`` looks for such a URI, for a message."""
+        """Describe where ``find`` searches for such a URI, for a message."""
         if uri.startswith(_NETWORK):
             return "network addresses are never fetched"
         if uri.startswith("package://"):
@@ -125,7 +125,7 @@ class Resolver:
         return self._models[name]
 
     def readable(self, path: Path) -> bool:
-        """Whether the path lies, links followed, below a folder that may be read."""
+        """Return whether the path, links followed, is below a folder that may be read."""
         try:
             real = path.resolve()
         except (OSError, RuntimeError, ValueError):

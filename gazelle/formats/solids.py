@@ -53,7 +53,7 @@ class UnitSolid:
     inertia: Floats
 
     def is_body(self) -> bool:
-        """Whether it has a volume, and all its numbers are finite."""
+        """Return whether it has a volume, and all its numbers are finite."""
         finite = math.isfinite(self.volume) and bool(np.isfinite(self.inertia).all())
         return finite and self.volume > 0.0
 

@@ -93,7 +93,7 @@ def _note_triangle(inertia: Inertia, node: Parameters, reading: Reading) -> None
 
 
 def is_sound(inertial: Inertial) -> bool:
-    """Whether the mass is positive and the inertia positive definite."""
+    """Return whether the mass is positive and the inertia positive definite."""
     return 0.0 < inertial.mass <= HEAVIEST and _is_positive(inertial.inertia)
 
 

@@ -54,7 +54,7 @@ def load_srdf(
     paths: Sequence[PathLike] = (),
     xacro_args: Mapping[str, str] | None = None,
 ) -> Semantics:
-    """What an SRDF file says; one that uses xacro is expanded.
+    """Load an SRDF file; one that uses xacro is expanded.
 
     Args:
         path: The file.
@@ -84,12 +84,12 @@ def read_root(file: Path, reading: Reading) -> Parameters:
 
 
 def is_srdf(root: Parameters) -> bool:
-    """Whether a ``<robot>`` holds what SRDF has, and no link as a URDF does."""
+    """Return whether a ``<robot>`` has elements of SRDF, and no link as a URDF does."""
     return "link" not in root and any(child.tag in _KNOWN for child in root.children)
 
 
 def load_srdf_string(text: str | bytes, *, name: str = "string") -> Semantics:
-    """What SRDF text says, such as the parameter ``robot_description_semantic``.
+    """Load SRDF text, such as the parameter ``robot_description_semantic``.
 
     Raises:
         FormatError: The text cannot be read, or says something that cannot be.
@@ -104,7 +104,7 @@ def load_srdf_string(text: str | bytes, *, name: str = "string") -> Semantics:
 
 
 def read_semantics(root: Parameters, reading: Reading) -> Semantics:
-    """What a ``<robot>`` element of SRDF says.
+    """Read a ``<robot>`` element of SRDF.
 
     Raises:
         FormatError: It says something that cannot be.

@@ -69,7 +69,7 @@ class WeldedSurface:
         return WeldedSurface(self.vertices[used], faces, self.normals[rows], self.areas[rows])
 
     def is_closed(self) -> bool:
-        """Whether each edge belongs to two faces, which run along it in opposite ways."""
+        """Return whether each edge belongs to two faces, which run along it in opposite directions."""
         return bool((self.twins >= 0).all())
 
 
@@ -105,7 +105,7 @@ def _packed(rows: Indices) -> NDArray[np.int64]:
 
 
 def components(surface: WeldedSurface) -> Indices:
-    """Which part each face belongs to, shape (m,); parts hang together by their corners.
+    """Return the index of the connected part of each face, shape (m,); parts share corners.
 
     They are numbered from 0 in the order of their first faces.
     """

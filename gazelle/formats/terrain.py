@@ -114,7 +114,7 @@ def _grey(pixels: Bytes) -> Floats:
 
 
 def _named(shape: Heightmap | Image, read: Callable[[Path], T]) -> T:
-    """What is read of a shape's picture; errors name the place in the description."""
+    """Read the picture of a shape; errors name the place in the description."""
     kind = type(shape).__name__.lower()
     if shape.path is None:
         raise FormatError(f"the picture '{shape.uri}' was not found", source=shape.source)

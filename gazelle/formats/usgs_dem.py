@@ -73,7 +73,7 @@ def _records(data: bytes) -> list[str]:
 
 
 def _resolution(text: str) -> tuple[float, float, float]:
-    """How far its points are apart along x and y, and what one is worth in height."""
+    """Return the spacing of its points along x and y, and the unit of their heights."""
     dx, dy, unit = (_real(text[i : i + 12]) for i in (0, 12, 24))
     if not (dx > 0.0 and dy > 0.0):
         raise ValueError(f"its points are {dx:g} x {dy:g} apart")

@@ -38,7 +38,7 @@ class WavefrontPiece(Protocol):
 
 @dataclass(slots=True)
 class _Painted:
-    """What the file says of the triangles of one object."""
+    """Materials and texture coordinates of the triangles of one object."""
 
     materials: list[str] = field(default_factory=list)
     places: list[tuple[int, int, int]] = field(default_factory=list)

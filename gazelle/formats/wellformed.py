@@ -89,7 +89,7 @@ def well_formed(data: bytes) -> tuple[str, list[tuple[int, str]]] | None:
 
 
 class _Kind(NamedTuple):
-    """What begins with ``<`` and is no tag: how it ends, and how it is put."""
+    """Construct that begins with ``<`` and is no tag: its end, and the function that copies it."""
 
     closing: str
     put: Callable[[_Mending, str, int], None]
@@ -212,7 +212,7 @@ def _attributes(text: str) -> tuple[str, str] | None:
 
 
 def _behind(work: _Mending, at: int) -> None:
-    """What stands behind the root element is left out."""
+    """Leave out and report content after the root element."""
     rest = re.sub(r"<!--.*?-->", "", work.text[at:], flags=re.DOTALL)
     if rest.strip("\x00 \t\r\n"):
         work.fault(

@@ -40,7 +40,7 @@ MAX_INCLUDED = 20
 
 
 class _Made(threading.local):
-    """How many elements macros have made in the expansion that is going on."""
+    """Number of elements that macros have made in the current expansion."""
 
     count = 0
 
@@ -58,7 +58,7 @@ class _Children(NodeList[Any]):
     __slots__ = ("_near",)
 
     def index(self, value: Any, *between: Any) -> int:
-        """Where a child is."""
+        """Return the index of a child."""
         near: int = getattr(self, "_near", 0)
         if not between:
             for at in (near, near + 1):

@@ -1,4 +1,4 @@
-"""What to do about the commonest mistakes in xacro files."""
+"""Hints for the most common mistakes in xacro files."""
 
 from __future__ import annotations
 

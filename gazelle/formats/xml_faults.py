@@ -1,4 +1,4 @@
-"""What is wrong with text that is not well-formed XML, for one who wrote it by hand.
+"""Explanations of text that is not well-formed XML, for those who write it by hand.
 
 Expat names what it met and where; this says which element is open there, since which line, and
 what to write.
@@ -40,7 +40,7 @@ class Opened:
 
 
 def explained(code: int, data: bytes, at: int, opened: Sequence[Opened]) -> tuple[str, str | None]:
-    """What to say of a fault, and what to do about it.
+    """Return the message for a fault, and a hint.
 
     Args:
         code: Expat's code.

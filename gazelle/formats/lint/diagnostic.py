@@ -1,4 +1,4 @@
-"""What the linter says about a file."""
+"""Diagnostics of the linter."""
 
 from __future__ import annotations
 

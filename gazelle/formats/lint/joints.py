@@ -47,7 +47,7 @@ def _link_names(model: Model, prefix: str = "") -> set[str]:
 
 
 def _ode_terms(name: str, joint: Joint) -> Iterator[Diagnostic]:
-    """What only ODE's solver needs; a file that depends on it moves otherwise here."""
+    """Yield a diagnostic for terms that only ODE's solver uses."""
     given, usual = joint.physics, JointPhysics()
     terms = [
         term

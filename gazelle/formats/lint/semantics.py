@@ -1,4 +1,4 @@
-"""What an SRDF says of links and joints, judged against the URDF of the robot.
+"""Lint rules for an SRDF, checked against the URDF of the robot.
 
 MoveIt passes over what names nothing, with a line in the log, and plans without it.
 """

@@ -84,7 +84,7 @@ def _inside(name: str, sensor: Sensor, lidar: Lidar, link: Link) -> Iterator[Dia
 
 
 def _reach_from(sensor: Sensor, collision: Collision) -> float | None:
-    """How far a collision that holds the sensor reaches from it, level; None if outside."""
+    """Return the horizontal reach of a collision around the sensor; None if it is outside."""
     place = collision.pose.inverse() * sensor.pose
     x, y, z = place.position
     shape = collision.geometry
@@ -105,7 +105,7 @@ def _reach_from(sensor: Sensor, collision: Collision) -> float | None:
 
 
 def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
-    """How far the mesh around a sensor reaches, level; None where it is open to a side."""
+    """Return the horizontal reach of the mesh around a sensor; None where it is open to a side."""
     from gazelle.formats.mesh import load_mesh
     from gazelle.formats.mujoco_geometry import first_hits
     from gazelle.formats.surface import clean

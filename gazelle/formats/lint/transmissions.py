@@ -36,7 +36,7 @@ def _strangers(model: Model) -> Iterator[Diagnostic]:
 
 
 def _rolls(joint: Joint) -> bool:
-    """Whether nothing says that somebody drives it: it has no end, and no effort."""
+    """Return whether a joint seems passive: it has neither position limits nor an effort limit."""
     return all(
         axis.lower == -math.inf and axis.upper == math.inf == axis.effort for axis in joint.axes
     )

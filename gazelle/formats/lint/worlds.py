@@ -1,4 +1,4 @@
-"""What is wrong with a world as a whole: steps, contacts, names, and things that fall."""
+"""Lint rules for a whole world: steps, contacts, names, and models that fall."""
 
 from __future__ import annotations
 

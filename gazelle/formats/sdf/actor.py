@@ -69,13 +69,13 @@ def _body(node: Parameters) -> Parameters:
 
 
 def _walks(node: Parameters) -> bool:
-    """Whether a plugin leads the actor, which then follows no script."""
+    """Return whether a plugin drives the actor, which then follows no script."""
     files = (plugin.attributes.get("filename", "") for plugin in node.find_all("plugin"))
     return any(_WALKER in file for file in files)
 
 
 def _stance(node: Parameters, factor: float) -> Pose:
-    """Where the feet are in the frame that moves."""
+    """Return the pose of the feet in the moving frame."""
     if _walks(node):
         return Pose(y=-_HIP * factor, roll=-math.pi / 2.0)
     return Pose()

@@ -14,7 +14,7 @@ from gazelle.formats.solids import WATER, UnitSolid, inertial_of, joined, solid_
 
 
 def is_automatic(node: Parameters) -> bool:
-    """Whether an ``<inertial>`` asks to be computed."""
+    """Return whether an ``<inertial>`` is to be computed automatically."""
     text = node.attributes.get("auto", "")
     return bool(text) and values.parse_flag(node, text, "attribute 'auto'")
 

@@ -137,7 +137,7 @@ class Scope:
         return _IDENTITY
 
     def lacks(self, name: str) -> bool:
-        """Whether the name leads into an included model that was not found."""
+        """Return whether the name leads into an included model that was not found."""
         head, _, rest = name.partition("::")
         if not self.missing or head in self.entries:
             return False
@@ -154,7 +154,7 @@ class Scope:
         return rest if separator and head == self.name and head not in self.entries else name
 
     def has(self, name: str) -> bool:
-        """Whether the name leads to a frame of this scope or of a nested model."""
+        """Return whether the name leads to a frame of this scope or of a nested model."""
         name = self.own(name)
         if name in self.entries:
             return True

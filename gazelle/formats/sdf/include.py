@@ -23,7 +23,7 @@ KINDS = ("model", "light", "actor")
 
 @dataclass(frozen=True, slots=True)
 class Included:
-    """What an include brings: the element, and the file and version it comes from."""
+    """Result of an include: the element, and the file and version it comes from."""
 
     node: Parameters
     file: Path

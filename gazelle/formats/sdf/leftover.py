@@ -1,4 +1,4 @@
-"""What of an element no field of a description says, kept so that nothing is lost.
+"""Remainder of an element that no field of a description holds, kept so that nothing is lost.
 
 A pattern names what a reader takes out of an element: ``@name`` for an attribute, a tag for
 a child, with None for a plain value and another pattern for a child that holds more.

@@ -62,7 +62,7 @@ def _color(node: Parameters, tag: str) -> Color | None:
 
 
 def _places(uris: tuple[str, ...], node: Parameters, reading: Reading) -> tuple[Path, ...]:
-    """What of a script's files is there; as of pictures, none is missed."""
+    """Return the files of a script that exist; as with pictures, missing ones are not reported."""
     found = (reading.find(uri, node, required=False) for uri in uris)
     return tuple(path for path in found if path is not None)
 

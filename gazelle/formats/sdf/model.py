@@ -64,7 +64,7 @@ def _content(draft: ModelFrames, reading: Reading) -> Model:
 
 
 def _holds_static(draft: ModelFrames) -> bool:
-    """Whether a model inside is static, and so needs no link."""
+    """Return whether a nested model is static, so that this one needs no link."""
     return any(
         inner.static
         or values.flag(inner.node, "static", default=False)

@@ -74,7 +74,7 @@ def _rename_second(inner: ModelFrames, names: FreeNames, reading: Reading) -> No
 
 
 def missing_names(node: Parameters) -> set[str]:
-    """What an include that was not found may be called; empty stands for any name."""
+    """Return possible names of an include that was not found; empty stands for any name."""
     if is_merge(node):
         return {ANY}
     name = values.word(node, "name")

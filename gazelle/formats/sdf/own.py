@@ -1,4 +1,4 @@
-"""What URDF says and SDF has no words for, in elements of Gazelle's own namespace.
+"""Elements in Gazelle's own namespace for what URDF has and SDF lacks.
 
 SDF lets elements with a prefix stand anywhere; other programs pass over them.
 """
@@ -20,7 +20,7 @@ _WORLD = "world"
 
 
 def fixed_whole(model: Model) -> bool:
-    """Whether fixed joints hold all links of a model to the world, so that nothing can move.
+    """Return whether fixed joints hold all links of a model to the world, so that nothing can move.
 
     Such a robot of URDF is static to Gazelle. SDF's ``<static>`` would say more: of a static model
     Gazebo has no joints.
@@ -33,7 +33,7 @@ def fixed_whole(model: Model) -> bool:
 
 
 def own_static(node: Parameters) -> bool:
-    """Whether a model that joints hold is static."""
+    """Return whether a model held by joints is static."""
     return values.flag(node, STATIC, default=False)
 
 

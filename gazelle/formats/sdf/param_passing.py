@@ -92,7 +92,7 @@ class _Passing:
         )
 
     def _change(self, entry: Parameters, action: str) -> Change:
-        """What an element does to the one that it names."""
+        """Return the change that an element makes to the element it names."""
         if action == "remove":
             return lambda node, _: self._without(node, entry)
         if action == "replace":
@@ -143,7 +143,7 @@ class _Passing:
         return None
 
     def _reached(self, node: Parameters, path: str, tag: str) -> Iterator[Parameters]:
-        """What a path leads to without going into other files."""
+        """Yield the elements that a path leads to without going into other files."""
         for _, child, rest in self._steps(node, path):
             if rest:
                 yield from self._reached(child, rest, tag)

@@ -32,7 +32,7 @@ _SAMPLES, _FEWEST, _MOST = 40, 10, 8000
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Where models go.
+    """Region in which models are placed.
 
     Attributes:
         size: Lengths along x, y, z of a box, or of the box around a cylinder [m].
@@ -44,7 +44,7 @@ class Region:
 
     @property
     def middle(self) -> Floats:
-        """What the pose stands for, seen from where places are counted from [m]."""
+        """Position of the pose, relative to the origin that positions are counted from [m]."""
         return np.zeros(3) if self.round else np.asarray(self.size) / 2.0
 
     def draw(self, chance: np.random.Generator, count: int) -> Floats:

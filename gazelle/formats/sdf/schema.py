@@ -1,4 +1,4 @@
-"""What SDF allows: a walk over a file that finds wrong types, missing and unknown names.
+"""Check against SDF's schema: wrong types, missing and unknown names.
 
 ``schema.json`` is the union of SDF 1.4 to 1.12, written by ``tools/build_sdf_schema.py``.
 """

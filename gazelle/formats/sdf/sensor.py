@@ -43,7 +43,7 @@ def read_sensor(node: Parameters, place: Placer) -> Sensor:
 
 
 def read_settings(node: Parameters, kind: str) -> Parameters:
-    """What of the element has no field of its own."""
+    """Return the settings of the element that have no field of their own."""
     family = FAMILIES.get(kind)
     pattern = {**_COMMON, **({} if family is None else _PATTERNS[family])}
     settings = _with_lidar_tag(leftover(node, pattern), node, kind)

@@ -30,7 +30,7 @@ __all__ = ["SUFFIXES", "is_stage", "load_stage", "read_stage", "scene_of"]
 
 
 def is_stage(data: bytes, suffix: str = "") -> bool:
-    """Whether a file reads like one of Stage's: a word and a value, a body or a definition.
+    """Return whether a file looks like one of Stage's: a word and a value, a body or a definition.
 
     Args:
         data: What is in it.
@@ -44,7 +44,7 @@ def is_stage(data: bytes, suffix: str = "") -> bool:
 def load_stage(
     path: str | os.PathLike[str], *, paths: Sequence[str | os.PathLike[str]] = ()
 ) -> StageWorld:
-    """What a Stage file says, in Stage's vocabulary.
+    """Load a Stage file in Stage's vocabulary.
 
     Args:
         path: The file. Others that it names are looked for from its folder, from theirs, and

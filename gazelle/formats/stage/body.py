@@ -27,7 +27,7 @@ Corner = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class ModelBody:
-    """What a model is made of."""
+    """Body of a model."""
 
     blocks: tuple[StageBlock, ...] = ()
     bitmap: StageBitmap | None = None
@@ -87,7 +87,7 @@ def gripper_body(device: StageGripper, size: StageSize) -> ModelBody:
 
 
 def is_block(entity: Entity) -> bool:
-    """Whether an entity in a model is a part of its body; a macro may be called block too."""
+    """Return whether an entity in a model is a part of its body; a macro may be called block too."""
     return entity.type == "block" or (entity.word == "block" and "points" in entity.properties)
 
 

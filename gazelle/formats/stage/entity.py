@@ -1,4 +1,4 @@
-"""What stands in a Stage file: entities with properties and other entities."""
+"""Entities of a Stage file, with properties and child entities."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Property(NamedTuple):
 
     @property
     def source(self) -> Source:
-        """Where it stands."""
+        """Source location."""
         return self.script.source(self.offset, self.name)
 
     def fail(self, message: str, hint: str | None = None, kind: Kind = FormatError) -> FormatError:
@@ -85,7 +85,7 @@ class Entity:
 
     @property
     def source(self) -> Source:
-        """Where it stands."""
+        """Source location."""
         return self.script.source(self.offset, self.word)
 
     def fail(self, message: str, hint: str | None = None, kind: Kind = FormatError) -> FormatError:

@@ -40,7 +40,7 @@ _BREAK = re.compile(r"\r\n|\r|\n")
 
 
 class TokenKind(IntEnum):
-    """What a token is; the numbers are those of the groups of the pattern."""
+    """Kind of a token; the numbers are those of the groups of the pattern."""
 
     WORD = 1
     NUMBER = 2

@@ -122,7 +122,7 @@ class _Parser:
             raise self._fail(f"more than {MAX_ENTITIES} entities", token)
 
     def _body(self, entity: Entity, depth: int) -> None:
-        """What stands between the parentheses, and the closing one."""
+        """Parse the content of parentheses, and the closing one."""
         if depth > MAX_DEPTH:
             raise entity.fail(f"entities stand more than {MAX_DEPTH} deep in each other")
         while (token := self._next()).kind != TokenKind.CLOSE:
@@ -204,6 +204,6 @@ def find_beside(uri: str, script: Script, reading: Reading, folder: Path | None)
 
 
 def looked(uri: str, reading: Reading) -> str:
-    """Where ``find_beside`` looks, for a message."""
+    """Describe where ``find_beside`` searches, for a message."""
     state = "" if os.environ.get(SEARCH_VARIABLE) else f"; {SEARCH_VARIABLE} is not set"
     return reading.resolver.looked_in(uri) + state

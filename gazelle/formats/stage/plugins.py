@@ -30,7 +30,7 @@ class Names:
         return Parameters("plugin", children=children)
 
     def drive(self, rate: float) -> StagePlugin:
-        """What moves it as ``cmd_vel`` says, and publishes ``odom`` at a rate [Hz]."""
+        """Return the drive plugin: it subscribes ``cmd_vel`` and publishes ``odom`` at a rate [Hz]."""
         return StagePlugin(
             "drive",
             _DRIVE,

@@ -54,7 +54,7 @@ class Properties:
         self._all = self.entity.own if self.own else self.entity.properties
 
     def has(self, name: str) -> bool:
-        """Whether there is one of this name."""
+        """Return whether there is one of this name."""
         return self.get(name) is not None
 
     def get(self, name: str) -> Property | None:

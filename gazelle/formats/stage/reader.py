@@ -1,4 +1,4 @@
-"""What one load of a Stage file carries along."""
+"""State of one load of a Stage file."""
 
 from __future__ import annotations
 

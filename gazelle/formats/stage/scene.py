@@ -339,7 +339,7 @@ def _past(sensor: Sensor, collisions: list[Collision]) -> Sensor:
 
 
 def _reach(pose: Pose, collision: Collision) -> float:
-    """How far a body at the height of a lidar reaches from it [m]; 0 for any other."""
+    """Return the reach of a body at a lidar's height from it [m]; 0 for any other."""
     shape, where = collision.geometry, collision.pose
     if isinstance(shape, Box):
         x, y, z = (length / 2.0 for length in shape.size)

@@ -26,7 +26,7 @@ _IGNORED = (
 
 
 def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWorld:
-    """What a Stage file says.
+    """Read the world of a Stage file.
 
     Args:
         script: The file.

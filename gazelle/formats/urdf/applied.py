@@ -1,4 +1,4 @@
-"""Which ``<gazebo>`` elements count for which collision or visual, and in which order.
+"""Selection and order of the ``<gazebo>`` elements for each collision or visual.
 
 libsdformat goes by names: the elements of a link that others are lumped into count for parts
 that do not bear the mark of a lumped one, those of a lumped link for parts called after it. So

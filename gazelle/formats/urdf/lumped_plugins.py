@@ -75,7 +75,7 @@ def _renamed(
 
 
 def _offset(plugin: Parameters, reduction: Pose) -> Pose:
-    """What the plugin itself says of its offset, else where its own link went."""
+    """Return the plugin's own offset, else the pose its link had in the lumped body."""
     place = reduction
     xyz, rpy = plugin.find("xyzOffset"), plugin.find("rpyOffset")
     if xyz is not None:

@@ -32,7 +32,7 @@ from gazelle.formats.urdf.upright import upright
 
 @dataclass(frozen=True, slots=True)
 class PartReader:
-    """What the parts of a robot are read with.
+    """Context for reading the parts of a robot.
 
     Attributes:
         extensions: The ``<gazebo>`` elements.
@@ -127,7 +127,7 @@ def _visual(
 
 
 def _material(node: Parameters, elements: list[Parameters], robot: PartReader) -> Material | None:
-    """What ``<gazebo>`` says goes before the URDF's own colour, as it does in Gazebo Classic."""
+    """Read a material; ``<gazebo>`` takes precedence over URDF's own colour, as in Gazebo Classic."""
     own = node.find("material")
     paint = Paint()
     if own is not None:

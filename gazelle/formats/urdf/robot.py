@@ -177,7 +177,7 @@ def _link(body: LumpedLink, robot: PartReader) -> Link:
 
 
 def _extras(body: LumpedLink, extensions: Extensions) -> Iterator[Parameters]:
-    """What is kept as it stands; a projector of a lumped link where that link was."""
+    """Yield elements that are kept unchanged; a projector of a lumped link keeps its pose."""
     for member in body.members:
         for child in extensions.of(member.link.name):
             if child.tag not in _LINK_EXTRAS:
@@ -314,5 +314,5 @@ def _draft_parts(nodes: list[Parameters], scope: Scope, reading: Reading) -> lis
 
 
 def _leave_out(node: Parameters, _: tuple[int, int], reading: Reading) -> None:
-    """What an SDF model within a URDF includes."""
+    """Note that an ``<include>`` within a URDF is left out."""
     reading.note("an <include> within a URDF is left out", node)

@@ -1,4 +1,4 @@
-"""What a URDF may hold: a walk that names unknown elements and attributes.
+"""Schema of URDF: a check that names unknown elements and attributes.
 
 The elements are those of urdfdom's parser and of the URDF page of the ROS wiki
 (wiki.ros.org/urdf/XML), and of ``<ros2_control>``. urdfdom passes over all others without a

@@ -174,7 +174,7 @@ def _refuse_loops(
 
 
 def lumps(joint: UrdfJoint, extensions: Extensions) -> bool:
-    """Whether the joint's child becomes part of the parent's body."""
+    """Return whether the joint's child becomes part of the parent's body."""
     if joint.type != "fixed" or joint.parent == WORLD:
         return False
     return not (

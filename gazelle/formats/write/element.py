@@ -158,7 +158,7 @@ class NamedElement(Protocol):
 
     @property
     def source(self) -> Source | None:
-        """Where it comes from."""
+        """Source location."""
 
 
 @contextmanager

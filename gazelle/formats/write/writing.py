@@ -1,4 +1,4 @@
-"""What one save carries along: where the file will be, and what it cannot say."""
+"""State of one save: the folder of the file, and notes on what the format cannot express."""
 
 from __future__ import annotations
 

@@ -121,7 +121,7 @@ def write_visual(visual: Visual, writing: Writing) -> Parameters:
 
 
 def visual_extras(visual: Visual) -> tuple[Parameters | None, ...]:
-    """What a visual has besides its pose, shape and material."""
+    """Return the elements of a visual besides its pose, shape and material."""
     return (
         leaf("cast_shadows", visual.cast_shadows, True),
         leaf("laser_retro", visual.laser_retro, 0.0),
@@ -170,7 +170,7 @@ def _own_colors(material: Material) -> tuple[Color | None, Color | None]:
 
 
 def _script_uris(material: Material) -> tuple[str, ...]:
-    """Where the script is; libsdformat refuses a script of which nobody says so."""
+    """Return the URIs of the script; libsdformat refuses a script without any."""
     uris = material.script_uris
     return (STANDARD,) if material.script and not uris else uris
 

@@ -60,13 +60,13 @@ def write_part(model: Model, writing: Writing) -> Parameters:
 
 
 def _held_by_joints(model: Model) -> bool:
-    """Whether the model is a robot of a URDF, static only since its joints hold all of it."""
+    """Return whether the model is a robot of a URDF, static only since its joints hold all of it."""
     element = (model.source.element if model.source is not None else None) or ""
     return element.startswith("robot") and bool(model.links) and fixed_whole(model)
 
 
 def _is_complete(model: Model) -> bool:
-    """Whether readers take the model: it has a link, or stands."""
+    """Return whether readers accept the model: it has a link, or is static."""
     return any(placed.model.static or placed.model.links for placed in model.walk())
 
 

@@ -131,7 +131,7 @@ def write_scene(scene: Scene) -> Parameters | None:
 
 
 def _extras(world: World) -> list[Parameters]:
-    """What is kept whole, the user's camera put into the ``<gui>``."""
+    """Return the elements that are kept whole, with the user's camera added to the ``<gui>``."""
     if world.camera is None:
         return list(world.extras)
     shown = _gui(world.camera)

@@ -65,7 +65,7 @@ def visuals_of(link: Link) -> list[Visual]:
 
 
 def _has_words(shape: Geometry) -> bool:
-    """Whether URDF can say the shape."""
+    """Return whether URDF can express the shape."""
     return bool(shape.given) if isinstance(shape, Empty) else type(shape) in SHAPES
 
 
@@ -126,7 +126,7 @@ def _terms(collision: Collision) -> tuple[object, ...]:
 
 
 def read_names(link: Link) -> dict[str, str]:
-    """What readers will call each collision of a link."""
+    """Return the name that readers will give each collision of a link."""
     ordered = [(c, group) for group, each in enumerate(surfaces(link)) for c in each]
     names = {}
     for number, (part, group) in enumerate(ordered):
@@ -189,7 +189,7 @@ def _collision(collision: Collision, name: str, shift: Pose, writing: Writing) -
 
 
 def plain_material(material: Material) -> Material:
-    """What of a material URDF's own words can say: one colour and a texture."""
+    """Return the part of a material that URDF can express: one colour and a texture."""
     color = material.urdf_color or material.diffuse or material.ambient
     return Material(ambient=color, diffuse=color, texture=material.texture)
 

@@ -19,7 +19,7 @@ _TYPES = {"continuous", "fixed", "floating", "planar", "prismatic", "revolute"}
 
 @dataclass(slots=True)
 class WrittenTree:
-    """What becomes of links and joints.
+    """Links and joints arranged as URDF's tree.
 
     Attributes:
         links: By name, in order.
