@@ -1,4 +1,4 @@
-"""What time it is for a node: wall time, or simulated time from ``/clock``.
+"""Time of a node: wall time, or simulated time from ``/clock``.
 
 All times are integer nanoseconds. Sleeping and rates behave as rospy's do when simulated
 time stands still or jumps (http://wiki.ros.org/Clock).

@@ -99,7 +99,7 @@ class NoListeningMasterError(MasterUnreachableError, RefusedConnectionError):
 
 
 class NoMasterError(MasterUnreachableError):
-    """What answers, or listens and is silent, is no ROS master."""
+    """Error for a server that answers, or stays silent, but is no ROS master."""
 
 
 class ApiError(RosError):
@@ -179,7 +179,7 @@ def report(what: str, error: BaseException) -> None:
 
 
 def _expected(error: BaseException) -> bool:
-    """Whether an error is ours, and no code of users is on the way to it."""
+    """Return whether an error is ours and was raised without code of users on the stack."""
     frames = traceback.walk_tb(error.__traceback__)
     ours = all(frame.f_code.co_filename.startswith(_HERE) for frame, _ in frames)
     return isinstance(error, RosError) and ours

@@ -1,4 +1,4 @@
-"""What a peer may demand at most; a peer that asks for more is cut off, nobody else notices."""
+"""Limits for peers; one that exceeds them is disconnected, and no other is affected."""
 
 from __future__ import annotations
 

@@ -171,7 +171,7 @@ class EventLoop:
         sock.close()
 
     def watches(self, number: int) -> bool:
-        """Whether a socket with that file descriptor is watched."""
+        """Return whether a socket with that file descriptor is watched."""
         return number in self._watched
 
     def _number(self, sock: socket.socket) -> int:
@@ -218,7 +218,7 @@ class EventLoop:
         # Else another handler of this very round closed it.
 
     def _patience(self) -> float | None:
-        """How long to wait for sockets, in seconds; None for as long as it takes."""
+        """Return the timeout for waiting on sockets [s]; None for no limit."""
         if self._soon or self._stopping:
             return 0.0
         if not self._timers:

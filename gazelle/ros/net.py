@@ -51,7 +51,7 @@ def usable_host(host: str) -> str:
 
 
 def bind_address(host: str) -> str:
-    """Where to listen so that `host` reaches us: loopback for loopback, else everywhere."""
+    """Return the address to listen on so that `host` reaches us: loopback, or all interfaces."""
     if host == "localhost":
         return LOOPBACK
     with contextlib.suppress(ValueError):

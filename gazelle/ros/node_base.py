@@ -1,4 +1,4 @@
-"""What the parts of a node share."""
+"""Common base of the parts of a node."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ _MISSING: Any = object()
 
 
 class ParameterNode(Protocol):
-    """What `NodeParameters` needs of its node."""
+    """Interface of a node that `NodeParameters` needs."""
 
     loop: EventLoop
     master: MasterProxy

@@ -1,4 +1,4 @@
-"""What the system calls this process, for scripts that end it by ``killall gzserver``."""
+"""Name of this process in the system, for scripts that end it by ``killall gzserver``."""
 
 from __future__ import annotations
 

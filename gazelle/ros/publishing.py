@@ -1,4 +1,4 @@
-"""What one node publishes on one topic: links to subscribers, queues, latched message."""
+"""Publication of one node on one topic: links to subscribers, queues, latched message."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PeerHook = Callable[[str], None]
 
 
 class LocalReceiver(Protocol):
-    """What a local link needs of the subscription it belongs to."""
+    """Interface of a subscription that a local link needs."""
 
     node: NodeBase
 
@@ -152,7 +152,7 @@ class Publication:
     # Subscribers come and go; only on the loop's thread -------------------------------------------
 
     def reply_header(self) -> dict[str, str]:
-        """What a subscriber is told."""
+        """Return the header for a subscriber."""
         kind = self.message_class
         return {
             "callerid": self.node.name,
@@ -255,7 +255,7 @@ class Publication:
 
 
 class Publisher:
-    """What `Node.advertise` returns: publishes messages on a topic.
+    """Publisher of messages on a topic, as `Node.advertise` returns it.
 
     Args:
         publication: What it publishes through.

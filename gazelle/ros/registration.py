@@ -28,7 +28,7 @@ def _tell(hook: Callable[[], None]) -> None:
 
 
 class RegisteredNode(Protocol):
-    """What a registrar needs of its node."""
+    """Interface of a node that a registrar needs."""
 
     name: str
     uri: str

@@ -1,4 +1,4 @@
-"""What a node that is not written with rospy has to say, on ``/rosout``: its warnings and its log."""
+"""Log of a node that is not written with rospy, on ``/rosout``: its warnings and log records."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ class RosoutLog(logging.Handler):
 
 
 def _shown_elsewhere(name: str) -> bool:
-    """Whether a logger has another handler than ours."""
+    """Return whether a logger has another handler than ours."""
     logger: logging.Logger | None = logging.getLogger(name)
     while logger is not None:
         if any(not isinstance(each, RosoutLog) for each in logger.handlers):

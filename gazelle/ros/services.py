@@ -38,7 +38,7 @@ _POLL_S = 0.1
 
 
 class ServiceServer:
-    """What `Node.serve` returns: a handler that answers the calls of a service.
+    """Service server, as `Node.serve` returns it: a handler answers the calls.
 
     The handler gets the request and returns a response: an object of the response class, or
     a dict, list or tuple of its fields, or the value of its only field. It may raise; the
@@ -170,7 +170,7 @@ def _text(error: Exception) -> str:
 
 
 def as_message(value: Any, message_class: Any) -> Any:
-    """What a handler returned as a message.
+    """Convert the return value of a handler to a message.
 
     Raises:
         ServiceError: It does not fit the class.
@@ -191,7 +191,7 @@ def as_message(value: Any, message_class: Any) -> Any:
 
 
 class ServiceClient:
-    """What `Node.client` returns: calls a service.
+    """Service client, as `Node.client` returns it.
 
     Args:
         node: Whose it is.

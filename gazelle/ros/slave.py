@@ -1,4 +1,4 @@
-"""What a node can be asked over XML-RPC (http://wiki.ros.org/ROS/Slave_API)."""
+"""API of a node over XML-RPC (http://wiki.ros.org/ROS/Slave_API)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _INPROC = "INTRAPROCESS"
 
 
 class SlaveNode(Protocol):
-    """What the API needs of its node."""
+    """Interface of a node that the API needs."""
 
     name: str
     uri: str
@@ -30,13 +30,13 @@ class SlaveNode(Protocol):
         """All topics published."""
 
     def publication(self, topic: str) -> Publication | None:
-        """What is published on a topic."""
+        """Return the publication on a topic, if any."""
 
     def subscriptions(self) -> list[Subscription]:
         """All topics subscribed to."""
 
     def subscription(self, topic: str) -> Subscription | None:
-        """What is subscribed to on a topic."""
+        """Return the subscription to a topic, if any."""
 
     def asked_to_end(self, caller: str, reason: str) -> None:
         """The master or a tool wants the node to end."""
@@ -86,7 +86,7 @@ class SlaveApi:
         return 1, "", self._node.name
 
     def get_uri(self, _caller: str) -> Triple:
-        """Where the node is asked."""
+        """Return the URI of the node."""
         return 1, "", self._node.uri
 
     def get_master_uri(self, _caller: str) -> Triple:
@@ -157,7 +157,7 @@ class SlaveApi:
         return 1, "", 0
 
     def request_topic(self, _caller: str, topic: str, protocols: Sequence[Any]) -> Triple:
-        """Where a subscriber shall connect to."""
+        """Return the address that a subscriber connects to."""
         if self._node.publication(topic) is None:
             return -1, f"Not a publisher of [{topic}]", []
         for protocol in protocols:

@@ -21,7 +21,7 @@ _UNMEASURED = frozenset({TOPIC, "/clock", "/rosout", "/rosout_agg"})
 
 
 class _Window:
-    """What was measured of one connection since the last report."""
+    """Measurements of one connection since the last report."""
 
     def __init__(self, now: int) -> None:
         self.start = now
@@ -138,5 +138,5 @@ def _set(value: Any, nanoseconds: int) -> None:
 
 
 def message_class() -> Any:
-    """What is published on `TOPIC`."""
+    """Return the class of the messages on `TOPIC`."""
     return load_message("rosgraph_msgs/TopicStatistics")

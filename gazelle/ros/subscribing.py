@@ -1,4 +1,4 @@
-"""What one node subscribes to on one topic: links to publishers, callbacks, queues."""
+"""Subscription of one node to one topic: links to publishers, callbacks, queues."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Neighbour(Protocol):
     """Another node of this process."""
 
     def publication(self, topic: str) -> Publication | None:
-        """What it publishes on a topic."""
+        """Return its publication on a topic, if any."""
 
 
 class Subscription:
@@ -154,7 +154,7 @@ class Subscription:
     # What links need of it -----------------------------------------------------------------
 
     def request_header(self) -> dict[str, str]:
-        """What a publisher is told."""
+        """Return the header for a publisher."""
         kind = self.message_class
         return {
             "callerid": self.node.name,
@@ -223,7 +223,7 @@ class Subscription:
         return message_class is self.message_class
 
     def _forget_oldest(self, link: InboundLink, items: list[Item], limit: int) -> None:
-        """What waited while the callbacks were busy is too old before they see it."""
+        """Drop the oldest messages that waited while callbacks were busy."""
         old = items[:-limit]
         del items[:-limit]
         link.dropped += len(old)
@@ -292,7 +292,7 @@ class Subscription:
 
 
 def _maker(message_class: Any) -> Callable[[], Any]:
-    """What makes a message to be decoded into: our decoders need no defaults to start from."""
+    """Return a function that makes a message to decode into: our decoders need no defaults."""
     if issubclass(message_class, Message) and "_spec" in vars(message_class):
         return functools.partial(object.__new__, message_class)
     return message_class  # type: ignore[no-any-return]
@@ -309,7 +309,7 @@ def _converted(message: Any, kind: Any, link: Any) -> Any:
 
 
 class Subscriber:
-    """What `Node.subscribe` returns: a callback that gets the messages of a topic.
+    """Subscriber to a topic, as `Node.subscribe` returns it: a callback gets the messages.
 
     Args:
         subscription: What it gets them from.

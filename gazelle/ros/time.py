@@ -57,7 +57,7 @@ class TVal:
         return cls(*_split(float_secs))
 
     def is_zero(self) -> bool:
-        """Whether seconds and nanoseconds are both 0."""
+        """Return whether seconds and nanoseconds are both 0."""
         return self.secs == 0 and self.nsecs == 0
 
     def set(self, secs: int, nsecs: int) -> None:
@@ -97,7 +97,7 @@ class TVal:
 
     @classmethod
     def _kind(cls) -> type[TVal]:
-        """What this value may be compared with."""
+        """Return the type that this value can be compared with."""
         return TVal
 
     def _difference(self, other: object) -> int | None:

@@ -49,7 +49,7 @@ def translated(words: Sequence[str]) -> list[str]:
 
 
 def process_name(words: Sequence[str]) -> str | None:
-    """What ROS calls the process that a command line of Gazelle's stands for.
+    """Return ROS's name of the process that a command line of Gazelle's stands for.
 
     A script that is executed keeps its own name, as with ROS.
 

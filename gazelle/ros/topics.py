@@ -173,11 +173,11 @@ class TopicNode(NodeBase):
     # For the parts of the node -------------------------------------------------------------
 
     def publication(self, topic: str) -> Publication | None:
-        """What this node publishes on a topic."""
+        """Return this node's publication on a topic, if any."""
         return self._publications.get(topic)
 
     def subscription(self, topic: str) -> Subscription | None:
-        """What this node subscribes to on a topic."""
+        """Return this node's subscription to a topic, if any."""
         return self._subscriptions.get(topic)
 
     def publications(self) -> list[Publication]:

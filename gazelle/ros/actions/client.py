@@ -25,7 +25,7 @@ _UNKNOWN_S = 10.0
 
 
 class GoalMachine:
-    """Where a client stands with one goal.
+    """State machine of a client's goal.
 
     Args:
         client: Whose goal it is.
@@ -93,7 +93,7 @@ class GoalMachine:
                 self.transition_to(state)
 
     def _on_its_way(self) -> bool:
-        """Whether a list without it may be older than it: it was cancelled before the server's answer."""
+        """Return whether a status list may lack the goal because the list is older."""
         return not self._known and time.monotonic() - self._sent < _UNKNOWN_S
 
     def _lose(self) -> None:
@@ -138,16 +138,16 @@ class ClientGoalHandle:
         return int(self.comm_state_machine.latest_status.status)
 
     def get_goal_status_text(self) -> str:
-        """What the server said beside it."""
+        """Return the text that the server sent with the status."""
         return str(self.comm_state_machine.latest_status.text)
 
     def get_result(self) -> Any:
-        """What came of it; None before."""
+        """Return the result; None before."""
         result = self.comm_state_machine.latest_result
         return None if result is None else result.result
 
     def get_terminal_state(self) -> int:
-        """How it ended, a `TerminalState`."""
+        """Return the terminal state, a `TerminalState`."""
         machine = self.comm_state_machine
         with machine.lock:
             if machine.state != CommState.DONE:
@@ -198,7 +198,7 @@ class ActionClient:
 
     @property
     def connected(self) -> bool:
-        """Whether all five topics lead to the server that lists goals."""
+        """True if all five topics are connected to the server that lists goals."""
         return bool(
             self._status_from
             and self._goal.num_connections

@@ -53,7 +53,7 @@ class ServerGoalHandle:
         """When it came, or the last feedback was sent, on the monotonic clock."""
 
     def get_goal(self) -> Any:
-        """What is to be done; None if only a cancel request came."""
+        """Return the goal; None if only a cancel request came."""
         return None if self.goal is None else self.goal.goal
 
     def get_goal_id(self) -> Any:

@@ -102,7 +102,7 @@ class SimpleActionClient:
         return wait(self.node, self.done_condition, self._is_done, timeout)
 
     def get_result(self) -> Any:
-        """What came of the goal; None before."""
+        """Return the result of the goal; None before."""
         if self.gh is None:
             _LOG.error("Called get_result when no goal is running")
             return None
@@ -116,7 +116,7 @@ class SimpleActionClient:
         return _SEEN_AS.get(status, status)
 
     def get_goal_status_text(self) -> str:
-        """What the server said beside the status."""
+        """Return the text that the server sent with the status."""
         if self.gh is None:
             _LOG.error("Called get_goal_status_text when no goal is running")
             return "ERROR: Called get_goal_status_text when no goal is running"

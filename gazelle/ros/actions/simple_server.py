@@ -101,15 +101,15 @@ class SimpleActionServer:
             return self._current().get_goal()
 
     def is_new_goal_available(self) -> bool:
-        """Whether another goal came."""
+        """Return whether another goal has come."""
         return self.new_goal
 
     def is_preempt_requested(self) -> bool:
-        """Whether the work shall end before it is done."""
+        """Return whether the current goal is to be preempted."""
         return self.preempt_request
 
     def is_active(self) -> bool:
-        """Whether there is a goal to work on."""
+        """Return whether there is an active goal."""
         if self.current_goal is None or not self.current_goal.get_goal_id().id:
             return False
         return self.current_goal.get_goal_status().status in _WORKED_ON

@@ -1,4 +1,4 @@
-"""What an action is made of, and names for goals."""
+"""Types of an action, and names for goals."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from typing import Any
 
 
 class GoalStatus:
-    """What a server says of a goal; the numbers of ``actionlib_msgs/GoalStatus``."""
+    """Status of a goal as the server reports it; the numbers of ``actionlib_msgs/GoalStatus``."""
 
     PENDING = 0
     ACTIVE = 1
@@ -33,7 +33,7 @@ class _Names:
 
 
 class CommState(_Names):
-    """Where a client stands with a goal."""
+    """States of a goal at its client."""
 
     WAITING_FOR_GOAL_ACK = 0
     PENDING = 1
@@ -47,7 +47,7 @@ class CommState(_Names):
 
 
 class TerminalState(_Names):
-    """How a goal can end."""
+    """Terminal states of a goal."""
 
     RECALLED = GoalStatus.RECALLED
     REJECTED = GoalStatus.REJECTED
@@ -58,7 +58,7 @@ class TerminalState(_Names):
 
 
 class SimpleGoalState(_Names):
-    """Where the one goal of a simple client stands."""
+    """States of a simple client's goal."""
 
     PENDING = 0
     ACTIVE = 1

@@ -1,4 +1,4 @@
-"""What a bag answers: named tuples, with the names of ``rosbag``'s."""
+"""Named tuples that a bag returns, with the names of ``rosbag``'s."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class BagMessageWithConnectionHeader(NamedTuple):
 
 
 class TopicTuple(NamedTuple):
-    """What a bag holds of a topic."""
+    """Summary of a topic in a bag."""
 
     msg_type: str
     message_count: int
@@ -42,7 +42,7 @@ class TopicTuple(NamedTuple):
 
 
 class TypesAndTopicsTuple(NamedTuple):
-    """What a bag holds."""
+    """Types and topics of a bag."""
 
     msg_types: dict[str, str]
     """Checksums by type."""
@@ -50,7 +50,7 @@ class TypesAndTopicsTuple(NamedTuple):
 
 
 class CompressionTuple(NamedTuple):
-    """How a bag is compressed."""
+    """Compression of a bag."""
 
     compression: str
     uncompressed: int
@@ -82,7 +82,7 @@ def types_and_topics(
 
 
 def _rate(file: BagFile, index: BagIndex, connections: frozenset[int]) -> float | None:
-    """How often messages come [Hz], by the median of the times between them."""
+    """Return the rate of messages [Hz], by the median of the times between them."""
     times = select(file, index, connections, None, None)[0]
     gaps = [(after - before) / SECOND for before, after in itertools.pairwise(times.tolist())]
     middle = statistics.median(gaps) if gaps else 0.0

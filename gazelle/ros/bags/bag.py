@@ -144,7 +144,7 @@ class Bag(Closeable):
 
     @property
     def options(self) -> dict[str, Any]:
-        """How messages are written."""
+        """Options for writing messages."""
         return {"compression": self._compression, "chunk_threshold": self._chunk_threshold}
 
     @property
@@ -200,7 +200,7 @@ class Bag(Closeable):
         return sorted({connection.topic for connection in self.index.connections.values()})
 
     def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
-        """How many messages there are, of some topics or all."""
+        """Return the number of messages, of some topics or all."""
         wanted = self._ids(topic_filters)
         return sum(
             count
@@ -226,7 +226,7 @@ class Bag(Closeable):
         return max(chunk.end for chunk in self.chunks()) / records.SECOND
 
     def chunks(self) -> list[records.Chunk]:
-        """Where messages are; `BagError` if there are none."""
+        """Return the chunks that hold messages; raise `BagError` if there are none."""
         chunks = [chunk for chunk in self.index.chunks if chunk.counts]
         if not chunks:
             raise BagError("Bag contains no message", file=self.filename)
@@ -379,7 +379,7 @@ class Bag(Closeable):
         return describe(self)
 
     def stored(self) -> BagFile:
-        """What is on disk, with all that was written so far."""
+        """Return the file on disk, with everything written so far."""
         if self._file is None:
             raise ValueError("I/O operation on closed bag")
         self.flush()

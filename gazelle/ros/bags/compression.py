@@ -43,7 +43,7 @@ def compress(kind: str, data: bytes) -> bytes:
 
 
 def decompress(kind: str, data: bytes | memoryview, size: int) -> bytes:
-    """What was compressed.
+    """Return decompressed data.
 
     Args:
         kind: How.

@@ -1,4 +1,4 @@
-"""What is in a bag, in words and as YAML."""
+"""Summary of a bag, as text and as YAML."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _RATES = ("Hz", "kHz", "MHz", "GHz")
 
 
 def describe(bag: Bag, *, rates: bool = True) -> str:
-    """What ``rosbag info`` writes about a bag, with ``--freq`` if rates are wanted."""
+    """Return the text that ``rosbag info`` prints, with ``--freq`` if rates are wanted."""
     rows: list[tuple[str, str]] = [("path", bag.filename), ("version", "2.0")]
     chunks = [chunk for chunk in bag.index.chunks if chunk.counts]
     if not chunks:
@@ -98,7 +98,7 @@ def _content_rows(bag: Bag, *, rates: bool) -> list[tuple[str, str]]:
 
 
 def as_dict(bag: Bag, *, rates: bool = True) -> dict[str, Any]:
-    """What ``rosbag info --yaml`` writes about a bag, with ``--freq`` if rates are wanted."""
+    """Return the content of ``rosbag info --yaml``, with ``--freq`` if rates are wanted."""
     found: dict[str, Any] = {"path": bag.filename, "version": 2.0}
     if not any(chunk.counts for chunk in bag.index.chunks):
         return found | {"size": bag.size, "indexed": False}

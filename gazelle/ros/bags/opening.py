@@ -1,4 +1,4 @@
-"""What a bag needs before it can be read or written: a file, an index, headers of connections."""
+"""Preparation for reading or writing a bag: a file, an index, headers of connections."""
 
 from __future__ import annotations
 

@@ -186,7 +186,7 @@ def fix_bag(source: str, target: str, *, force: bool = False) -> list[str]:
 
 
 def check(path: str) -> list[str]:
-    """What of a bag cannot be used with the definitions that are known here, one line each.
+    """List problems of a bag's types with the definitions known here, one line each.
 
     Raises:
         BagError: It is no bag.

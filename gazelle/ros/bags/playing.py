@@ -28,7 +28,7 @@ _SETTLE_S = 0.2
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlayOptions:
-    """What is played, and how."""
+    """Options for playing bags."""
 
     rate: float = 1.0
     """Times faster than it was recorded."""

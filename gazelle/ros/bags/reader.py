@@ -186,7 +186,7 @@ class BagReader:
 
 
 def check_magic(view: memoryview) -> int:
-    """Where the first record begins.
+    """Return the offset of the first record.
 
     Raises:
         BagFormatError: It is no bag of format 2.0.
@@ -231,7 +231,7 @@ def select(
     start: int | None,
     end: int | None,
 ) -> tuple[Any, Any, Any, Any]:
-    """Which messages are meant, in the order of time, as arrays of equal length.
+    """Select messages in the order of time, as arrays of equal length.
 
     Returns:
         Times [ns], connections, numbers of chunks, positions in them.

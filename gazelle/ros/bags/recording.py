@@ -36,7 +36,7 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RecordOptions:
-    """What is recorded, and how."""
+    """Options for recording bags."""
 
     topics: Sequence[str] = ()
     """Names, or regular expressions."""
@@ -242,7 +242,7 @@ class BagRecorder:
         output.writer.write(connection, now, data)
 
     def _finished(self, topic: str) -> bool:
-        """Whether there are as many messages of a topic as are wanted."""
+        """Return whether the wanted number of messages of a topic is recorded."""
         limit = self._options.limit
         if not limit or self._counts[topic] < limit:
             return False

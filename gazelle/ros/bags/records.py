@@ -32,7 +32,7 @@ Buffer = bytes | memoryview
 
 @dataclass(slots=True)
 class Connection:
-    """Where messages come from: a topic of a node."""
+    """Source of messages: a topic of a node."""
 
     id: int
     topic: str
@@ -73,7 +73,7 @@ class Chunk:
 
 @dataclass(slots=True)
 class BagIndex:
-    """What is in a bag."""
+    """Index of a bag."""
 
     connections: dict[int, Connection] = field(default_factory=dict)
     chunks: list[Chunk] = field(default_factory=list)
@@ -95,7 +95,7 @@ def pack_record(op: int, fields: Mapping[str, bytes], data: bytes) -> bytes:
 
 
 def pack_message(connection: int, nanoseconds: int, data: Buffer) -> bytes:
-    """What goes before a message's data."""
+    """Return the bytes that precede a message's data."""
     seconds, rest = divmod(nanoseconds, SECOND)
     return _MESSAGE.pack(
         _MESSAGE_HEADER, 4, b"op=\x02", 9, b"conn=", connection, 13, b"time=", seconds, rest,
@@ -123,7 +123,7 @@ class Fields(dict[str, bytes]):
 
     @property
     def op(self) -> int:
-        """What kind of record it is; -1 if it does not say."""
+        """Kind of record; -1 if it is not given."""
         value = self.get("op", b"")
         return value[0] if len(value) == 1 else -1
 
@@ -210,7 +210,7 @@ def read_record(data: Buffer, position: int) -> tuple[Fields, int, int]:
 
 
 def message_at(data: Buffer, position: int) -> tuple[int, int]:
-    """Where the data of the message at a position begin and end; connections before it are skipped.
+    """Return start and end of the data of the message at a position, skipping connections before it.
 
     Raises:
         BagFormatError: There is no message.

@@ -15,7 +15,7 @@ from gazelle.ros.bags.records import BagIndex, Chunk, Fields
 
 @dataclass(slots=True)
 class BagScan:
-    """What was found."""
+    """Result of a scan."""
 
     index: BagIndex = field(default_factory=BagIndex)
     damage: str = ""
@@ -92,7 +92,7 @@ class _Scanner:
             place = after
 
     def _salvage(self, position: int) -> None:
-        """What is whole of a chunk that the end of the file cuts off."""
+        """Read the complete part of a chunk that the end of the file cuts off."""
         with contextlib.suppress(BagFormatError, struct.error):
             (length,) = records.U32.unpack_from(self._view, position)
             after = position + 4 + length

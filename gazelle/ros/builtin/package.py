@@ -1,4 +1,4 @@
-"""What a ROS package is that Gazelle stands in for."""
+"""Description of a built-in ROS package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What packages and nodes are built in, and where others add theirs.
+"""Registry of built-in packages and nodes, which other distributions can extend.
 
 Another distribution adds a package with an entry point of the group ``gazelle.ros.nodes``: its name is
 the package's, its value leads to a `BuiltinPackage`. It is loaded when the package is first asked for.

@@ -71,7 +71,7 @@ class _Test(unittest.TestCase):
 
 
 def _wait(condition: Callable[[], Any], seconds: float) -> bool:
-    """Whether something comes true in time; wall time."""
+    """Wait until a condition is true; return False if it takes longer than this [s of wall time]."""
     deadline = time.monotonic() + seconds
     while not condition():
         if time.monotonic() >= deadline or rospy.is_shutdown():

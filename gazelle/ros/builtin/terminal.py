@@ -63,7 +63,7 @@ def main(words: Sequence[str]) -> int:
 
 
 def has_display(environment: Mapping[str, str]) -> bool:
-    """Whether windows can be shown."""
+    """Return whether windows can be shown."""
     return bool(environment.get("DISPLAY") or environment.get("WAYLAND_DISPLAY"))
 
 
@@ -79,7 +79,7 @@ def real_terminal(name: str, environment: Mapping[str, str]) -> str | None:
 
 
 def _is_ours(program: str) -> bool:
-    """Whether it is one of the programs of `gazelle.ros.builtin.on_path`."""
+    """Return whether it is one of the programs of `gazelle.ros.builtin.on_path`."""
     try:
         with Path(program).open("rb") as stream:
             return _PACKAGE in stream.read(2048)

@@ -1,4 +1,4 @@
-"""What ``tf_monitor`` measures: the age of transforms when they come, and how often they do."""
+"""Delays of ``tf_monitor``: the age of transforms on arrival, and their rates."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Delays:
             each.unregister()
 
     def report(self) -> str:
-        """What was measured so far."""
+        """Return a report of the measurements so far."""
         chain = self._chain()
         with self._lock:
             lines = ["", f"RESULTS: for {' to '.join(self._ends) or 'all Frames'}"]
@@ -84,7 +84,7 @@ class Delays:
                 self._net.append(net)
 
     def _age_of_all(self, now: float) -> float | None:
-        """How old the latest is that is known of the whole way."""
+        """Return the age of the latest transform over the whole chain; None if unknown."""
         if not self._ends:
             return None
         try:

@@ -22,12 +22,12 @@ def cfg_files(package: str) -> dict[str, Path]:
 
 
 def has_cfg(package: str) -> bool:
-    """Whether a package has ``.cfg`` files."""
+    """Return whether a package has ``.cfg`` files."""
     return bool(cfg_files(package))
 
 
 def _generates(file: Path) -> bool:
-    """Whether it is one of dynamic_reconfigure's, and not another program's settings."""
+    """Return whether a file is one of dynamic_reconfigure's, and not another program's settings."""
     try:
         return b"dynamic_reconfigure" in file.read_bytes()
     except OSError:

@@ -215,12 +215,12 @@ def _is_ours(name: str) -> bool:
 
 
 def _is_alias(name: str, real: str) -> bool:
-    """Whether a module of Gazelle is entered under a name of ROS."""
+    """Return whether a module of Gazelle is registered under a name of ROS."""
     return real in {f"{home}.{name}" for home in (HOME, *UPSTAIRS)}
 
 
 class Installed:
-    """What `install` returns: at the end of a ``with`` block, it is undone."""
+    """Result of `install`: at the end of a ``with`` block, the installation is undone."""
 
     def __enter__(self) -> None:
         """Nothing is left to do."""

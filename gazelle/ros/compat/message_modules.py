@@ -14,12 +14,12 @@ _HALVES = ("Request", "Response")
 
 
 def has_definitions(package: str, kind: str) -> bool:
-    """Whether a package defines messages (``msg``) or services (``srv``)."""
+    """Return whether a package defines messages (``msg``) or services (``srv``)."""
     return bool(package_names(package, kind))
 
 
 def _class_names(package: str, kind: str) -> list[str]:
-    """What a module of messages or services offers."""
+    """Return the names of the classes in a module of messages or services."""
     found = package_names(package, kind)
     if kind == "msg":
         return found

@@ -84,7 +84,7 @@ class Python2Finding:
 
 
 def explain(error: BaseException, source: str) -> list[Python2Finding]:
-    """What in a script is Python 2 and explains an error; empty if nothing does.
+    """Find the Python 2 code in a script that explains an error; empty if there is none.
 
     Args:
         error: What compiling or running the script raised.
@@ -151,7 +151,7 @@ def _beside(error: BaseException) -> str:
 
 
 def advice_text(findings: list[Python2Finding]) -> str:
-    """What to change, for people: the first things found, and how many more there are."""
+    """Return readable advice: the first findings, and the number of further ones."""
     first = findings[:_MOST_NAMED]
     lines = ", ".join(
         each.advice if place == 0 else f"line {each.line}: {each.advice}"

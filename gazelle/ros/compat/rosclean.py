@@ -12,7 +12,7 @@ class CleanupException(Exception):  # noqa: N818  # rosclean's name
 
 
 def get_disk_usage(d: str) -> int:
-    """How many bytes the files below a folder have.
+    """Return the size of the files below a folder [bytes].
 
     Raises:
         CleanupException: There is no such folder.

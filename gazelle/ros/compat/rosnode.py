@@ -73,7 +73,7 @@ def kill_nodes(node_names: list[str]) -> tuple[list[str], list[str]]:
 
 @raising(ROSNodeIOException)
 def get_node_info_description(node_name: str) -> str:
-    """What a node publishes, subscribes to and offers."""
+    """Return a description of a node's publications, subscriptions and services."""
     return nodes.node_info(_graph(), node_name, quiet=True)
 
 
@@ -90,7 +90,7 @@ def rosnode_ping(
     verbose: bool = False,  # noqa: FBT001, FBT002  # rosnode's interface
     skip_cache: bool = False,  # noqa: FBT001, FBT002
 ) -> bool:
-    """Whether a node answers, called once a second.
+    """Ping a node once a second; return whether it answers.
 
     Raises:
         ROSNodeIOException: The master does not answer.

@@ -98,7 +98,7 @@ def get_service_args(service_name: str) -> str:
 
 
 def has_service_args(service_name: str, service_class: Any = None) -> bool:
-    """Whether a service's request has fields.
+    """Return whether a service's request has fields.
 
     Raises:
         ROSServiceException: There is no such service.
@@ -109,7 +109,7 @@ def has_service_args(service_name: str, service_class: Any = None) -> bool:
 
 @raising(ROSServiceIOException, ROSServiceIOException)
 def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
-    """What a service answers to a probe.
+    """Return the header of a service's answer to a probe.
 
     Raises:
         ROSServiceException: It does not answer.

@@ -41,12 +41,12 @@ def get_master() -> Master:
 
 
 def is_subscriber(topic: str, subscriber_id: str) -> bool:
-    """Whether a node subscribes to a topic."""
+    """Return whether a node subscribes to a topic."""
     return _is_in(1, topic, subscriber_id)
 
 
 def is_publisher(topic: str, publisher_id: str) -> bool:
-    """Whether a node publishes on a topic."""
+    """Return whether a node publishes on a topic."""
     return _is_in(0, topic, publisher_id)
 
 

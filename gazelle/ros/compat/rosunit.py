@@ -120,7 +120,7 @@ def xml_results_file(
 
 
 def rostest_name_from_path(pkg_dir: str, test_file: str) -> str:
-    """What a test file is called in results: its path in the package, with ``_`` between folders."""
+    """Return the name of a test file in results: its path in the package, joined with ``_``."""
     path = Path(test_file).absolute()
     inside = path.relative_to(pkg_dir) if path.is_relative_to(pkg_dir) else Path(test_file)
     return "_".join(part for part in inside.with_suffix("").parts if part != "/")

@@ -102,12 +102,12 @@ def run_named(
 
 
 def _is_path(word: str) -> bool:
-    """Whether a word can only be meant for a file."""
+    """Return whether a word can only mean a file."""
     return os.sep in word or bool(Path(word).suffix)
 
 
 def runs_tool(word: str, arguments: Sequence[str]) -> bool:
-    """Whether a command line names a tool of ROS, such as ``rostopic``, and no script or program.
+    """Return whether a command line names a ROS tool, such as ``rostopic``, and no script or program.
 
     Some tools are packages, too: ``rosbag record`` is a program of one.
     """

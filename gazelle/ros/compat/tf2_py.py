@@ -107,7 +107,7 @@ class BufferCore:
     def can_transform_core(
         self, target_frame: str, source_frame: str, time: Any
     ) -> tuple[bool, str]:
-        """Whether a look-up would succeed, and if not, why."""
+        """Return whether a look-up would succeed, and the reason if not."""
         _strings(target_frame, source_frame)
         stamp = nanoseconds(time)
         if target_frame == source_frame:
@@ -129,7 +129,7 @@ class BufferCore:
         source_time: Any,
         fixed_frame: str,
     ) -> tuple[bool, str]:
-        """Whether a look-up over a fixed frame would succeed, and if not, why."""
+        """Return whether a look-up over a fixed frame would succeed, and the reason if not."""
         frames = {
             "target_frame": target_frame,
             "source_frame": source_frame,
@@ -148,7 +148,7 @@ class BufferCore:
         return True, ""
 
     def _missing(self, frames: dict[str, str]) -> str | None:
-        """What is wrong with frames' names: empty for the impossible, which tf2 only logs."""
+        """Return the error in frames' names: None if valid, empty for those tf2 only logs."""
         if any(not name or name.startswith("/") for name in frames.values()):
             return ""
         unknown = [

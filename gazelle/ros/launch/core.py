@@ -1,4 +1,4 @@
-"""What roslaunch starts where there is no master: ``rosmaster`` and ``rosout``, as processes.
+"""Core processes that roslaunch starts where there is no master: ``rosmaster`` and ``rosout``.
 
 They are called so, too: helper scripts end them by ``killall rosmaster``, and a master survives the
 end of the launcher by ``killall -9 roslaunch``, as with ROS.

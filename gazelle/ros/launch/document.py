@@ -109,7 +109,7 @@ def parse_element(data: bytes, name: str) -> Element:
 
 
 def _advice(data: bytes, line: int) -> str | None:
-    """What to do about a line that is not well-formed."""
+    """Return advice for a line that is not well-formed."""
     try:
         lines = data.decode().splitlines()
     except UnicodeDecodeError:

@@ -1,4 +1,4 @@
-"""What can be wrong with a launch file."""
+"""Errors of launch files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where logs go, and in which folder nodes run (http://wiki.ros.org/ROS/EnvironmentVariables)."""
+"""Folders of logs, and working folders of nodes (http://wiki.ros.org/ROS/EnvironmentVariables)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which machine a node is meant for; only this one can be used."""
+"""Machines that nodes are assigned to; only this one is supported."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from gazelle.ros.launch.plan import LaunchPlan
 
 
 def is_local(address: str) -> bool:
-    """Whether a name or address means this machine."""
+    """Return whether a name or address means this machine."""
     if address in {"", "localhost", socket.gethostname()}:
         return True
     try:

@@ -87,7 +87,7 @@ def _child(child: Element, outer: LaunchScope, own: LaunchScope, plan: LaunchPla
 
 
 def _common(element: Element, scope: LaunchScope, *, is_test: bool) -> dict[str, Any]:
-    """What nodes and tests have in common."""
+    """Return the settings that nodes and tests share."""
     package, kind = scope.required(element, "pkg", "type")
     if is_test:
         name = scope.text(element, "name") or scope.required(element, "test-name")[0]
@@ -114,7 +114,7 @@ def _common(element: Element, scope: LaunchScope, *, is_test: bool) -> dict[str,
 
 
 def _behaviour(element: Element, scope: LaunchScope) -> dict[str, Any]:
-    """What only nodes have."""
+    """Return the settings that only nodes have."""
     output = scope.text(element, "output") or "log"
     if output not in _OUTPUTS:
         raise element.error(f"output='{output}' is unknown", did_you_mean(output, _OUTPUTS))
@@ -131,7 +131,7 @@ def _behaviour(element: Element, scope: LaunchScope) -> dict[str, Any]:
 
 
 def _test(element: Element, scope: LaunchScope) -> dict[str, Any]:
-    """What only tests have."""
+    """Return the settings that only tests have."""
     for key in _NOT_FOR_TESTS:
         if key in element.attributes:
             raise element.error(f"a test has no '{key}'")

@@ -72,7 +72,7 @@ class Packages:
         return MissingPackageError(f"there is no package '{package}'", package=package, hint=hint)
 
     def locate(self, package: str, path: str, *, followed: bool = False) -> str:
-        """What ``$(find PACKAGE)PATH`` stands for; the path may be empty.
+        """Return the path that ``$(find PACKAGE)PATH`` stands for; `path` may be empty.
 
         As in roslaunch, a slash joins the two whether there is one or not. Programs and resources
         of an install or devel space come before those of the sources.
@@ -122,7 +122,7 @@ class Packages:
         return None
 
     def program_names(self, package: str) -> list[str]:
-        """What programs a package has, for hints."""
+        """Return the names of a package's programs, for hints."""
         folder = self.find(package)
         found: set[str] = set()
         if folder is not None:
@@ -156,7 +156,7 @@ class Packages:
         return LaunchError(f"'{package}' is a package: name one of its programs too", hint=hint)
 
     def _contents(self, package: str) -> str:
-        """What there is to launch in a package that is built in, for hints."""
+        """Return the launch files of a built-in package, for hints."""
         folder = self.find(package)
         files = sorted(path.name for path in folder.glob("launch/*.launch")) if folder else []
         if not files:
@@ -181,7 +181,7 @@ class Packages:
 
 
 def is_python(path: Path) -> bool:
-    """Whether a file is a Python script: by its suffix, else by its first line."""
+    """Return whether a file is a Python script: by its suffix, else by its first line."""
     if path.suffix == ".py":
         return True
     if path.suffix not in _SCRIPT_SUFFIXES:

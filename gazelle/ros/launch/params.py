@@ -25,7 +25,7 @@ _COMMANDS = ("load", "dump", "delete")
 
 
 def place_of(element: Element) -> SourceLocation:
-    """Where an element is written."""
+    """Return the source location of an element."""
     return SourceLocation(element.file, element.line, element.label)
 
 

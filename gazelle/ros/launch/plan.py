@@ -1,4 +1,4 @@
-"""What a launch file asks for, with nothing done yet."""
+"""Plan of a launch: the content of launch files, before anything is executed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gazelle.ros import names
 
 @dataclass(frozen=True, slots=True)
 class SourceLocation:
-    """Where in which file something is written."""
+    """Position in a launch file."""
 
     file: str
     line: int
@@ -37,7 +37,7 @@ class LaunchParameter:
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """What ``<rosparam command="dump">`` and ``"delete"`` ask for, before parameters are set."""
+    """Request of ``<rosparam command="dump">`` or ``"delete"``, run before parameters are set."""
 
     command: Literal["dump", "delete"]
     name: str

@@ -25,7 +25,7 @@ _ORPHAN_S = 0.5
 
 @dataclass(frozen=True, slots=True)
 class StopTimeouts:
-    """How long a process may take to end after a signal."""
+    """Time that a process may take to end after a signal."""
 
     interrupt: float = 15.0
     """Seconds after SIGINT."""
@@ -35,7 +35,7 @@ class StopTimeouts:
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """How a process is started."""
+    """Start parameters of a process."""
 
     arguments: tuple[str, ...]
     environment: dict[str, str]
@@ -45,7 +45,7 @@ class Start:
 
 
 def _terminal_input() -> int | None:
-    """What nodes read: the keys of the launcher's terminal, if it has one, as with roslaunch."""
+    """Return the standard input of nodes: the launcher's terminal, if any, as with roslaunch."""
     return None if sys.stdin is not None and sys.stdin.isatty() else subprocess.DEVNULL
 
 
@@ -119,7 +119,7 @@ class NodeProcess:
 
     @property
     def running(self) -> bool:
-        """Whether it was started and did not end."""
+        """True if it was started and did not end."""
         return self._process is not None and self.poll() is None
 
     def signal(self, number: int) -> None:

@@ -31,7 +31,7 @@ _COMMAND_SECONDS = 120.0
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """What to execute for a node."""
+    """Command for a node."""
 
     command: tuple[str, ...]
     """Without the node's own arguments."""
@@ -48,7 +48,7 @@ class Skipped:
 
 
 def find_program(node: NodePlan, packages: Packages) -> Program | Skipped:
-    """What to execute for a node: its package's program, else a built-in one.
+    """Find the command for a node: its package's program, else a built-in one.
 
     Raises:
         LaunchError: There is none; it names the place in the launch file.
@@ -60,7 +60,7 @@ def find_program(node: NodePlan, packages: Packages) -> Program | Skipped:
 
 
 def program_of(package: str, kind: str, packages: Packages) -> Program | Skipped:
-    """What to execute for ``rosrun PACKAGE KIND``.
+    """Find the command for ``rosrun PACKAGE KIND``.
 
     Raises:
         LaunchError: There is no such package, or it has no such program.
@@ -80,7 +80,7 @@ def program_of(package: str, kind: str, packages: Packages) -> Program | Skipped
 
 
 def script_command(path: Path) -> tuple[str, ...]:
-    """How a file is executed: Python scripts as ``gazelle exec`` does, others as they are."""
+    """Return the command that runs a file: by ``gazelle exec`` for Python, else directly."""
     return (*_EXECUTE, str(path)) if is_python(path) else (str(path),)
 
 

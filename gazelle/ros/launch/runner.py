@@ -40,7 +40,7 @@ Say = Callable[[str], None]
 
 @dataclass(slots=True, kw_only=True)
 class Options:
-    """How a plan is run."""
+    """Options for running a plan."""
 
     master_uri: str = field(default_factory=net.default_master_uri)
     host: str = field(default_factory=net.default_host)
@@ -195,7 +195,7 @@ class Launch(Closeable):
         self._find_run_id()
 
     def _find_master(self) -> bool:
-        """Whether a master answers, waited for if that is wanted."""
+        """Return whether a master answers; wait for one if that is wanted."""
         said = False
         while True:
             try:
@@ -298,19 +298,19 @@ class Launch(Closeable):
 
     @property
     def idle(self) -> bool:
-        """Whether no node runs, and none will: the end of all was seen, and none is to come again."""
+        """True if no node runs and none will: all have ended, and none will be respawned."""
         with self._lock:
             nodes = self.processes
             return self._due.keys().isdisjoint(nodes) and self._reported.issuperset(nodes)
 
     @property
     def has_master(self) -> bool:
-        """Whether it started the master."""
+        """True if it started the master."""
         return bool(self._core)
 
     @property
     def failed(self) -> bool:
-        """Whether a required node failed."""
+        """True if a required node failed."""
         return self._failed
 
     def look(self) -> None:

@@ -1,4 +1,4 @@
-"""What an element of a launch file inherits: namespace, arguments, remappings, environment."""
+"""Scope of an element in a launch file: namespace, arguments, remappings, environment."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _YES_NO = {"true": True, "false": False}
 
 @dataclass(slots=True)
 class LaunchScope:
-    """Where in the launch files we are."""
+    """Scope in a launch file."""
 
     namespace: str
     """With slashes at both ends."""
@@ -123,7 +123,7 @@ class LaunchScope:
             raise element.error(f"{key}='{value}' is no number") from None
 
     def applies(self, element: Element) -> bool:
-        """Whether an element's ``if`` or ``unless`` lets it take part.
+        """Return whether an element's ``if`` or ``unless`` includes it.
 
         Raises:
             LaunchError: It has both, or one that is not a boolean.

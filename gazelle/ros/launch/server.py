@@ -1,4 +1,4 @@
-"""What tools can ask a running launch over XML-RPC."""
+"""XML-RPC server of a running launch, for tools."""
 
 from __future__ import annotations
 

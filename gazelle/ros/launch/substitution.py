@@ -34,7 +34,7 @@ _MATH = {name: value for name, value in vars(math).items() if not name.startswit
 
 @dataclass(slots=True)
 class Substitution:
-    """What the names in ``$(...)`` stand for in one launch file."""
+    """Values of the names in ``$(...)`` in one launch file."""
 
     packages: Packages
     file: str | None = None
@@ -168,7 +168,7 @@ class Substitution:
 
 
 def _collect(text: str) -> list[tuple[str, int, int]]:
-    """What stands in ``$(...)``, and from where to where.
+    """Return the contents of ``$(...)``, with their start and end.
 
     Raises:
         SubstitutionError: There is a dollar sign or parenthesis in one.

@@ -40,7 +40,7 @@ class Case:
 
 @dataclass(slots=True)
 class TestReport:
-    """What came of the tests of a launch file.
+    """Report of the tests of a launch file.
 
     Attributes:
         name: What the report is called.
@@ -56,17 +56,17 @@ class TestReport:
 
     @property
     def failures(self) -> int:
-        """How many cases failed."""
+        """Number of cases that failed."""
         return sum(case.kind == "failure" for case in self.cases)
 
     @property
     def errors(self) -> int:
-        """How many cases could not be run to their end."""
+        """Number of cases that could not be run to their end."""
         return sum(case.kind == "error" for case in self.cases)
 
     @property
     def passed(self) -> bool:
-        """Whether there are cases and all passed."""
+        """True if there are cases and all passed."""
         return bool(self.cases) and not self.failures and not self.errors
 
     def write(self, path: Path) -> None:
@@ -104,7 +104,7 @@ class TestReport:
 
 
 def results_folder() -> Path:
-    """Where results go: ROS_TEST_RESULTS_DIR, else ``test_results`` in ROS_HOME."""
+    """Return the folder of results: ROS_TEST_RESULTS_DIR, else ``test_results`` in ROS_HOME."""
     given = os.environ.get("ROS_TEST_RESULTS_DIR")
     return Path(given) if given else folders.ros_home() / "test_results"
 
@@ -156,7 +156,7 @@ def run_tests(
 
 @contextlib.contextmanager
 def _options(*, reuse_master: bool, text: bool) -> Iterator[Options]:
-    """How the nodes of one test are launched, with the master they need."""
+    """Yield the options for launching the nodes of one test, with the master they need."""
     if reuse_master:
         yield Options(screen=text)
         return

@@ -19,7 +19,7 @@ Notify = Callable[[str, str, Sequence[Any]], None]
 
 
 class MasterApi:
-    """What nodes can ask the master.
+    """API of the master, as nodes call it.
 
     Args:
         notify: Calls a node without waiting for it.

@@ -129,7 +129,7 @@ class ParameterTree:
 def changes(
     tree: ParameterTree, subscribed: Iterable[str], key: str, value: Any
 ) -> Iterator[tuple[str, str, Any]]:
-    """What subscribers must be told after `key` was set to `value` or deleted (`{}`).
+    """Yield the notifications of subscribers after `key` was set to `value` or deleted (`{}`).
 
     Args:
         tree: After the change.

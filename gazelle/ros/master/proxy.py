@@ -1,4 +1,4 @@
-"""What the master can be asked, as Python methods."""
+"""Client of the master's API."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who publishes, subscribes and serves what; plain bookkeeping without a network."""
+"""Registrations of publishers, subscribers and services; bookkeeping without a network."""
 
 from __future__ import annotations
 
@@ -99,15 +99,15 @@ class Registrations:
             del self.nodes[entry.name]
 
     def uris(self, names: list[str]) -> list[str]:
-        """Where the nodes of these names are."""
+        """Return the URIs of the nodes of these names."""
         return [self.nodes[name].uri for name in names if name in self.nodes]
 
     def publisher_uris(self, topic: str) -> list[str]:
-        """Where the publishers of a topic are."""
+        """Return the URIs of the publishers of a topic."""
         return self.uris(self.publishers.names(topic))
 
     def subscriber_uris(self, topic: str) -> list[str]:
-        """Where the subscribers of a topic are."""
+        """Return the URIs of the subscribers of a topic."""
         return self.uris(self.subscribers.names(topic))
 
     def note_publisher_type(self, topic: str, kind: str) -> None:

@@ -97,7 +97,7 @@ class Master(Closeable):
         self.ended.set()
 
     def _set_marks(self, run_id: str) -> None:
-        """What tools look for on a running master."""
+        """Set the parameters that tools look for on a running master."""
         marks = {
             "/run_id": run_id,
             "/rosdistro": (os.environ.get("ROS_DISTRO") or "noetic") + "\n",

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Sink(Protocol):
-    """What a message is written to: a binary file or `io.BytesIO`."""
+    """Target that a message is written to: a binary file or `io.BytesIO`."""
 
     def write(self, data: Any, /) -> object:
         """Append bytes."""

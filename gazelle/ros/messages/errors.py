@@ -1,4 +1,4 @@
-"""What can go wrong with messages."""
+"""Errors of messages."""
 
 from __future__ import annotations
 

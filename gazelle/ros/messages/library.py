@@ -27,7 +27,7 @@ class Definition:
 
 @dataclass(slots=True)
 class PackageDefinitions:
-    """What a package defines, by name; an action is among the messages as its seven."""
+    """Definitions of a package, by name; the seven messages of an action are among the messages."""
 
     messages: dict[str, Definition] = field(default_factory=dict)
     services: dict[str, Definition] = field(default_factory=dict)
@@ -58,7 +58,7 @@ def bundled_packages() -> frozenset[str]:
 
 @functools.cache
 def bundled(package: str) -> PackageDefinitions | None:
-    """What a bundled package defines; None if it is not bundled."""
+    """Return the definitions of a bundled package; None if it is not bundled."""
     if package not in bundled_packages():
         return None
     found = PackageDefinitions()

@@ -7,7 +7,7 @@ from gazelle.ros.messages.errors import UnknownTypeError
 
 
 def recipe(message_class: type[Message]) -> tuple[str, str, str]:
-    """What `blank` needs to find the class again, in another process too."""
+    """Return the arguments with which `blank` finds the class again, in another process too."""
     return message_class._type, message_class._md5sum, message_class._full_text
 
 

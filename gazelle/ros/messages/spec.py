@@ -1,4 +1,4 @@
-"""What a message or service IS: its fields and constants, in order."""
+"""Specification of a message or service: its fields and constants, in order."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class Field:
 
     @property
     def is_message(self) -> bool:
-        """Whether its elements are messages."""
+        """True if its elements are messages."""
         return self.base not in BUILTIN
 
 
@@ -121,7 +121,7 @@ class MessageSpec:
 
     @property
     def has_header(self) -> bool:
-        """Whether it begins with ``Header header``."""
+        """True if it begins with ``Header header``."""
         first = self.fields[0] if self.fields else None
         return first is not None and (first.type, first.name) == ("std_msgs/Header", "header")
 

@@ -1,4 +1,4 @@
-"""What stands between a robot's description and its frames: joints to transforms."""
+"""Frames of a robot from its description: joint positions to transforms."""
 
 from gazelle.ros.robot.joint_publisher import JointStatePublisher
 from gazelle.ros.robot.state_publisher import RobotStatePublisher

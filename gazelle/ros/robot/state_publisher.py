@@ -81,7 +81,7 @@ class RobotStatePublisher:
         self._moving.publish(self._many(transforms))
 
     def _concerns(self, name: str, positions: dict[str, float]) -> bool:
-        """Whether a message says where a joint is."""
+        """Return whether a message gives a joint's position."""
         if self._joints[name].kind not in MOVABLE:
             return False
         return position_of(self._joints, name, positions) is not None

@@ -85,7 +85,7 @@ class TopicEncoder:
         self._last: tuple[Any, BridgedMessage] | None = None
 
     def message(self, raw: RawMessage) -> BridgedMessage:
-        """What clients get of a message."""
+        """Return the message as clients get it."""
         last = self._last
         if last is not None and last[0] is raw:
             return last[1]

@@ -1,4 +1,4 @@
-"""Who is connected to a rosbridge server, as topics."""
+"""Clients of a rosbridge server, published as topics."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gazelle.ros.time import Time
 
 
 class ClientList:
-    """Who is connected, latched on ``client_count`` and ``connected_clients``.
+    """Connected clients, latched on ``client_count`` and ``connected_clients``.
 
     Args:
         node: Publishes.
@@ -28,7 +28,7 @@ class ClientList:
 
     @property
     def count(self) -> int:
-        """How many there are."""
+        """Number of clients."""
         return len(self._clients)
 
     def add(self, connection: Any) -> None:

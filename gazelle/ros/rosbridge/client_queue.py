@@ -1,4 +1,4 @@
-"""What waits to be sent to one client: answers, and messages of topics at their rates."""
+"""Outgoing queue of one client: answers, and messages of topics at their rates."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gazelle.ros.rosbridge.bridged_message import BridgedMessage
 
 @dataclass(frozen=True, slots=True)
 class DeliverySettings:
-    """How the messages of a topic go to a client."""
+    """Delivery settings of a topic for a client."""
 
     throttle: float = 0.0
     """Least time between two [s]."""
@@ -65,7 +65,7 @@ class ClientQueue:
 
     @property
     def stuck(self) -> bool:
-        """Whether the client takes nothing any more, and should go."""
+        """True if the client stopped receiving and should be disconnected."""
         return self._answer_bytes > 4 * self._most
 
     def answer(self, text: str) -> None:
@@ -106,7 +106,7 @@ class ClientQueue:
             self._turns = deque(each for each in self._turns if each is not queue)
 
     def take(self, now: float) -> tuple[Parcel | None, float | None]:
-        """What is to be sent next, and if nothing is, when to look again [s]; None if not soon.
+        """Return the next item to send, or else the time to look again [s]; None if not soon.
 
         Args:
             now: The time [s].

@@ -59,7 +59,7 @@ class TopicTypes:
         return message_class
 
     def encoder(self, topic: str, message_class: Any) -> TopicEncoder:
-        """What makes the messages of a topic; the same for all clients."""
+        """Return the encoder of a topic's messages; the same for all clients."""
         with self._lock:
             known = self._encoders.get(topic)
             if known is None or known[0] is not message_class:
@@ -116,7 +116,7 @@ class ClientSubscription:
         self._outbox.offer(self._queue, self._encoder.message(raw), time.monotonic())
 
     def _merge(self) -> None:
-        """What suits all requests: as often, as late and in as small pieces as any wants."""
+        """Combine all requests: highest rate, shortest queue, smallest fragments."""
         wishes = list(self._requests.values())
         sizes = [each.fragment_size for each in wishes if each.fragment_size is not None]
         self._queue.settings = DeliverySettings(

@@ -59,7 +59,7 @@ def rosapi_main(arguments: Sequence[str]) -> int:
 
 
 def listening_text(settings: BridgeSettings, port: int) -> str:
-    """Where it listens, and who can reach it."""
+    """Describe the address it listens on, and who can reach it."""
     scheme = "wss" if settings.certfile else "ws"
     text = f"Rosbridge WebSocket server started at {scheme}://{settings.address}:{port}"
     if _is_loopback(settings.address):

@@ -1,4 +1,4 @@
-"""Which web pages may connect: any page that a browser has open could try."""
+"""Web pages that may connect: any page that a browser has open could try."""
 
 from __future__ import annotations
 

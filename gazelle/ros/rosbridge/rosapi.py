@@ -145,7 +145,7 @@ class RosApi(Closeable):
         return urlsplit(uri or "").hostname or ""
 
     def _node_details(self, node: str) -> list[list[str]]:
-        """What a node subscribes to, publishes and serves."""
+        """Return a node's subscriptions, publications and services."""
         published, subscribed, served = self._graph.master.system_state()
         return [
             _of(node, subscribed.items()),

@@ -172,7 +172,7 @@ class BridgeServer(Closeable):
                         await asyncio.sleep(delay)
 
     async def _frames(self, parcel: Parcel) -> list[str | bytes]:
-        """What goes over the wire; long messages are encoded on another thread."""
+        """Encode a parcel as WebSocket frames; long messages are encoded on another thread."""
         message, settings = parcel.message, parcel.settings
         if message is None:
             return [] if parcel.text is None else [parcel.text]
@@ -222,7 +222,7 @@ async def _wait(news: asyncio.Event, until: float | None) -> None:
 
 
 def _waker(loop: asyncio.AbstractEventLoop, news: asyncio.Event) -> Callable[[], None]:
-    """What sets the event from any thread, without ringing twice."""
+    """Return a function that sets the event from any thread, once at a time."""
 
     def wake() -> None:
         if not news.is_set():

@@ -1,4 +1,4 @@
-"""What one client of a rosbridge server may say, and what it is told."""
+"""Session of one client of a rosbridge server: its requests and the answers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _MOST_NESTED = 3  # fragments in PNGs in fragments
 
 
 class BridgeContext:
-    """What the clients of a server share.
+    """State that the clients of a server share.
 
     Args:
         node: On the graph.

@@ -1,4 +1,4 @@
-"""What a rosbridge server is told: parameters of its node, words of its command line."""
+"""Settings of a rosbridge server: parameters of its node, and command-line arguments."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _MEBI = 1024 * 1024
 
 @dataclass(frozen=True, slots=True)
 class BridgeSettings:
-    """How a rosbridge server listens, and what it lets clients do.
+    """Settings of a rosbridge server: where it listens, and the permissions of clients.
 
     The names are those of rosbridge_server's parameters; the last four are our own.
     """
@@ -56,20 +56,20 @@ class BridgeSettings:
     max_clients: int = 1000
 
     def may_use_topic(self, topic: str) -> bool:
-        """Whether clients may publish and subscribe to it."""
+        """Return whether clients may publish and subscribe to a topic."""
         return matches(topic, self.topics_glob)
 
     def may_use_service(self, service: str) -> bool:
-        """Whether clients may call and offer it; rosapi is open wherever anything is."""
+        """Return whether clients may call and offer a service; those of rosapi are always allowed."""
         return matches(service, self.services_glob) or service.startswith("/rosapi/")
 
     def may_use_parameter(self, name: str) -> bool:
-        """Whether clients may read and set it."""
+        """Return whether clients may read and set a parameter."""
         return matches(name, self.params_glob)
 
 
 def matches(name: str, patterns: Sequence[str]) -> bool:
-    """Whether a name fits one of the patterns; true if there are none."""
+    """Return whether a name matches one of the patterns; true if there are none."""
     return not patterns or any(fnmatch.fnmatchcase(name, pattern) for pattern in patterns)
 
 

@@ -1,4 +1,4 @@
-"""What messages look like, as rosapi's ``message_details`` tells it."""
+"""Structure of messages, as rosapi's ``message_details`` returns it."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ _LAST_RETRY_S = 8.0
 
 
 class Receiver(Protocol):
-    """What an inbound link needs of the subscription it belongs to."""
+    """Interface of a subscription that an inbound link needs."""
 
     topic: str
     limits: NetworkLimits

@@ -1,4 +1,4 @@
-"""What is known of one frame: where it stood in its parent, at which times."""
+"""Cache of one frame: its transforms to its parent over time."""
 
 from __future__ import annotations
 
@@ -173,7 +173,7 @@ class MovingCache:
         return (self._stamps[-1], self._placements[-1].parent) if self._stamps else None
 
     def span(self) -> tuple[int, int, int]:
-        """How many placements are kept, from when to when."""
+        """Return the number of stored transforms, and their first and last time."""
         if not self._stamps:
             return (0, 0, 0)
         return (len(self._stamps) - self._first, self._stamps[self._first], self._stamps[-1])

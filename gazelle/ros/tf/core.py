@@ -218,7 +218,7 @@ class FrameTree:
         return there + back[1:]
 
     def has(self, name: str) -> bool:
-        """Whether anything was ever said of a frame."""
+        """Return whether a frame is known."""
         return name in self._caches
 
     def names(self) -> list[str]:

@@ -1,4 +1,4 @@
-"""What can go wrong when frames are looked up; names and texts are tf2's."""
+"""Errors of transform look-ups; names and texts are tf2's."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What tf2 refuses, in its own words."""
+"""Checks of frame names and transforms, with tf2's messages."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _NORM_TOLERANCE = 10e-3
 
 
 def name_fault(name: str, what: str) -> str:
-    """What is wrong with a frame's name in a question, empty if nothing is."""
+    """Return the fault in a frame name of a look-up, empty if there is none."""
     if not name:
         return f"Invalid argument passed to {what} in tf2 frame_ids cannot be empty"
     if name.startswith("/"):
@@ -24,7 +24,7 @@ def name_fault(name: str, what: str) -> str:
 def placement_fault(
     parent: str, child: str, translation: Vector, rotation: Quaternion, authority: str
 ) -> str:
-    """What is wrong with a placement, empty if nothing is."""
+    """Return the fault in a transform, empty if there is none."""
     if child == parent and child:
         return (
             f'TF_SELF_TRANSFORM: Ignoring transform from authority "{authority}" with frame_id and '

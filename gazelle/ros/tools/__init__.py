@@ -1,1 +1,1 @@
-"""What rostopic, rosservice, rosnode and rosparam do, as functions that write to a stream."""
+"""Functions of rostopic, rosservice, rosnode and rosparam, which write to a stream."""

@@ -1,4 +1,4 @@
-"""What types there are and what they hold, as rosmsg and rossrv show it."""
+"""Types and their definitions, as rosmsg and rossrv show them."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ _SILENCE_S = 2.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EchoOptions:
-    """How messages are written."""
+    """Options for printing messages."""
 
     count: int | None = None
     """Stop after so many."""
@@ -71,7 +71,7 @@ class Echo:
 
     @property
     def done(self) -> bool:
-        """Whether as many were written as were asked for."""
+        """True if the requested number of messages was written."""
         return self._options.count is not None and self.count >= self._options.count
 
     def write(self, message: Any, now: Time, steps: Iterable[FieldAccess] | None = None) -> None:

@@ -1,4 +1,4 @@
-"""What goes wrong with a tool."""
+"""Error of the tools."""
 
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from gazelle.errors import RosError
 
 
 class ToolError(RosError):
-    """What was asked for is not there, or cannot be done."""
+    """Error of a tool: something does not exist or cannot be done."""

@@ -1,4 +1,4 @@
-"""What topics there are, of what type, and who uses them."""
+"""Topics with their types, publishers and subscribers."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def _address(graph: GraphInspector, node: str) -> str:
 
 
 def find_topic(graph: GraphInspector, name: str) -> tuple[str, str, str] | None:
-    """What a name means: a topic, or a topic and a path of fields in its messages.
+    """Resolve a name: a topic, or a topic and a path of fields in its messages.
 
     Returns:
         Topic, type, and path (empty, or beginning with a slash); None if there is none.
@@ -137,7 +137,7 @@ def find_topic(graph: GraphInspector, name: str) -> tuple[str, str, str] | None:
 
 
 def _may_have(kind: str, path: str) -> bool:
-    """Whether messages of a type have the fields of a path; true if the type is not known."""
+    """Return whether messages of a type have the fields of a path; true if the type is not known."""
     from gazelle.errors import Error
 
     try:

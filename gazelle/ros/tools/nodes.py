@@ -1,4 +1,4 @@
-"""What nodes there are, what they do, and whether they live."""
+"""Nodes: their registrations, and whether they respond."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def list_nodes(
 
 
 def node_info(graph: GraphInspector, name: str, *, quiet: bool = False) -> str:
-    """What a node publishes, subscribes to and serves, and its connections.
+    """Describe a node's publications, subscriptions and services, and its connections.
 
     Args:
         graph: The graph.
@@ -238,7 +238,7 @@ def process_of(graph: GraphInspector, node: str) -> int | None:
 
 
 def alive(graph: GraphInspector, node: str) -> bool:
-    """Whether a node answers."""
+    """Return whether a node answers."""
     return process_of(graph, node) is not None
 
 

@@ -120,7 +120,7 @@ class MessagePublisher:
 
     @property
     def takes_values(self) -> bool:
-        """Whether messages of the type have fields."""
+        """True if messages of the type have fields."""
         return bool(self._class.__slots__)
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""How often messages come, how large they are, and how late."""
+"""Rates, sizes and delays of messages."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ class SizeMeter:
             self._events.append((now, size))
 
     def text(self, now: float) -> str:
-        """What was measured, in words; empty before the second message."""
+        """Describe the measurements; empty before the second message."""
         with self._lock:
             events = list(self._events)
         if len(events) < 2:

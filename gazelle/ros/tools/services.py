@@ -1,4 +1,4 @@
-"""What services there are, of what type, and calls to them."""
+"""Services with their types, and calls to them."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def service_uri(graph: GraphInspector, service: str) -> str:
 
 
 def probe(graph: GraphInspector, service: str) -> dict[str, str]:
-    """What a service says about itself.
+    """Return the header of a service.
 
     Raises:
         ToolError: Nobody offers it, or it does not answer.
@@ -140,7 +140,7 @@ class ServiceCaller:
 
     @property
     def takes_values(self) -> bool:
-        """Whether the request has fields."""
+        """True if the request has fields."""
         return bool(self._class._request_class.__slots__)
 
     def request(self, arguments: list[Any]) -> Any:

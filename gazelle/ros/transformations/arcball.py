@@ -68,7 +68,7 @@ class Arcball:
         self._constrain = constrain
 
     def getconstrain(self) -> bool:
-        """Whether the ball turns about its axes only."""
+        """Return whether the ball turns about its axes only."""
         return self._constrain
 
     def down(self, point: npt.ArrayLike) -> None:

@@ -22,7 +22,7 @@ def concatenate_matrices(*matrices: npt.ArrayLike) -> Floats:
 
 
 def is_same_transform(matrix0: npt.ArrayLike, matrix1: npt.ArrayLike) -> bool:
-    """Whether two matrices, which may differ by a factor, move points alike."""
+    """Return whether two matrices, which may differ by a factor, move points alike."""
     one, two = (np.array(matrix, dtype=np.float64) for matrix in (matrix0, matrix1))
     return bool(np.allclose(one / one[3, 3], two / two[3, 3]))
 

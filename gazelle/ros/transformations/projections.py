@@ -55,7 +55,7 @@ def projection_from_matrix(
     matrix: npt.ArrayLike,
     pseudo: bool = False,  # noqa: FBT001, FBT002  # callers pass it by position
 ) -> tuple[Floats, Floats, Floats | None, Floats | None, bool]:
-    """What made a projection: see the arguments of `projection_matrix`.
+    """Recover the arguments of `projection_matrix` from a projection.
 
     Raises:
         ValueError: It is not a projection.

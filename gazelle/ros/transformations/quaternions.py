@@ -80,7 +80,7 @@ def quaternion_conjugate(quaternion: npt.ArrayLike) -> Floats:
 
 
 def quaternion_inverse(quaternion: npt.ArrayLike) -> Floats:
-    """What multiplies with the quaternion to the identity."""
+    """Return the inverse of a quaternion."""
     q = np.asarray(quaternion, dtype=np.float64)
     return np.asarray(quaternion_conjugate(q) / (q @ q))
 

@@ -15,7 +15,7 @@ _TAGS = 30
 
 
 def is_long(value: Any) -> bool:
-    """Whether the document of a value is long; looks at no more of it than it takes to tell."""
+    """Return whether the document of a value is long; examine no more of it than needed."""
     left = LONG_BYTES
     waiting = [value]
     while waiting and left > 0:

@@ -32,7 +32,7 @@ _RETRY_ACCEPT = 0.2
 
 
 class UnknownMethodError(Exception):
-    """What a dispatcher raises for a method it does not have."""
+    """Error that a dispatcher raises for an unknown method."""
 
     def __init__(self, method: str) -> None:
         super().__init__(f'method "{method}" is not supported')
@@ -118,7 +118,7 @@ class XmlRpcServer:
         self._connections.pop(connection, None)
 
     def prepared(self, body: bytes) -> Step:
-        """What does the call of a document on the loop's thread; raises nothing, and may take long."""
+        """Prepare the call of a document for the loop's thread; may take long, raises nothing."""
         try:
             return self._prepare_call(*read_call(body, self.limits))
         except Exception as error:  # noqa: BLE001  # a bad call must not end the server

@@ -73,7 +73,7 @@ def _switch(wanted: Sequence[str], others: set[str]) -> None:
 
 
 def _states() -> dict[str, str]:
-    """What each controller does that is loaded."""
+    """Return the state of each loaded controller."""
     service = "controller_manager/list_controllers"
     rospy.wait_for_service(service, timeout=_TIMEOUT_S)
     proxy = rospy.ServiceProxy(service, load_service("controller_manager_msgs/ListControllers"))

@@ -42,7 +42,7 @@ Ctrl-C ends it.
 
 @dataclass(slots=True)
 class KeyDrive:
-    """What the keys ask for.
+    """Drive command built from the keys pressed.
 
     Attributes:
         speed: Linear speed [m/s].

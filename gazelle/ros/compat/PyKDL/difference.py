@@ -1,4 +1,4 @@
-"""What lies between two values, and the value one step on."""
+"""Difference of two values, and integration of a velocity by one step."""
 # ruff: noqa: N802 - the names are KDL's
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def diff(a: Any, b: Any, dt: float = 1.0) -> Any:
 
 
 def addDelta(a: Any, da: Any, dt: float = 1.0) -> Any:
-    """Where a is after `dt` seconds with a velocity; the counterpart of `diff`."""
+    """Return a moved by a velocity for `dt` seconds; the inverse of `diff`."""
     if isinstance(a, Frame):
         return Frame(addDelta(a.M, da.rot, dt), addDelta(a.p, da.vel, dt))
     if isinstance(a, Rotation):

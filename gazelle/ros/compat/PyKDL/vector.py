@@ -16,7 +16,7 @@ _WIDTH = 12
 
 
 def close(a: Sequence[float], b: Sequence[float]) -> bool:
-    """Whether values are equal but for `EPSILON`."""
+    """Return whether values are equal within `EPSILON`."""
     return all(abs(x - y) < EPSILON for x, y in zip(a, b, strict=True))
 
 

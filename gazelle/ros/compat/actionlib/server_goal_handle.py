@@ -1,4 +1,4 @@
-"""Where actionlib keeps it."""
+"""Module under the path that actionlib uses."""
 
 from gazelle.ros.actions.server import ServerGoalHandle
 

@@ -12,7 +12,7 @@ from gazelle.ros.time import Time
 
 
 class StatusTracker:
-    """How a goal stands.
+    """Status of a goal.
 
     Args:
         goal_id: Which goal it is; with `status`.

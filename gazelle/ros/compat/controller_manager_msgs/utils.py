@@ -43,7 +43,7 @@ def get_controller_managers(
 
 
 def is_controller_manager(namespace: str) -> bool:
-    """Whether all services of a manager are in a namespace, of the right types."""
+    """Return whether a namespace has all services of a controller manager, of the right types."""
     space = namespace if namespace.endswith("/") else f"{namespace}/"
     return all(
         rosservice.get_service_type(space + name) == kind for name, kind in cm_services.items()

@@ -1,4 +1,4 @@
-"""What the names of image encodings mean (sensor_msgs/image_encodings.h)."""
+"""Image encodings by name (sensor_msgs/image_encodings.h)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class CvBridgeError(TypeError):
 
 @dataclass(frozen=True, slots=True)
 class Encoding:
-    """How the pixels of an image are stored."""
+    """Encoding of an image's pixels."""
 
     name: str
     kind: str

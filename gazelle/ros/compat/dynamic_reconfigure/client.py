@@ -74,7 +74,7 @@ class Client:
     def get_parameter_descriptions(
         self, timeout: float | None = None
     ) -> list[dict[str, Any]] | None:
-        """What is known of each parameter; None if that does not come in time [s]."""
+        """Return the description of each parameter; None if it does not come in time [s]."""
         self._wait(lambda: self.param_description is not None, timeout)
         return self.param_description
 
@@ -121,7 +121,7 @@ class Client:
             subscriber.unregister()
 
     def get_config_callback(self) -> Callback | None:
-        """What is called with the values."""
+        """Return the callback for values."""
         return self.config_callback
 
     def set_config_callback(self, value: Callback | None) -> None:
@@ -131,7 +131,7 @@ class Client:
             value(self.config)
 
     def get_description_callback(self) -> Callback | None:
-        """What is called with the descriptions."""
+        """Return the callback for descriptions."""
         return self.description_callback
 
     def set_description_callback(self, value: Callback | None) -> None:

@@ -76,19 +76,19 @@ class PinholeCameraModel:
         return x / norm, y / norm, 1.0 / norm
 
     def getDeltaU(self, deltaX: float, Z: float) -> float:
-        """How many pixels a length [m] along x is at a depth [m]."""
+        """Return the length in pixels of a length [m] along x at a depth [m]."""
         return math.inf if Z == 0 else self.fx() * deltaX / Z
 
     def getDeltaV(self, deltaY: float, Z: float) -> float:
-        """How many pixels a length [m] along y is at a depth [m]."""
+        """Return the length in pixels of a length [m] along y at a depth [m]."""
         return math.inf if Z == 0 else self.fy() * deltaY / Z
 
     def getDeltaX(self, deltaU: float, Z: float) -> float:
-        """How long [m] pixels along u are at a depth [m]."""
+        """Return the length [m] of pixels along u at a depth [m]."""
         return Z * deltaU / self.fx()
 
     def getDeltaY(self, deltaV: float, Z: float) -> float:
-        """How long [m] pixels along v are at a depth [m]."""
+        """Return the length [m] of pixels along v at a depth [m]."""
         return Z * deltaV / self.fy()
 
     def fullResolution(self) -> tuple[int, int]:
@@ -144,11 +144,11 @@ class PinholeCameraModel:
         return float(self.P[1, 3])
 
     def fovX(self) -> float:
-        """How wide it sees [rad]."""
+        """Return the horizontal field of view [rad]."""
         return 2 * math.atan(self.width / self.binning_x / (2 * self.fx()))
 
     def fovY(self) -> float:
-        """How high it sees [rad]."""
+        """Return the vertical field of view [rad]."""
         return 2 * math.atan(self.height / self.binning_y / (2 * self.fy()))
 
     def tfFrame(self) -> str | None:

@@ -10,7 +10,7 @@ from gazelle.ros.compat.sensor_msgs.point_cloud2 import PointField, create_cloud
 
 
 class ChannelOption:
-    """What else a point says, as bits."""
+    """Additional channels of a point, as bits."""
 
     NONE = 0x00
     INTENSITY = 0x01

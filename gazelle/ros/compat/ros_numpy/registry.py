@@ -1,4 +1,4 @@
-"""Which function converts which type."""
+"""Registry of conversion functions by type."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ class Master:
             raise kind(error.text) from None
 
     def is_online(self) -> bool:
-        """Whether it answers."""
+        """Return whether it answers."""
         try:
             self.handle.get_pid()
         except (RosError, OSError):
@@ -122,5 +122,5 @@ class Master:
 
 
 def is_online(master_uri: str | None = None) -> bool:
-    """Whether a master answers."""
+    """Return whether a master answers."""
     return Master("rosgraph", master_uri).is_online()

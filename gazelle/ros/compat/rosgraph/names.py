@@ -29,7 +29,7 @@ ns_join = names.join
 
 
 def isstring(s: Any) -> bool:
-    """Whether a value is a string."""
+    """Return whether a value is a string."""
     return isinstance(s, str)
 
 
@@ -83,19 +83,19 @@ def load_mappings(argv: Iterable[str]) -> dict[str, str]:
 
 
 def is_legal_name(name: str) -> bool:
-    """Whether a name is legal; the empty one is."""
+    """Return whether a name is legal; the empty one is."""
     if name is None:
         return False  # type: ignore[unreachable]
     return not name or names.is_legal(name)
 
 
 def is_legal_base_name(name: str) -> bool:
-    """Whether a name is legal and has no namespace."""
+    """Return whether a name is legal and has no namespace."""
     return name is not None and names.is_legal_base(name)
 
 
 def is_legal_remap(arg: str) -> bool:
-    """Whether an argument is a remapping."""
+    """Return whether an argument is a remapping."""
     return bool(arg) and REMAP_PATTERN.match(arg) is not None
 
 

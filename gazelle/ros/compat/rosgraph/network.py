@@ -28,7 +28,7 @@ def parse_http_host_and_port(url: str) -> tuple[str, int]:
 
 
 def get_address_override() -> str | None:
-    """What ROS_HOSTNAME or ROS_IP say."""
+    """Return the value of ROS_HOSTNAME or ROS_IP."""
     return os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP") or None
 
 
@@ -49,7 +49,7 @@ def get_local_addresses() -> list[str]:
 
 
 def is_local_address(hostname: str) -> bool:
-    """Whether a name means this machine."""
+    """Return whether a name means this machine."""
     try:
         return net.find_address(hostname) in get_local_addresses()
     except OSError:
@@ -57,12 +57,12 @@ def is_local_address(hostname: str) -> bool:
 
 
 def get_bind_address(address: str | None = None) -> str:
-    """Where to listen."""
+    """Return the address to listen on."""
     return net.bind_address(address or net.default_host())
 
 
 def use_ipv6() -> bool:
-    """Whether ROS_IPV6 asks for version 6 of the internet protocol."""
+    """Return whether ROS_IPV6 asks for version 6 of the internet protocol."""
     return os.environ.get("ROS_IPV6") == "on"
 
 

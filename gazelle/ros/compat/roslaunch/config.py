@@ -1,4 +1,4 @@
-"""What launch files ask for, as roslaunch keeps it."""
+"""Configuration from launch files, with roslaunch's interface."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ class ROSLaunchConfig:
 
 
 def _or_rl_exception(function: Any) -> Any:
-    """What a function returns; its errors as those of roslaunch."""
+    """Call a function; convert its errors to those of roslaunch."""
     try:
         return function()
     except Error as error:
@@ -126,7 +126,7 @@ def load_config_default(
     assign_machines: bool = True,  # noqa: FBT001, FBT002
     ignore_unset_args: bool = False,  # noqa: FBT001, FBT002
 ) -> ROSLaunchConfig:
-    """What launch files ask for.
+    """Load the configuration from launch files.
 
     Args:
         roslaunch_files: Paths, or pairs of a path and its arguments (``x:=1``).

@@ -112,7 +112,7 @@ class Master:
         return ServerProxy(self.uri)
 
     def is_running(self) -> bool:
-        """Whether it answers."""
+        """Return whether it answers."""
         from gazelle.ros.errors import RosError
         from gazelle.ros.master.proxy import MasterProxy
 

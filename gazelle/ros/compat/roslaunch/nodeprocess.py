@@ -1,4 +1,4 @@
-"""How long nodes may take to end, where roslaunch keeps it."""
+"""Timeouts for the end of nodes, under the path that roslaunch uses."""
 
 from gazelle.ros.launch.process import StopTimeouts
 

@@ -41,7 +41,7 @@ class Process:
 
     @property
     def spawn_count(self) -> int:
-        """How often it was started."""
+        """Number of times it was started."""
         return self._process.spawned
 
     @property
@@ -50,7 +50,7 @@ class Process:
         return self._process.poll()
 
     def is_alive(self) -> bool:
-        """Whether it runs."""
+        """Return whether it is running."""
         return self._process.running
 
     def stop(self, errors: list[str] | None = None) -> None:
@@ -76,7 +76,7 @@ class Process:
         return info if code is None else info | {"exit_code": code}
 
     def get_exit_description(self) -> str:
-        """How it ended, in words."""
+        """Return a description of its end."""
         code = self.exit_code
         if code is None:
             return "process has died"

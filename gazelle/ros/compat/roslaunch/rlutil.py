@@ -1,4 +1,4 @@
-"""What scripts ask for before they launch."""
+"""Helper functions for scripts that launch."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def check_roslaunch(
     use_test_depends: bool = False,  # noqa: FBT001, FBT002  # roslaunch's interface
     ignore_unset_args: bool = False,  # noqa: FBT001, FBT002
 ) -> str | None:
-    """What is wrong with a launch file and the nodes in it; None if nothing is."""
+    """Return the errors of a launch file and its nodes as text; None without any."""
     del use_test_depends, ignore_unset_args
     packages = Packages()
     errors = []

@@ -22,7 +22,7 @@ def load_manifest(package_name: str, bootstrap_version: str = "0.7") -> None:
 
 
 def is_interactive() -> bool:
-    """Whether somebody types the commands."""
+    """Return whether the session is interactive."""
     return _interactive
 
 

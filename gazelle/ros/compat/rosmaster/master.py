@@ -36,7 +36,7 @@ class Master:
         self.uri = self._running.uri
 
     def ok(self) -> bool:
-        """Whether it answers."""
+        """Return whether it answers."""
         return self._running is not None and not self._running.ended.is_set()
 
     def stop(self) -> None:

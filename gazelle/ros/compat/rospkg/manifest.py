@@ -1,4 +1,4 @@
-"""What ``package.xml`` says."""
+"""Content of ``package.xml``."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Depend:
 
 @dataclass
 class Manifest:
-    """What a ``package.xml`` says."""
+    """Content of a ``package.xml``."""
 
     name: str = ""
     version: str = ""

@@ -59,7 +59,7 @@ class RosPack:
             raise ResourceNotFound(name, ros_paths=self.ros_paths) from None
 
     def get_manifest(self, name: str) -> Manifest:
-        """What its ``package.xml`` says.
+        """Return the content of its ``package.xml``.
 
         Raises:
             ResourceNotFound: There is no such package.
@@ -89,7 +89,7 @@ class RosPack:
         return [each for each in self.list() if name in self.get_depends(each, implicit)]
 
     def get_rosdeps(self, package: str, implicit: bool = True) -> builtins.list[str]:  # noqa: FBT001, FBT002
-        """What a package needs that is not on ROS_PACKAGE_PATH."""
+        """Return the dependencies of a package that are not on ROS_PACKAGE_PATH."""
         own = set(self.list())
         return [each for each in self.get_depends(package, implicit) if each not in own]
 

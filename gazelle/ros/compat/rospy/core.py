@@ -1,4 +1,4 @@
-"""What scripts reach for in ``rospy.core``: state, shutdown, logging."""
+"""Functions that scripts use from ``rospy.core``: state, shutdown, logging."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ rospywarn, rospyerr = logs.logwarn, logs.logerr
 
 
 def is_initialized() -> bool:
-    """Whether `init_node` was called."""
+    """Return whether `init_node` was called."""
     return process.ready.is_set()
 
 
@@ -69,12 +69,12 @@ def set_initialized(initialized: bool) -> None:  # noqa: FBT001  # rospy's inter
 
 
 def is_shutdown() -> bool:
-    """Whether the node ended, or is about to; not yet for the hooks of `on_shutdown`."""
+    """Return whether the node ended, or is about to; not yet for the hooks of `on_shutdown`."""
     return process.over
 
 
 def is_shutdown_requested() -> bool:
-    """Whether the node ended, or is about to."""
+    """Return whether the node ended, or is about to."""
     return process.shutdown.is_set()
 
 
@@ -113,7 +113,7 @@ def get_node_uri() -> str | None:
 
 
 def get_ros_root(required: bool = False, env: Any = None) -> Any:  # noqa: FBT001, FBT002  # rospy's interface
-    """What ROS_ROOT says.
+    """Return the value of ROS_ROOT.
 
     Raises:
         ROSException: It is required and not set.

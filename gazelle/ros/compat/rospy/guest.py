@@ -1,4 +1,4 @@
-"""What a script may do before `init_node`: ask the master, set parameters, call services."""
+"""Access to the graph before `init_node`: call the master, set parameters, call services."""
 
 from __future__ import annotations
 

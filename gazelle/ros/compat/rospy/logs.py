@@ -70,7 +70,7 @@ def level_of(record: logging.LogRecord) -> int:
 
 
 def _context() -> dict[str, str]:
-    """What a line on the screen may say of this process."""
+    """Return the values of this process for a log line's format."""
     moment = f"{time.time():f}"
     if is_rostime_initialized() and not is_wallclock():
         moment += f", {get_time():f}"
@@ -172,7 +172,7 @@ Log = Callable[..., None]
 
 
 def _caller() -> Any:
-    """Where the log function was called: file, line and last instruction."""
+    """Return the position of the log function's caller: file, line and last instruction."""
     frame = sys._getframe(2)  # noqa: SLF001  # the only way to tell call sites apart
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_HERE):
         frame = frame.f_back
@@ -180,7 +180,7 @@ def _caller() -> Any:
 
 
 def _due(site: Any, period: float) -> bool:
-    """Whether the period since the last time at this place is over."""
+    """Return whether the period since the last time at this place is over."""
     now = get_rostime() if is_rostime_initialized() else Time.from_sec(time.time())
     before = _when.get(site)
     # After a jump back of simulated time, the count begins anew.

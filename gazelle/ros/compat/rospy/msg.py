@@ -32,7 +32,7 @@ class AnyMsg(RawMessage):
 
 
 def is_message_class(kind: Any) -> bool:
-    """Whether something is a class of messages, of ours or of the user's."""
+    """Return whether something is a message class, of ours or of the user's."""
     return isinstance(kind, type) and (
         issubclass(kind, (Message, RawMessage))
         or (hasattr(kind, "_md5sum") and hasattr(kind, "serialize"))

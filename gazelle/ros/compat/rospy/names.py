@@ -66,7 +66,7 @@ UNNAMED = "/unnamed"
 
 
 class _Identity:
-    """Who this process is: before `init_node` nobody in particular."""
+    """Identity of this process; empty before `init_node`."""
 
     def __init__(self) -> None:
         self.reload(sys.argv)
@@ -85,7 +85,7 @@ identity = _Identity()
 
 
 def isstring(value: Any) -> bool:
-    """Whether a value is a string."""
+    """Return whether a value is a string."""
     return isinstance(value, str)
 
 

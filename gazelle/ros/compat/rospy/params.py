@@ -105,5 +105,5 @@ def delete_param(param_name: str) -> None:
 
 
 def has_param(param_name: str) -> bool:
-    """Whether a parameter is set."""
+    """Return whether a parameter is set."""
     return user().parameters.has(resolve_name(param_name))

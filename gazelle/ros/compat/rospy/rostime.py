@@ -63,14 +63,14 @@ def get_time() -> float:
 
 
 def is_wallclock() -> bool:
-    """Whether the node goes by the time of the machine."""
+    """Return whether the node uses wall time."""
     if process.node is None and process.own_clock is None:
         return True
     return not process.clock.simulated
 
 
 def is_rostime_initialized() -> bool:
-    """Whether there is a time."""
+    """Return whether a time source is available."""
     return process.node is not None or process.own_clock is not None
 
 

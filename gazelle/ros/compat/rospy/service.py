@@ -44,7 +44,7 @@ __all__ = ["Service", "ServiceException", "ServiceProxy", "wait_for_service"]
 
 
 class _Service:
-    """What both sides have in common.
+    """Common base of both sides of a service.
 
     Attributes:
         resolved_name: Of the service.
@@ -109,7 +109,7 @@ class Service(_Service):
     def error_handler(
         self, e: Exception, exc_type: Any, exc_value: Any, tb: TracebackType | None
     ) -> None:
-        """What happens when the handler raises: the function given for it, else the log."""
+        """Handle an exception of the handler: by the function given for it, else by the log."""
         if self._error_handler is not None:
             self._error_handler(e, exc_type, exc_value, tb)
             return
@@ -264,7 +264,7 @@ def wait_for_service(service: str, timeout: values.Duration | float | None = Non
 
 
 def convert_return_to_response(response: Any, response_class: Any) -> Any:
-    """What a handler returned as a response.
+    """Convert the return value of a handler to a response.
 
     Raises:
         ServiceException: It is none.

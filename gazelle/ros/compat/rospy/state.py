@@ -23,7 +23,7 @@ _PATIENCE_S = 5.0
 
 
 class NodeProcessState:
-    """What the modules of rospy share.
+    """State that the modules of rospy share.
 
     Attributes:
         node: The node; None before `init_node`.
@@ -115,12 +115,12 @@ class NodeProcessState:
 
     @property
     def over(self) -> bool:
-        """Whether to stop waiting and sleeping; hooks of a shutdown may still do both."""
+        """True if waiting and sleeping must stop; hooks of a shutdown may still do both."""
         return self.shutdown.is_set() and not self.hooking
 
     @property
     def hooking(self) -> bool:
-        """Whether this thread runs what the user wants done before the node ends."""
+        """True on the thread that runs the user's shutdown hooks."""
         return self._hooking == threading.get_ident()
 
     def wait_ended(self) -> None:

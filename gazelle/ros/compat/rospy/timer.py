@@ -73,7 +73,7 @@ class Rate:
         return self.sleep_dur - (curr_time - self.last_time)
 
     def remaining(self) -> values.Duration:
-        """What is left of this cycle."""
+        """Return the rest of this cycle."""
         return self._remaining(get_rostime())
 
     def sleep(self) -> None:
@@ -99,7 +99,7 @@ class Rate:
 
 @dataclass
 class TimerEvent:
-    """What a timer tells its callback.
+    """Timing information for a timer's callback.
 
     Attributes:
         last_expected: When the callback before should have begun; None for the first.

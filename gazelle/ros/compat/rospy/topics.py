@@ -33,7 +33,7 @@ __all__ = ["AnyMsg", "Publisher", "SubscribeListener", "Subscriber", "Topic"]
 
 
 class Topic:
-    """What publishers and subscribers have in common.
+    """Common base of publishers and subscribers.
 
     Attributes:
         name: The topic's resolved name; so is `resolved_name`.
@@ -105,7 +105,7 @@ class SubscribeListener:
 
 
 class _PublisherImpl:
-    """What older scripts reach into: the publisher behind a `Publisher`."""
+    """Implementation object that older scripts access behind a `Publisher`."""
 
     def __init__(self, publisher: NodePublisher | None, *, latch: bool) -> None:
         self.publisher = publisher
@@ -184,7 +184,7 @@ class Publisher(Topic):
 
     @property
     def closed(self) -> bool:
-        """Whether it can publish no more."""
+        """True if it can publish no more."""
         impl = self.impl
         return impl is None or (impl.owner is not None and impl.owner.closed)
 
@@ -246,7 +246,7 @@ class Publisher(Topic):
 
 
 class _SubscriberImpl:
-    """What older scripts reach into: the subscriber behind a `Subscriber`."""
+    """Implementation object that older scripts access behind a `Subscriber`."""
 
     def __init__(self) -> None:
         self.subscriber: NodeSubscriber | None = None

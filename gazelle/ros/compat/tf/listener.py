@@ -69,7 +69,7 @@ class Transformer:
         self._buffer.set_transform(transform, authority)
 
     def canTransform(self, target_frame: str, source_frame: str, time: Any) -> bool:
-        """Whether there is a transform at a time."""
+        """Return whether there is a transform at a time."""
         target, source = _plain(target_frame, source_frame)
         return bool(self._buffer.can_transform(target, source, time))
 
@@ -81,7 +81,7 @@ class Transformer:
         source_time: Any,
         fixed_frame: str,
     ) -> bool:
-        """Whether there is a transform from one time to another."""
+        """Return whether there is a transform from one time to another."""
         target, source, fixed = _plain(target_frame, source_frame, fixed_frame)
         asked = (target, target_time, source, source_time, fixed)
         return bool(self._buffer.can_transform_full(*asked))
@@ -152,7 +152,7 @@ class Transformer:
         self._buffer.clear()
 
     def frameExists(self, frame_id: str) -> bool:
-        """Whether a frame has a parent."""
+        """Return whether a frame has a parent."""
         return strip_leading_slash(frame_id) in self.getFrameStrings()
 
     def getFrameStrings(self) -> list[str]:

@@ -88,7 +88,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = _ZERO,
         return_debug_tuple: bool = False,  # noqa: FBT001, FBT002  # tf2_ros's interface
     ) -> Any:
-        """Whether there is a transform, at the latest after `timeout`.
+        """Return whether there is a transform, at the latest after `timeout`.
 
         Returns:
             Whether; or with `return_debug_tuple` that, and why not.
@@ -110,7 +110,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Any = _ZERO,
         return_debug_tuple: bool = False,  # noqa: FBT001, FBT002  # tf2_ros's interface
     ) -> Any:
-        """Whether there is a transform from one time to another; see `can_transform`."""
+        """Return whether there is a transform from one time to another; see `can_transform`."""
 
         def ask() -> Answer:
             return self.can_transform_full_core(

@@ -94,7 +94,7 @@ class BufferClient(BufferInterface):
     def can_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = _ZERO
     ) -> bool:
-        """Whether there is a transform."""
+        """Return whether there is a transform."""
         try:
             self.lookup_transform(target_frame, source_frame, time, timeout)
         except TransformException:
@@ -110,7 +110,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Any = _ZERO,
     ) -> bool:
-        """Whether there is a transform from one time to another."""
+        """Return whether there is a transform from one time to another."""
         try:
             self.lookup_transform_full(
                 target_frame, target_time, source_frame, source_time, fixed_frame, timeout

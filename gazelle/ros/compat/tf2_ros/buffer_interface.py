@@ -1,4 +1,4 @@
-"""What all buffers offer, and how values of other types are transformed and converted."""
+"""Interface of all buffers, and registration of transforms and conversions of other types."""
 # ruff: noqa: ARG002 - the interface names arguments that only buffers use
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class TypeException(Exception):  # noqa: N818  # tf2_ros's name
 
 
 class TransformRegistration:
-    """How values are transformed, by their type; shared by all buffers."""
+    """Registry of functions that transform values, by type; shared by all buffers."""
 
     _by_type: ClassVar[dict[Any, Callback]] = {}
 
@@ -61,7 +61,7 @@ class TransformRegistration:
 
 
 class ConvertRegistration:
-    """How values are converted, by their types; shared by all buffers."""
+    """Registry of functions that convert values, by type; shared by all buffers."""
 
     _to_msg: ClassVar[dict[Any, Callback]] = {}
     _from_msg: ClassVar[dict[Any, Callback]] = {}
@@ -122,7 +122,7 @@ def _for_type(known: dict[Any, Callback], key: Any) -> Callback | None:
 
 
 class BufferInterface:
-    """What all buffers offer."""
+    """Interface of all buffers."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
@@ -191,7 +191,7 @@ class BufferInterface:
     def can_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = _ZERO
     ) -> Any:
-        """Whether there is a transform."""
+        """Return whether there is a transform."""
         raise NotImplementedException
 
     def can_transform_full(
@@ -203,7 +203,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = _ZERO,
     ) -> Any:
-        """Whether there is a transform from one time to another."""
+        """Return whether there is a transform from one time to another."""
         raise NotImplementedException
 
 

@@ -10,7 +10,7 @@ from gazelle.ros.messages import load_message
 
 
 class _Shared:
-    """What all broadcasters of the process sent, so that a later one hides no earlier one."""
+    """Transforms of all broadcasters of the process, so that a later one hides no earlier one."""
 
     def __init__(self) -> None:
         self.lock = threading.Lock()
