@@ -40,7 +40,7 @@ class ActuatorDrive:
 
 
 def drive_of(given: Transmission) -> ActuatorDrive:
-    """What a ``<transmission>`` does, with its reductions and offsets.
+    """Return the drive of a ``<transmission>``, with its reductions and offsets.
 
     Where there are roles (``joint1``, ``actuator2``), they say which joint and which actuator is which,
     else their order does.
@@ -84,7 +84,7 @@ def drive_of(given: Transmission) -> ActuatorDrive:
 
 
 def _order(given: Transmission, roles: Sequence[str], what: str, width: int) -> list[int]:
-    """Where the first and the second joint or actuator stand in the file."""
+    """Return the indices of the first and the second joint or actuator in the file."""
     if width == 1 or not any(roles):
         return [*range(width)]
     wanted = [f"{what}{number}" for number in range(1, width + 1)]

@@ -1,4 +1,4 @@
-"""What controllers of wheeled bases have in common: odometry, commands that age, limits."""
+"""Common base of controllers of wheeled bases: odometry, command timeouts, limits."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ class BaseController(Controller):
 
     @property
     def framed(self) -> bool:
-        """Whether the frame of the odometry is published, too."""
+        """True if the frame of the odometry is published, too."""
         return self._frames_port in self._told
 
     def tell_frames(self, *, told: bool) -> None:

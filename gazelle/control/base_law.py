@@ -1,4 +1,4 @@
-"""What controllers of wheeled bases do in an update, in native code."""
+"""Common update of controllers of wheeled bases, in native code."""
 
 # mypy: disallow-untyped-decorators=False, disallow-subclassing-any=False
 
@@ -20,7 +20,7 @@ from gazelle.array_types import Bools, Floats, Ints64
 
 @dataclass(frozen=True, slots=True)
 class BaseMemory:
-    """What a base remembers; used in place.
+    """State of a base; used in place.
 
     Attributes:
         wanted: The last command: forward, sideways [m/s] and turning [rad/s], shape (nworld, 3).
@@ -128,7 +128,7 @@ def limited(
     dt: cython.double,
     bounds: cython.pointer(cython.double),  # type: ignore[valid-type]
 ) -> cython.double:
-    """What velocity may be driven: jerk first, then acceleration, then velocity.
+    """Return the limited velocity: jerk first, then acceleration, then velocity.
 
     Args:
         wanted: Now.

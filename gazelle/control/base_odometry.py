@@ -1,4 +1,4 @@
-"""Where a base has gone, from what its wheels did."""
+"""Odometry of a base from the motion of its wheels."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is wrong with a file of controllers, beside the robot that they are for."""
+"""Check of a file of controllers against the robot that they are for."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class _Entry:
 
 
 def is_controllers(file: Path) -> bool:
-    """Whether a file is one of controllers: YAML with a ``type`` such as ``package/Class`` somewhere."""
+    """Return whether a file is one of controllers: YAML with a ``type`` such as ``package/Class``."""
     if file.suffix.lower() not in (".yaml", ".yml") or not file.is_file():
         return False
     try:
@@ -207,7 +207,7 @@ class _Checker:
 
 
 def _rule_of(message: str) -> str:
-    """Which rule an error of a manager is of."""
+    """Return the rule that an error of a manager belongs to."""
     if "controller type" in message:
         return "controller-type"
     if "could not find resource" in message or "hardware interface" in message:
@@ -256,7 +256,7 @@ def _entries(node: yaml.Node | None) -> Iterator[_Entry]:
 
 
 def _gains(node: yaml.Node | None) -> Iterator[yaml.MappingNode]:
-    """Where gains of the simulation are."""
+    """Yield the mappings with gains of the simulation."""
     if not isinstance(node, yaml.MappingNode):
         return
     for key, value in node.value:

@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
-"""What a controller does in an update, in native code."""
+"""Base of controllers' updates in native code."""
 
 from __future__ import annotations
 

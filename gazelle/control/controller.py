@@ -1,4 +1,4 @@
-"""What a controller is: a law between what joints do and what they are told to do.
+"""Base of controllers: control laws between joint states and joint commands.
 
 A controller of one's own is a subclass, found by its type (see ``registry``)::
 
@@ -61,7 +61,7 @@ R = TypeVar("R")
 
 @dataclass(frozen=True, slots=True)
 class ControllerSetup:
-    """What a controller is made with.
+    """Environment that a controller is created with.
 
     Attributes:
         name: Its name.
@@ -147,7 +147,7 @@ class Controller:
         """
 
     def law(self) -> ControlLaw | None:
-        """What ``update`` does in native code, for controllers of Gazelle's own; None for nothing.
+        """Return the native code of ``update``, for controllers of Gazelle's own; None if there is none.
 
         Such a controller is updated between physics steps without Python, until ``wake_ns``. A
         subclass that overrides ``update`` is updated by that again.
@@ -163,7 +163,7 @@ class Controller:
 
     @property
     def patient(self) -> bool:
-        """Whether ``catch_up`` may wait until somebody asks this controller for something."""
+        """True if ``catch_up`` may be delayed until this controller is accessed."""
         return True
 
     def catch_up(self, updates: int, period: float) -> None:
@@ -217,7 +217,7 @@ class Controller:
         return handles
 
     def description_of(self, joint: str) -> Joint:
-        """What the robot's URDF says about a joint.
+        """Return the joint's description in the robot's URDF.
 
         Raises:
             ControlError: There is no URDF, or no such joint in it.

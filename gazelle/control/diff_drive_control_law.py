@@ -47,7 +47,7 @@ class DiffDriveControlLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def side(self, world: cython.Py_ssize_t, which: cython.Py_ssize_t) -> cython.double:
-        """How far a side has turned [rad]."""
+        """Return the mean rotation of a side's wheels [rad]."""
         total: cython.double = 0.0
         i: cython.Py_ssize_t
         for i in range(which * self.count, (which + 1) * self.count):
@@ -86,7 +86,7 @@ class DiffDriveControlLaw(BaseLaw):
             self.command[world, self.columns[self.count + i]] = right
 
     def measure(self) -> Floats:
-        """How far each side has turned now [rad], shape (nworld, 2)."""
+        """Return the current rotation of each side [rad], shape (nworld, 2)."""
         found = np.empty((self.nworld, 2))
         w: cython.Py_ssize_t
         for w in range(self.nworld):

@@ -18,7 +18,7 @@ from gazelle.control.values import JointTarget, JointTargets
 
 
 class Forwarding(Controller):
-    """What single and group controllers have in common.
+    """Common base of single and group forwarding controllers.
 
     It starts with zero, or with the positions that joints have. No command is ever too old, and the
     last one stays in the joints after ``stopping``.

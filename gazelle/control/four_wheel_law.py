@@ -110,7 +110,7 @@ class FourWheelLaw(BaseLaw):
     def standing_angle(
         self, slope: cython.double, bend: cython.double, outward: cython.double
     ) -> cython.double:
-        """What a wheel is steered to while the base stands [rad]."""
+        """Return the steering angle of a wheel while the base stands [rad]."""
         away: cython.double = self.length + outward * 0.5 * self.track * bend
         return atan2(self.length * slope / away, 1.0) if fabs(away) > _SLOW else 0.0
 

@@ -19,7 +19,7 @@ G = TypeVar("G")
 
 
 class GoalState(IntEnum):
-    """What became of a goal; the numbers are those of actionlib_msgs/GoalStatus."""
+    """States of a goal; the numbers are those of actionlib_msgs/GoalStatus."""
 
     PENDING = 0
     ACTIVE = 1
@@ -68,7 +68,7 @@ class Goal(Generic[G]):
 
     @property
     def done(self) -> bool:
-        """Whether it has ended in all of its worlds."""
+        """True if it has ended in all of its worlds."""
         return bool((self.states > GoalState.ACTIVE).all())
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -112,12 +112,12 @@ class Goal(Generic[G]):
 
     @property
     def heard(self) -> bool:
-        """Whether anybody wants feedback."""
+        """True if there are feedback callbacks."""
         return bool(self._feedback)
 
     @property
     def watched(self) -> bool:
-        """Whether anybody wants to know what becomes of it."""
+        """True if there are feedback callbacks or listeners."""
         return bool(self._feedback or self._listeners)
 
     def tell(self, value: Any) -> None:

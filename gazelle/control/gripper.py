@@ -119,11 +119,11 @@ class GripperActionController(Controller):
         return GripperResult(position, float(self._output[world]), stalled, reached)
 
     def _opening(self) -> Floats:
-        """Where the gripper is, as goals say it, shape (nworld,)."""
+        """Return the opening of the gripper as goals define it, shape (nworld,)."""
         return self._joint.position[:, 0]
 
     def _speed(self) -> Floats:
-        """How fast that changes, shape (nworld,)."""
+        """Return the rate of change of the opening, shape (nworld,)."""
         return self._joint.velocity[:, 0]
 
     def _hold(self, rows: Worlds) -> None:
@@ -160,7 +160,7 @@ class GripperActionController(Controller):
                     goal.tell(self._result(int(goal.worlds[0])))
 
     def law(self) -> ControlLaw | None:
-        """What holds the joint; None where a subclass has its own way of pushing."""
+        """Return the law that holds the joint; None where a subclass drives it in its own way."""
         return self._law
 
     def wake_ns(self) -> float:
@@ -194,7 +194,7 @@ class GripperActionController(Controller):
             self._begin(rows)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """What is wanted; goals are not kept."""
+        """Return the targets; goals are not stored."""
         inner = {} if self._pid is None else self._pid.state()
         return {
             "position": self._position.copy(),

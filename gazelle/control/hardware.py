@@ -35,7 +35,7 @@ class ControllerInfo:
 
 
 class SwitchResult(Enum):
-    """How far the robot has come with a switch of its joints' interfaces."""
+    """Progress of a robot's switch of its joints' interfaces."""
 
     DONE = "done"
     ONGOING = "ongoing"
@@ -119,7 +119,7 @@ class RobotHardware:
     def prepare_switch(
         self, start: Sequence[ControllerInfo], stop: Sequence[ControllerInfo]
     ) -> bool:
-        """Whether a switch is possible; it is not made then yet."""
+        """Return whether a switch is possible; it is not made yet."""
         del start, stop
         return True
 
@@ -127,7 +127,7 @@ class RobotHardware:
         """Begin to switch joints over."""
 
     def switch_result(self, controller: ControllerInfo | None = None) -> SwitchResult:
-        """How far the switch is, of the joints of one controller, or of all."""
+        """Return the progress of a switch, of the joints of one controller, or of all."""
         del controller
         return SwitchResult.DONE
 

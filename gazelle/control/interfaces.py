@@ -1,4 +1,4 @@
-"""What a robot's hardware offers to controllers: joints and sensors, by interface.
+"""Interfaces of a robot's hardware for controllers: joints and sensors.
 
 They are those of ros_control's ``hardware_interface``, for many worlds at once.
 
@@ -66,7 +66,7 @@ class HardwareInterface:
                 )
 
     def handles(self, names: Sequence[str]) -> Any:
-        """What a controller gets for some resources.
+        """Return the handles of some resources for a controller.
 
         Raises:
             ControlError: There is none of a name.
@@ -120,7 +120,7 @@ class JointStateInterface(HardwareInterface):
         self._arrays["effort"][:] = values
 
     def columns(self, names: Sequence[str]) -> Indices:
-        """Where joints are in the arrays, shape (n,)."""
+        """Return the columns of joints in the arrays, shape (n,)."""
         self.check(names)
         return np.array([self.resources.index(name) for name in names], np.intp)
 
@@ -204,16 +204,16 @@ class JointHandles:
 
     @property
     def effort(self) -> Floats:
-        """What acts [N or N m], shape (nworld, joints)."""
+        """Acting efforts [N or N m], shape (nworld, joints)."""
         return self.states.effort[:, self.columns]
 
     @property
     def fields(self) -> tuple[str, ...]:
-        """What a command consists of; nothing for joints that can only be read."""
+        """Fields of a command; empty for joints that can only be read."""
         return tuple(self.commands)
 
     def command(self, field: str | None = None) -> Floats:
-        """What is commanded now, shape (nworld, joints).
+        """Return the present command, shape (nworld, joints).
 
         Args:
             field: ``effort``, ``position``, ``velocity`` or ``acceleration``; the only one if None.

@@ -30,7 +30,7 @@ if not cython.compiled:  # else what joint_law.pxd says
 
 @dataclass(frozen=True, slots=True)
 class JointMemory:
-    """What is remembered of joints, shape (nworld, joints) but for ``stopped``; used in place.
+    """State of joints, shape (nworld, joints) but for ``stopped``; used in place.
 
     Attributes:
         placed_speed: Of joints that are put somewhere [m/s or rad/s].
@@ -187,7 +187,7 @@ class JointLaw:
         return 0.0 if self.stopped[world] else value
 
     def lack(self, world: int, i: int, wanted: float) -> float:
-        """What is missing; of a position the way round that limits allow."""
+        """Return the error; that of a position goes the way round that limits allow."""
         if self.kinds[i] == BY_VELOCITY:
             return wanted - self.velocity[world, i]
         if self.turning[i] == 0.0:

@@ -23,7 +23,7 @@ _EVERY = 10  # updates between two messages of the state
 
 
 class PidControl(Controller):
-    """What controllers of joints by PID have in common: targets, gains, and what they tell."""
+    """Common base of controllers with PID on joints: targets, gains and published state."""
 
     def control(
         self, names: tuple[str, ...], gains: list[tuple[str, ControllerParameters]]
@@ -75,7 +75,7 @@ class PidControl(Controller):
         self._updates += 1
 
     def law(self) -> ControlLaw:
-        """What it does to joints."""
+        """Return the law applied to the joints."""
         return self._law
 
     def wake_ns(self) -> float:
@@ -89,7 +89,7 @@ class PidControl(Controller):
         self._updates, self._period = self._updates + updates, period
 
     def measured(self) -> tuple[Floats, Floats]:
-        """What is controlled, and its rate, shape (nworld, joints)."""
+        """Return the controlled values and their rates, shape (nworld, joints)."""
         return self._joints.position, self._joints.velocity
 
     def begin(self, rows: Worlds) -> None:

@@ -78,7 +78,7 @@ class JointPidLaw(ControlLaw):
             self.command[world, self.columns[i]] = out[i]
 
     def measured(self, world: int) -> Floats:
-        """What is to be as the targets are."""
+        """Return the measured values, in the order of the targets."""
         values = offset(self.measured_at, world * self.width)
         if self.first_joint >= 0:
             return offset(values, self.first_joint)
@@ -89,7 +89,7 @@ class JointPidLaw(ControlLaw):
 
 
 def velocities_lacking(count: int, at: Floats, targets: Floats, error: Floats) -> None:
-    """What velocities lack."""
+    """Compute the errors of velocities."""
     for i in range(count):
         error[i] = targets[i] - at[i]
 
@@ -98,7 +98,7 @@ def positions_lacking(
     count: int, at: Floats, targets: Floats, error: Floats, lower: Floats, upper: Floats,
     turning: Floats,
 ) -> bool:  # fmt: skip
-    """What positions lack, of joints that turn the way round that limits allow; whether that is little.
+    """Compute position errors, the way that limits allow; return whether no joint is far off.
 
     Then all errors are finite.
     """

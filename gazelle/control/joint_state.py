@@ -100,7 +100,7 @@ class JointStateController(Controller):
 
 
 def _fault_of(entry: object) -> str:
-    """What is wrong with an entry of ``extra_joints``."""
+    """Return the fault in an entry of ``extra_joints``; empty if there is none."""
     if not isinstance(entry, Mapping) or not isinstance(entry.get("name"), str):
         return f"it needs a name: {entry!r}"
     for key in ("position", "velocity", "effort"):

@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
-"""How commands are held within the limits of joints, in native code (``limits``)."""
+"""Limits of joints applied to commands, in native code (``limits``)."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class LimitLaw:
         return clamp(wanted, -self.velocity[i], self.velocity[i])
 
     def hold_effort(self, i: int, command: float, position: float, velocity: float) -> float:
-        """What effort acts; beyond a limit only what leads back."""
+        """Return the limited effort; beyond a limit only effort that leads back."""
         if self.soft[i]:
             least = -self.k_velocity[i] * (velocity - self.soft_bound(i, position, False))
             most = -self.k_velocity[i] * (velocity - self.soft_bound(i, position, True))
@@ -72,7 +72,7 @@ class LimitLaw:
         return clamp(command, low, high)
 
     def hold_position(self, i: int, command: float, before: float, dt: float) -> float:
-        """What position is commanded after one before."""
+        """Return the limited position command, given the one before."""
         low, high = self.soft_bound(i, before, False), self.soft_bound(i, before, True)
         low = before + low * dt if isfinite(low) else -INFINITY
         high = before + high * dt if isfinite(high) else INFINITY
@@ -82,7 +82,7 @@ class LimitLaw:
     def hold_velocity(
         self, i: int, command: float, position: float, velocity: float, before: float, dt: float
     ) -> float:
-        """What velocity is commanded: soft limits go by how fast a joint is, hard ones by before."""
+        """Return the limited velocity command; hard limits start from the last command."""
         low, high = self.soft_bound(i, position, False), self.soft_bound(i, position, True)
         if isfinite(self.acceleration[i]):
             start = velocity if self.soft[i] else before

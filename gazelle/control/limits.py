@@ -40,13 +40,13 @@ class JointLimits:
 
     @property
     def any(self) -> bool:
-        """Whether there is any."""
+        """True if there is any limit."""
         values = (self.upper, -self.lower, self.velocity, self.acceleration, self.effort)
         return any(math.isfinite(value) for value in values)
 
     @classmethod
     def of_joint(cls, joint: Joint) -> JointLimits:
-        """What a description says; positions count for revolute and prismatic joints only."""
+        """Return the limits in a description; positions count for revolute and prismatic joints only."""
         if not joint.axes:
             return cls()
         axis = joint.axes[0]
@@ -152,7 +152,7 @@ class PositionLimiter:
         self.previous: Floats = np.full((nworld, len(limits)), math.nan)
 
     def enforce(self, command: Floats, position: Floats, dt: float) -> Floats:
-        """What may be commanded, shape (nworld, n).
+        """Return the limited command, shape (nworld, n).
 
         Args:
             command: What is wanted [m or rad], likewise.
@@ -179,7 +179,7 @@ class VelocityLimiter:
         self.previous: Floats = np.zeros((nworld, len(limits)))
 
     def enforce(self, command: Floats, position: Floats, velocity: Floats, dt: float) -> Floats:
-        """What may be commanded, shape (nworld, n).
+        """Return the limited command, shape (nworld, n).
 
         Args:
             command: What is wanted [m/s or rad/s], likewise.
@@ -202,7 +202,7 @@ class EffortLimiter:
         self._law = limit_law(limits)
 
     def enforce(self, command: Floats, position: Floats, velocity: Floats) -> Floats:
-        """What may be commanded, shape (nworld, n).
+        """Return the limited command, shape (nworld, n).
 
         Args:
             command: What is wanted [N or N m], likewise.

@@ -56,7 +56,7 @@ class LoadedControllers(dict[str, LoadedController]):
                 warnings.warn(ControlWarning(text), stacklevel=3)
 
     def laws(self) -> list[ControlLaw] | None:
-        """What those that run do in native code, in order; None if Python has to update one."""
+        """Return the native laws of running controllers, in order; None if Python has to update one."""
         found = []
         for entry in self.values():
             if entry.controller.running:
@@ -75,7 +75,7 @@ class LoadedControllers(dict[str, LoadedController]):
 
     @property
     def patient(self) -> bool:
-        """Whether all that run may be told later that they were updated in native code."""
+        """True if ``catch_up`` of all running controllers may be delayed."""
         return all(entry.controller.patient for entry in self.running)
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:

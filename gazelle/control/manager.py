@@ -30,7 +30,7 @@ BASE_CLASS: Final = "controller_interface::ControllerBase"
 
 
 class Strictness(IntEnum):
-    """What a switch does with requests that cannot be met (controller_manager_msgs)."""
+    """Treatment of requests that a switch cannot meet (controller_manager_msgs)."""
 
     BEST_EFFORT = 1
     STRICT = 2
@@ -172,7 +172,7 @@ class ControllerManager:
 
     @property
     def busy(self) -> bool:
-        """Whether a controller runs, or is to be started; for the thread that updates."""
+        """True if a controller runs, or is to be started; for the thread that updates."""
         return self._switch is not None or bool(self._loaded.running)
 
     def __getitem__(self, name: str) -> Controller:
@@ -237,7 +237,7 @@ class ControllerManager:
             self._go_on(self._switch)
 
     def laws(self) -> list[ControlLaw] | None:
-        """What controllers that run do in native code, in order; None if Python has to update one."""
+        """Return the native laws of running controllers, in order; None if Python has to update one."""
         return None if self._switch is not None else self._loaded.laws()
 
     def wake_ns(self) -> float:
@@ -246,7 +246,7 @@ class ControllerManager:
 
     @property
     def patient(self) -> bool:
-        """Whether ``catch_up`` may wait until somebody looks; see ``Controller.patient``."""
+        """True if ``catch_up`` may be delayed until something is read; see ``Controller.patient``."""
         return self._loaded.patient
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:

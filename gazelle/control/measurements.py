@@ -1,4 +1,4 @@
-"""Where things are and how they move."""
+"""Measurements of poses, joints and wrenches."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ NO_VARIANCE: SixNumbers = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @dataclass(frozen=True, slots=True)
 class Odometry:
-    """Where a robot believes to be, in every world.
+    """Odometry of a robot, in every world.
 
     Attributes:
         stamp: Simulated time [ns].
@@ -68,7 +68,7 @@ class JointStates:
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """Where one frame is in another, in every world.
+    """Pose of one frame in another, in every world.
 
     Attributes:
         frame: The parent.

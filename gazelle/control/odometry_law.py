@@ -1,4 +1,4 @@
-"""Where a base has gone, from what its wheels did, in native code (``base_odometry``)."""
+"""Odometry of a base from the motion of its wheels, in native code (``base_odometry``)."""
 
 # mypy: disallow-untyped-decorators=False
 

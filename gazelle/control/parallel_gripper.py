@@ -84,7 +84,7 @@ class ParallelGripperController(GripperActionController):
         self._joint.set_command(pushed + aside * [[-0.5, 0.5]])
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """What is wanted, and how far the set point is."""
+        """Return the targets, and the set point."""
         return {**super().state(), "set_point": self._set_point.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:

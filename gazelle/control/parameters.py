@@ -9,7 +9,7 @@ from gazelle.errors import ControlError, did_you_mean
 
 
 class ControllerParameters(Mapping[str, Any]):
-    """What YAML gives a controller, or a part of it; paths go down with ``/``.
+    """Parameters of a controller from YAML, or a part of them; paths are separated by ``/``.
 
     Args:
         values: Nested mappings of plain values.

@@ -187,7 +187,7 @@ def pid_values(pid: Pid, loop: int = 0) -> dict[str, bool | float]:
 
 
 def pid_changer(pid: Pid, loop: int = 0) -> Callable[[Mapping[str, Any]], None]:
-    """What changes the gains of a loop."""
+    """Return a function that changes the gains of a loop."""
 
     def change(values: Mapping[str, Any]) -> None:
         gains = list(pid.gains)

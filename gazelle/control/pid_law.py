@@ -17,7 +17,7 @@ if not cython.compiled:  # else what pid_law.pxd says
 
 @cython.cclass
 class PidLaw:
-    """What ``Pid`` remembers, and how it goes on.
+    """State of ``Pid``, and its update.
 
     Args:
         memory: The last error as ``push`` takes rates from, the last error, its integral, its rate,
@@ -147,7 +147,7 @@ class PidLaw:
 
 
 def are_finite(count: int, values: Floats) -> bool:
-    """Whether all numbers are."""
+    """Return whether all numbers are finite."""
     odd = 0
     for k in range(count):
         odd += 0 if isfinite(values[k]) else 1
@@ -166,7 +166,7 @@ def push_loops(
     output: Floats, out: Floats, p: Floats, i: Floats, d: Floats, sum_least: Floats,
     sum_most: Floats, term_least: Floats, term_most: Floats,
 ) -> None:  # fmt: skip
-    """What ``PidLaw.push`` does, of errors that are finite, for several loops at a time."""
+    """Update several loops at a time as ``PidLaw.push`` does, for finite errors."""
     for k in range(count):
         whole = i_error[k] + dt * errors[k]
         whole = min(max(whole, sum_least[k]), sum_most[k])

@@ -1,4 +1,4 @@
-"""What a controller says and hears, under any door.
+"""Ports of a controller, independent of the interface that uses them.
 
 A port carries plain dataclasses (see ``values`` and ``measurements``), knows of no wire and may be
 used from any thread: what comes through it is done between two updates. ROS calls them a subscribed
@@ -94,12 +94,12 @@ class StatePort(Generic[T]):
 
     @property
     def wanted(self) -> bool:
-        """Whether anybody listens."""
+        """True if there are listeners."""
         return bool(self._listeners)
 
     @property
     def last(self) -> T:
-        """What would be published now."""
+        """Value that would be published now."""
         return self._call(self._produce)
 
     def subscribe(self, listener: Callable[[T], None]) -> Callable[[], None]:
@@ -205,7 +205,7 @@ class TuningPort:
 
     @property
     def values(self) -> dict[str, bool | float]:
-        """What holds now."""
+        """Current values."""
         return self._call(lambda: dict(self._values()))
 
     def send(self, /, **wanted: Any) -> dict[str, bool | float]:

@@ -34,7 +34,7 @@ class PublishingSchedule:
         self._last_ns = None if at_once else now_ns
 
     def is_due(self, now_ns: int) -> bool:
-        """Whether to publish now; then it counts as done."""
+        """Return whether publishing is due now; if so, it counts as done."""
         if not self._period_ns:
             return False
         if self._last_ns is None:
@@ -64,7 +64,7 @@ class PublishingSchedule:
             self._last_ns += max(0, min(missed, updates)) * self._period_ns
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """What changes."""
+        """Return the state that changes."""
         return {"published": np.array(-1 if self._last_ns is None else self._last_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:

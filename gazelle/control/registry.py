@@ -35,7 +35,7 @@ def types() -> list[str]:
 
 
 def purpose(name: str) -> str:
-    """What controllers of a type are for, in a line; empty if it does not say, or is unknown.
+    """Return the purpose of a controller type in a line; empty if undocumented or unknown.
 
     Raises:
         Exception: It is another package's, and cannot be imported; that may raise anything.

@@ -39,7 +39,7 @@ class SpeedLimiter:
         )
 
     def limit(self, wanted: Floats, before: Floats, earlier: Floats, dt: float) -> Floats:
-        """What may be driven, shape (n,): jerk first, then acceleration, then velocity.
+        """Return the limited velocity, shape (n,): jerk first, then acceleration, then velocity.
 
         Args:
             wanted: Velocity now, shape (n,).

@@ -71,7 +71,7 @@ def evaluate(polynomials: Floats, time: Floats, inside: Bools) -> tuple[Floats, 
 
 
 def wrap_offset(before: Floats, after: Floats) -> Floats:
-    """What to add to positions so that joints that turn endlessly go the shorter way.
+    """Return the offsets of positions with which joints that turn endlessly go the shorter way.
 
     At half a turn the way that the positions say is taken.
 

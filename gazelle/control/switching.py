@@ -64,7 +64,7 @@ class Switch:
 
     @property
     def done(self) -> bool:
-        """Whether nothing is left to do."""
+        """True if nothing is left to do."""
         return not self.waiting
 
     def advance(
@@ -94,7 +94,7 @@ class Switch:
 
 
 def conflict_of(controllers: Iterable[ControllerInfo]) -> str:
-    """What two controllers, or one by two interfaces, would both command; empty for nothing."""
+    """Describe resources claimed by two controllers, or twice by one; empty if there are none."""
     claims: dict[str, list[str]] = {}
     for each in controllers:
         for resources in each.claimed.values():
@@ -114,7 +114,7 @@ def planned(
     *,
     strict: bool,
 ) -> tuple[list[str], list[str]]:
-    """What a switch starts and what it stops.
+    """Return the controllers that a switch starts and those it stops.
 
     Args:
         loaded: All controllers by name.

@@ -1,4 +1,4 @@
-"""How far joints may be off a trajectory."""
+"""Tolerances of joints on a trajectory."""
 
 from __future__ import annotations
 

@@ -125,7 +125,7 @@ class TrajectoryTable:
         return acting
 
     def sample(self, time: float, rows: Worlds | None = None) -> TrajectorySample:
-        """Where joints have to be at a time.
+        """Return the desired positions of joints at a time.
 
         Args:
             time: On the controller's clock [s].

@@ -79,7 +79,7 @@ class JointTrajectoryController(Controller):
         self._followed = False  # whether there was an update since it began anew
 
     def _adapt(self, parameters: ControllerParameters) -> None:
-        """How what is wanted becomes a command: as it is, or by PID."""
+        """Set up the conversion of targets to commands: direct, or by PID."""
         self._pid: Pid | None = None
         fields = self._joints.fields
         if fields not in (("velocity",), ("effort",)):
@@ -169,7 +169,7 @@ class JointTrajectoryController(Controller):
                     goal.tell(self._tell())
 
     def law(self) -> ControlLaw:
-        """What it does to joints."""
+        """Return the law applied to the joints."""
         return self._law
 
     def wake_ns(self) -> float:
@@ -320,7 +320,7 @@ class JointTrajectoryController(Controller):
         )
 
     def _wanted(self) -> JointSample:
-        """What was wanted in the last update; before the first what will be."""
+        """Return the targets of the last update; before the first, those of the next."""
         memory = self._memory
         if self._followed:
             rate, bend = memory.wanted_rate.copy(), memory.wanted_bend.copy()
@@ -351,7 +351,7 @@ class JointTrajectoryController(Controller):
             self._begin(rows)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """What is followed; goals are not kept."""
+        """Return the trajectory that is followed; goals are not stored."""
         inner = {} if self._pid is None else self._pid.state()
         return {
             "uptime": np.array([self._uptime, self._period]),

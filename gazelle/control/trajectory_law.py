@@ -23,7 +23,7 @@ if not cython.compiled:  # else what trajectory_law.pxd says
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryMemory:
-    """What a trajectory controller remembers, in all worlds; used in place.
+    """State of a trajectory controller, in all worlds; used in place.
 
     Attributes:
         uptime: Since the start [s], shape (nworld,).
@@ -148,7 +148,7 @@ class TrajectoryLaw(ControlLaw):
         return c
 
     def sample(self, world: int, joint: int, time: float) -> None:
-        """Where the segment that acts wants a joint to be."""
+        """Evaluate the active segment of a joint."""
         t, lasting = time - self.acting[world, joint, 0], self.acting[world, joint, 1]
         moving = 1.0
         if t < 0.0:
@@ -226,5 +226,5 @@ class TrajectoryLaw(ControlLaw):
 
 
 def within(position: float, velocity: float, far: float, fast: float) -> bool:
-    """Whether errors are within bounds; 0 is none."""
+    """Return whether errors are within bounds; 0 is none."""
     return not ((far > 0.0 and fabs(position) > far) or (fast > 0.0 and fabs(velocity) > fast))

@@ -27,7 +27,7 @@ class TrajectoryRefusedError(ControlError):
 
 
 def columns_of(given: JointTrajectory, names: Sequence[str], *, partial: bool) -> Indices:
-    """Where a trajectory's joints are among the controller's, shape (n,).
+    """Return the indices of a trajectory's joints among the controller's, shape (n,).
 
     Raises:
         TrajectoryRefusedError: There are no names, one is unknown or there twice, or some are missing

@@ -1,4 +1,4 @@
-"""What controllers are told, and what they say of themselves; each class names its ROS message.
+"""Commands and states of controllers; each class names its ROS message.
 
 Arrays that come out of a controller have a leading axis over worlds; what goes in is for the worlds that
 it is sent to, so its arrays have none.
@@ -50,7 +50,7 @@ class BaseTwist:
 
 @dataclass(frozen=True, slots=True)
 class StampedTwist:
-    """What a base was really told (geometry_msgs/TwistStamped).
+    """Commanded velocity of a base after limits (geometry_msgs/TwistStamped).
 
     Attributes:
         stamp: Simulated time [ns].
@@ -84,7 +84,7 @@ class FourWheelCommand:
 
 @dataclass(frozen=True, slots=True)
 class FourWheelOdometry:
-    """How a base steers and drives (four_wheel_steering_msgs/FourWheelSteeringStamped).
+    """Steering and speed of a base (four_wheel_steering_msgs/FourWheelSteeringStamped).
 
     Attributes:
         stamp: [ns].
@@ -169,7 +169,7 @@ class PidStatus:
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryPoint:
-    """Where joints have to be at a time (trajectory_msgs/JointTrajectoryPoint).
+    """Desired joint positions at a time (trajectory_msgs/JointTrajectoryPoint).
 
     Attributes:
         time: Since the start of the trajectory [s].
@@ -188,7 +188,7 @@ class TrajectoryPoint:
 
 @dataclass(frozen=True, slots=True)
 class JointTrajectory:
-    """Where joints have to be and when (trajectory_msgs/JointTrajectory).
+    """Desired joint positions over time (trajectory_msgs/JointTrajectory).
 
     Attributes:
         names: Of the joints; None for the controller's, in its order.
@@ -203,7 +203,7 @@ class JointTrajectory:
 
 @dataclass(frozen=True, slots=True)
 class JointTolerance:
-    """How far a joint may be off (control_msgs/JointTolerance).
+    """Tolerance of a joint (control_msgs/JointTolerance).
 
     Each value: 0 for the controller's own, negative for no bound.
     """
@@ -253,7 +253,7 @@ GOAL_TOLERANCE_VIOLATED = -5
 
 @dataclass(frozen=True, slots=True)
 class JointSample:
-    """Where joints are at a moment, in every world; shapes (nworld, joints), or None for unknown."""
+    """State of joints at a moment, in every world; shapes (nworld, joints), or None for unknown."""
 
     positions: Floats
     velocities: Floats
@@ -262,7 +262,7 @@ class JointSample:
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryState:
-    """How a trajectory is followed (control_msgs/JointTrajectoryControllerState and its feedback).
+    """Tracking of a trajectory (control_msgs/JointTrajectoryControllerState and its feedback).
 
     Attributes:
         stamp: [ns].

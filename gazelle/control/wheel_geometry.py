@@ -18,7 +18,7 @@ def wheel_distance(model: Model | None, first: str, second: str) -> float:
 
 
 def joint_origin(model: Model | None, joint: str) -> Vector3:
-    """Where a joint is in the model's frame [m].
+    """Return the position of a joint in the model's frame [m].
 
     Raises:
         ControlError: There is no URDF, or no such joint in it.

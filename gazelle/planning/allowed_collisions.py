@@ -1,4 +1,4 @@
-"""Which pairs of names may touch: links, and what stands around."""
+"""Allowed collision matrix: pairs of links and objects that may touch."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class AllowedCollisionMatrix:
         return made
 
     def allows(self, first: str, second: str) -> bool:
-        """Whether two names may touch."""
+        """Return whether two names may touch."""
         own = self._pairs.get(_key(first, second))
         if own is not None:
             return own

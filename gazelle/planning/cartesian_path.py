@@ -45,7 +45,7 @@ class CartesianPath:
 
 @dataclass(frozen=True, slots=True)
 class JumpLimits:
-    """How far joints may move between two steps, at most; infinite for no limit.
+    """Limits of joint motion between two steps; infinite for no limit.
 
     Attributes:
         factor: Times the mean of all steps, as MoveIt's ``jump_threshold``.

@@ -327,7 +327,7 @@ class ChainSolver:
     @cython.nogil
     @cython.exceptval(check=False)
     def _find_jacobian(self) -> cython.void:
-        """How the tip moves with each variable, rows weighted."""
+        """Compute the Jacobian of the tip, rows weighted."""
         k: cython.int
         row: cython.int
         for row in range(6):

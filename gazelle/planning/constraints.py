@@ -1,4 +1,4 @@
-"""What a goal or all states of a plan must fulfil: joints, positions and orientations of links."""
+"""Constraints of a goal or of all states of a plan: joints, positions and orientations of links."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class JointConstraint:
     below: float = 1e-4
 
     def violation(self, robot: RobotModel, state: Floats) -> str | None:
-        """What is wrong with a state, shape (variables,); None if nothing is."""
+        """Return the violation by a state, shape (variables,), as text; None if there is none."""
         position, way = self._way(robot, state)
         if -self.below - _ROUNDING <= way <= self.above + _ROUNDING:
             return None
@@ -45,11 +45,11 @@ class JointConstraint:
         )
 
     def distance(self, robot: RobotModel, state: Floats) -> float:
-        """How far the joint is from its position [m or rad], in a state, shape (variables,)."""
+        """Return the distance of the joint from its position [m or rad], in a state, shape (variables,)."""
         return abs(self._way(robot, state)[1])
 
     def _way(self, robot: RobotModel, state: Floats) -> tuple[float, float]:
-        """Where the joint is, and how far above its position."""
+        """Return the joint's position, and its offset above the constraint's position."""
         column = robot.column(self.joint)
         # What is written in the column of a joint that follows another does not count.
         follows = robot.variables[column].mimics
@@ -85,7 +85,7 @@ class PositionConstraint:
         return (alone, *(replace(alone, region=part, pose=pose) for part, pose in self.others))
 
     def distance(self, robot: RobotModel, state: Floats) -> float:
-        """How far the point is from the middle of the region [m], in a state, shape (variables,).
+        """Return the point's distance from the centre of the region [m], in a state, shape (variables,).
 
         Of several parts it is the first that the point is in, else the last, as in MoveIt.
         """
@@ -96,7 +96,7 @@ class PositionConstraint:
         return math.dist(middle, point)
 
     def violation(self, robot: RobotModel, state: Floats) -> str | None:
-        """What is wrong with a state, shape (variables,); None if nothing is."""
+        """Return the violation by a state, shape (variables,), as text; None if there is none."""
         point = robot.pose(state, self.link).apply(self.point)
         places = ((self.region, self.pose), *self.others)
         away = min(_away(part, pose, point) for part, pose in places)
@@ -123,7 +123,7 @@ class OrientationConstraint:
     measure: Literal["euler", "rotation vector"] = "euler"
 
     def violation(self, robot: RobotModel, state: Floats) -> str | None:
-        """What is wrong with a state, shape (variables,); None if nothing is."""
+        """Return the violation by a state, shape (variables,), as text; None if there is none."""
         angles = self._angles(robot, state)
         for axis, angle, limit in zip("xyz", angles, self.tolerances, strict=True):
             if abs(angle) > limit + _ROUNDING:
@@ -182,7 +182,7 @@ class ConstraintSet:
         return (*self.joints, *self.positions, *self.orientations)
 
     def violations(self, robot: RobotModel, state: Floats) -> list[str]:
-        """What is wrong with a state, shape (variables,), a text each."""
+        """Return the violations by a state, shape (variables,), a text each."""
         return [text for part in self.all if (text := part.violation(robot, state)) is not None]
 
     def alternatives(self) -> Iterator[ConstraintSet]:
@@ -198,12 +198,12 @@ _ROUNDING = 1e-9
 
 
 def _away(region: Region, pose: Pose, point: Vector3) -> float:
-    """How far a point is outside of a region at a pose [m]."""
+    """Return the distance of a point outside of a region at a pose [m]."""
     return _outside(region, pose.inverse().apply(point))
 
 
 def _outside(region: Region, point: Sequence[float]) -> float:
-    """How far a point of a region's frame is outside of it [m]."""
+    """Return the distance of a point of a region's frame outside of it [m]."""
     if isinstance(region, Sphere):
         return math.hypot(*point) - region.radius
     if isinstance(region, Cylinder):

@@ -29,7 +29,7 @@ _STEP = 0.01
 
 @dataclass(frozen=True, slots=True)
 class ExecutionReport:
-    """How a trajectory ended.
+    """Result of executing a trajectory.
 
     Attributes:
         outcome: ``SUCCESS``, ``CONTROL_FAILED``, ``TIMED_OUT`` or ``PREEMPTED``.
@@ -64,7 +64,7 @@ class Execution:
 
     @property
     def done(self) -> bool:
-        """Whether all controllers have ended."""
+        """True if all controllers have ended."""
         return all(goal.done for goal in self._goals.values())
 
     def cancel(self) -> None:
@@ -99,7 +99,7 @@ class Execution:
         return self.report()
 
     def report(self) -> ExecutionReport:
-        """How it ended, or stands."""
+        """Return its result, or its present state."""
         seconds = self._robot.simulation.time - self._begun
         if self._late:
             text = f"it took longer than {self._limit:.2f} s, and was stopped"

@@ -244,7 +244,7 @@ class GoalStates:
         raise NoPlanError(f"the goal cannot be{among}: " + "; ".join(texts), outcome)
 
     def _why_not(self, link: str, aim: Aim, pose: Pose) -> str:
-        """Which part of a pose cannot be reached."""
+        """Explain which part of a pose cannot be reached."""
         x, y, z = pose.position
         place = f"({x:.3f}, {y:.3f}, {z:.3f})"
         state = self._validity.full(self._start)

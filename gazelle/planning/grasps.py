@@ -1,4 +1,4 @@
-"""How things are grasped and put down, in the words of moveit_msgs/Grasp and PlaceLocation."""
+"""Grasps and place locations, in the words of moveit_msgs/Grasp and PlaceLocation."""
 
 from __future__ import annotations
 
@@ -169,6 +169,6 @@ def box_grasps(
 
 
 def _extent(turned: Pose, axis: Vector3, size: Vector3) -> float:
-    """How long a box is along an axis of a turned frame, all axes being along edges [m]."""
+    """Return the extent of a box along an axis of a turned frame, all axes being along edges [m]."""
     along = turned.rotate(axis)
     return sum(abs(part) * length for part, length in zip(along, size, strict=True))

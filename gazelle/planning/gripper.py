@@ -20,7 +20,7 @@ _PATIENCE = 10.0
 
 @dataclass(frozen=True, slots=True)
 class GripperReport:
-    """How a gripper moved.
+    """Result of a gripper motion.
 
     Attributes:
         reached: Whether it is where it should be.

@@ -141,11 +141,11 @@ class Group:
 
     @property
     def positions(self) -> Floats:
-        """Where its joints are [m or rad], shape (n,)."""
+        """Positions of its joints [m or rad], shape (n,)."""
         return self.state()[self.model.columns]
 
     def state(self) -> Floats:
-        """Where all joints of the robot are, shape (variables,); the scene knows it from now on."""
+        """Return the positions of all the robot's joints, shape (variables,); update the scene."""
         made = self.scene.robot.zero()
         rows = np.array([self.world])
         for column, name in enumerate(self.scene.robot.names):
@@ -155,12 +155,12 @@ class Group:
         return made.copy()
 
     def pose(self, link: str | None = None) -> Pose:
-        """Where a link is in the frame of the robot's root link; the tip if None."""
+        """Return the pose of a link in the frame of the robot's root link; of the tip if None."""
         return self.scene.robot.pose(self.state(), self.tip if link is None else link)
 
     @property
     def base(self) -> Pose:
-        """Where the robot's root link is in the world: ``base.inverse() * pose`` is in its frame."""
+        """Pose of the robot's root link in the world: ``base.inverse() * pose`` is in its frame."""
         root, rows = self.scene.robot.root, np.array([self.world])
         if root in self.robot.links:
             placed = self.robot.links[root].placement(rows)
@@ -198,7 +198,7 @@ class Group:
                     self._let_stand(made)
 
     def _let_stand(self, made: SceneObject) -> None:
-        """What the robot stands on may touch its root link."""
+        """Allow contact of the root link with an object that the robot stands on."""
         if any(isinstance(shape, Plane) for shape, _ in made.shapes):
             self.scene.allow(made.name, self.scene.robot.root)
 

@@ -30,7 +30,7 @@ _WEIGHTS: dict[str, tuple[float, ...]] = {
 
 @dataclass(frozen=True, slots=True)
 class IkSolutions:
-    """What inverse kinematics found for several poses.
+    """Solutions of inverse kinematics for several poses.
 
     Attributes:
         positions: Of the group's joints [m or rad], NaN where none was found, shape (n, joints).

@@ -53,7 +53,7 @@ class JointModelGroup:
 
     @property
     def tip(self) -> str:
-        """What poses are of: where the end effector is mounted, else the end of the one chain.
+        """Link that poses refer to: the mount of the end effector, else the end of the one chain.
 
         Raises:
             PlanningError: There is none, or there are several.
@@ -69,7 +69,7 @@ class JointModelGroup:
 
     @property
     def endless(self) -> Bools:
-        """Which variables turn without limits, shape (n,)."""
+        """Mask of variables that turn without limits, shape (n,)."""
         return np.array([variable.endless for variable in self.variables], bool)
 
     @property
@@ -118,7 +118,7 @@ class JointModelGroup:
         return length
 
     def beyond(self, positions: ArrayLike, slack: float = 1e-9) -> list[str]:
-        """Which limits positions, shape (n,), are beyond by more than ``slack``: a text each."""
+        """Return the limits that positions, shape (n,), exceed by more than ``slack``: a text each."""
         found = []
         for variable, value in zip(self.variables, np.asarray(positions).tolist(), strict=True):
             low, high = variable.bounds.lower, variable.bounds.upper

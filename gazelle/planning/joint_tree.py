@@ -1,4 +1,4 @@
-"""Where the joints and links of a robot are: forward kinematics and Jacobians, compiled.
+"""Forward kinematics and Jacobians of a robot, compiled.
 
 A rigid transform is twelve numbers here: the rotation matrix row by row, then the translation.
 """
@@ -158,7 +158,7 @@ class JointTree:
         return made
 
     def jacobian(self, variables: Floats, joint: int, offset: Floats) -> Floats:
-        """How a frame moves with each variable.
+        """Compute the Jacobian of a frame.
 
         Args:
             variables: Shape (n, variables).
@@ -202,7 +202,7 @@ class JointTree:
         return np.array(found, np.int32)
 
     def columns(self) -> Ints32:
-        """Which variable each joint goes by, shape (joints,)."""
+        """Return the index of each joint's variable, shape (joints,)."""
         return np.array(self._columns, np.int32)
 
     def root(self) -> Floats:

@@ -16,14 +16,14 @@ from gazelle.simulation.robot import Robot
 
 
 class MovingGroup(Protocol):
-    """What is asked of the group (``Group``)."""
+    """Interface of the group (``Group``) that is needed."""
 
     robot: Robot
     world: int
     scene: PlanningScene
 
     def state(self) -> Floats:
-        """Where all joints are; the scene knows it from now on."""
+        """Return the positions of all joints; update the scene."""
 
     def check_start(self, plan: MotionPlan) -> None:
         """See that the robot is where a plan begins."""

@@ -1,4 +1,4 @@
-"""What a plan to take a thing, or to put it down, is made of."""
+"""Stages of a plan to take an object, or to put it down."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class ManipulationPlan:
 
 @dataclass(frozen=True, slots=True)
 class ContactRules:
-    """What may touch while things are taken and put down.
+    """Contacts that are allowed while objects are taken and put down.
 
     Attributes:
         support: What the thing stands on; it may touch that. If empty, what it touches anyhow.

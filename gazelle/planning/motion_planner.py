@@ -42,7 +42,7 @@ START_SLACK = 0.05
 
 @dataclass(frozen=True, slots=True)
 class PlanOptions:
-    """How to plan.
+    """Options for planning.
 
     Attributes:
         planner: By a name of MoveIt's configurations; RRTConnect if empty.

@@ -20,7 +20,7 @@ _SEEDING = threading.Lock()
 
 
 def is_installed() -> bool:
-    """Whether the package ``ompl`` is there."""
+    """Return whether the package ``ompl`` is installed."""
     return importlib.util.find_spec("ompl") is not None
 
 

@@ -1,4 +1,4 @@
-"""How requests to plan end; the numbers are those of moveit_msgs/MoveItErrorCodes."""
+"""Outcomes of planning requests; the numbers are those of moveit_msgs/MoveItErrorCodes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gazelle.errors import PlanningError
 
 
 class PlanOutcome(IntEnum):
-    """How it ended."""
+    """Outcome of a planning request."""
 
     SUCCESS = 1
     FAILURE = 99999

@@ -1,4 +1,4 @@
-"""How fast a path can be followed: the fastest profile of speeds along it, compiled.
+"""Time-optimal timing of a path: the fastest profile of speeds along it, compiled.
 
 Method: Pham and Pham, "A new approach to time-optimal path parameterization based on reachability
 analysis", IEEE Transactions on Robotics 34, 2018: backwards the speeds from which the end can be
@@ -97,7 +97,7 @@ class SpeedProfile:
     @cython.nogil
     @cython.exceptval(check=False)
     def _holds(self, i: cython.int, x: cython.double, step: cython.double) -> cython.bint:
-        """Whether a speed can be held here and left for one that the next place allows."""
+        """Return whether a speed is feasible here and can lead to one that the next place allows."""
         self._bound(i, x)
         if self._least > self._most:
             return False

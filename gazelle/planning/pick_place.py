@@ -361,7 +361,7 @@ class PickPlacePlanner:
                 scene.allow(name, other)
 
     def _tip_pose(self, pose: Pose, link: str, state: Floats) -> Pose:
-        """Where the tip is when a link, fixed to it, is at a pose."""
+        """Return the pose of the tip when a link, fixed to it, is at a pose."""
         if not link or link == self._link:
             return pose
         apart = self._robot.pose(state, link).inverse() * self._robot.pose(state, self._link)

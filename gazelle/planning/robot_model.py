@@ -123,7 +123,7 @@ class RobotModel:
         return self._groups[name]
 
     def _group(self, name: str) -> JointModelGroup:
-        """What the SRDF says of a group, and what follows from it."""
+        """Build a group from the SRDF, and derive its links, tips and base."""
         joints = {joint.name for joint in self.semantics.joints_of(name, self.model)}
         said = self._said(name)
         joints |= {joint for group in said for joint in group.joints}
@@ -214,7 +214,7 @@ class RobotModel:
         return [each.name for each in self.variables if each.joint == joint]
 
     def _carries(self, effector: EndEffector, group: str, links: tuple[str, ...]) -> bool:
-        """Whether an end effector is mounted on a group."""
+        """Return whether an end effector is mounted on a group."""
         if effector.parent_group:
             return effector.parent_group == group
         return effector.group != group and effector.parent_link in links
@@ -243,7 +243,7 @@ class RobotModel:
         return lower, upper
 
     def leader(self, column: int) -> tuple[int, float, float]:
-        """What a variable follows: a column, a factor and an offset; itself, 1 and 0 if nothing."""
+        """Return a variable's source: a column, a factor and an offset; itself, 1 and 0 without one."""
         return self._sources[column]
 
     def complete(self, state: ArrayLike) -> Floats:
@@ -286,7 +286,7 @@ class RobotModel:
         return Pose.from_matrix(self.forward(state, link))
 
     def jacobian(self, state: ArrayLike, link: str, point: Sequence[float] = (0, 0, 0)) -> Floats:
-        """How a point of a link moves with each variable.
+        """Compute the Jacobian of a point of a link.
 
         Args:
             state: Shape (variables,) or (n, variables).

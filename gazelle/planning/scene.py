@@ -42,7 +42,7 @@ class SceneContact:
 
 
 class PlanningScene:
-    """What a robot must not touch: itself, obstacles, and things that it holds.
+    """Scene of a robot that must not touch itself, obstacles, or objects that it holds.
 
     Poses of objects are in the robot's frame. Bodies that are fixed to each other are not checked
     against each other.
@@ -193,7 +193,7 @@ class PlanningScene:
 
     @property
     def allowed(self) -> AllowedCollisionMatrix:
-        """Which pairs may touch: a copy. Setting it changes that."""
+        """Allowed collision matrix: a copy. Setting it changes that of the scene."""
         return self._allowed.copy()
 
     @allowed.setter
@@ -268,7 +268,7 @@ class PlanningScene:
     # -- poses ---------------------------------------------------------------------------
 
     def pose_of(self, name: str, state: ArrayLike | None = None) -> Pose:
-        """Where a link, an object, or a named frame of one (``OBJECT/FRAME``) is.
+        """Return the pose of a link, an object, or a named frame of one (``OBJECT/FRAME``).
 
         Raises:
             PlanningError: There is nothing of that name.
@@ -298,7 +298,7 @@ class PlanningScene:
     def contacts(
         self, state: ArrayLike | None = None, group: JointModelGroup | None = None
     ) -> list[SceneContact]:
-        """What touches and may not, in one state, deepest first.
+        """Return forbidden contacts in one state, deepest first.
 
         Args:
             state: Of all variables; the scene's if None. Shape (variables,).
@@ -314,7 +314,7 @@ class PlanningScene:
         return sorted(found, key=lambda each: -each.depth)
 
     def in_collision(self, state: Floats, group: JointModelGroup | None = None) -> bool:
-        """Whether anything touches that may not, in one state, shape (variables,)."""
+        """Return whether there is a forbidden contact in one state, shape (variables,)."""
         return self.collision_check(group)(state)
 
     def collision_check(self, group: JointModelGroup | None = None) -> Callable[[Floats], bool]:
@@ -325,7 +325,7 @@ class PlanningScene:
     def why_invalid(
         self, state: ArrayLike | None = None, group: JointModelGroup | None = None
     ) -> list[str]:
-        """What is wrong with a state, a text each: limits, and pairs that collide, with their depth.
+        """Explain why a state is invalid, a text each: limits, and pairs that collide, with their depth.
 
         Args:
             state: Of all variables; the scene's if None. Shape (variables,).
@@ -347,7 +347,7 @@ class PlanningScene:
         self._models = {}
 
     def _model(self, group: JointModelGroup | None) -> CollisionModel:
-        """What collides, compiled: for pairs that a group moves, or for all."""
+        """Return the compiled collision model: for pairs that a group moves, or for all."""
         key = () if group is None else group.names
         if key not in self._models:
             self._models[key] = self._compiled(group)
@@ -385,7 +385,7 @@ class PlanningScene:
 
 
 def _contents(scene: PlanningScene) -> tuple[object, ...]:
-    """What is in a scene; things do not change, others take their place."""
+    """Return the content of a scene; objects do not change, others take their place."""
     things = {name: id(each) for name, each in (*scene.objects.items(), *scene.attached.items())}
     return things, scene.padding, scene.scale, scene.allowed
 

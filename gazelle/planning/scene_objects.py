@@ -1,4 +1,4 @@
-"""What stands around a robot, or is held by it: shapes at poses under a name."""
+"""Objects around a robot, or held by it: shapes at poses under a name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which positions of a group are valid in a scene, and which straight ways between them."""
+"""Validity of positions of a group in a scene, and of straight paths between them."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class StateValidity:
         return state
 
     def __call__(self, positions: Floats) -> bool:
-        """Whether positions, shape (n,), are within limits and constraints, and free of collisions."""
+        """Return whether positions, shape (n,), are within limits and constraints, and collision-free."""
         self.checks += 1
         if (positions < self._low).any() or (positions > self._high).any():
             return False
@@ -79,7 +79,7 @@ class StateValidity:
         ]
 
     def way(self, first: Floats, second: Floats, resolution: float | None = None) -> bool:
-        """Whether all states between two positions are valid; the first one counts as checked.
+        """Return whether all states between two positions are valid; the first one counts as checked.
 
         The middle comes first, as what lies in the way is found soonest so.
         """
@@ -91,7 +91,7 @@ class StateValidity:
         return all(self(first + number * delta) for number in _bisecting(count))
 
     def path(self, points: Floats, resolution: float | None = None) -> bool:
-        """Whether a path through points, shape (m, n), is valid, ends included."""
+        """Return whether a path through points, shape (m, n), is valid, ends included."""
         return self(points[0]) and all(
             self.way(first, second, resolution) for first, second in pairwise(points)
         )

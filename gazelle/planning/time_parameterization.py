@@ -33,7 +33,7 @@ _JUMP = 0.02
 
 @dataclass(frozen=True, slots=True)
 class PathLimits:
-    """What joints may do at most.
+    """Limits of joints for timing a path.
 
     Attributes:
         velocity: [m/s or rad/s], above zero, shape (n,).
@@ -148,7 +148,7 @@ def _time_optimal(path: PathPieces, limits: PathLimits) -> TimedPath:
 
 
 def _places(path: PathPieces) -> Floats:
-    """Where speeds are found: ends of pieces, and some within each."""
+    """Return the places where speeds are computed: ends of pieces, and some within each."""
     counts = np.maximum(4, np.ceil(_STEPS * np.diff(path.begins) / path.length)).astype(int)
     parts = [
         np.linspace(first, second, count, endpoint=False)

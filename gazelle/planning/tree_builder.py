@@ -20,7 +20,7 @@ _SINGLE = ("revolute", "continuous", "prismatic")
 
 @dataclass(frozen=True, slots=True)
 class LinkFrame:
-    """Where a link is.
+    """Frame of a link.
 
     Attributes:
         name: Of the link.

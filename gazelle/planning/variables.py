@@ -105,7 +105,7 @@ class Variable:
 
     @property
     def endless(self) -> bool:
-        """Whether it turns without limits, so that a full turn changes nothing."""
+        """True if it turns without limits, so that a full turn changes nothing."""
         unlimited = self.bounds.lower == -math.inf and self.bounds.upper == math.inf
         return self.kind != "prismatic" and unlimited
 
