@@ -163,7 +163,7 @@ def test_launch_files_can_be_read_with_their_defaults(path, monkeypatch):
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    "words", ["turtlebot3_gazebo turtlebot3_house.launch", "turtlebot_gazebo playground.launch"]
+    "words", ["turtlebot3_gazebo turtlebot3_autorace.launch", "turtlebot_gazebo playground.launch"]
 )
 def test_a_launch_file_that_is_not_bundled_is_one_error(words):
     command = [sys.executable, "-m", "gazelle", "launch", *words.split()]
