@@ -46,10 +46,9 @@ ELSEWHERE = [
     "ur_description/urdf/ur5_robot.urdf.xacro",
 ]
 MISSING = {
-    "turtlebot3_gazebo/worlds/turtlebot3_house.world": "furnished_room",
     "turtlebot3_gazebo/models/turtlebot3_burger/model.sdf": "turtlebot3_burger.urdf.xacro",
     "turtlebot3_gazebo/worlds/turtlebot3_stage_5.world": "did you mean 'turtlebot3_stage_",
-    "turtlebot3_gazebo/worlds/zoo.world": "worlds has turtlebot3_stage_1.world",
+    "turtlebot3_gazebo/worlds/zoo.world": "worlds has turtlebot3_house.world, turtlebot3_stage_1.world",
     "turtlebot_gazebo/worlds/playground.world": "turtlebot2_maze",
     "fetch_gazebo/worlds/test_zone.sdf": "pick_and_place",
     "stage_ros/world/willow-erratic.world": "depot",

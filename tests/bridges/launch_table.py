@@ -73,13 +73,6 @@ QUICK = [
 
 SLOW = [
     Expected(
-        "turtlebot3_gazebo turtlebot3_house.launch",
-        models="ground_plane turtlebot3 turtlebot3_house",
-        topics=_BURGER,
-        frames="odom>base_footprint",
-        missing=(_MESHES,),
-    ),
-    Expected(
         "turtlebot3_gazebo turtlebot3_stage_1.launch",
         models="ground_plane turtlebot3_burger turtlebot3_square",
         topics=_BURGER,
