@@ -72,7 +72,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    """What needs a simulation is imported when it is used first."""
+    """Import on first use what needs a simulation."""
     if name not in _HOMES:
         raise AttributeError(f"module 'gazelle.envs' has no attribute '{name}'")
     value = getattr(importlib.import_module(f"gazelle.envs.{_HOMES[name]}"), name)

@@ -33,7 +33,7 @@ SCENARIO = "scenario"
 
 @dataclass(frozen=True, slots=True)
 class Transition:
-    """What one control step brought, all arrays with a leading axis over worlds.
+    """Result of one control step, all arrays with a leading axis over worlds.
 
     Attributes:
         observation: Shape (nworld, size).
@@ -52,7 +52,7 @@ class Transition:
 
 @dataclass(frozen=True, slots=True)
 class Finals:
-    """How episodes ended that a control step ended.
+    """Final observations and infos of episodes that a control step ended.
 
     Attributes:
         worlds: Where, shape (n,).
@@ -127,7 +127,7 @@ class BatchedTask(ABC):
         return task
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """How to make the task again, and its state."""
+        """Return the constructor's arguments and the state, for pickling."""
         return _made_again, (type(self), *self._made_with), self.get_state()
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -156,7 +156,7 @@ class BatchedTask(ABC):
 
     @property
     def contract(self) -> PolicyContract:
-        """What a policy sees and does; a task that says more than its spaces overrides this."""
+        """Contract of its policies; a task that knows more than its spaces overrides this."""
         return generic_contract(self.observation_space, self.action_space, self.control_period)
 
     def seed(self, seed: int) -> None:
@@ -186,11 +186,11 @@ class BatchedTask(ABC):
         return observation, info
 
     def scenario(self, worlds: Worlds) -> Floats | None:
-        """What sets the episodes apart that begin in these worlds now, shape (n, size).
+        """Return the numbers that distinguish the episodes beginning in these worlds, shape (n, size).
 
         All that was drawn for them: where the robot starts, its goal, how obstacles stand. Two
-        episodes with equal numbers are the same one, which evaluations count once; noise does
-        not belong here. None, the default, if the task cannot tell.
+        episodes with equal numbers are the same one, which evaluations count once; noise does not
+        belong here. None, the default, if the task cannot tell.
         """
         del worlds
         return None
@@ -305,10 +305,10 @@ class BatchedTask(ABC):
         self.elapsed[:] = elapsed
 
     def _hold(self, worlds: Worlds) -> Any:
-        """What of these worlds a step must leave as it is, although they take part in it.
+        """Save the state of worlds that the next step must not change, although they take part in it.
 
-        Their episode is over, and the next begins after that step, in which they should do as if
-        it did not happen: random numbers stay undrawn, and nothing gets in the way of others.
+        Their episode is over, and the next begins after that step, in which they should do as if it
+        did not happen: random numbers stay undrawn, and nothing gets in the way of others.
         """
         del worlds
 

@@ -1,4 +1,4 @@
-"""What a robot's camera sees as an observation, in all worlds at once."""
+"""Camera images of a robot as observations, in all worlds at once."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class CameraObservation:
         self.space = gym.spaces.Box(0, 255, (camera.height, camera.width, 3), np.uint8)
 
     def read(self, worlds: Worlds | None = None) -> Bytes:
-        """What is seen now, shape (n, height, width, 3), top row first.
+        """Return the present images, shape (n, height, width, 3), top row first.
 
         Args:
             worlds: Of these worlds, shape (n,); of all if None.

@@ -1,4 +1,4 @@
-"""What a policy sees and does, in words and numbers that outlive the environment it was trained in.
+"""Contract of a policy: its observations and actions, independent of the training environment.
 
 Whoever lets a policy act elsewhere, on a robot or in another simulator, has to give it the same
 numbers in the same order, as often, and do with its actions what the environment did. A task says
@@ -63,7 +63,7 @@ class ObservationPart:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScanRule:
-    """How ranges of a lidar become numbers for a policy."""
+    """Conversion of a lidar's ranges to a policy's input."""
 
     first_angle: float
     """Angle of the first ray from straight ahead, left positive [rad]."""
@@ -83,7 +83,7 @@ class ScanRule:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActionRule:
-    """What actions mean."""
+    """Meaning of actions."""
 
     kind: Literal["velocity", "other"] = "other"
     """``velocity``: a forward speed and a yaw rate; ``other`` is known to its task alone."""
@@ -109,7 +109,7 @@ class ActionRule:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PolicyContract:
-    """What a policy sees, does and was trained for."""
+    """Contract of a policy: its observations, its actions and its training."""
 
     task: str = ""
     """Gymnasium id of the task."""
@@ -191,7 +191,7 @@ class PolicyContract:
 def generic_contract(
     observations: gym.Space[Any], actions: gym.Space[Any], control_period: float | None
 ) -> PolicyContract:
-    """What the spaces alone tell of a task that says no more.
+    """Return the contract that follows from the spaces alone.
 
     The parts of a Dict stand in a row, in its order.
     """

@@ -55,7 +55,7 @@ def round_all(x: Floats, found: Floats, scale: float) -> None:
 
 
 def settled(x: float, product: float, scale: float) -> float:
-    """Which int a number is nearest to whose product seems to be in the middle."""
+    """Return the nearest int of a number whose product seems to be half-way between two."""
     high = x * SPLIT
     high -= high - x
     error = (high * scale - product) + (x - high) * scale

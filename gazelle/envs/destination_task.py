@@ -16,10 +16,10 @@ class DestinationTask(SimulationTask):
 
     @abstractmethod
     def whereabouts(self, worlds: Worlds | None) -> Info:
-        """Where the robot and its goal are in these worlds; all if None."""
+        """Return the positions of the robot and its goal in these worlds; all if None."""
 
     def comes_closer(self, distance: Floats) -> Bools:
-        """Whether it is nearer to its goal than in the step before, which is forgotten.
+        """Return whether the robot is nearer to its goal than in the last step; store the distance.
 
         Args:
             distance: From the goal [m], shape (nworld,); ``memory["distance"]`` is the last one.

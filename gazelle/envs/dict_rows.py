@@ -17,7 +17,7 @@ OBSERVATION, ACHIEVED, DESIRED = "observation", "achieved_goal", "desired_goal"
 
 
 class DictRows:
-    """How the parts of a Dict of boxes stand in a row, in the order of the Dict.
+    """Layout of a Dict of boxes as a row, in the order of the Dict.
 
     The order is the one of `gymnasium.spaces.flatten`.
 
@@ -60,7 +60,7 @@ class DictRows:
 
     @property
     def has_goals(self) -> bool:
-        """Whether it is the observation of a goal environment."""
+        """True if it is the observation of a goal environment."""
         return {OBSERVATION, ACHIEVED, DESIRED} <= set(self.slices)
 
     def join(self, parts: Mapping[str, Any]) -> Floats32:

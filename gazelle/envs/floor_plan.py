@@ -1,4 +1,4 @@
-"""What stands in a world, seen from above."""
+"""Obstacles of a world, seen from above."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gazelle.array_types import Floats
 
 @dataclass(frozen=True, slots=True)
 class FloorPlan:
-    """What stands in the way of a robot, seen from above.
+    """Obstacles of a robot, seen from above.
 
     Attributes:
         segments: Both ends [m], shape (n, 4).

@@ -25,7 +25,7 @@ _AROUND = 2.0  # ground about the start that is always on the map [m]
 
 
 def floor_plan_of(robot: Robot, height: float) -> FloorPlan:
-    """What a robot alone in a simulation can bump into or see, but for what follows a script.
+    """Return everything a lone robot can hit or see, except models that follow a script.
 
     Args:
         robot: In a simulation with ``engine="planar"``, at its start.

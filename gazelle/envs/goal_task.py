@@ -78,11 +78,11 @@ class GoalSimulationTask(SimulationTask):
 
     @abstractmethod
     def achieved(self, worlds: Worlds | None) -> Floats:
-        """What is reached now in these worlds (all if None), in the terms of goals; shape (n, ...)."""
+        """Return the achieved goals of these worlds (all if None), shape (n, ...)."""
 
     @abstractmethod
     def reached(self, achieved: NDArray[Any], desired: NDArray[Any]) -> Bools:
-        """Whether what is achieved is what was desired.
+        """Return whether the achieved state is the desired one.
 
         Args:
             achieved: Shape (..., size), any number of leading axes.
@@ -123,7 +123,7 @@ class GoalSimulationTask(SimulationTask):
 
     @property
     def contract(self) -> PolicyContract:
-        """What a policy sees and does: the three parts in a row."""
+        """Contract of its policies: the three parts in a row."""
         return generic_contract(self.rows.space, self.action_space, self.control_period)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
@@ -143,7 +143,7 @@ class GoalSimulationTask(SimulationTask):
         return StepOutcome(reward, np.zeros(self.nworld, np.bool_), info)
 
     def goal_parts(self, rows: Floats32) -> tuple[Floats32, Floats32]:
-        """What is achieved and what is desired, of rows of shape (n, size)."""
+        """Return the achieved and the desired goals of rows of shape (n, size)."""
         shape = (len(rows), *self.goal_space.shape)
         slices = self.rows.slices
         return rows[:, slices[ACHIEVED]].reshape(shape), rows[:, slices[DESIRED]].reshape(shape)

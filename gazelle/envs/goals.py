@@ -50,7 +50,7 @@ class GoalTable:
         self.successors = np.argsort(~allowed, axis=1, kind="stable")
 
     def places(self, goals: Indices) -> Floats:
-        """Where goals are [m], shape (n, 2).
+        """Return the positions of goals [m], shape (n, 2).
 
         Args:
             goals: Indices into ``points``, shape (n,).

@@ -23,7 +23,7 @@ Settings = TypeVar("Settings", bound="TaskSettings")
 
 
 class TaskOptions(TypedDict, total=False):
-    """What every task takes; see `TaskSettings`."""
+    """Options of every task; see `TaskSettings`."""
 
     engine: str
     seed: int | None
@@ -34,7 +34,7 @@ class TaskOptions(TypedDict, total=False):
 
 
 class NavigationOptions(TaskOptions, total=False):
-    """What navigation tasks take as well; see `NavigationSettings`."""
+    """Further options of navigation tasks; see `NavigationSettings`."""
 
     lidar_samples: int
     world: str | Path | World | None
@@ -155,7 +155,7 @@ class NavigationSettings(TaskSettings):
 
 
 def held_out_options(trained: Mapping[str, Any]) -> dict[str, Any]:
-    """How a navigation task wants a policy to be evaluated: on starts and goals new to it.
+    """Return the options for evaluating a navigation policy: starts and goals that are new to it.
 
     Args:
         trained: The options that it was trained with.

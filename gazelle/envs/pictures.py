@@ -41,7 +41,7 @@ def take(simulation: Simulation, view: View, world: int) -> tuple[Picture, Float
 
 @lru_cache(maxsize=8)
 def _slants(lens: PinholeLens) -> Floats:
-    """How much longer the ways through pixels are than their depths, shape (height, width)."""
+    """Return the ratio of each pixel's ray length to its depth, shape (height, width)."""
     across = (np.arange(lens.width) + 0.5 - lens.width / 2.0) / lens.focal
     down = (np.arange(lens.height) + 0.5 - lens.height / 2.0) / lens.focal
     return np.sqrt(1.0 + across[None] ** 2 + down[:, None] ** 2)
@@ -74,7 +74,7 @@ def mark_square(
 
 @lru_cache(maxsize=8)
 def ground_points(view: View) -> tuple[Floats, Floats]:
-    """Where the ray through each pixel's middle meets the ground z = 0.
+    """Return the intersection of each pixel's central ray with the ground z = 0.
 
     Returns:
         x and y in the world frame [m], shape (height, width, 2), and the distance to there [m],

@@ -1,4 +1,4 @@
-"""Where a goal lies, seen from a robot on the plane."""
+"""Polar coordinates of a goal, seen from a robot in the plane."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ _CLOSE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class StepOutcome:
-    """What a control step was worth; arrays over worlds.
+    """Outcome of a control step; arrays over worlds.
 
     Attributes:
         reward: Finite, shape (nworld,).
@@ -89,7 +89,7 @@ class SimulationTask(BatchedTask):
 
     @abstractmethod
     def observe(self, worlds: Worlds | None) -> NDArray[Any]:
-        """What is seen in these worlds (all if None), shape (n, ...) as ``observation_space`` says.
+        """Return the observation in these worlds (all if None), shape (n, ...) as ``observation_space``.
 
         It becomes what that space holds: float32 of numbers, uint8 of pictures (`CameraObservation`).
         """
@@ -100,7 +100,7 @@ class SimulationTask(BatchedTask):
 
     @abstractmethod
     def outcome(self, observation: Any) -> StepOutcome:
-        """What came of the step, given what is seen after it, shape (nworld, ...)."""
+        """Return the outcome of the step, given the observation after it, shape (nworld, ...)."""
 
     def draw(self, low: float, high: float, worlds: Worlds, count: int = 1) -> Floats:
         """Random numbers for these worlds, shape (n, count): those of a world do not depend on others."""
@@ -108,7 +108,7 @@ class SimulationTask(BatchedTask):
 
     @property
     def lasting(self) -> Bools:
-        """Where the running control step is the last one of its episode's time, shape (nworld,)."""
+        """True where the running control step is the last of its episode's time, shape (nworld,)."""
         if self.max_episode_steps is None:
             return np.zeros(self.nworld, np.bool_)
         return self.elapsed + 1 >= self.max_episode_steps
@@ -172,7 +172,7 @@ class SimulationTask(BatchedTask):
 def simulation_of(
     world: World | str | Path, nworld: int, settings: TaskSettings, time_step: float | None
 ) -> Simulation:
-    """What a task happens in, as the user asks for it.
+    """Create the simulation of a task, with the user's settings.
 
     Args:
         world: What stands there.

@@ -86,7 +86,7 @@ class TaskEnv(gym.Env[Any, Any]):
 
     @property
     def contract(self) -> PolicyContract:
-        """What a policy of this task sees and does, see `BatchedTask.contract`."""
+        """Contract of this task's policies, see `BatchedTask.contract`."""
         return self.task.contract
 
     def render(self) -> NDArray[np.uint8] | None:

@@ -87,7 +87,7 @@ class RandomStarts:
         self.poses[worlds] = np.column_stack((position[:, :2], yaw))
 
     def get_state(self) -> dict[str, Any]:
-        """What a saved environment needs."""
+        """Return the state for a saved environment."""
         return {
             "start_draws": self._stream.counters.copy(),
             "start_poses": self.poses.copy(),

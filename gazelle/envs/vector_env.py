@@ -168,17 +168,17 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
 
     @property
     def scenario_names(self) -> tuple[str, ...]:
-        """What the numbers of ``info["scenario"]`` are, see `BatchedTask.scenario`."""
+        """Names of the numbers in ``info["scenario"]``, see `BatchedTask.scenario`."""
         return self.task.scenario_names
 
     @property
     def floor_plan(self) -> FloorPlan | None:
-        """What stands in the world, seen from above; None if the task cannot tell."""
+        """Obstacles of the world, seen from above; None if the task cannot tell."""
         return self.task.floor_plan
 
     @property
     def contract(self) -> PolicyContract:
-        """What a policy of this task sees and does, see `BatchedTask.contract`."""
+        """Contract of this task's policies, see `BatchedTask.contract`."""
         return self.task.contract
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:

@@ -52,15 +52,15 @@ class TaskWrapper(BatchedTask):
         self._first: tuple[Floats32, Info] | None = None
 
     def changed_actions(self, actions: ArrayLike) -> ArrayLike:
-        """What the other task is told instead of these actions, shape (nworld, ...)."""
+        """Return the actions for the other task in place of these, shape (nworld, ...)."""
         return actions
 
     def changed_observation(self, observation: Floats32) -> Floats32:
-        """What is seen instead of this after a step, shape (nworld, ...)."""
+        """Return the observation after a step in place of this, shape (nworld, ...)."""
         return observation
 
     def first_observation(self, observation: Floats32, worlds: Worlds) -> Floats32:
-        """What is seen instead of this where episodes begin, shape (n, ...)."""
+        """Return the observation in place of this where episodes begin, shape (n, ...)."""
         del worlds
         return observation
 

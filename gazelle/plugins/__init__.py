@@ -1,4 +1,4 @@
-"""What Gazebo's plugin libraries do, one module each; ``table`` has them by file name."""
+"""Gazebo's plugin libraries, one module each; ``table`` lists them by file name."""
 
 from __future__ import annotations
 

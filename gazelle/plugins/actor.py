@@ -110,7 +110,7 @@ class ActorWalk(ModelPlugin):
                 return
 
     def _obstacles(self, ignored: set[str]) -> Iterator[Floats]:
-        """Where other models are, shape (nworld, 3) each."""
+        """Yield the positions of other models, shape (nworld, 3) each."""
         for name, robot in self._simulation.robots.items():
             if name not in ignored and robot.links:
                 yield robot.placement().position
@@ -131,7 +131,7 @@ class ActorWalk(ModelPlugin):
         self._begin(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Where it is and where it goes, and the random numbers."""
+        """Return its position and target, and the random numbers."""
         return {
             "position": self._position.copy(),
             "yaw": self._yaw.copy(),

@@ -53,7 +53,7 @@ class Contain(WorldPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether it is enabled, and anybody listens."""
+        """True if it is enabled and has subscribers."""
         return self._enabled and self._output.wanted
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it looks at every step
@@ -84,7 +84,7 @@ class Contain(WorldPlugin):
             self._enabled = self._starts_enabled
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Whether it tells."""
+        """Return whether it is enabled."""
         return {"enabled": np.array(self._enabled)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
@@ -147,7 +147,7 @@ class Transporter(WorldPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether anything may go."""
+        """True if anything may be transported."""
         return any(pad.automatic for pad in self._pads.values()) or bool(self._called.any())
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it looks at every step
@@ -171,7 +171,7 @@ class Transporter(WorldPlugin):
         self._called[:, slice(None) if worlds is None else worlds] = False
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Which pads are called."""
+        """Return the pads that are called."""
         return {"called": self._called.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
@@ -195,7 +195,7 @@ def _pad(tag: Parameters) -> _Pad:
 
 
 def _placement(simulation: Simulation, name: str) -> Placement | None:
-    """Where a model, or a link by its scoped name, is; None if there is none."""
+    """Return the placement of a model, or of a link by its scoped name; None if there is none."""
     model, _, link = name.partition("::")
     if model not in simulation.robots:
         return None

@@ -1,4 +1,4 @@
-"""What touches a body: what ``libgazebo_ros_bumper.so`` does."""
+"""Contact sensor: ``libgazebo_ros_bumper.so``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ``libgazebo_ros_camera.so`` and its kin do: pictures under the names that files give.
+"""Camera plugins: ``libgazebo_ros_camera.so`` and similar, with the topic names of files.
 
 Pictures are drawn while somebody listens, at the sensor's rate in simulated time; those of one
 moment have the same stamp on every topic.
@@ -122,7 +122,7 @@ class PublishedCamera:
         return CompressedImageValue(seen.stamp, pixels_of(seen.color, "mono8" if grey else "rgb8"))
 
     def info(self) -> CameraInfoValue:
-        """What the lens is like, at the moment of the picture."""
+        """Return the camera info at the moment of the picture."""
         return self.settings.info(self.camera, self.look().stamp)
 
     def _info_is_due(self) -> bool:
@@ -184,7 +184,7 @@ class PictureTrigger:
         self._pending, self._told_ns = 0, -1
 
     def is_pulled(self) -> bool:
-        """Whether the measurement of this moment is told; all topics hear the same."""
+        """Return whether this moment's measurement is published; the same for all topics."""
         now = self._sensor.robot.simulation.clock.now_ns
         if self._told_ns == now:
             return True
@@ -241,7 +241,7 @@ class MultiCameraPlugin(SensorPlugin):
         settings: CameraSettings,  # noqa: ARG002
         side: str,  # noqa: ARG002
     ) -> Callable[[], bool] | None:
-        """What says whether a measurement of one of them is told; None if each is."""
+        """Return a predicate for publishing a camera's measurement; None if each is published."""
         return None
 
 

@@ -1,4 +1,4 @@
-"""What all camera plugins of Gazebo read: names, frame and lens."""
+"""Settings of all of Gazebo's camera plugins: names, frame and lens."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class CameraSettings:
         return name if name.startswith("/") else f"{self.prefix.rstrip('/')}/{name}"
 
     def info(self, camera: Camera, stamp: int) -> CameraInfoValue:
-        """What the lens is like."""
+        """Return the camera info of the lens."""
         width, height = camera.width, camera.height
         own = width / (2.0 * math.tan(camera.horizontal_fov / 2.0))
         column, row = self.center

@@ -16,7 +16,7 @@ from gazelle.simulation.clock import NANOSECONDS, Clock
 
 @dataclass(frozen=True, slots=True)
 class CommandTables:
-    """What some bases are told, and since when; used in place.
+    """Commands of some bases, and their times; used in place.
 
     Attributes:
         linear: Commanded velocities [m/s], shape (nworld, n, 3).
@@ -57,7 +57,7 @@ class CommandTables:
 
 
 class CommandTimeout:
-    """What one base is told, and how long that holds.
+    """Command of one base, and its timeout.
 
     Args:
         clock: Tells how long ago it was told.
@@ -74,7 +74,7 @@ class CommandTimeout:
 
     @property
     def longest(self) -> float:
-        """How long a command holds [s]."""
+        """Duration for which a command is valid [s]."""
         return float(self._longest[0])
 
     @property
@@ -111,7 +111,7 @@ class CommandTimeout:
 
 
 class CommandGroup:
-    """What some bases of one simulation are told; their commands are in tables of all from then on.
+    """Commands of some bases of one simulation, which are in common tables from then on.
 
     Args:
         clock: Of the simulation.

@@ -1,4 +1,4 @@
-"""Where two wheels have rolled to: odometry from encoders, of one robot or of many at once."""
+"""Odometry from the encoders of two wheels, of one robot or of many at once."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from gazelle.simulation.values import NO_VARIANCE, SixNumbers
 
 @dataclass(frozen=True, slots=True)
 class ReckoningTables:
-    """What some pairs of wheels rolled to, in all worlds; used in place.
+    """State of dead reckoning of some pairs of wheels, in all worlds; used in place.
 
     Attributes:
         pose: x, y [m] and heading [rad], shape (nworld, n, 3).
@@ -192,7 +192,7 @@ class ReckoningGroup:
 
 @dataclass(frozen=True, slots=True)
 class RolledOdometry(OdometrySource):
-    """Where wheels have rolled to, by name.
+    """Odometry from the rotation of wheels, by name.
 
     Args:
         reckoning: Of the wheels.

@@ -1,4 +1,4 @@
-"""What ``libgazebo_ros_depth_camera.so`` and ``libgazebo_ros_openni_kinect.so`` do."""
+"""Depth cameras: ``libgazebo_ros_depth_camera.so`` and ``libgazebo_ros_openni_kinect.so``."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="misc"
-"""What wheel speeds a velocity command comes to: the rule of ``libgazebo_ros_diff_drive.so``.
+"""Wheel speeds for a velocity command: the rule of ``libgazebo_ros_diff_drive.so``.
 
 Drives with more wheels on a side give them all one speed, and have no ramp.
 """
@@ -22,7 +22,7 @@ RAMP_DEADBAND = 0.01
 
 @dataclass(frozen=True, slots=True)
 class WheelTables:
-    """What some drives of two sides go by and remember, in all worlds; used in place.
+    """Commands and state of some drives with two sides, in all worlds; used in place.
 
     Attributes:
         linear: Commanded velocities [m/s], shape (nworld, n, 3).

@@ -20,7 +20,7 @@ from gazelle.states import restore_all, states_of
 
 
 class FlightPhase(IntEnum):
-    """What a drone is doing."""
+    """Flight phase of a drone."""
 
     LANDED = 0
     TAKING_OFF = 1
@@ -116,7 +116,7 @@ class Drone(ModelPlugin):
 
     @property
     def phase(self) -> NDArray[np.int64]:
-        """What each drone is doing, a `FlightPhase`, shape (nworld,)."""
+        """Flight phase of each drone, a `FlightPhase`, shape (nworld,)."""
         return self._phase
 
     # -- what it does ----------------------------------------------------------------------

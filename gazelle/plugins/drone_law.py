@@ -1,4 +1,4 @@
-"""What holds SJTU's quadrotor up: the law of ``libplugin_drone.so``, in every world at once.
+"""Control law of SJTU's quadrotor (``libplugin_drone.so``), in every world at once.
 
 Three PIDs in a row for each horizontal axis: of the place (if asked for), of the velocity, of the tilt;
 one for the velocity upwards, and one for the turning rate. What they ask for acts as one force along
@@ -24,7 +24,7 @@ _WEIGHTLESS = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class DroneMoment:
-    """What a step of the law goes by.
+    """Input of one step of the law.
 
     Attributes:
         place: Where the drones are.
@@ -43,7 +43,7 @@ class DroneMoment:
 
 @dataclass(frozen=True, slots=True)
 class DroneOrders:
-    """What drones shall do, arrays over worlds.
+    """Commands of drones, arrays over worlds.
 
     Attributes:
         linear: Velocity, or place where ``places`` [m/s or m], shape (nworld, 3).

@@ -100,7 +100,7 @@ class Elevator(ModelPlugin):
             self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Where it goes, and how far it is."""
+        """Return its target floor, phase and controllers."""
         return {
             **states_of(self._pids),
             "phase": self._phase.copy(),

@@ -58,7 +58,7 @@ class FilteredPids:
     def update(
         self, command: Floats, value: Floats, rate: Floats | float, step: float, acting: Bools
     ) -> Floats:
-        """What the controllers ask for, shape (nworld, count).
+        """Return the output of the controllers, shape (nworld, count).
 
         Args:
             command: What the value shall be, shape (nworld, count).

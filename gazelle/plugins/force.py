@@ -41,7 +41,7 @@ class Force(ModelPlugin):
         self._push(Push(np.zeros(3), np.zeros(3)), worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """What acts."""
+        """Return the acting force and torque."""
         return {"force": self._force.copy(), "torque": self._torque.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:

@@ -117,7 +117,7 @@ class ForceBasedMove(ModelPlugin):
             self._schedule.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Where the odometry starts."""
+        """Return the origin of the odometry."""
         return {
             "position": self._start.position.copy(),
             "quaternion": self._start.quaternion.copy(),

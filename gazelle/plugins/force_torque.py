@@ -1,4 +1,4 @@
-"""What a joint carries: what ``libgazebo_ros_ft_sensor.so`` does."""
+"""Force and torque in a joint: ``libgazebo_ros_ft_sensor.so``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where links are in the frames that plugins speak of, in all worlds."""
+"""Poses of the frames that plugins name, in all worlds."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Frame = tuple[LinkHandle, Pose]
 
 
 def placed(frame: Frame) -> Placement:
-    """Where a frame is in the world."""
+    """Return the placement of a frame in the world."""
     link, pose = frame
     place = link.placement()
     offset, turn = np.asarray(pose.position), np.asarray(pose.quaternion)
@@ -30,7 +30,7 @@ def placed(frame: Frame) -> Placement:
 
 
 def relative(parent: Placement, child: Placement) -> Placement:
-    """Where the child is, seen from the parent."""
+    """Return the placement of the child relative to the parent."""
     back = conjugate(parent.quaternion)
     return Placement(
         rotate(back, child.position - parent.position), multiply(back, child.quaternion)

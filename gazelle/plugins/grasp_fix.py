@@ -115,7 +115,7 @@ class GraspFix(ModelPlugin):
         return robot is not None and robot is not self._robot and not robot.description.static
 
     def _gaps(self, arm: _Arm, link: str, worlds: Worlds) -> Floats:
-        """How far each finger is from an object [m], shape (n, fingers)."""
+        """Return the distance of each finger from an object [m], shape (n, fingers)."""
         place = self._simulation.engine.links[link].placement(worlds).position
         away = [finger.placement(worlds).position - place for finger in arm.fingers]
         return np.asarray(np.linalg.norm(np.stack(away, axis=1), axis=2), np.float64)
@@ -142,7 +142,7 @@ class GraspFix(ModelPlugin):
             arm.counts = {key: n for key, n in arm.counts.items() if key[0] not in chosen}
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """What is held, and what was counted."""
+        """Return the held objects and the counts of contacts."""
         state: dict[str, NDArray[np.generic]] = {}
         for i, arm in enumerate(self._arms):
             links = [link for _, link in arm.counts]

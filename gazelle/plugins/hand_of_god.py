@@ -43,7 +43,7 @@ class HandOfGod(ModelPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether there are frames, or anybody listens."""
+        """True if there are frames or subscribers."""
         return self._frames.any or self._actual.wanted
 
     def _hear_static(self, transforms: Transforms, worlds: Worlds | None) -> None:

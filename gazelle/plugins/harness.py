@@ -138,7 +138,7 @@ class Harness(ModelPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether the model hangs in any world."""
+        """True if the model hangs in any world."""
         return bool(self._held.any())
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
@@ -177,7 +177,7 @@ class Harness(ModelPlugin):
         self._hang(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Where it hangs, and what the winch does."""
+        """Return its position, and the state of the winch."""
         return {
             **states_of(self._pids),
             "held": self._held.copy(),

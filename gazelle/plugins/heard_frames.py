@@ -15,7 +15,7 @@ from gazelle.simulation import Transforms
 
 @dataclass(slots=True)
 class _HeardTransform:
-    """Where a frame is in its parent, in the worlds that it is known in.
+    """Transform of a frame in its parent, in the worlds that it is known in.
 
     Attributes:
         parent: Name of the parent.
@@ -45,7 +45,7 @@ class HeardFrames:
 
     @property
     def any(self) -> bool:
-        """Whether anything was heard."""
+        """True if any transform was received."""
         return bool(self._steps)
 
     def hear(self, told: Transforms, worlds: Worlds | None, *, static: bool = False) -> None:
@@ -66,7 +66,7 @@ class HeardFrames:
         return _HeardTransform(parent, static, known, np.zeros((self._nworld, 3)), upright)
 
     def find(self, frame: str, base: str) -> tuple[NDArray[np.bool_], Floats, Floats]:
-        """Where a frame is in another one, and in which worlds that is known.
+        """Find the transform of a frame in another one, and the worlds in which it is known.
 
         Returns:
             Whether it is known (nworld,), position (nworld, 3), quaternion (nworld, 4).

@@ -1,4 +1,4 @@
-"""What Hector's sensors on bodies have in common."""
+"""Common base of Hector's sensors on bodies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How Hector's sensors err: offset, drift, noise and scale.
+"""Error model of Hector's sensors: offset, drift, noise and scale.
 
 Drift is a first-order Gauss-Markov process: it begins at ``N(0, drift)``, and at every measurement
 it shrinks by ``exp(-interval * frequency)`` and takes up
@@ -76,7 +76,7 @@ class SensorErrors:
 
     @property
     def error(self) -> Floats:
-        """What the last measurement was wrong by, shape (nworld, axes)."""
+        """Error of the last measurement, shape (nworld, axes)."""
         return self.offset + self._drifted + self._noise
 
     def apply(self, values: Floats, interval: float) -> Floats:

@@ -107,7 +107,7 @@ class HectorImu(Noisy, Publishing):
 
     @property
     def _gravity(self) -> float:
-        """How strong it is [m/s²]."""
+        """Magnitude of gravity [m/s²]."""
         return float(np.linalg.norm(self._simulation.physics.gravity))
 
     def _biases(self) -> ImuReading:

@@ -23,7 +23,7 @@ _E2 = FLATTENING * (2.0 - FLATTENING)  # first eccentricity squared
 
 
 def _origin(robot: Robot, parameters: Parameters) -> GeoReference:
-    """Where on Earth the world's origin is, if the tags do not say."""
+    """Return the geographic position of the world's origin, if the tags do not give it."""
     if not parameters.get("useWorldSphericalCoordinates", False):
         return GeoReference(49.9, 8.9, 0.0, 0.0)
     origin = robot.simulation.world.spherical_coordinates or SphericalCoordinates()

@@ -133,7 +133,7 @@ class HectorServo(ModelPlugin):
             np.clip(self._speeds, -self._fastest, self._fastest, out=self._speeds)
 
     def _turn(self, frame: str) -> Floats | None:
-        """How a frame is turned against the base, in all worlds."""
+        """Return the orientation of a frame relative to the base, in all worlds."""
         heard = self._heard.turn(_BASE, frame)
         if heard is not None:
             return heard

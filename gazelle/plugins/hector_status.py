@@ -1,4 +1,4 @@
-"""What a receiver of satellites says of itself, bit by bit, as Hector's GNSS.cfg has it."""
+"""Status of a satellite receiver, bit by bit, as in Hector's GNSS.cfg."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def status_of(flags: Mapping[str, bool]) -> tuple[int, int]:
 
 
 def flags_of(status: int, service: int) -> dict[str, bool]:
-    """What ``status_of`` was made from."""
+    """Return the flags that ``status_of`` combines."""
     return {
         "STATUS_FIX": status != _NO_FIX,
         **{name: bool(status & bit) for name, bit in _STATUS.items()},

@@ -57,7 +57,7 @@ class ImuPlugin(Noisy, Publishing):
 
     @property
     def model(self) -> ImuModel:
-        """What measures it."""
+        """Model that measures it."""
         return self._model
 
     @property

@@ -29,7 +29,7 @@ class _Controller:
     pid: GazeboPid | None
 
     def effort(self, interval: float) -> Floats:
-        """What it asks for now, shape (nworld,)."""
+        """Return the controller's output, shape (nworld,)."""
         if self.type == "position":
             values = self.joint.positions()[:, 0]
         else:

@@ -51,7 +51,7 @@ class JointPoseTrajectory(ModelPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether a path is on its way."""
+        """True if a path is being followed."""
         return bool(self._plays)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it counts in nanoseconds

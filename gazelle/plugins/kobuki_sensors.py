@@ -1,4 +1,4 @@
-"""What a Kobuki tells of when it changes: cliffs and bumps."""
+"""Event sensors of a Kobuki: cliffs and bumpers."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Cliffs:
 
     @property
     def wanted(self) -> bool:
-        """Whether anybody listens."""
+        """True if there are subscribers."""
         return any(output.wanted for output in self._outputs)
 
     def publish(self) -> None:
@@ -116,7 +116,7 @@ class Bumpers:
 
     @property
     def wanted(self) -> bool:
-        """Whether anybody listens."""
+        """True if there are subscribers."""
         return any(output.wanted for output in self._outputs)
 
     def publish(self) -> None:

@@ -23,7 +23,7 @@ _ABOUT_Z = np.array([0.0, 0.0, 1.0])
 
 
 class OdometrySource(ABC):
-    """What measures a robot's odometry, or that of many at once."""
+    """Source of a robot's odometry, or that of many at once."""
 
     __slots__ = ()
 
@@ -125,7 +125,7 @@ class OdometryOutputs:
 
     @property
     def wanted(self) -> bool:
-        """Whether anybody listens to either."""
+        """True if either has subscribers."""
         odom, frame = self._odom, self._frame
         return (odom is not None and odom.wanted) or (frame is not None and frame.wanted)
 
@@ -172,7 +172,7 @@ class OdometrySystem(PluginSystem[D]):
 
 
 def measure_wanted(outputs: Sequence[OdometryOutputs | None]) -> list[Odometry | None]:
-    """What somebody listens to, measured at once where that can be; else None."""
+    """Measure the odometry that has subscribers, together where possible; None for the rest."""
     found: list[Odometry | None] = [None] * len(outputs)
     wanted: dict[type[OdometrySource], dict[int, OdometrySource]] = {}
     for i, each in enumerate(outputs):

@@ -36,7 +36,7 @@ _GREY = np.array([0.299, 0.587, 0.114])  # ITU-R BT.601
 
 
 def encoding_of(format_: str, name: str) -> str:
-    """What ROS calls a format; bgr8, with a warning, for one that is not known.
+    """Return ROS's name of a format; bgr8, with a warning, for one that is not known.
 
     Args:
         format_: As the file has it.

@@ -58,12 +58,12 @@ class PlanarMove(ModelPlugin):
 
     @property
     def robot(self) -> Robot:
-        """What moves."""
+        """Robot that is moved."""
         return self._robot
 
     @property
     def is_due(self) -> bool:
-        """Whether the odometry is to be published in this step."""
+        """True if the odometry is to be published in this step."""
         schedule, now_ns = self._schedule, self._clock.now_ns
         if schedule is None:
             return False

@@ -67,7 +67,7 @@ class RaySensor(PointLaser):
 
 
 def _remapped(ros: Parameters) -> str:
-    """What ``~/out`` is called."""
+    """Return the new name of ``~/out``."""
     for remapping in (*ros.find_all("remapping"), *ros.find_all("argument")):
         old, found, new = remapping.text.partition(":=")
         if found and old.strip() in ("~/out", "~out", "out"):

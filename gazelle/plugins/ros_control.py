@@ -97,10 +97,10 @@ class RosControl(ControlLoop):
         self._make_again()
 
     def use_transmissions(self, use: bool) -> None:  # noqa: FBT001  the setting's value
-        """Whether transmissions are more than names of joints, as they are in Gazebo.
+        """Set whether transmissions are more than names of joints, as they are in Gazebo.
 
-        Then there are actuators, which turn by reductions and offsets (``ActuatorStateInterface``), and
-        joints of differential and four-bar transmissions are controlled as well.
+        Then there are actuators, which turn by reductions and offsets (``ActuatorStateInterface``),
+        and joints of differential and four-bar transmissions are controlled as well.
         """
         self._actuated = use
         self._make_again()
@@ -161,7 +161,7 @@ class RosControl(ControlLoop):
         return found
 
     def _is_good(self, transmission: Transmission) -> bool:
-        """Whether a transmission is used; says why if it is not."""
+        """Return whether a transmission is used; warn with the reason if it is not."""
         fault = _fault_of(transmission, several=self._actuated)
         if fault:
             text = f"transmission '{transmission.name}' of '{self._owner.name}' {fault}; it is left out"

@@ -1,4 +1,4 @@
-"""What kind of sensor a plugin needs."""
+"""Lookup of the sensor model that a plugin needs."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _WORDS: dict[type[Any], str] = {
 
 
 def model_of(sensor: SensorUnit, kind: type[M], parameters: Parameters) -> M:
-    """How a sensor measures, if it is of a kind.
+    """Return the model of a sensor, if it is of a kind.
 
     Raises:
         SimulationError: It is of another kind.

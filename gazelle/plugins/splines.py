@@ -76,7 +76,7 @@ class PoseSpline:
 
 
 def _neighbours(points: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Which points come before and after each: the ends have themselves, or go round."""
+    """Return the indices before and after each point: the ends have themselves, or wrap around."""
     count = len(points)
     before, after = np.arange(count) - 1, np.arange(count) + 1
     closed = count > 1 and np.array_equal(points[0], points[-1])

@@ -1,4 +1,4 @@
-"""What plugins with noise or sensors of their own have in common: reset, seed, snapshot."""
+"""Common base of plugins with noise or sensors of their own: reset, seed, snapshot."""
 
 from __future__ import annotations
 

@@ -10,18 +10,18 @@ from gazelle.simulation import KnownPlugin
 
 
 def _simulated(files: str, what: str, code: str) -> KnownPlugin:
-    """What a class of this package does, as ``module:Class``, or one of another room."""
+    """Return the row of a plugin that a class simulates: ``module:Class``, or one of another package."""
     full = code if code.startswith("gazelle.") else f"gazelle.plugins.{code}"
     return KnownPlugin(tuple(files.split()), what, code=full)
 
 
 def _left_out(files: str, what: str, missing: str) -> KnownPlugin:
-    """What is known and not simulated; a warning says what is missing."""
+    """Return the row of a plugin that is known and not simulated; a warning names what is missing."""
     return KnownPlugin(tuple(files.split()), what, missing=missing)
 
 
 def _needless(files: str, what: str, done_by: str) -> KnownPlugin:
-    """What has nothing to do here; nothing is said."""
+    """Return the row of a plugin that has nothing to do here; no warning is given."""
     return KnownPlugin(tuple(files.split()), what, done_by=done_by)
 
 

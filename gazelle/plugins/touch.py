@@ -1,4 +1,4 @@
-"""Whether a model touches one thing alone for a time: what ``libTouchPlugin.so`` does."""
+"""Contact with one object alone for a time: ``libTouchPlugin.so``."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Touch(ModelPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether it is enabled anywhere."""
+        """True if it is enabled anywhere."""
         return bool(self._enabled.any())
 
     def on_update(self, time: float) -> None:

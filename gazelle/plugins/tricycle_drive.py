@@ -45,7 +45,7 @@ _MOST_ANGLE = math.pi / 2.0
 
 @dataclass(frozen=True, slots=True)
 class TricycleLimits:
-    """How a tricycle drives and steers.
+    """Limits of a tricycle's drive and steering.
 
     Attributes:
         radius: Of the driven wheel [m].

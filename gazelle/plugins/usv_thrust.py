@@ -42,7 +42,7 @@ _ASTERN = _Logistic(-199.13, -0.09, 8.84, 5.34, 0.99, -0.57)
 
 @dataclass(frozen=True, slots=True)
 class ThrustCurve:
-    """What a command comes to.
+    """Thrust as a function of the command.
 
     Attributes:
         logistic: By the curve of the WAM-V's motors; else in proportion.

@@ -59,7 +59,7 @@ class VacuumGripper(ModelPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether it is on, holds anything, or anybody listens."""
+        """True if it is on, holds anything, or has subscribers."""
         return bool(self._on.any()) or bool(self._drawn) or self._output.wanted
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
@@ -106,7 +106,7 @@ class VacuumGripper(ModelPlugin):
         self._on[slice(None) if worlds is None else worlds] = False
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Whether it is on, and what it draws."""
+        """Return whether it is on, and the objects it attracts."""
         return {
             "on": self._on.copy(),
             "grasping": self._grasping.copy(),

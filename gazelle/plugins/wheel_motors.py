@@ -1,4 +1,4 @@
-"""What turns driven wheels as velocity commands say: of one robot, or of many at once."""
+"""Motors that turn driven wheels by velocity commands: of one robot, or of many at once."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ class WheelSlip(ModelPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether any wheel slips, or did."""
+        """True if any wheel slips, or did."""
         return self._slips or any(any(wheel.compliance) for wheel in self._wheels)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step

@@ -15,7 +15,7 @@ from gazelle.simulation import JointHandle, ModelPlugin, Robot, TwistInput
 
 
 class Side(Enum):
-    """Where a wheel is; the value is the sign of its share in turning left."""
+    """Side of a wheel; the value is the sign of its share in turning left."""
 
     LEFT = -1.0
     RIGHT = 1.0

@@ -28,7 +28,7 @@ def fleet_contract(
     goal_distance: float,
     max_episode_steps: int | None,
 ) -> PolicyContract:
-    """What a policy of the fleet sees and does.
+    """Return the contract of a policy of the fleet.
 
     Args:
         actions: The task's space.

@@ -35,7 +35,7 @@ define agv position (
 
 
 def walls() -> Floats:
-    """What stands in the hall: size along x and y, and middle [m], shape (n, 4)."""
+    """Return the walls and shelves of the hall: size along x and y, and centre [m], shape (n, 4)."""
     x, y = (LENGTH + _WALL) / 2.0, (WIDTH + _WALL) / 2.0
     long, short = LENGTH + 2.0 * _WALL, WIDTH
     frame = [(long, _WALL, 0.0, y), (long, _WALL, 0.0, -y), (_WALL, short, x, 0.0)]
@@ -64,7 +64,7 @@ def world(agvs: int, *, step: float, samples: int, reach: float) -> World:
 
 
 def places(*, between: bool = False) -> Floats:
-    """Where AGVs start and goals are [m], shape (n, 2): a grid, clear of all that stands.
+    """Return positions of starts and goals [m], shape (n, 2): a grid, clear of all obstacles.
 
     Args:
         between: Those in the middles of the grid's squares instead.

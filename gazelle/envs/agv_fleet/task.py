@@ -39,7 +39,7 @@ _FARTHEST = math.hypot(hall.LENGTH, hall.WIDTH)
 
 
 class FleetOptions(TaskOptions, total=False):
-    """What the fleet takes as well; see `FleetSettings`."""
+    """Further options of the fleet; see `FleetSettings`."""
 
     agents: int
     lidar_samples: int
@@ -79,7 +79,7 @@ class FleetSettings(TaskSettings):
             raise TaskError(f"the hall is too small for {self.agents} AGVs", hint=f"at most {most}")
 
     def free_places(self) -> Floats:
-        """Where AGVs start and goals are [m], shape (n, 2)."""
+        """Return positions of starts and goals [m], shape (n, 2)."""
         return hall.places(between=self.places == "held-out")
 
 
@@ -126,7 +126,7 @@ class AGVFleetTask(BatchedTask):
 
     @property
     def contract(self) -> PolicyContract:
-        """What a policy sees and does."""
+        """Contract of its policies."""
         return fleet_contract(
             self.action_space,
             samples=self._samples,
@@ -146,7 +146,7 @@ class AGVFleetTask(BatchedTask):
 
     @property
     def goals(self) -> Floats:
-        """Where each has to go [m], shape (nworld, 2)."""
+        """Goal of each AGV [m], shape (nworld, 2)."""
         return self._places[self._goal]
 
     def freeze(self, rows: Worlds) -> None:
@@ -237,7 +237,7 @@ class AGVFleetTask(BatchedTask):
         return self.observe()[worlds], self._info(worlds, self._distance[worlds], no, no)
 
     def observe(self) -> Floats32:
-        """What all AGVs see now, shape (nworld, size)."""
+        """Return the present observations of all AGVs, shape (nworld, size)."""
         ranges = self.agvs.scan().reshape(self.nworld, -1)
         poses, goals = self.poses, self.goals
         velocity = self.agvs.velocities.reshape(-1, 3)

@@ -78,12 +78,12 @@ class CameraWorldTask(SimulationTask):
             self.memory[name][worlds] = values[worlds]
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Where robot and posts stood at the start [m, rad], shape (n, 9)."""
+        """Return the initial poses of robot and posts [m, rad], shape (n, 9)."""
         scene: Floats = self.memory["scene"][worlds]
         return scene
 
     def observe(self, worlds: Worlds | None) -> Bytes:
-        """What the camera sees."""
+        """Return the camera's images."""
         return self._camera.read(worlds)
 
     def act(self, actions: NDArray[np.int64]) -> None:
@@ -104,14 +104,14 @@ class CameraWorldTask(SimulationTask):
         return StepOutcome(reward, success | collision, info)
 
     def _goal(self) -> tuple[Floats, Floats]:
-        """How far the red post is [m], and by how much the robot looks past it [rad]; (nworld,)."""
+        """Return distance [m] and angle off the heading [rad] of the red post, shapes (nworld,)."""
         pose = self._robot.planar_pose()
         away = self.memory["scene"][:, 3:5] - pose[:, :2]
         bearing = np.arctan2(away[:, 1], away[:, 0]) - pose[:, 2]
         return np.hypot(away[:, 0], away[:, 1]), np.abs((bearing + np.pi) % (2.0 * np.pi) - np.pi)
 
     def _collision(self) -> Bools:
-        """Whether the robot is at a wall or at another post, shape (nworld,)."""
+        """Return whether the robot touches a wall or another post, shape (nworld,)."""
         place = self._robot.planar_pose()[:, :2]
         others = self.memory["scene"][:, 5:9].reshape(-1, 2, 2) - place[:, None]
         hit: Bools = np.abs(place).max(axis=1) > WALL

@@ -56,7 +56,7 @@ class CartPoleTask(SimulationTask):
         self._pole.set_position(self.memory["start"][worlds], worlds)
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """How the pole leaned at the start [rad], shape (n, 1)."""
+        """Return the initial angle of the pole [rad], shape (n, 1)."""
         start: Floats = self.memory["start"][worlds]
         return start
 

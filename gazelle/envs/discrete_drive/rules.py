@@ -1,4 +1,4 @@
-"""What sets openai_ros' driving tasks apart: their parameters, as published."""
+"""Parameters of openai_ros' driving tasks, as published."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ class DriveEnds:
 
     @property
     def over(self) -> Bools:
-        """Whether the episode ends."""
+        """True where the episode ends."""
         return self.crashed | self.outside | self.reached
 
 
@@ -53,7 +53,7 @@ def ends_of(rules: DriveRules, nearest: Floats, place: Floats, goal: Place | Non
 
 
 def reward_of(rules: DriveRules, ends: DriveEnds, *, forward: Bools, closer: Bools) -> Floats:
-    """What a step is worth, shape (n,).
+    """Return the reward of a step, shape (n,).
 
     Args:
         rules: Of the task.

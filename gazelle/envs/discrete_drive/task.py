@@ -167,7 +167,7 @@ class DriveTask(DestinationTask):
         return {"position": place, "goal": goal, "distance": np.hypot(*(place - goal).T)}
 
     def _place(self, observation: Floats32) -> tuple[Floats, Floats]:
-        """Where the base is as observed [m], shape (nworld, 2), and how far from the goal."""
+        """Return the observed base position [m], shape (nworld, 2), and distance from the goal."""
         if self._goal is None:
             return np.zeros((self.nworld, 2)), np.zeros(self.nworld)
         first = self._lidar.lidar.horizontal.samples
@@ -218,7 +218,7 @@ class DriveTask(DestinationTask):
         return simulation, simulation.spawn(self._lidar.model, name=self.rules.robot, pose=pose)
 
     def _free_places(self, settings: DriveSettings) -> Floats | None:
-        """Where it can start (x, y) [m], shape (n, 2); None if only where the task has it."""
+        """Return the start positions (x, y) [m], shape (n, 2); None if only the task's own."""
         if settings.starts == "published":
             return None
         simulation, robot = self._scene(settings, "planar", 1)

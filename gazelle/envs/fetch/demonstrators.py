@@ -1,4 +1,4 @@
-"""How objects are moved, by hand: what a learner is shown, see `gazelle.training.demonstrations`.
+"""Demonstrators that move objects by hand-written rules; see `gazelle.training.demonstrations`.
 
 Both say from one observation alone what to do. They take rows of shape (n, 31), what is achieved,
 the goal and the 25 entries that `FetchEnv` lists, and give actions of shape (n, 4).

@@ -18,7 +18,7 @@ SHARE = 0.66
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FetchFigures:
-    """What sets one of the tasks apart; lengths in metres, places in the world frame.
+    """Parameters of one of the tasks; lengths in metres, positions in the world frame.
 
     Attributes:
         world: The bundled world.

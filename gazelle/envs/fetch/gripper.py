@@ -109,7 +109,7 @@ class CarriedGripper(ABC):
         return motion.linear + rotations.cross(motion.angular, arm)
 
     def opening(self, worlds: Worlds | None) -> tuple[Floats, Floats]:
-        """How far the right and the left finger are open [m] and how fast, shapes (n, 2)."""
+        """Return the opening of the right and the left finger [m] and its rate, shapes (n, 2)."""
         if not self._fingers:
             count = self._robot.simulation.nworld if worlds is None else len(worlds)
             return np.zeros((count, 2)), np.zeros((count, 2))

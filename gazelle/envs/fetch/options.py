@@ -11,7 +11,7 @@ CONTROLS = ("gripper", "joint", "original")
 
 
 class FetchOptions(TaskOptions, total=False):
-    """What the Fetch tasks take as well; see `FetchSettings`."""
+    """Further options of the Fetch tasks; see `FetchSettings`."""
 
     reward_type: str
     control: str

@@ -106,7 +106,7 @@ class FetchTask(GoalSimulationTask):
         return np.hstack((self.goals[worlds], self.memory["object"][worlds]))
 
     def achieved(self, worlds: Worlds | None) -> Floats:
-        """Where the gripper or the object is [m], shape (n, 3)."""
+        """Return the position of the gripper or the object [m], shape (n, 3)."""
         if self._object is None:
             return self._gripper.position(worlds)
         return self._object.placement(worlds).position
@@ -143,7 +143,7 @@ class FetchTask(GoalSimulationTask):
         self._gripper.move_fingers(FINGER_SPEED * told[:, 3], CONTROL_PERIOD)
 
     def reached(self, achieved: NDArray[Any], desired: NDArray[Any]) -> Bools:
-        """Whether they are less than 5 cm apart."""
+        """Return whether they are less than 5 cm apart."""
         apart: Bools = _distance(achieved, desired) < NEAR
         return apart
 
@@ -173,7 +173,7 @@ class FetchTask(GoalSimulationTask):
 
 
 def _gripper_of(control: str, simulation: Simulation, figures: FetchFigures) -> CarriedGripper:
-    """What an option says that carries the gripper."""
+    """Create the gripper that an option asks for."""
     moving = figures.fingers_move
     if control == "gripper":
         return FlyingGripper(simulation, figures.gripper, fingers_move=moving)

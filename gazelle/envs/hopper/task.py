@@ -91,7 +91,7 @@ class HopperTask(SimulationTask):
         return start
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """What openai_ros' code makes of leg and base, rounded to 0.1."""
+        """Return leg and base as openai_ros' code observes them, rounded to 0.1."""
         placement = self.robot.placement(worlds)
         count = len(placement.position)
         angles = np.column_stack([joint.positions(worlds)[:, 0] for joint in self._joints])

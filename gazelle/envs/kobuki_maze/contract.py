@@ -20,7 +20,7 @@ from gazelle.envs.kobuki_maze.rules import CONTROL_PERIOD, LASER_MAX, KobukiRule
 def kobuki_contract(
     rules: KobukiRules, lidar: Lidar, actions: gym.Space[gym.spaces.Box], steps: int | None
 ) -> PolicyContract:
-    """What a policy of these tasks sees and does.
+    """Return the contract of a policy of these tasks.
 
     Args:
         rules: Of the task.

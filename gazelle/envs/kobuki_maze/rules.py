@@ -1,4 +1,4 @@
-"""What sets frobs_rl's tasks for Kobuki apart: their parameters, as published."""
+"""Parameters of frobs_rl's tasks for Kobuki, as published."""
 
 from __future__ import annotations
 

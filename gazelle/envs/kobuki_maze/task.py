@@ -66,7 +66,7 @@ class KobukiTask(SimulationTask):
 
     @property
     def contract(self) -> PolicyContract:
-        """What a policy sees and does."""
+        """Contract of its policies."""
         return kobuki_contract(self.rules, self._lidar, self.action_space, self.max_episode_steps)
 
     def start(self, worlds: Worlds) -> None:

@@ -1,4 +1,4 @@
-"""Where the drone can start: over the field, with room around and ahead of it."""
+"""Start positions of the drone: over the field, with free space around and ahead of it."""
 
 from __future__ import annotations
 

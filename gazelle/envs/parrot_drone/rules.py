@@ -39,7 +39,7 @@ class FlightEnds:
 
     @property
     def over(self) -> Bools:
-        """Whether the episode ends."""
+        """True where the episode ends."""
         return self.outside | self.crashed | self.arrived
 
 
@@ -58,7 +58,7 @@ def ends_of(seen: Floats) -> FlightEnds:
 
 
 def reward_of(ends: FlightEnds, closer: Bools) -> Floats:
-    """What a step is worth, shape (n,).
+    """Return the reward of a step, shape (n,).
 
     Args:
         ends: Why episodes end.
@@ -70,7 +70,7 @@ def reward_of(ends: FlightEnds, closer: Bools) -> Floats:
 
 
 def distance_of(place: Floats) -> Floats:
-    """How far places, shape (n, 3), are from the goal [m], shape (n,)."""
+    """Return the distances of positions, shape (n, 3), from the goal [m], shape (n,)."""
     return np.asarray(np.linalg.norm(place - GOAL, axis=1), np.float64)
 
 

@@ -99,7 +99,7 @@ class ParrotDroneTask(DestinationTask):
         self.memory["distance"][worlds] = distance_of(place)
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Where it starts: x and y [m], shape (n, 2)."""
+        """Return the start positions x and y [m], shape (n, 2)."""
         start: Floats = self.memory["start"][worlds]
         return start
 

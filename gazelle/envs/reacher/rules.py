@@ -1,4 +1,4 @@
-"""What sets frobs_rl's reaching tasks apart: their parameters, as published."""
+"""Parameters of frobs_rl's reaching tasks, as published."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class ReachRules:
 
 @dataclass(frozen=True, slots=True)
 class ReachView:
-    """What there is to see, arrays over worlds.
+    """Observed state, arrays over worlds.
 
     Attributes:
         angles: Of the joints [rad], shape (n, 6).

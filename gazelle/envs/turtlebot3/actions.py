@@ -1,4 +1,4 @@
-"""What the actions of the TurtleBot3 tasks mean as velocities.
+"""Actions of the TurtleBot3 tasks as velocities.
 
 Discrete: always 0.15 m/s ahead, and one of five yaw rates, 1.5 (left) to -1.5 rad/s (right).
 
@@ -67,7 +67,7 @@ def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]
 
 
 def turn_index(angular: Floats) -> Floats:
-    """Which discrete action turns at this yaw rate, as a float.
+    """Return the discrete action that turns at this yaw rate, as a float.
 
     Args:
         angular: Yaw rates [rad/s], shape (n,).

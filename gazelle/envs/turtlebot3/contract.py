@@ -32,7 +32,7 @@ def turtlebot3_contract(
     actions: gym.Space[Any],
     max_episode_steps: int | None,
 ) -> PolicyContract:
-    """What a policy of these tasks sees and does.
+    """Return the contract of a policy of these tasks.
 
     Args:
         rules: Of the stage.

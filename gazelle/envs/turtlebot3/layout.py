@@ -1,4 +1,4 @@
-"""Where starts and goals of a TurtleBot3 task are: as published, or anywhere in free space."""
+"""Starts and goals of a TurtleBot3 task: as published, or anywhere in free space."""
 
 from __future__ import annotations
 
@@ -66,11 +66,11 @@ class GoalLayout:
 
     @property
     def has_free_goals(self) -> bool:
-        """Whether goals are drawn from free space, and not from a list."""
+        """True if goals are drawn from free space, not from a list."""
         return self._settings.goals in ("training", "held-out")
 
     def starts(self, nworld: int) -> RandomStarts | None:
-        """Where the robot starts; None if always where the stage has it."""
+        """Return the starts of the robot; None if always the stage's own."""
         asked = self._settings.starts
         if asked == "published":
             return None
@@ -79,7 +79,7 @@ class GoalLayout:
 
     @functools.cached_property
     def plan(self) -> FloorPlan:
-        """What stands in the world, seen from above.
+        """Obstacles of the world, seen from above.
 
         Raises:
             TaskError: The world or the robot cannot be laid in the plane.
@@ -106,7 +106,7 @@ class GoalLayout:
 
     @functools.cached_property
     def space(self) -> FreeSpace:
-        """Where the robot can get to from the stage's start."""
+        """Space that the robot can reach from the stage's start."""
         return FreeSpace(self.plan, self._start)
 
     @property

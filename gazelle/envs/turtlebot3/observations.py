@@ -1,4 +1,4 @@
-"""What a policy of the TurtleBot3 tasks sees."""
+"""Observations of the TurtleBot3 tasks."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from gazelle.envs.turtlebot3.rules import Rules
 
 @dataclass(frozen=True, slots=True)
 class RobotViews:
-    """What n worlds look like to their robots at one moment.
+    """Observed state of n worlds at one moment.
 
     Attributes:
         ranges: Cleaned ranges [m], shape (n, samples), numbers of single precision.

@@ -1,4 +1,4 @@
-"""Where the goals of the TurtleBot3 DQN tasks can be (``turtlebot3_machine_learning``, ROS 1)."""
+"""Goal positions of the TurtleBot3 DQN tasks (``turtlebot3_machine_learning``, ROS 1)."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ from gazelle.envs.turtlebot3.rules import Rules
 
 
 def turning_reward(heading: Floats, index: Floats) -> Floats:
-    """How well a turn fits the direction of the goal.
+    """Return a measure of how well a turn fits the direction of the goal.
 
     A triangle wave of ``phi = heading + pi/4 + index * pi/8`` with period 2 pi: 1 where the
     action turns the robot right at the goal, -1 where it turns it away. The published code

@@ -17,7 +17,7 @@ NO_GOAL = -1  # index of the goal of a world that had none yet
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """What one stage asks for and pays.
+    """Parameters of one stage.
 
     Attributes:
         world: Name of the bundled world.

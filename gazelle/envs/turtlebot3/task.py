@@ -82,7 +82,7 @@ class TurtleBot3Task(BatchedTask):
 
     @property
     def simulation(self) -> Simulation:
-        """What runs now."""
+        """Running simulation."""
         return self.scene.simulation
 
     def render(self, world: int) -> NDArray[np.uint8]:
@@ -125,7 +125,7 @@ class TurtleBot3Task(BatchedTask):
 
     @property
     def contract(self) -> PolicyContract:
-        """What a policy sees and does."""
+        """Contract of its policies."""
         return turtlebot3_contract(
             self.rules,
             self.scene.lidar.lidar,

@@ -7,15 +7,15 @@ from gazelle.envs.turtlebot3.rules import Rules
 
 
 def collided(rules: Rules, nearest: Floats, margin: float = 0.0) -> Bools:
-    """Whether the shortest range (not rounded) [m], shape (n,), is below the limit and a margin [m].
+    """Return whether the shortest range [m], shape (n,), is below the limit plus a margin [m].
 
-    A range of 0 is a failed ray, and no collision.
+    The range is not rounded. A range of 0 is a failed ray, and no collision.
     """
     hit: Bools = (nearest > 0.0) & (nearest < rules.collision_range + margin)
     return hit
 
 
 def reached(rules: Rules, distance: Floats) -> Bools:
-    """Whether the rounded distance to the goal [m], shape (n,), is below the limit."""
+    """Return whether the rounded distance to the goal [m], shape (n,), is below the limit."""
     arrived: Bools = distance < rules.goal_distance
     return arrived

@@ -17,7 +17,7 @@ CLOSER, DONE = 100.0, 1000.0
 
 
 def reached(place: Floats) -> Bools:
-    """Where places (x, y), shape (n, 2), are the goal."""
+    """Return whether positions (x, y), shape (n, 2), are at the goal."""
     goal = np.array(GOAL[:2])
     return np.asarray(
         np.all((place > goal - TOLERANCE) & (place <= goal + TOLERANCE), axis=1), np.bool_
@@ -25,7 +25,7 @@ def reached(place: Floats) -> Bools:
 
 
 def outside(place: Floats) -> Bools:
-    """Where places (x, y), shape (n, 2), are out of the work space."""
+    """Return whether positions (x, y), shape (n, 2), are out of the work space."""
     return np.asarray(~np.all((place > LOW) & (place <= HIGH), axis=1), np.bool_)
 
 
@@ -36,7 +36,7 @@ def distance_of(place: Floats) -> Floats:
 
 
 def reward_of(over: Bools, success: Bools, closer: Bools) -> Floats:
-    """What a step is worth, shape (n,).
+    """Return the reward of a step, shape (n,).
 
     Args:
         over: Whether the episode ends.

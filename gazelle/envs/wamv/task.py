@@ -84,7 +84,7 @@ class WamvTask(DestinationTask):
         self.memory["distance"][worlds] = distance_of(place[:, :2])
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Where it starts: x, y [m] and yaw [rad], shape (n, 3)."""
+        """Return the initial pose: x, y [m] and yaw [rad], shape (n, 3)."""
         start: Floats = self.memory["start"][worlds]
         return start
 
