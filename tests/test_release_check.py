@@ -11,7 +11,6 @@ import pytest
 from gazelle.training import published_claims
 
 ROOT = Path(__file__).parents[1]
-HEAD = "2026-11-28, commit 0123456789ab, Python 3.11, a processor"
 
 
 @pytest.fixture
@@ -25,14 +24,15 @@ def release(monkeypatch):
 
 
 @pytest.fixture
-def check(release, tmp_path):
-    """Run steps; returns whether all are good, and the report."""
+def check(release, tmp_path, monkeypatch):
+    """Run steps at a commit, a number; return whether all are good, and the report."""
     report = tmp_path / "report.md"
+    monkeypatch.setattr(release, "is_since", lambda commit, oldest: int(commit) >= int(oldest))
 
-    def run(chosen, everything):
-        return release.check(
-            chosen, everything, tmp_path / "state", report, HEAD
-        ), report.read_text()
+    def run(chosen, everything, commit="5", since=None):
+        monkeypatch.setattr(release, "clean_commit", lambda: commit)
+        good = release.check(chosen, everything, report, state=tmp_path / "state", since=since)
+        return good, report.read_text()
 
     return run
 
@@ -56,8 +56,8 @@ def test_outcomes_and_results_are_reported_with_the_commit(release, check):
     everything = [good, bad, step(release, "another", "")]
     passed, report = check([good, bad], everything)
     assert not passed
-    assert f"Measured {HEAD}. 1 of 3 steps are good." in report
-    assert "| good one | good |" in report
+    assert "1 of 3 steps are good." in report
+    assert "| good one | good | 5 |" in report
     assert "| all / of it |" in report
     assert "| bad one | FAILED |" in report
     assert "exit code 3; 2 failed" in report
@@ -72,6 +72,21 @@ def test_what_has_passed_is_not_run_again_and_what_failed_is(release, check, tmp
         assert check(everything, everything)[0] is passes
     assert done.read_text() == "x"
     assert failed.read_text() == "xx"
+
+
+def test_what_passed_at_an_older_commit_counts_only_where_that_is_asked_for(
+    release, check, tmp_path
+):
+    mark = tmp_path / "mark"
+    everything = [counting(release, "a", mark), step(release, "b", "print()")]
+    check(everything[:1], everything, commit="5")
+    good, report = check(everything, everything, commit="7", since="5")
+    assert good
+    assert mark.read_text() == "x"
+    assert "| a | good | 5 |" in report
+    assert "| b | good | 7 |" in report
+    _, report = check(everything[1:], everything, commit="7")
+    assert "| a | not run |" in report
 
 
 def test_a_run_that_is_broken_off_keeps_what_it_has(release, check, tmp_path):

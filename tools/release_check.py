@@ -28,9 +28,9 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 sys.path[:0] = [str(ROOT / "tools"), str(ROOT / "benchmarks")]
 
-from _checkout import clean_commit  # noqa: E402  # lies beside the benchmarks
+from _checkout import clean_commit, is_since  # noqa: E402  # lies beside the benchmarks
 from _claim_table import expected, percent  # noqa: E402
-from update_benchmarks import source, tables  # noqa: E402
+from update_benchmarks import machine, tables  # noqa: E402
 
 from gazelle.training.claims import (  # noqa: E402
     CLAIMS_FILE,
@@ -66,13 +66,14 @@ class Outcome:
     good: bool
     seconds: float
     summary: str
+    commit: str
 
 
 def steps(since: str | None = None) -> list[Step]:
     """Return all steps in their order.
 
     Args:
-        since: Trainings of this commit or later are not repeated; by default only those of today's.
+        since: Trainings of this commit or later are not repeated; by default only today's.
     """
     python = (sys.executable,)
     return [
@@ -146,8 +147,8 @@ def last_line(output: str) -> str:
     return lines[-1] if lines else ""
 
 
-def run(step: Step) -> Outcome:
-    """Run a step; its output is shown and its last line kept."""
+def run(step: Step, commit: str) -> Outcome:
+    """Run a step of a commit; its output is shown and its last line kept."""
     print(f"--- {step.name}: {shlex.join(step.command)}", flush=True)
     start = time.monotonic()
     done = subprocess.run(
@@ -164,34 +165,47 @@ def run(step: Step) -> Outcome:
     )
     if done.returncode:
         summary = f"exit code {done.returncode}; {summary}"
-    return Outcome(good, round(time.monotonic() - start, 1), summary)
+    return Outcome(good, round(time.monotonic() - start, 1), summary, commit)
 
 
 def check(
-    chosen: Iterable[Step], everything: Sequence[Step], state: Path, report: Path, head: str
+    chosen: Iterable[Step],
+    everything: Sequence[Step],
+    report: Path,
+    *,
+    state: Path = STATE,
+    since: str | None = None,
 ) -> bool:
     """Run the steps that have not passed yet and write the report after each.
 
     Args:
         chosen: Steps to run.
         everything: Steps that the report lists.
-        state: Folder with the outcomes at this commit.
         report: File to write.
-        head: First line of the report's text: day, commit, machine.
+        state: Folder with the outcomes so far.
+        since: What passed at this commit or later is not repeated; by default only at today's.
 
     Returns:
         Whether all of them are good.
     """
     state.mkdir(parents=True, exist_ok=True)
+    commit = clean_commit()
+    oldest = since or commit
     names = []
     for step in chosen:
         names.append(step.name)
-        known = outcomes(state).get(step.name)
+        known = recent(state, oldest).get(step.name)
         if known is None or not known.good:
-            save(state, step.name, run(step))
-        report.write_text(written(everything, outcomes(state), head), encoding="utf-8")
-    found = outcomes(state)
+            save(state, step.name, run(step, commit))
+        report.write_text(written(everything, recent(state, oldest)), encoding="utf-8")
+    found = recent(state, oldest)
     return all(found[name].good for name in names)
+
+
+def recent(state: Path, oldest: str) -> dict[str, Outcome]:
+    """Return the outcomes at a commit or later, by the steps' names."""
+    found = outcomes(state)
+    return {name: each for name, each in found.items() if is_since(each.commit, oldest)}
 
 
 def outcomes(state: Path) -> dict[str, Outcome]:
@@ -203,35 +217,36 @@ def outcomes(state: Path) -> dict[str, Outcome]:
 
 
 def save(state: Path, name: str, outcome: Outcome) -> None:
-    """Add an outcome to those of a commit."""
+    """Add an outcome to those so far."""
     found = outcomes(state) | {name: outcome}
     part = state / "outcomes.part"
     part.write_text(json.dumps({key: asdict(each) for key, each in found.items()}, indent=1))
     part.replace(state / "outcomes.json")
 
 
-def written(everything: Sequence[Step], found: dict[str, Outcome], head: str) -> str:
+def written(everything: Sequence[Step], found: dict[str, Outcome]) -> str:
     """Return the report."""
     rows = []
     for step in everything:
         outcome = found.get(step.name)
         if outcome is None:
-            rows.append(f"| {step.name} | not run | | |")
+            rows.append(f"| {step.name} | not run | | | |")
         else:
             good = "good" if outcome.good else "FAILED"
             summary = outcome.summary.replace("|", "/")
-            rows.append(f"| {step.name} | {good} | {outcome.seconds:,.0f} | {summary} |")
-    count = sum(outcome.good for outcome in found.values())
+            seconds = f"{outcome.seconds:,.0f}"
+            rows.append(f"| {step.name} | {good} | {outcome.commit} | {seconds} | {summary} |")
+    count = sum(found[step.name].good for step in everything if step.name in found)
     return "\n".join(
         [
             "# Release check",
             "",
             "Written by `make release-check` (`tools/release_check.py`), and not to be edited: everything that is published, measured again.",
             "",
-            f"Measured {head}. {count} of {len(everything)} steps are good.",
+            f"{count} of {len(everything)} steps are good. Each names the commit that it was run at. {machine()}.",
             "",
-            "| step | outcome | seconds | result |",
-            "|---|---|---|---|",
+            "| step | outcome | commit | seconds | result |",
+            "|---|---|---|---|---|",
             *rows,
             "",
         ]
@@ -245,7 +260,7 @@ def main() -> int:
     )
     parser.add_argument("--only", nargs="+", default=["*"], metavar="PATTERN", help="of the steps")
     parser.add_argument(
-        "--since", metavar="COMMIT", help="do not repeat trainings of this commit or later"
+        "--since", metavar="COMMIT", help="do not repeat what passed at this commit or later"
     )
     args = parser.parse_args()
     everything = steps(args.since)
@@ -256,8 +271,7 @@ def main() -> int:
     ]
     if not chosen:
         parser.error(f"no step is called like {' or '.join(args.only)}")
-    head = source() + (f"; trainings at {args.since} or later" if args.since else "")
-    good = check(chosen, everything, STATE / clean_commit(), REPORT, head)
+    good = check(chosen, everything, REPORT, since=args.since)
     subprocess.run([sys.executable, "tools/render_claims.py"], cwd=ROOT, check=True)
     print(f"the report is in {REPORT.relative_to(ROOT)}; commit it with the figures")
     return 0 if good else 1

@@ -80,7 +80,12 @@ def printed(*arguments: str) -> str:
 def source() -> str:
     """Return what figures are of: day, commit, Python and processor."""
     day = dt.datetime.now(dt.UTC).date()
-    return f"{day}, commit {commit()}, Python {platform.python_version()}, {processor()}"
+    return f"{day}, commit {commit()}, {machine()}"
+
+
+def machine() -> str:
+    """Return what measures: Python and the processor."""
+    return f"Python {platform.python_version()}, {processor()}"
 
 
 def processor() -> str:
