@@ -33,7 +33,7 @@ from gazelle.description import (
     Pose,
     Surface,
 )
-from gazelle.engines.mujoco.compiler import CompilerInput, compile_world
+from gazelle.engines.mujoco.compiler.spec import CompilerInput, compile_world
 
 STEP = 0.001
 WINDOWS = 20

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from gazelle.engines.mujoco import joint_rows, link_rows, model_rows
+from gazelle.engines.mujoco.tables import joints, links, models
 
 _ROWS = {
-    "links": (link_rows.MujocoLinkRows, link_rows.MujocoLinkRow),
-    "joints": (joint_rows.MujocoJointRows, joint_rows.MujocoJointRow),
-    "models": (model_rows.MujocoModelRows, model_rows.MujocoModelRow),
+    "links": (links.MujocoLinkRows, links.MujocoLinkRow),
+    "joints": (joints.MujocoJointRows, joints.MujocoJointRow),
+    "models": (models.MujocoModelRows, models.MujocoModelRow),
 }
 
 

@@ -22,7 +22,7 @@ import gazelle
 from gazelle import formats
 from gazelle.description import Collision, Link, Model, Plane, Pose, World
 from gazelle.engines import DivergenceError, make_engine
-from gazelle.engines.mujoco.compiler import COLLISION_GROUP
+from gazelle.engines.mujoco.compiler.spec import COLLISION_GROUP
 
 LONG = 600.0
 SETTLING = 20.0

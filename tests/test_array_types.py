@@ -11,7 +11,7 @@ PACKAGE = Path(gazelle.__file__).parent
 HOME = PACKAGE / "array_types.py"
 ALIAS = re.compile(r"^\w+ *(?:: *TypeAlias)? *= *(?:npt\.)?NDArray\[np\.(\w+)\]$", re.MULTILINE)
 
-COMPILED = re.compile(r"^engines/mujoco/laws/")
+COMPILED = re.compile(r"^engines/mujoco/contact_laws/")
 """What is compiled reads the types of arguments from annotations of its own file."""
 
 

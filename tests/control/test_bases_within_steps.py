@@ -13,8 +13,8 @@ from gazelle.control import POSITION, VELOCITY
 from gazelle.control.base_controller import BaseController
 from gazelle.control.values import BaseTwist, FourWheelCommand
 from gazelle.description import Plugin, Transmission, World
-from gazelle.engines.mujoco.running import RunningWorlds
-from gazelle.engines.mujoco.world_steps import WorldSteps
+from gazelle.engines.mujoco.step import WorldSteps
+from gazelle.engines.mujoco.worlds import RunningWorlds
 from tests.control.robots import ROUND, urdf
 from tests.control.test_in_physics import base_text
 

@@ -14,7 +14,7 @@ from gazelle import formats
 from gazelle.control import EFFORT, Controller, GoalState, register
 from gazelle.control.values import JointTargets, JointTrajectory, TrajectoryGoal, TrajectoryPoint
 from gazelle.description import World
-from gazelle.engines.mujoco.world_steps import WorldSteps
+from gazelle.engines.mujoco.step import WorldSteps
 from gazelle.simulation.replay import Replay
 from gazelle.simulation.values import EmergencyStop
 from tests.control.arms import JOINTS, arm, arm_text

@@ -14,10 +14,10 @@ import pytest
 
 import gazelle
 from gazelle import native
-from gazelle.engines.mujoco.laws.layouts import Offsets
+from gazelle.engines.mujoco.contact_laws.struct_layout import Offsets
 
 ROOT = Path(gazelle.__file__).parent
-LAWS = ROOT / "engines/mujoco/laws"
+LAWS = ROOT / "engines/mujoco/contact_laws"
 
 IN_SPACE = """
 import gazelle
@@ -64,7 +64,9 @@ def test_worlds_do_not_depend_on_the_build(build, code):
 
 
 def test_compiled_laws_know_every_place_in_mujocos_structs():
-    named = re.findall(r"\b(\w+)\b", (LAWS / "places.pxd").read_text().split("size_t", 1)[1])
+    named = re.findall(
+        r"\b(\w+)\b", (LAWS / "struct_offsets.pxd").read_text().split("size_t", 1)[1]
+    )
     assert set(named) - {"size_t", "cdef", "Places", "AT"} == set(Offsets._fields)
 
 

@@ -8,7 +8,7 @@ import scenes
 
 from gazelle import EngineError, Pose, Simulation
 from gazelle.engines import make_engine
-from gazelle.engines.mujoco import running
+from gazelle.engines.mujoco import worlds
 from gazelle.formats import load_string
 
 DRIVE = (scenes.drive_plugin(),)
@@ -18,13 +18,13 @@ DRIVE = (scenes.drive_plugin(),)
 def compiled(monkeypatch):
     """How often a world has been compiled."""
     calls = []
-    compile_world = running.compile_world
+    compile_world = worlds.compile_world
 
     def counting(recipe):
         calls.append(recipe)
         return compile_world(recipe)
 
-    monkeypatch.setattr(running, "compile_world", counting)
+    monkeypatch.setattr(worlds, "compile_world", counting)
     return calls
 
 

@@ -7,7 +7,7 @@ from looks import count_looks
 import gazelle
 from gazelle import formats
 from gazelle.description import Pose
-from gazelle.engines.mujoco.ray_access import MujocoRanges
+from gazelle.engines.mujoco.rays import MujocoRanges
 
 NOISE = "<noise><type>gaussian</type><stddev>{stddev}</stddev><mean>{mean}</mean></noise>"
 LIDAR = """<sensor name='eyes' type='ray'><update_rate>{rate}</update_rate><pose>.05 0 .2 0 .1 {turn}</pose>

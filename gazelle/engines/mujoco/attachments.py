@@ -1,70 +1,67 @@
-"""Links held together at run time: welds that can be switched on in each world."""
+"""Hold links of MuJoCo's worlds together."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import numpy as np
 
-import mujoco
+from gazelle.array_types import Worlds
+from gazelle.engines.limits import LONGEST_STEP
+from gazelle.engines.motion import Placement
+from gazelle.engines.mujoco.compiler.welds import Attachment
+from gazelle.engines.mujoco.state import rows_of
+from gazelle.engines.mujoco.worlds import RunningWorlds
+from gazelle.engines.state import LinkRow, LinkRows
+from gazelle.engines.table import Table
+from gazelle.errors import EngineError
+from gazelle.rotations import conjugate, multiply, rotate
 
-from gazelle.engines.tree import TreeLink
 
-# A weld is as stiff as MuJoCo allows: a time constant of two physics steps would be the
-# limit of stability, three leave room for what hangs on it.
-WELD_STEPS = 3.0
+class LinkHolding:
+    """Attachments of links; see ``gazelle.engines.engine.Engine``.
 
-
-@dataclass(frozen=True, slots=True)
-class Attachment:
-    """Two links that can be held together.
-
-    Attributes:
-        parent: Scoped name of the link that is held to.
-        child: Scoped name of the link that is held.
-        settling: Time constant with which they come together [s]; None for as stiff as can be.
+    Args:
+        run: Worlds that run.
+        links: Links of all models.
     """
 
-    parent: str
-    child: str
-    settling: float | None = None
+    def __init__(self, run: RunningWorlds, links: Table[LinkRow, LinkRows]) -> None:
+        self._run, self._links = run, links
 
-    @property
-    def name(self) -> str:
-        """The name of the weld."""
-        return f"{self.parent}>{self.child}"
+    def attach(
+        self,
+        parent: str,
+        child: str,
+        worlds: Worlds | None = None,
+        settling: float | None = None,
+    ) -> None:
+        """Hold two links together as they are to each other now; see the protocol."""
+        if settling is not None and not 0.0 < settling <= LONGEST_STEP:
+            raise EngineError(f"links cannot come together within {settling} s", hint="above 0")
+        pair = Attachment(parent, child, settling)
+        ends = [self._run.now().link(link).body for link in (parent, child)]
+        if ends[0] == ends[1]:
+            raise EngineError(f"'{parent}' and '{child}' cannot move against each other anyway")
+        layout = self._run.prepare(pair)
+        base, held = self._body_placement(parent, worlds), self._body_placement(child, worlds)
+        back = conjugate(base.quaternion)
+        position = rotate(back, held.position - base.position)
+        pose = np.concatenate((position, multiply(back, held.quaternion)), axis=1)
+        self._run.set_parameter("attachment", pair.name, pose, worlds)
+        self._run.batch.eq_active[rows_of(worlds), layout.attachments[pair.name]] = 1.0
 
-    @property
-    def arguments(self) -> tuple[str | float, ...]:
-        """Of which another one is made."""
-        ends = self.parent, self.child
-        return ends if self.settling is None else (*ends, self.settling)
+    def _body_placement(self, link: str, worlds: Worlds | None) -> Placement:
+        """Return the pose of MuJoCo's body of a link: the world's at the origin."""
+        place = self._links[link].placement(worlds)
+        if self._run.layout.link(link).body != 0:
+            return place
+        upright = np.zeros_like(place.quaternion)
+        upright[:, 3] = 1.0
+        return Placement(np.zeros_like(place.position), upright)
 
-    def is_of(self, model: str) -> bool:
-        """Whether one of the links is a model's."""
-        return any(link.startswith(f"{model}::") for link in (self.parent, self.child))
-
-
-def add_attachments(
-    spec: mujoco.MjSpec,
-    attachments: tuple[Attachment, ...],
-    bodies: Mapping[str, list[TreeLink]],
-) -> None:
-    """Put a weld, switched off, into the model for every pair.
-
-    One that settles is critically damped: after that time constant a gap is down to 74 %, after
-    three of them to 20 %. A static link is part of MuJoCo's world body, which is what the other is then held to.
-    """
-    roots = {body.name: body.root for parts in bodies.values() for body in parts}
-    for pair in attachments:
-        parent, child = (
-            "world" if roots[link] == "static" else link for link in (pair.parent, pair.child)
-        )
-        spec.add_equality(
-            name=pair.name,
-            type=mujoco.mjtEq.mjEQ_WELD,
-            objtype=mujoco.mjtObj.mjOBJ_BODY,
-            name1=parent,
-            name2=child,
-            active=False,
-            solref=[pair.settling or WELD_STEPS * spec.option.timestep, 1.0],
-        )
+    def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
+        """Let go two links that ``attach`` holds together."""
+        name = Attachment(parent, child).name
+        layout = self._run.now()
+        if name not in layout.attachments:
+            raise EngineError(f"'{child}' was never attached to '{parent}'")
+        self._run.batch.eq_active[rows_of(worlds), layout.attachments[name]] = 0.0

@@ -9,8 +9,8 @@ import mujoco
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.engines.collision import BodyContact, CollisionBody
-from gazelle.engines.mujoco.process import settle
-from gazelle.engines.mujoco.shapes import ShapeBuilder
+from gazelle.engines.mujoco.compiler.shapes import ShapeBuilder
+from gazelle.engines.mujoco.library import settle
 from gazelle.formats import MeshData
 
 _OWN = "/"

@@ -16,23 +16,23 @@ from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.history import Call
 from gazelle.engines.laws import laws_of, with_profile
 from gazelle.engines.limits import MAX_WORLDS, check_world, physics_step, whole_number
-from gazelle.engines.mujoco.attachments import Attachment
-from gazelle.engines.mujoco.compiler import CompilerInput
-from gazelle.engines.mujoco.forcing import ForcedSteps
-from gazelle.engines.mujoco.holding import LinkHolding
-from gazelle.engines.mujoco.joint_rows import MujocoJointRow, MujocoJointRows
-from gazelle.engines.mujoco.link_rows import MujocoLinkRow, MujocoLinkRows
-from gazelle.engines.mujoco.model_rows import MujocoModelRow, MujocoModelRows
-from gazelle.engines.mujoco.motors import motor_again
+from gazelle.engines.mujoco.attachments import LinkHolding
+from gazelle.engines.mujoco.compiler.motors import motor_again
+from gazelle.engines.mujoco.compiler.spec import CompilerInput
+from gazelle.engines.mujoco.compiler.welds import Attachment
+from gazelle.engines.mujoco.contacts import ContactAccess
+from gazelle.engines.mujoco.joint_wrenches import JointReactions
+from gazelle.engines.mujoco.library import settle
 from gazelle.engines.mujoco.parameters import ParameterStore
-from gazelle.engines.mujoco.placing import note_moves
-from gazelle.engines.mujoco.process import settle
-from gazelle.engines.mujoco.ray_access import RangeFinders
-from gazelle.engines.mujoco.reactions import JointReactions
-from gazelle.engines.mujoco.rows import rows_of
-from gazelle.engines.mujoco.running import RunningWorlds
-from gazelle.engines.mujoco.touching import ContactAccess
-from gazelle.engines.mujoco.world_steps import WorldSteps
+from gazelle.engines.mujoco.rays import RangeFinders
+from gazelle.engines.mujoco.state import rows_of
+from gazelle.engines.mujoco.step import WorldSteps
+from gazelle.engines.mujoco.step_forces import ForcedSteps
+from gazelle.engines.mujoco.tables.joints import MujocoJointRow, MujocoJointRows
+from gazelle.engines.mujoco.tables.links import MujocoLinkRow, MujocoLinkRows
+from gazelle.engines.mujoco.tables.models import MujocoModelRow, MujocoModelRows
+from gazelle.engines.mujoco.tables.root_poses import note_moves
+from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows, ModelRow, ModelRows
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean

@@ -10,11 +10,11 @@ from typing import TypeVar
 import mujoco
 
 from gazelle.description import Pose, Vector3
-from gazelle.engines.mujoco.compiler import Compiled
-from gazelle.engines.mujoco.efforts import EffortLimits, effort_limits
-from gazelle.engines.mujoco.geom_names import geom_ids
-from gazelle.engines.mujoco.motors import MotorSlot, motor_slots
-from gazelle.engines.mujoco.tyres import TyreSlot, tyre_slot
+from gazelle.engines.mujoco.compiler.geom_names import geom_ids
+from gazelle.engines.mujoco.compiler.motors import MotorSlot, motor_slots
+from gazelle.engines.mujoco.compiler.spec import Compiled
+from gazelle.engines.mujoco.compiler.wheel_slip import TyreSlot, tyre_slot
+from gazelle.engines.mujoco.effort_limits import EffortLimits, effort_limits
 from gazelle.engines.tree import Closure, RootKind, TreeLink
 from gazelle.errors import EngineError, did_you_mean
 

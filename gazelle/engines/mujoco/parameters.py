@@ -15,15 +15,15 @@ from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats
-from gazelle.engines.mujoco.inertia import matrices, principal, tensor
-from gazelle.engines.mujoco.joints import LIMIT_STEPS
+from gazelle.engines.mujoco.compiler.inertia import matrices, principal, tensor
+from gazelle.engines.mujoco.compiler.joints import LIMIT_STEPS
+from gazelle.engines.mujoco.compiler.motors import stiffen_worlds
+from gazelle.engines.mujoco.compiler.options import PASSIVE_OFF
+from gazelle.engines.mujoco.compiler.surfaces import LARGEST_FRICTION, LEAST_FRICTION
+from gazelle.engines.mujoco.compiler.wheel_slip import compiled_slip, set_slip
+from gazelle.engines.mujoco.compliance import retune
 from gazelle.engines.mujoco.layout import MujocoLayout, look_up
-from gazelle.engines.mujoco.motors import stiffen_worlds
-from gazelle.engines.mujoco.options import PASSIVE_OFF
-from gazelle.engines.mujoco.order import wxyz_from_xyzw, xyzw_from_wxyz
-from gazelle.engines.mujoco.retuning import retune
-from gazelle.engines.mujoco.surfaces import LARGEST_FRICTION, LEAST_FRICTION
-from gazelle.engines.mujoco.tyres import compiled_slip, set_slip
+from gazelle.engines.mujoco.quaternions import wxyz_from_xyzw, xyzw_from_wxyz
 from gazelle.errors import EngineError
 
 Key = tuple[str, str]

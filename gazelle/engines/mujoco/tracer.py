@@ -11,9 +11,9 @@ from mujoco.batch import Batch
 
 from gazelle.array_types import Floats
 from gazelle.description import Link, Plane, Pose, Visual, World
-from gazelle.engines.mujoco.order import wxyz_from_xyzw
+from gazelle.engines.mujoco.compiler.shapes import ShapeBuilder
+from gazelle.engines.mujoco.quaternions import wxyz_from_xyzw
 from gazelle.engines.mujoco.rays import BESIDE
-from gazelle.engines.mujoco.shapes import ShapeBuilder
 from gazelle.engines.tracer import RayHits
 from gazelle.errors import EngineError
 

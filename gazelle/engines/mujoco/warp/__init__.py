@@ -3,7 +3,7 @@
 Everything here is imported only when the engine ``mujoco-warp`` is asked for.
 """
 
-from gazelle.engines.mujoco.warp_packages import check_packages
+from gazelle.engines.mujoco.installation import check_packages
 
 check_packages()  # before anything here imports what may be missing
 

@@ -12,7 +12,7 @@ from mujoco.batch import MODEL_FIELDS, Batch
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats
-from gazelle.engines.mujoco.laws.extras import spun
+from gazelle.engines.mujoco.contact_laws.law_data import spun
 from gazelle.engines.mujoco.warp.device_worlds import WRITTEN, DeviceWorlds
 
 _BAD_ACCELERATION = mujoco.mjtWarning.mjWARN_BADQACC

@@ -9,7 +9,7 @@ import mujoco_warp
 import numpy as np
 import warp as wp
 
-from gazelle.engines.mujoco.laws.numbers import (
+from gazelle.engines.mujoco.contact_laws.law_data_indices import (
     ALIKE,
     BIAS_HEAD,
     COUNT,
@@ -21,13 +21,18 @@ from gazelle.engines.mujoco.laws.numbers import (
     MIDDLE,
     TREAD,
 )
+from gazelle.engines.mujoco.warp.bias_forces import (
+    find_swings,
+    go_half_way,
+    keep_turning,
+    sum_forces,
+)
 from gazelle.engines.mujoco.warp.constraint_rows import ConstraintRows
-from gazelle.engines.mujoco.warp.contact_terms import ContactLaws, ContactList
-from gazelle.engines.mujoco.warp.motor_rows import drive_motors
-from gazelle.engines.mujoco.warp.spins import find_swings, go_half_way, keep_turning, sum_forces
-from gazelle.engines.mujoco.warp.touching import correct_contacts
+from gazelle.engines.mujoco.warp.contact_data import ContactLaws, ContactList
+from gazelle.engines.mujoco.warp.contact_rows import correct_contacts
+from gazelle.engines.mujoco.warp.velocity_motors import drive_motors
 
-_ROUNDS = 3  # as in ``laws.bias``
+_ROUNDS = 3  # as in ``contact_laws.bias_forces``
 
 
 class DeviceLaws:

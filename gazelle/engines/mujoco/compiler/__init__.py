@@ -1,0 +1,1 @@
+"""Compilation of descriptions to MuJoCo models."""

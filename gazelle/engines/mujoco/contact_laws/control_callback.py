@@ -1,0 +1,50 @@
+"""The one function that MuJoCo calls in every step of every model of this process."""
+
+from __future__ import annotations
+
+import ctypes
+import warnings
+from functools import lru_cache
+from typing import Any
+
+import mujoco
+
+from gazelle.engines.mujoco.contact_laws import kernel
+from gazelle.engines.mujoco.contact_laws.struct_layout import offsets
+from gazelle.engines.mujoco.contact_laws.struct_offsets import fill
+from gazelle.errors import EngineError, EngineWarning
+
+
+def install(*, vital: bool) -> None:
+    """Let MuJoCo call it, from now on.
+
+    Args:
+        vital: Whether there is need of more than that what slides stays down.
+
+    Raises:
+        EngineError: Another program in this process has MuJoCo's callback, and it is vital.
+    """
+    mine, present = _function(), mujoco.get_mjcb_control()
+    if present is None:
+        mujoco.set_mjcb_control(mine)
+    elif present is not mine:
+        what = "something else in this process uses MuJoCo's callback mjcb_control"
+        if vital:
+            raise EngineError(
+                what,
+                hint="motors, controllers, bounces and friction by direction need it",
+            )
+        warnings.warn(
+            EngineWarning(
+                f"{what}: what slides hops, what spins gains energy, and what overlaps is thrown out"
+            ),
+            stacklevel=2,
+        )
+
+
+@lru_cache(maxsize=1)
+def _function() -> Any:
+    """The compiled function, as MuJoCo takes it: of the addresses of a model and its data."""
+    fill(offsets())
+    made = ctypes.CFUNCTYPE(None, ctypes.c_size_t, ctypes.c_size_t)
+    return made(kernel.address() or kernel.apply)

@@ -1,3 +1,0 @@
-from gazelle.engines.mujoco.laws.touch cimport Touch
-
-cdef void hold_loosely(Touch *touch) noexcept nogil

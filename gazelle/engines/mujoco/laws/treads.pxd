@@ -1,4 +1,0 @@
-from gazelle.engines.mujoco.laws.touch cimport Touch
-
-cdef void stand_in_the_middle(Touch *touch) noexcept nogil
-cdef bint is_level_tread(size_t model, int geom, double lean, double half) noexcept nogil

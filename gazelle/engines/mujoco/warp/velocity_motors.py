@@ -1,0 +1,33 @@
+"""Motors that hold a velocity: ``contact_laws.velocity_motors`` on the device, where its source is told."""
+
+import warp as wp
+
+wp.set_module_options({"enable_backward": False})
+
+FRICTION_OF_TENDON = wp.constant(2)  # mjCNSTR_FRICTION_TENDON
+
+
+@wp.kernel
+def drive_motors(
+    count: int,
+    timestep: wp.array[float],
+    used: wp.array[int],
+    kind: wp.array2d[int],
+    owner: wp.array2d[int],
+    velocity: wp.array2d[float],
+    stiffness: wp.array2d[float],
+    effort: wp.array2d[float],
+    wanted: wp.array2d[float],
+    reference: wp.array2d[float],
+) -> None:
+    """Let motors hold their velocities rather than stand still; the model's tendons are theirs."""
+    world, row = wp.tid()
+    if row >= used[world] or kind[world, row] != FRICTION_OF_TENDON:
+        return
+    motor = owner[world, row]
+    step = timestep[world % timestep.shape[0]]
+    rate = (wanted[world, motor] - velocity[world, row]) / step
+    most = effort[world, row] / stiffness[world, row]
+    given = wp.clamp(wanted[world, count + motor] + rate, -most, most)
+    wanted[world, count + motor] = given
+    reference[world, row] = rate + given
