@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from dataclasses import dataclass
+from contextlib import nullcontext
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -24,7 +25,6 @@ from gazelle.simulation import (
     TwistInput,
     WorldParameters,
 )
-from gazelle.simulation.loads import Loads
 from gazelle.simulation.parameters import InitialPoses, Parameter, SensorNoise
 
 # What is no reading: it changes something, or the thing's owner calls it.
@@ -67,10 +67,6 @@ CHANGING = {
     Output: {"bind", "forget", "hand", "publish", "subscribe"},
     Service: {"bind", "call"},
     Tuning: {"bind", "send"},
-    Loads: {
-        *("clear_joint", "clear_link", "forget", "hold", "push", "reset", "restore"),
-        *("set_lasting", "steps_until", "turn", "update"),
-    },
 }
 
 # Readings that a handle refuses, whoever asks.
@@ -81,16 +77,18 @@ KINDS = tuple(CHANGING)
 
 @dataclass(frozen=True)
 class Reading:
-    """A property or method of a handle, and how it is called."""
+    """A property or method of a handle, and how it is called; with a lock held, if it needs one."""
 
     path: str
     handle: object
     name: str
     arguments: tuple = ()
+    lock: object = field(default_factory=nullcontext)
 
     def __call__(self):
-        value = getattr(self.handle, self.name)
-        return value(*self.arguments) if callable(value) else value
+        with self.lock:
+            value = getattr(self.handle, self.name)
+            return value(*self.arguments) if callable(value) else value
 
 
 def kind_of(handle):
@@ -100,7 +98,6 @@ def kind_of(handle):
 def handles(sim):
     """All handles of a simulation, by path."""
     yield "sim", sim
-    yield "sim.loads", sim.loads
     yield "sim.physics", sim.physics
     yield "sim.parameters", sim.parameters
     for name, each in vars(sim.parameters).items():
@@ -155,7 +152,6 @@ class Everything:
             (Robot, "frame"): [(self.link,)],
             (Robot, "joint_description"): [(self.joint,)],
             (Robot, "wrench"): [(self.joint,)],
-            (Loads, "turns"): [([self.joint],)],
         }
         if kind is SensorUnit and name == "reading":
             return []  # takes what ``latest`` gives, which is read
@@ -195,20 +191,22 @@ class Everything:
         return {"link": [link.name], "joint": [wheel.name], "collision": [collision]}.get(kind, [])
 
     def _of_engine(self):
-        engine = self.sim.engine
+        engine, lock = self.sim.engine, self.sim.lock
         for name in ("peek", "snapshot", "history", "world"):
             assert name not in CHANGES
-            yield Reading(f"sim.engine.{name}", engine, name)
+            yield Reading(f"sim.engine.{name}", engine, name, lock=lock)
         link, joint = self.robot.links[self.link].name, self.robot.joints[self.joint].name
         for table, key, names in (
             ("links", link, ("placement", "motion", "acceleration")),
             ("joints", joint, ("position", "velocity", "wrench")),
             ("models", self.robot.name, ("placement",)),
         ):
-            yield Reading(f"sim.engine.{table}.names", getattr(engine, table), "names")
+            with lock:
+                rows = getattr(engine, table)
+                row = rows[key]
+            yield Reading(f"sim.engine.{table}.names", rows, "names", lock=lock)
             for name in names:
-                row = getattr(engine, table)[key]
-                yield Reading(f"sim.engine.{table}[...].{name}", row, name, ())
+                yield Reading(f"sim.engine.{table}[...].{name}", row, name, (), lock)
 
 
 def arrays_in(value, depth=4):

@@ -130,7 +130,7 @@ class Binding:
                     self._give(setting, value)
                 self._when_known()
 
-        self._simulation.requests.post(take)
+        self._simulation.lock.post(take)
 
     def _look_up(self, setting: Setting[Any]) -> bool:
         """Whether nobody waits for it any more."""
@@ -196,7 +196,8 @@ class Binding:
 
             def receive(message: Any) -> None:
                 value = decoder.read(message)
-                self._simulation.requests.call(lambda: port.send(value, self._worlds))
+                with self._simulation.lock:
+                    port.send(value, self._worlds)
 
             subscriber = self._node.subscribe(
                 port.topic, load_message(decoder.message), receive, port.queue_size
@@ -208,7 +209,8 @@ class Binding:
             linear, angular = message.linear, message.angular
             forward = np.array([[linear.x, linear.y, linear.z]])
             turning = np.array([[angular.x, angular.y, angular.z]])
-            self._simulation.requests.call(lambda: port.send(forward, turning, self._worlds))
+            with self._simulation.lock:
+                port.send(forward, turning, self._worlds)
 
         return receive
 
@@ -218,7 +220,8 @@ class Binding:
 
         def answer(request: Any) -> Any:
             asked = codec.read(request)
-            given = self._simulation.requests.call(lambda: service.call(asked, self._worlds))
+            with self._simulation.lock:
+                given = service.call(asked, self._worlds)
             return service_class._response_class(**codec.answer(given))
 
         if self._is_free(service.topic):

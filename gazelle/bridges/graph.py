@@ -77,7 +77,7 @@ class Graph:
 
     def post(self, work: Callable[[], Any]) -> None:
         """Have something done between two steps, without waiting for it."""
-        self.simulation.requests.post(work)
+        self.simulation.lock.post(work)
 
     def rewound(self) -> None:
         """Simulated time began again."""

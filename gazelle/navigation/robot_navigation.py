@@ -129,7 +129,7 @@ class RobotNavigation(ModelPlugin):
         for entry in simulation.plugins:
             if entry.plugin is self:
                 entry.schedule = Schedule(rate)
-                simulation.requests.changes += 1
+                simulation.lock.changes += 1
 
     def go_to(
         self, x: float, y: float, yaw: float | None = None, *, worlds: Worlds | None = None

@@ -9,7 +9,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.simulation import Clock, TwistInput
 from gazelle.simulation.clock import NANOSECONDS
-from gazelle.simulation.requests import between_steps
+from gazelle.simulation.state_lock import between_steps
 from gazelle.streams import Stream
 
 # Upwards, and about x, y and z.

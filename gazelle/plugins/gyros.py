@@ -63,7 +63,7 @@ class Gyros:
     """
 
     def __init__(self, units: Sequence[SensorUnit], nworld: int) -> None:
-        self._units, self._requests = units, units[0].robot.simulation.requests
+        self._units, self._lock = units, units[0].robot.simulation.lock
         self.values: Floats = np.zeros((nworld, len(units), 10))
         self._asleep: tuple[Indices, ImuArray] | None = None
         self._awake: list[tuple[int, SensorUnit]] = []
@@ -71,7 +71,7 @@ class Gyros:
 
     def measure(self) -> None:
         """Measure."""
-        if self._sorted != self._requests.changes:
+        if self._sorted != self._lock.changes:
             self._sort()
         if self._asleep is not None:
             columns, array = self._asleep
@@ -81,7 +81,7 @@ class Gyros:
 
     def _sort(self) -> None:
         """See who sleeps."""
-        self._sorted = self._requests.changes
+        self._sorted = self._lock.changes
         self._awake = [(i, unit) for i, unit in enumerate(self._units) if unit.awake]
         asleep = [(i, unit) for i, unit in enumerate(self._units) if not unit.awake]
         self._asleep = None

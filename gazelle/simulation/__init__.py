@@ -1,4 +1,4 @@
-"""One running set of worlds: clock, requests, spawn and delete, sensors, plugins and ports."""
+"""One running set of worlds: clock, lock, spawn and delete, sensors, plugins and ports."""
 
 from gazelle.engines import Placement
 from gazelle.simulation.base_plugin import BasePlugin

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Mapping
-from threading import get_ident
 from typing import TypeVar
 
 import numpy as np
@@ -92,12 +91,9 @@ class ControlLoop(ModelPlugin):
 
     def _call(self, work: Callable[[], R], /) -> R:
         """Do work between two steps, that may change what has to be done in them."""
-
-        def stirred() -> R:
+        with self._robot.simulation.lock:
             self._stir()
             return work()
-
-        return self._robot.simulation.requests.call(stirred)
 
     def _stir(self) -> None:
         """Python takes over what native code has in hand."""
@@ -111,11 +107,8 @@ class ControlLoop(ModelPlugin):
     def settle(self) -> None:
         """Take over what native code did so far."""
         if self._handed:
-            requests = self._robot.simulation.requests
-            if requests.owner == get_ident():
+            with self._robot.simulation.lock:
                 self._catch_up()
-            else:
-                requests.call(self._catch_up)
 
     # -- what it is told ---------------------------------------------------------------
 
@@ -313,7 +306,7 @@ def add_controllers(robot: Robot) -> ControllerManager:
     loop = ControlLoop()
     loop.begin(robot, JointHardware(robot, setup), robot.description, namespace)
     robot.simulation.plugins.append(
-        make_scheduled(loop, "controllers", robot.name, robot.simulation.requests)
+        make_scheduled(loop, "controllers", robot.name, robot.simulation.lock)
     )
     robot.add_manager(namespace, loop.manager)
     return loop.manager

@@ -1,9 +1,9 @@
-"""Find out that the thread that owns the state waits for another, which may wait for the state.
+"""Find out that the thread that owns the state will never give it up.
 
 A callback that is called between two steps, of a plugin or a listener, may hand work to another
 thread and wait for it. If that reads the simulation, each waits for the other for ever. Where
 the owner stands tells: the same instruction, in the waiting parts of the standard library or at
-a lock, for long.
+a lock, for long. Nor does a thread give it up that has ended.
 """
 
 from __future__ import annotations
@@ -47,9 +47,15 @@ class BlockedOwner:
             owner: Identifier of the thread; 0 for nobody.
 
         Raises:
-            SimulationError: It waits for the calling thread, or has long waited for some other.
+            SimulationError: It waits for the calling thread, has long waited for some other, or
+                has ended.
         """
         frame = sys._current_frames().get(owner)  # noqa: SLF001  there is no other way to know
+        if frame is None and owner and all(owner != each.ident for each in threading.enumerate()):
+            raise SimulationError(
+                "the simulation cannot answer: a thread ended that owned its state",
+                hint="hold the lock using 'with sim.lock:', or release what was acquired",
+            )
         if frame is None or not _waits(frame):
             self._place = None
             return

@@ -88,7 +88,7 @@ class EntityManager:
         robot = Robot(self._simulation, model, namespace, self._stage_of(model))
         self.robots[model.name] = robot
         self.sensors.extend(robot.sensors.values())
-        self._simulation.requests.changes += 1
+        self._simulation.lock.changes += 1
         return robot
 
     def _stage_of(self, model: Model) -> StageFleet | None:
@@ -102,13 +102,10 @@ class EntityManager:
             self._stage = run_stage(simulation)
 
     def _make(self, name: str) -> Robot:
-        """The handle of a model that was put off."""
-
-        def make() -> Robot:
+        """Make the handle of a model that was put off."""
+        with self._simulation.lock:
             model = self._awaited.pop(name, None)
             return self.robots[name] if model is None else self.adopt(model, "")
-
-        return self._simulation.requests.call(make)
 
     def delete(self, name: str) -> None:
         """Take a model out of every world, with its plugins.
@@ -117,7 +114,7 @@ class EntityManager:
             SimulationError: There is no such model.
         """
         simulation = self._simulation
-        simulation.requests.changes += 1
+        simulation.lock.changes += 1
         if name not in {model.name for model in simulation.engine.world.models}:
             raise SimulationError(
                 f"there is no model '{name}'", hint=did_you_mean(name, self.robots)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Bools, Floats
 from gazelle.errors import SimulationError
 from gazelle.simulation.joints import JointHandle
-from gazelle.simulation.requests import between_steps
+from gazelle.simulation.state_lock import between_steps
 
 
 class JointArray:
@@ -31,7 +31,7 @@ class JointArray:
         self._simulation = joints[0].simulation
         self._shape = self._simulation.nworld, len(joints)
         self._rows = self._simulation.engine.joints[tuple(joint.name for joint in joints)]
-        self._requests = self._simulation.requests
+        self._lock = self._simulation.lock
 
     @between_steps
     def positions(self) -> Floats:

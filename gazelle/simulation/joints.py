@@ -9,9 +9,9 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.engines import Wrench
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, finite, numbers, size_of
-from gazelle.simulation.requests import between_steps
 from gazelle.simulation.retuning import set_parameters
 from gazelle.simulation.running_state import RunningState
+from gazelle.simulation.state_lock import between_steps
 
 
 class JointHandle:
@@ -20,7 +20,7 @@ class JointHandle:
     def __init__(self, simulation: RunningState, name: str) -> None:
         self.name = name
         self._simulation = simulation
-        self._requests = simulation.requests
+        self._lock = simulation.lock
         self._engine = simulation.engine
         self._row = simulation.engine.joints[name]
 

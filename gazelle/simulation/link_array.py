@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from gazelle.engines import Motion, Placement
 from gazelle.simulation.links import LinkHandle
-from gazelle.simulation.requests import between_steps
 from gazelle.simulation.running_state import RunningState
+from gazelle.simulation.state_lock import between_steps
 
 
 class LinkArray:
@@ -21,7 +21,7 @@ class LinkArray:
     """
 
     def __init__(self, simulation: RunningState, links: Sequence[LinkHandle]) -> None:
-        self._requests = simulation.requests
+        self._lock = simulation.lock
         self._rows = simulation.engine.links[tuple(link.name for link in links)]
 
     @between_steps

@@ -14,9 +14,9 @@ from gazelle.engines import Motion, Placement
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.rotations import from_yaw
 from gazelle.simulation.inputs import chosen, finite, motion, numbers, placement, size_of
-from gazelle.simulation.requests import between_steps
 from gazelle.simulation.retuning import set_parameters
 from gazelle.simulation.running_state import RunningState
+from gazelle.simulation.state_lock import between_steps
 
 _CLOSE = 1e-3
 """Tolerance within which a pose counts as the one that was asked for [m or rad]."""
@@ -29,7 +29,7 @@ class LinkHandle:
         self.name = name
         self.description = link
         self._simulation = simulation
-        self._requests = simulation.requests
+        self._lock = simulation.lock
         self._engine = simulation.engine
         self._row = simulation.engine.links[name]
 

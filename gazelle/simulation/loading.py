@@ -31,8 +31,8 @@ def run_stage(simulation: RobotHost) -> StageFleet | None:
     engine = simulation.engine
     if not isinstance(engine, PlanarEngine):
         return None
-    clock, requests, seed = simulation.clock, simulation.requests, simulation.seed
-    fleet = StageFleet(engine, clock, requests, seed, make_controllers)
+    clock, lock, seed = simulation.clock, simulation.lock, simulation.seed
+    fleet = StageFleet(engine, clock, lock, seed, make_controllers)
     runner = StageRunner(fleet, simulation.loop)
     simulation.plugins.append(make_scheduled(runner, "stage", ""))
     return fleet
@@ -112,7 +112,7 @@ def _start(
         ports.back_to(opened)
         warn_of_fault(loaded, name, "while loading and is left out", error, plugin.source)
         return
-    simulation.plugins.append(make_scheduled(loaded, plugin.name, owner, simulation.requests))
+    simulation.plugins.append(make_scheduled(loaded, plugin.name, owner, simulation.lock))
 
 
 def _fits(found: type[BasePlugin], element: str, name: str, plugin: description.Plugin) -> bool:

@@ -32,5 +32,5 @@ def navigation_of(robot: Robot) -> NavigationControl:
             return cast("NavigationControl", entry.plugin)
     made = kind()
     made.load(robot, Parameters("plugin"))
-    plugins.append(make_scheduled(made, "navigation", robot.name, robot.simulation.requests))
+    plugins.append(make_scheduled(made, "navigation", robot.name, robot.simulation.lock))
     return cast("NavigationControl", made)

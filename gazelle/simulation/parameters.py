@@ -14,8 +14,8 @@ from gazelle.engines import PARAMETERS
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.sensors import LidarModel
 from gazelle.simulation.inputs import VECTORS, chosen, finite, numbers, placement, size_of
-from gazelle.simulation.requests import between_steps
 from gazelle.simulation.running_state import RunningState
+from gazelle.simulation.state_lock import between_steps
 from gazelle.streams import Stream
 
 
@@ -27,7 +27,7 @@ class Parameter:
 
     def __init__(self, simulation: RunningState, kind: str) -> None:
         self._simulation = simulation
-        self._requests = simulation.requests
+        self._lock = simulation.lock
         self._kind = kind
 
     @between_steps
@@ -94,7 +94,7 @@ class SensorNoise:
 
     def __init__(self, simulation: PopulatedState) -> None:
         self._simulation = simulation
-        self._requests = simulation.requests
+        self._lock = simulation.lock
 
     @between_steps
     def __getitem__(self, name: str) -> Floats:
@@ -125,7 +125,7 @@ class InitialPoses:
 
     def __init__(self, simulation: PopulatedState) -> None:
         self._simulation = simulation
-        self._requests = simulation.requests
+        self._lock = simulation.lock
         self._poses: dict[str, Floats] = {}
 
     @between_steps
@@ -191,7 +191,7 @@ class WorldParameters:
 
     def __init__(self, simulation: PopulatedState) -> None:
         self._simulation = simulation
-        self._requests = simulation.requests
+        self._lock = simulation.lock
         self.link_mass = Parameter(simulation, "link_mass")
         self.link_inertia = Parameter(simulation, "link_inertia")
         self.link_centre = Parameter(simulation, "link_centre")

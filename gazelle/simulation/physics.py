@@ -12,8 +12,8 @@ from gazelle.description import Atmosphere, Physics, Vector3, World
 from gazelle.engines.laws import with_profile
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.simulation.inputs import finite
-from gazelle.simulation.requests import between_steps
 from gazelle.simulation.running_state import RunningState
+from gazelle.simulation.state_lock import between_steps
 
 # Names here, and where the description has them: in the world, its profile, or ODE's terms.
 _OF_WORLD = {name: name for name in ("gravity", "magnetic_field", "wind", "atmosphere")}
@@ -75,7 +75,7 @@ class PhysicsProperties:
 
     def __init__(self, simulation: RunningState) -> None:
         self._simulation = simulation
-        self._requests = simulation.requests
+        self._lock = simulation.lock
 
     def __setattr__(self, name: str, value: Any) -> None:
         """Refuse what is no property: it would have no effect, and nobody would notice."""

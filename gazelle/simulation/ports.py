@@ -19,8 +19,8 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError, UnknownNameError, did_you_mean
 from gazelle.simulation.inputs import chosen, size_of
-from gazelle.simulation.requests import RequestQueue, StatePart, between_steps
 from gazelle.simulation.settings import Setting, Tuning
+from gazelle.simulation.state_lock import StateLock, StatePart, between_steps
 
 T = TypeVar("T")
 Q = TypeVar("Q")
@@ -282,8 +282,8 @@ class Output(StatePart, Generic[T]):
 
     def _note(self) -> None:
         """Let it be known that somebody else listens now."""
-        if self._requests is not None:
-            self._requests.changes += 1
+        if self._lock is not None:
+            self._lock.changes += 1
 
     @between_steps
     def publish(self) -> None:
@@ -310,12 +310,12 @@ class PortTable(dict[str, T]):
     A model may have two plugins of a kind, such as a drive for each pair of wheels.
 
     Args:
-        requests: Of the simulation that the ports belong to from then on.
+        lock: Of the simulation that the ports belong to from then on.
     """
 
-    def __init__(self, requests: RequestQueue | None = None) -> None:
+    def __init__(self, lock: StateLock | None = None) -> None:
         super().__init__()
-        self._requests = requests
+        self._lock = lock
 
     def __setitem__(self, name: str, port: T) -> None:
         """Add a port."""
@@ -325,7 +325,7 @@ class PortTable(dict[str, T]):
                 number += 1
             super().__setitem__(f"{name} {number}", self[name])
         if isinstance(port, StatePart):
-            port.bind(self._requests)
+            port.bind(self._lock)
         super().__setitem__(name, port)
 
     def __missing__(self, name: str) -> NoReturn:
@@ -353,18 +353,18 @@ class Ports:
         tunings: Values that can be changed while it runs.
 
     Args:
-        requests: Of the simulation; what comes through the ports from other threads is done
+        lock: Of the simulation; what comes through the ports from other threads is done
             between two steps.
         namespace: Put before topics.
     """
 
-    def __init__(self, requests: RequestQueue | None = None, namespace: str = "") -> None:
+    def __init__(self, lock: StateLock | None = None, namespace: str = "") -> None:
         self.namespace = namespace
-        self.inputs: dict[str, Any] = PortTable(requests)
-        self.outputs: dict[str, Output[Any]] = PortTable(requests)
-        self.services: dict[str, Service[Any, Any]] = PortTable(requests)
-        self.settings: dict[str, Setting[Any]] = PortTable(requests)
-        self.tunings: dict[str, Tuning] = PortTable(requests)
+        self.inputs: dict[str, Any] = PortTable(lock)
+        self.outputs: dict[str, Output[Any]] = PortTable(lock)
+        self.services: dict[str, Service[Any, Any]] = PortTable(lock)
+        self.settings: dict[str, Setting[Any]] = PortTable(lock)
+        self.tunings: dict[str, Tuning] = PortTable(lock)
 
     def mark(self) -> tuple[Mapping[str, Any], ...]:
         """What there is now, for ``back_to``."""

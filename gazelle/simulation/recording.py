@@ -111,7 +111,7 @@ class Recorder(Closeable):
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
-        with self._simulation.requests:
+        with self._simulation.lock:
             if not self._file.closed:
                 for name in CHANGES:
                     delattr(self._engine, name)

@@ -26,10 +26,10 @@ from gazelle.simulation.named import Named
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.ports import Ports
-from gazelle.simulation.requests import between_steps
 from gazelle.simulation.running_state import RunningState, StepMaker
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.sensors import SampledSensor
+from gazelle.simulation.state_lock import between_steps
 
 if TYPE_CHECKING:
     from gazelle.simulation.navigation_control import NavigationControl
@@ -143,9 +143,9 @@ class Robot(Ports):
         namespace: str = "",
         stage: StageFleet | None = None,
     ) -> None:
-        super().__init__(simulation.requests, namespace)
+        super().__init__(simulation.lock, namespace)
         self.simulation = simulation
-        self._requests = simulation.requests
+        self._lock = simulation.lock
         self.name = model.name
         self.description = model
         self.managers: dict[str, ControllerManager] = {}

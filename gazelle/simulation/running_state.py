@@ -1,4 +1,4 @@
-"""What parts of a simulation know of it: the engine, the clock, and who owns the state."""
+"""A simulation as its parts know it: the engine, the clock, and the lock on the state."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gazelle.description import World
 from gazelle.engines import Engine
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.loads import Loads
-from gazelle.simulation.requests import RequestQueue
+from gazelle.simulation.state_lock import StateLock
 from gazelle.simulation.systems_in_step import SystemsInStep
 
 
@@ -17,14 +17,14 @@ class RunningState(Protocol):
     """A simulation as its handles, parameters and records see it.
 
     Attributes:
-        requests: What threads ask for.
+        lock: On all of the state.
         clock: Simulated time.
         seed: Decides all random numbers.
         engine_name: As it was asked for.
         controls_in_step: Whether controllers act within the engine's steps, where it can.
     """
 
-    requests: RequestQueue
+    lock: StateLock
     clock: Clock
     seed: int
     engine_name: str

@@ -13,7 +13,7 @@ from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.clock import Clock, Schedule
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.plugin_system import PluginSystem
-from gazelle.simulation.requests import RequestQueue
+from gazelle.simulation.state_lock import StateLock
 
 T = TypeVar("T")
 
@@ -29,7 +29,7 @@ class ScheduledPlugin:
     name: str
     owner: str
     schedule: Schedule | None
-    requests: RequestQueue | None = None
+    lock: StateLock | None = None
     detached: bool = False
     alone: bool = False
     """True for a system by itself, whatever its kind, as it failed together with others."""
@@ -41,15 +41,15 @@ class ScheduledPlugin:
     def detach(self, error: Exception, when: str) -> None:
         """Go on without it."""
         self.schedule, self.detached = None, True
-        if self.requests is not None:
-            self.requests.changes += 1
+        if self.lock is not None:
+            self.lock.changes += 1
         warn_of_fault(self.plugin, title(self.name, self.owner), f"{when} and is detached", error)
 
     def part(self) -> None:
         """Be a system by itself from now on."""
         self.alone = True
-        if self.requests is not None:
-            self.requests.changes += 1
+        if self.lock is not None:
+            self.lock.changes += 1
 
     def is_active(self, clock: Clock) -> bool:
         """Return whether an update has anything to do."""
@@ -125,8 +125,8 @@ def title(name: str, owner: str) -> str:
 
 
 def make_scheduled(
-    plugin: BasePlugin, name: str, owner: str, requests: RequestQueue | None = None
+    plugin: BasePlugin, name: str, owner: str, lock: StateLock | None = None
 ) -> ScheduledPlugin:
     """A plugin with the schedule it asks for, once it is loaded."""
     schedule = None if plugin.update_rate is None else Schedule(plugin.update_rate)
-    return ScheduledPlugin(plugin, name, owner, schedule, requests)
+    return ScheduledPlugin(plugin, name, owner, schedule, lock)

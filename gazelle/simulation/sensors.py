@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from threading import get_ident
 from typing import Any, Self
 
 import numpy as np
@@ -16,10 +15,9 @@ from gazelle.simulation.clock import NANOSECONDS, Schedule
 from gazelle.simulation.inputs import chosen, is_ascending, one_world
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import FramePrefix, Output
-from gazelle.simulation.requests import between_steps
 from gazelle.simulation.running_state import RunningState
 from gazelle.simulation.sensor_groups import SensorGroup
-from gazelle.simulation.sharing import shared
+from gazelle.simulation.state_lock import between_steps
 
 _NO_WORLDS = np.zeros(0, np.intp)
 
@@ -40,8 +38,7 @@ class SampledSensor:
         self._simulation = simulation
         self.name = name
         self._model = model
-        self._requests = simulation.requests
-        self._shared_model = shared(model, self._requests)
+        self._lock = simulation.lock
         self.schedule = Schedule(sensor.update_rate)
         self.schedule.done(simulation.clock.now_ns)
         self._values: NDArray[Any] | None = None
@@ -54,8 +51,8 @@ class SampledSensor:
 
     @property
     def model(self) -> SensorModel:
-        """Measures now, in any world; for others than the stepping thread between two steps."""
-        return self._model if self._requests.owner == get_ident() else self._shared_model
+        """Measures now, in any world; to be used by threads that hold the simulation's lock."""
+        return self._model
 
     @property
     def awake(self) -> bool:
@@ -91,7 +88,7 @@ class SampledSensor:
         """The last reading of all worlds, shape (nworld, channels); wakes the sensor."""
         if not self._awake:
             self._awake = True
-            self._requests.changes += 1
+            self._lock.changes += 1
         return self.current()
 
     @between_steps
@@ -118,14 +115,14 @@ class SampledSensor:
     def subscribe(self, listener: Callable[[Self], None]) -> Callable[[], None]:
         """Call a function after every measurement; returns what ends it."""
         self._listeners.append(listener)
-        self._requests.changes += 1
+        self._lock.changes += 1
         return lambda: self._end(listener)
 
     @between_steps
     def _end(self, listener: Callable[[Self], None]) -> None:
         if listener in self._listeners:
             self._listeners.remove(listener)
-            self._requests.changes += 1
+            self._lock.changes += 1
 
     def retire(self) -> None:
         """Be measured in turn no more: the robot is gone."""
@@ -136,7 +133,7 @@ class SampledSensor:
     def update(self, now_ns: int) -> NDArray[Any]:
         """Measure in turn; returns what ``latest`` will until the next time."""
         if self._values is None:
-            self._requests.changes += 1  # from now on it may be measured with others
+            self._lock.changes += 1  # from now on it may be measured with others
         values = self._values = self.measure()
         self._stale, self._stamp = _NO_WORLDS, now_ns
         self.schedule.done(now_ns)
@@ -165,7 +162,7 @@ class SampledSensor:
             if self._values is not None:
                 self._stale = np.union1d(self._stale, worlds)
             return
-        self._requests.changes += 1
+        self._lock.changes += 1
         self._values, self._stale, self._stamp, self._awake = None, _NO_WORLDS, 0, False
         self.schedule.done(self._simulation.clock.now_ns)
 
@@ -235,7 +232,7 @@ class SampledSensor:
         """Be in no group from now on, until they are made anew."""
         if self._group is not None:
             self._group.release()
-        self._requests.changes += 1
+        self._lock.changes += 1
 
     @property
     def period(self) -> float:

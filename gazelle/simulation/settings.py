@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from gazelle.errors import SimulationError, did_you_mean
-from gazelle.simulation.requests import StatePart, between_steps
+from gazelle.simulation.state_lock import StatePart, between_steps
 
 T = TypeVar("T")
 

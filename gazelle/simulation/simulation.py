@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from threading import get_ident
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,11 +35,10 @@ from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.recording import Recorder, state_hash
-from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.scene_renderer import SceneRenderer
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
-from gazelle.simulation.sharing import shared
+from gazelle.simulation.state_lock import StateLock
 from gazelle.simulation.stepping import indices_of
 from gazelle.simulation.walking import CLOSED, StepLoop
 from gazelle.streams import seed_of
@@ -52,10 +50,11 @@ if TYPE_CHECKING:
 class Simulation(Closeable):
     """A world that runs, or many copies of it in step.
 
-    One thread at a time owns the state: the one that steps, or that reads or changes something.
+    One thread at a time holds ``lock``: the one that steps, or that reads or changes something.
     Everything that is read or changed through this object, its robots and their links, joints,
     sensors and ports is read or changed between two steps, from whichever thread, and is true
-    when the call returns. A callback must not wait for another thread that does so.
+    when the call returns. What else there is (``engine``, ``loads``, models of sensors) is used
+    with ``with sim.lock:``. A callback must not wait for another thread that uses the simulation.
 
     Args:
         world: A description, or a file or bundled name to load one from.
@@ -77,8 +76,8 @@ class Simulation(Closeable):
         ports: Of the plugins of the world; those of models are on their ``Robot``.
         controls_in_step: Whether controllers act within the engine's steps, where it can.
         events: Tell who must follow what is spawned, deleted and reset.
-        requests: What threads ask for; hold it with ``with`` to do several things at one moment.
-        entities, loop: Make and end models, and make the steps; for the thread that owns the state.
+        lock: On all of the state; hold it with ``with`` to do several things at one moment.
+        entities, loop: Make and end models, and make the steps; for the thread that holds it.
 
     Raises:
         FormatError: The file cannot be read.
@@ -103,20 +102,18 @@ class Simulation(Closeable):
         self._engine = make_engine(
             engine, loaded, nworld, time_step=time_step, threads=threads, late=True
         )
-        self.requests = RequestQueue(self._engine.nworld)
-        self._shared_engine = shared(self._engine, self.requests)
+        self.lock = StateLock(self._engine.nworld)
         self.engine_name = engine
         self.controls_in_step = True
         self.seed, self.clock, self.paused = seed_of(seed), Clock(self._engine.time_step), False
         self.physics, self.parameters = PhysicsProperties(self), WorldParameters(self)
         self._loads = Loads(self._engine, self.clock)
-        self._shared_loads = shared(self._loads, self.requests)
-        self.ports, self.events = Ports(self.requests, namespace), Events()
+        self.ports, self.events = Ports(self.lock, namespace), Events()
         self.entities = EntityManager(self)
         self._renderer, self.live_scene = SceneRenderer(), LiveScene(self._engine)
         self._faults = FaultLog(on_fault, fault_dump)
         self.loop = StepLoop(self, self._engine, self._loads, self.entities, self._faults)
-        with self.requests:
+        with self.lock:
             for plugin in loaded.plugins:
                 load_world_plugin(self, plugin)
             self.entities.adopt_all(loaded.models)
@@ -124,13 +121,13 @@ class Simulation(Closeable):
 
     @property
     def engine(self) -> Engine:
-        """What moves the world; a thread that does not step uses it between two steps."""
-        return self._engine if self.requests.owner == get_ident() else self._shared_engine
+        """Moves the world; to be used by threads that hold ``lock``."""
+        return self._engine
 
     @property
     def loads(self) -> Loads:
         """Forces that act for a time; likewise."""
-        return self._loads if self.requests.owner == get_ident() else self._shared_loads
+        return self._loads
 
     @property
     def world(self) -> World:
@@ -198,15 +195,18 @@ class Simulation(Closeable):
 
     def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
         """Have something called after every step, between two steps; returns what ends it."""
-        return self.requests.call(lambda: self.loop.listen(listener))
+        with self.lock:
+            return self.loop.listen(listener)
 
     def pause(self) -> None:
         """Let ``run`` refuse to run."""
-        self.requests.call(lambda: setattr(self, "paused", True))
+        with self.lock:
+            self.paused = True
 
     def unpause(self) -> None:
         """Let ``run`` run again."""
-        self.requests.call(lambda: setattr(self, "paused", False))
+        with self.lock:
+            self.paused = False
 
     # -- change ------------------------------------------------------------------------
 
@@ -235,7 +235,8 @@ class Simulation(Closeable):
         loaded = model if isinstance(model, Model) else formats.load_model(model)
         placed = replace(loaded, name=name or loaded.name, pose=(pose or Pose()) * loaded.pose)
         whole = inputs.placeable(placed)
-        return self.requests.call(lambda: self.entities.spawn(whole, namespace))
+        with self.lock:
+            return self.entities.spawn(whole, namespace)
 
     def load_plugin(self, filename: str) -> None:
         """Start a plugin that no file names, with empty parameters, for the whole simulation.
@@ -245,7 +246,8 @@ class Simulation(Closeable):
         Args:
             filename: As files name plugins: ``package.module:Class``, or a library's name.
         """
-        self.requests.call(lambda: load_world_plugin(self, Plugin(filename, filename)))
+        with self.lock:
+            load_world_plugin(self, Plugin(filename, filename))
 
     def delete(self, name: str) -> None:
         """Take a model out of every world, with its plugins.
@@ -253,7 +255,8 @@ class Simulation(Closeable):
         Raises:
             SimulationError: There is no such model.
         """
-        self.requests.call(lambda: self.entities.delete(name))
+        with self.lock:
+            self.entities.delete(name)
 
     def reset(
         self, worlds: ArrayLike | None = None, *, seed: int | None = None, time: bool = True
@@ -271,7 +274,8 @@ class Simulation(Closeable):
         """
         chosen = indices_of(worlds, self.nworld)
         given = None if seed is None else seed_of(seed)
-        self.requests.call(lambda: self.entities.reset(chosen, seed=given, time=time))
+        with self.lock:
+            self.entities.reset(chosen, seed=given, time=time)
 
     def attach(
         self,
@@ -296,7 +300,8 @@ class Simulation(Closeable):
         some = inputs.chosen(worlds, self.nworld)
         # Without a time constant as it was always called, so that records of runs stay the same.
         softly = () if settling is None else (settling,)
-        self.requests.call(lambda: self.engine.attach(parent.name, child.name, some, *softly))
+        with self.lock:
+            self.engine.attach(parent.name, child.name, some, *softly)
 
     def detach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
         """Let go two links that ``attach`` holds together.
@@ -305,7 +310,8 @@ class Simulation(Closeable):
             EngineError: They never were.
         """
         some = inputs.chosen(worlds, self.nworld)
-        self.requests.call(lambda: self.engine.detach(parent.name, child.name, some))
+        with self.lock:
+            self.engine.detach(parent.name, child.name, some)
 
     def set_light(self, name: str, **changes: Any) -> None:
         """Change a light of the world; the next picture shows it.
@@ -317,7 +323,8 @@ class Simulation(Closeable):
         Raises:
             SimulationError: There is no such light, or no such field.
         """
-        self.requests.call(lambda: self.engine.update_world(with_light(self.world, name, changes)))
+        with self.lock:
+            self.engine.update_world(with_light(self.world, name, changes))
 
     # -- seeing ------------------------------------------------------------------------
 
@@ -329,13 +336,15 @@ class Simulation(Closeable):
             world: Which world.
         """
         one = inputs.one_world(world, self.nworld)
-        return self.requests.call(lambda: self._renderer.picture(self, view, one))
+        with self.lock:
+            return self._renderer.picture(self, view, one)
 
     # -- saving and ending -------------------------------------------------------------
 
     def snapshot(self) -> bytes:
         """The whole state of all worlds."""
-        return self.requests.call(lambda: saving.snapshot(self))
+        with self.lock:
+            return saving.snapshot(self)
 
     def restore(self, data: bytes) -> None:
         """Put back what ``snapshot`` gave; the models must be the same.
@@ -343,7 +352,8 @@ class Simulation(Closeable):
         Raises:
             SimulationError: The bytes are no snapshot of this simulation.
         """
-        self.requests.call(lambda: saving.restore(self, data))
+        with self.lock:
+            saving.restore(self, data)
 
     def state_hash(self, worlds: ArrayLike | None = None) -> str:
         """A hash of the physical state, to the bit: the same run gives the same after every step.
@@ -352,14 +362,16 @@ class Simulation(Closeable):
             worlds: Which worlds; all if None. That of one world does not depend on the others.
         """
         rows = slice(None) if worlds is None else indices_of(worlds, self.nworld)
-        return self.requests.call(lambda: state_hash(self.engine.peek()[rows]))
+        with self.lock:
+            return state_hash(self.engine.peek()[rows])
 
     def record(self, path: str | Path) -> Recorder:
         """Write the run down from now on, until the recorder is closed; see ``Replay``.
 
         Use it with ``with``: ``with sim.record("run.jsonl"): sim.run(seconds=10.0)``.
         """
-        return self.requests.call(lambda: Recorder(self, path))
+        with self.lock:
+            return Recorder(self, path)
 
     @property
     def faults(self) -> Sequence[Fault]:
@@ -372,17 +384,18 @@ class Simulation(Closeable):
         That thread, and all that wait for an answer, get a ``SimulationError``, and so does what
         is asked for from now on.
         """
-        if self.requests.closed:
+        if self.lock.closed:
             return
         try:
-            self.requests.call(self._close)
+            with self.lock:
+                self._close()
         except SimulationError:
-            if not self.requests.closed:  # else another thread was faster
+            if not self.lock.closed:  # else another thread was faster
                 raise
 
     def _close(self) -> None:
-        if not self.requests.closed:
-            self.requests.close(CLOSED)
+        if not self.lock.closed:
+            self.lock.close(CLOSED)
             self._engine.close()
 
 

@@ -107,38 +107,37 @@ class StepLoop:
             SimulationError: The simulation is closed, or another thread closes it.
             DivergenceError: Worlds broke down, and that is to raise.
         """
-        simulation, requests = self._simulation, self._simulation.requests
-        requests.acquire()
+        lock = self._simulation.lock
+        lock.acquire()
         try:
-            if requests.closed:
-                raise SimulationError(CLOSED)
             self._walk(count, stop)
         finally:
             self.cut = False
-            try:
-                simulation.events.rested.tell()
-            finally:
-                requests.release()
+            if lock.is_mine():  # else a thread to which it was lent waits for this one
+                try:
+                    self._simulation.events.rested.tell()
+                finally:
+                    lock.release()
 
     def _walk(self, remaining: int, stop: Callable[[], bool]) -> None:
-        requests = self._simulation.requests
+        lock = self._simulation.lock
         while True:
-            if requests.waiting:
-                self.cut = False
-                self._shorten()
-                requests.drain()
-                if requests.closed:
-                    raise SimulationError(CLOSED)
+            if lock.closed:
+                raise SimulationError(CLOSED)
             if remaining <= 0 or stop():
                 return
             remaining -= self._advance(remaining)
+            if remaining > 0 and lock.waiting:
+                self.cut = False
+                self._shorten()
+                lock.lend()
 
     def _advance(self, most: int) -> int:
         """Do what is due, then step towards the next thing that will be; returns the steps."""
         clock, loads = self._simulation.clock, self._loads
         plugins = self._update_plugins()
         plan = self._plan
-        if self._simulation.requests.closed:
+        if self._simulation.lock.closed:
             raise SimulationError(CLOSED)
         if loads.any:
             loads.update(clock.now_ns)
@@ -183,7 +182,7 @@ class StepLoop:
                 update_plugins(fresh, simulation.clock)
                 plugins += late
             # One of them may have woken a sensor, let others come or go, or changed the engine.
-            if simulation.requests.closed or self._is_settled():
+            if simulation.lock.closed or self._is_settled():
                 return plugins
             for each in plugins:
                 asked.update(each.members())
@@ -234,7 +233,7 @@ class StepLoop:
 
     def _now(self) -> tuple[int, bool, int, int]:
         """What a plan holds for."""
-        count, changes = len(self._entities.plugins), self._simulation.requests.changes
+        count, changes = len(self._entities.plugins), self._simulation.lock.changes
         return changes, bool(self.followers), count, self._engine.revision
 
     def release(self) -> None:

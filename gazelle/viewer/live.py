@@ -112,7 +112,7 @@ class LiveView(Closeable):
         page.gui.main_panel.dock_right()
         self._server.light_up()
         self._look_from(spots)
-        with simulation.requests:
+        with simulation.lock:
             controls = RunControls(context)
             tools = ModelTools(context)
             shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
@@ -187,7 +187,7 @@ class LiveView(Closeable):
                 spent = time.thread_time() - spent
                 self._stop.wait(max(self._period, spent / _SHARE))
         except SimulationError:
-            if not self._simulation.requests.closed:
+            if not self._simulation.lock.closed:
                 raise
         except Exception as error:  # noqa: BLE001  a view never ends what it shows
             if not self._stop.is_set():
@@ -196,7 +196,8 @@ class LiveView(Closeable):
 
     def _picture(self) -> None:
         """Look at everything at one moment, then put it on the page."""
-        states = self._simulation.requests.call(self._look)
+        with self._simulation.lock:
+            states = self._look()
         with self._server.viser.atomic():
             for layer, state in zip(self._layers, states, strict=True):
                 layer.show(state)

@@ -68,7 +68,8 @@ class SceneCamera:
 
     def look(self) -> Picture:
         """What is seen now, shape (height, width, 3)."""
-        return self._simulation.requests.call(self._draw)
+        with self._simulation.lock:
+            return self._draw()
 
     def _draw(self) -> Picture:
         simulation = self._simulation
@@ -121,7 +122,8 @@ class SceneCamera:
         """Eye and target, where they are not given from the size of what there is to see."""
         if self._follow:
             middle = np.array([0.0, 0.0, 0.1])
-            away = self._simulation.requests.call(lambda: self._clear_way(middle))
+            with self._simulation.lock:
+                away = self._clear_way(middle)
         else:
             low, high = extent_of_world(self._simulation.world)
             middle = (low + high) / 2.0

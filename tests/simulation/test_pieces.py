@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from concurrent.futures import Future
 from types import SimpleNamespace
 
 import pytest
 
 import gazelle
 from gazelle.description import World
+from gazelle.native.fair_lock import Turn
 from gazelle.simulation import walking
 
 STEP_S = 0.0004  # what a step takes, by a clock of the test
@@ -20,20 +20,18 @@ def sim(monkeypatch):
     sim, clock = gazelle.Simulation(World("w")), SimpleNamespace(now=100.0)
     ticking = SimpleNamespace(perf_counter=lambda: clock.now, process_time=lambda: clock.now)
     monkeypatch.setattr(walking, "time", ticking)
-    before, pieces = sim.engine.step, []
+    before, pieces, asked = sim.engine.step, [], []
 
     def step(count=1, systems=(), now_ns=0):
         clock.now += count * STEP_S
         pieces.append(count)
+        sim.lock.waiting.extend(asked)
+        asked.clear()
         before(count)
 
     monkeypatch.setattr(sim.engine, "step", step)
-    sim.pieces, sim.wall = pieces, clock
+    sim.pieces, sim.wall, sim.asked = pieces, clock, asked
     return sim
-
-
-def ask(sim):
-    sim.requests.waiting.append((lambda: None, Future()))
 
 
 def test_pieces_grow_while_nobody_asks_for_anything(sim):
@@ -44,9 +42,10 @@ def test_pieces_grow_while_nobody_asks_for_anything(sim):
 def test_who_asked_lately_waits_three_milliseconds_at_most(sim):
     sim.step(1000)
     sim.pieces.clear()
-    ask(sim)
+    sim.asked.append(Turn(0, lambda: None))
     sim.step(1000)
-    assert max(sim.pieces) * STEP_S <= 0.003
+    assert not sim.lock.waiting
+    assert max(sim.pieces[1:]) * STEP_S <= 0.003
     sim.wall.now += 2.0
     sim.step(1000)
     assert max(sim.pieces) * STEP_S > 0.005

@@ -15,8 +15,8 @@ from gazelle.simulation import (
     namespace_of,
 )
 from gazelle.simulation.ports import Ports
-from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.scheduled_plugin import make_scheduled
+from gazelle.simulation.state_lock import StateLock
 
 
 @pytest.fixture
@@ -133,8 +133,8 @@ def test_an_output_that_nobody_wants_is_never_computed():
 
 
 def test_ports_added_all_at_once_belong_to_the_simulation_too():
-    requests = RequestQueue()
-    ports = Ports(requests)
+    lock = StateLock()
+    ports = Ports(lock)
     ports.outputs["a"] = Output("/a", int, lambda: 1)
     ports.outputs.update({"a": Output("/b", int, lambda: 2)}, c=Output("/c", int, lambda: 3))
     assert {name: port.topic for name, port in ports.outputs.items()} == {
@@ -142,6 +142,6 @@ def test_ports_added_all_at_once_belong_to_the_simulation_too():
         "a 2": "/a",
         "c": "/c",
     }
-    before = requests.changes
+    before = lock.changes
     ports.outputs["c"].subscribe(lambda _: None)
-    assert requests.changes == before + 1
+    assert lock.changes == before + 1

@@ -44,11 +44,11 @@ class Guarded:
     """An engine that only the owner of the state may use."""
 
     def __init__(self, engine, intruders):
-        self.__dict__.update(engine=engine, intruders=intruders, requests=None)
+        self.__dict__.update(engine=engine, intruders=intruders, lock=None)
 
     def __getattr__(self, name):
-        requests = self.__dict__["requests"]
-        owned = requests is None or requests.owner == threading.get_ident()
+        lock = self.__dict__["lock"]
+        owned = lock is None or lock.owner == threading.get_ident()
         if not owned and name not in UNCHANGING:
             self.intruders.append(name)
         return getattr(self.engine, name)
@@ -64,7 +64,7 @@ def watched(monkeypatch):
 
     def made(engine):
         sim = burger(engine)
-        sim._engine.requests = sim.requests
+        sim._engine.lock = sim.lock
         return sim, intruders
 
     return made
@@ -231,30 +231,17 @@ def writes(engine):
 
 def write_from_threads(engine, least, pause):
     """The final hash of a run that threads write into, and what was written when."""
-    log, told = [], threading.local()
+    log = []
     with burger(engine) as sim:
-        call = sim.requests.call
-
-        def noted(work):
-            what = getattr(told, "what", None)
-            if what is None:
-                return call(work)
-
-            def do():
-                log.append((sim.clock.now_ns, *what))
-                return work()
-
-            return call(do)
-
-        sim.requests.call = noted
         todo, done = writes(engine), threading.Event()
 
         def write(number):
             count = 0
             while not done.is_set():
                 count += 1
-                told.what = (number % len(todo), count % 10)
-                todo[told.what[0]](sim, told.what[1])
+                with sim.lock:
+                    log.append((sim.clock.now_ns, number, count % 10))
+                    todo[number](sim, count % 10)
                 time.sleep(pause)
 
         with ThreadPoolExecutor(len(todo)) as pool:
@@ -266,7 +253,6 @@ def write_from_threads(engine, least, pause):
                 done.set()
             for future in futures:
                 future.result(timeout=60.0)
-        sim.requests.call = call
         sim.run(0.05)
         assert len(log) >= least
         return sim.state_hash(), sim.clock.now_ns, log

@@ -87,7 +87,7 @@ def thing(sim, kind):
     accept = Input("topic", object, lambda *_: None, forget=lambda _: None)
     answer = Service("topic", None, None, lambda *_: None)
     for each in (accept, answer):
-        each.bind(sim.requests)
+        each.bind(sim.lock)
     return {
         JointHandle: robot.joints[WHEEL],
         LinkHandle: robot.links["wheel_left_link"],

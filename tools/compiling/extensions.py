@@ -23,7 +23,7 @@ ROOT = Path(__file__).parents[2]
 SHARED = "gazelle.native.memoryviews"
 """What Cython's typed memory views need, once for all modules."""
 
-PORTABLE = {SHARED, "gazelle.native.processor"}
+PORTABLE = {SHARED, "gazelle.native.fair_lock", "gazelle.native.processor"}
 """Modules with nothing that a faster build would do faster."""
 
 DIRECTIVES = {

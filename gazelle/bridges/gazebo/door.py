@@ -73,7 +73,8 @@ class GazeboDoor(Closeable):
         self._states: StatesPublisher | None = None
         self._beats: list[ClockPublisher | StatesPublisher | PerformancePublisher] = [self._clock]
         # Plugins of the world speak for themselves, as in Gazebo.
-        simulation.requests.call(self._follow)
+        with simulation.lock:
+            self._follow()
         self._closing.append(serve_loggers(node))
         reports = report_on_rosout(node)
         if reports is not None:
@@ -82,7 +83,8 @@ class GazeboDoor(Closeable):
             self._open_network()
         self._closing.append(simulation.events.rested.subscribe(self._flush))
         entries = [make_scheduled(beat, type(beat).__name__, "") for beat in self._beats]
-        simulation.requests.call(lambda: simulation.plugins.extend(entries))
+        with simulation.lock:
+            simulation.plugins.extend(entries)
         self._entries = entries
 
     def _make_time(self) -> None:
@@ -113,11 +115,13 @@ class GazeboDoor(Closeable):
 
     def publish(self) -> None:
         """Publish everything that somebody listens to, as it is now."""
-        self._simulation.requests.call(self._publish)
+        with self._simulation.lock:
+            self._publish()
 
     def close(self) -> None:
         """Take everything off the graph; the simulation goes on without."""
-        self._simulation.requests.call(self._leave)
+        with self._simulation.lock:
+            self._leave()
         while self._closing:
             self._closing.pop()()
         for beat in self._beats:
@@ -267,10 +271,10 @@ class GazeboDoor(Closeable):
         response = service._response_class
         if name in _MOVES:
             handler = refusing(kind, handler)
+        waiting = self._simulation.lock.wrap(handler)
 
         def answer(request: Any) -> Any:
-            call = self._simulation.requests.call
-            given = call(lambda: handler(request)) if wait else handler(request)
+            given = waiting(request) if wait else handler(request)
             return response(**given) if isinstance(given, dict) else given
 
         full = name if name.startswith("/") else f"~{name}"
@@ -291,4 +295,4 @@ class GazeboDoor(Closeable):
 
     def _between(self, act: Handler) -> Handler:
         """The same, done between two steps."""
-        return lambda message: self._simulation.requests.call(lambda: act(message))
+        return self._simulation.lock.wrap(act)

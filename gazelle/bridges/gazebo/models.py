@@ -58,7 +58,8 @@ class ModelServices:
         The text is read beside the running simulation; only what follows waits for its turn.
         """
         found = read_or_say(request.model_xml, request.model_name)
-        return self._simulation.requests.call(lambda: self._put(found, request))
+        with self._simulation.lock:
+            return self._put(found, request)
 
     def _put(self, found: Model | Light | str, request: Any) -> Answer:
         """Spawn what was found in the text, if anything; frames come first, as in Gazebo."""

@@ -49,7 +49,7 @@ class PhysicsReconfigure:
         self._world = world
         self._physics = context.simulation.physics
         tuning = Tuning(context.node.name, _PHYSICS, self._change, self._now)
-        tuning.bind(context.simulation.requests)
+        tuning.bind(context.simulation.lock)
         self._server = ReconfigureServer(context.node, tuning.topic, tuning)
 
     def close(self) -> None:

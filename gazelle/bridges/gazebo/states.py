@@ -68,7 +68,7 @@ class ClockPublisher(BasePlugin):
             self.publish()
             self.flush()
 
-        self._context.simulation.requests.post(work)
+        self._context.simulation.lock.post(work)
 
 
 class StatesPublisher(BasePlugin):

@@ -21,7 +21,7 @@ class ActuatorTopics:
     """
 
     def __init__(self, at: GraphRobot) -> None:
-        self._call, self._world = at.simulation.requests.call, at.world
+        self._lock, self._world = at.simulation.lock, at.world
         self._number: Any = load_message("std_msgs/Float64")
         self._own = at.simulation.devices.actuators.get(at.robot.index, [])
         count = len(self._own)
@@ -40,7 +40,8 @@ class ActuatorTopics:
 
         def told(message: Any) -> None:
             if math.isfinite(message.data):
-                self._call(lambda: act(message.data, worlds))
+                with self._lock:
+                    act(message.data, worlds)
 
         return told
 

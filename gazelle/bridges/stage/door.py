@@ -133,7 +133,7 @@ class StageDoor(Closeable):
 
     def _greet(self, _peer: str) -> None:
         """Tell who comes the time, also while the world is paused."""
-        self._simulation.requests.post(self._tick)
+        self._simulation.lock.post(self._tick)
 
     def _show(self) -> None:
         """Something was moved: with no step to come, that is seen now."""
@@ -196,8 +196,7 @@ class StageDoor(Closeable):
 
     def _step_on(self) -> None:
         """Make one step unless there is a pause: once that is answered, none is made."""
-        with self._simulation.requests:
-            self._simulation.requests.drain()
+        with self._simulation.lock:
             if not self._simulation.paused:
                 self._simulation.step()
 

@@ -37,7 +37,8 @@ class GripperTopics:
             word = message.data.strip().lower()
             if word in COMMANDS:
                 gripper = self._simulation.gripper(self._robot.name, which)
-                self._simulation.requests.call(lambda: gripper.do(word, worlds))
+                with self._simulation.lock:
+                    gripper.do(word, worlds)
 
         return told
 

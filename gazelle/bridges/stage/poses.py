@@ -51,8 +51,8 @@ class PoseServices:
         fields = set(response_class.__slots__)
 
         def answer(_request: Any) -> Any:
-            view = self._simulation.poses[self._world, robot.index]
-            pose = self._simulation.requests.call(view.tolist)
+            with self._simulation.lock:
+                pose = self._simulation.poses[self._world, robot.index].tolist()
             values = {"x": pose[0], "y": pose[1], "angle": math.degrees(pose[2])}
             return response_class(**{name: v for name, v in values.items() if name in fields})
 

@@ -246,7 +246,7 @@ class RobotInputs:
         ]
 
     def _between(self, act: Callable[[Any], None]) -> Callable[[Any], None]:
-        return lambda message: self._simulation.requests.call(lambda: act(message))
+        return self._simulation.lock.wrap(act)
 
     def drive(self, message: Any) -> None:
         """A velocity: what is not finite is left out, as it would spoil the world."""

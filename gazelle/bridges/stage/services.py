@@ -64,8 +64,8 @@ class Services:
     def _between(self, service: Any, handler: Callable[[Any], Answer]) -> Callable[[Any], Any]:
         """Answer between two steps, when it is true."""
         response = service._response_class
-        call = self._simulation.requests.call
-        return lambda request: response(**call(lambda: handler(request)))
+        answer = self._simulation.lock.wrap(handler)
+        return lambda request: response(**answer(request))
 
     def reset_positions(self, _request: Any) -> Answer:
         """Robots back to where they were, standing, odometry and stall cleared; time goes on."""

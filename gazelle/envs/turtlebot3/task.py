@@ -189,7 +189,7 @@ class TurtleBot3Task(BatchedTask):
 
     def _act(self, actions: ArrayLike) -> Verdict:
         linear, angular = self._command(actions)
-        with self.scene.simulation.requests:  # asked for once, not at every access
+        with self.scene.simulation.lock:  # asked for once, not at every access
             self.scene.robot.inputs[COMMAND].send(linear, angular)
             self.scene.simulation.run(self.control_period)
             seen = self._see(None)

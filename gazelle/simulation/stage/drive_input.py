@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats, Worlds
 from gazelle.simulation.inputs import chosen
 from gazelle.simulation.ports import TwistInput
-from gazelle.simulation.requests import between_steps
+from gazelle.simulation.state_lock import between_steps
 
 
 class DriveInput(TwistInput):

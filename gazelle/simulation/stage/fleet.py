@@ -17,31 +17,31 @@ from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.inputs import chosen, one_world
-from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.stage.devices import Devices
 from gazelle.simulation.stage.drive_state import DriveState
 from gazelle.simulation.stage.fleet_controller import FleetController
 from gazelle.simulation.stage.rangers import Rangers
 from gazelle.simulation.stage.scans import StageRangeNoise
 from gazelle.simulation.stage.senses import Senses
+from gazelle.simulation.state_lock import StateLock
 
 
 class StageFleet(Senses):
     """Commands, poses, odometry and scans of all robots of Stage files; ``Simulation.stage``.
 
     All arrays have the axes (nworld, nrobot, ...); robots are in the order of the world's models.
-    They are views of what runs, for the thread that steps; others use ``Simulation.requests``.
+    They are views of what runs: other threads than the one that steps hold ``Simulation.lock``.
 
     Args:
         engine: Moves them.
         clock: Of the simulation.
-        requests: Of the simulation.
+        lock: Of the simulation.
         seed: The run's seed.
         make_controllers: Makes those that the robots name, at the start and for other robots.
 
     Attributes:
         clock: Simulated time.
-        requests: Where other threads have things done, between two steps.
+        lock: Of the simulation.
         seed: The run's seed.
         nworld: Copies of the world.
         controllers: Those that the file names.
@@ -51,11 +51,11 @@ class StageFleet(Senses):
         self,
         engine: PlanarEngine,
         clock: Clock,
-        requests: RequestQueue,
+        lock: StateLock,
         seed: int,
         make_controllers: Callable[[StageFleet], list[FleetController]],
     ) -> None:
-        self.engine, self.clock, self.requests, self.seed = engine, clock, requests, seed
+        self.engine, self.clock, self.lock, self.seed = engine, clock, lock, seed
         self.nworld, self._make_controllers = engine.nworld, make_controllers
         self.controllers: list[FleetController] = []
         self._revision = -1

@@ -13,9 +13,9 @@ from gazelle.description import Model, StageModel, World
 from gazelle.engines.laws import with_profile
 from gazelle.errors import SimulationError
 from gazelle.simulation.clock import Clock
-from gazelle.simulation.requests import RequestQueue
 from gazelle.simulation.simulation import Simulation
 from gazelle.simulation.stage.fleet import StageFleet
+from gazelle.simulation.state_lock import StateLock
 
 
 class StageSimulation(Closeable):
@@ -81,9 +81,9 @@ class StageSimulation(Closeable):
         return self.simulation.time
 
     @property
-    def requests(self) -> RequestQueue:
-        """Where other threads have things done, between two steps."""
-        return self.simulation.requests
+    def lock(self) -> StateLock:
+        """The simulation's lock."""
+        return self.simulation.lock
 
     @property
     def paused(self) -> bool:

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from gazelle.simulation.ports import Output
-from gazelle.simulation.requests import between_steps
 from gazelle.simulation.robot import Robot
+from gazelle.simulation.state_lock import between_steps
 
 T = TypeVar("T")
 

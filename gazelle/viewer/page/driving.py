@@ -100,6 +100,6 @@ class DriveControls:
         with self._lock:
             moving = linear != 0.0 or angular != 0.0
             self._driven = (port, time.monotonic() + _LATE) if moving else None
-        context.simulation.requests.post(
+        context.simulation.lock.post(
             lambda: context.careful(lambda: port.send(linear, angular, chosen))
         )

@@ -193,7 +193,7 @@ class _Drag:
             return
         if event.phase == "start":
             self._grabbed = np.asarray(event.start_position, np.float64)
-            context.simulation.requests.post(lambda: self._remember(model, world))
+            context.simulation.lock.post(lambda: self._remember(model, world))
         if event.phase == "update":
             eye = np.asarray(event.client.camera.position, np.float64)
             step = _on_level(eye, np.asarray(event.end_position), self._grabbed[2]) - self._grabbed
@@ -224,7 +224,7 @@ def _place(context: PageContext, model: str, at: Any, turned: Any, world: Any) -
             way = turned() if callable(turned) else turned
             context.careful(lambda: robot.set_pose(place, way, worlds=world))
 
-    context.simulation.requests.post(put)
+    context.simulation.lock.post(put)
 
 
 def _pull(context: PageContext, model: str, link: str, way: Floats, world: Any) -> None:
@@ -239,4 +239,4 @@ def _pull(context: PageContext, model: str, link: str, way: Floats, world: Any) 
             force = 10.0 * mass * way
             context.careful(lambda: handle.apply_wrench(force, duration=0.1, worlds=world))
 
-    context.simulation.requests.post(pull)
+    context.simulation.lock.post(pull)

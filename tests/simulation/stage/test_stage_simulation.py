@@ -267,7 +267,8 @@ def test_other_threads_have_things_done_between_steps(start):
 
     def work():
         for i in range(50):
-            sim.requests.call(lambda i=i: sim.set_pose("r", (float(i), 0.0, 0.0)))
+            with sim.lock:
+                sim.set_pose("r", (float(i), 0.0, 0.0))
         done.append(True)
 
     thread = threading.Thread(target=work)

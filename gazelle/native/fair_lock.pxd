@@ -1,0 +1,19 @@
+cdef extern from "pythread.h":
+    unsigned long get_ident "PyThread_get_thread_ident" ()
+
+
+cdef class Turn:
+    cdef unsigned long thread
+    cdef object work
+    cdef object granted
+
+
+cdef class FairLock:
+    cdef readonly unsigned long owner
+    cdef readonly object waiting
+    cdef public bint closed
+    cdef Py_ssize_t depth
+    cdef object _take(self)
+    cdef object _drop(self)
+    cdef object _wait(self, Turn turn)
+    cdef object _pass_on(self)

@@ -1,0 +1,201 @@
+"""Re-entrant lock that threads hold in the order in which they ask for it.
+
+Who gives it up hands it to the first thread that waits, and asks again behind all others. So no
+thread waits longer than each other one holds it once. A lock of the system goes to whichever
+thread runs next, which in a loop is mostly the one that had it.
+
+Each method is compiled code that holds the interpreter's lock: neither another thread nor a
+signal's exception comes between two of its lines, unless one of them calls Python. Where Python
+runs this source the same is true between two calls, which is why the queue is read by index.
+"""
+
+# mypy: disallow-untyped-decorators=False
+
+from __future__ import annotations
+
+from _thread import allocate_lock
+from collections import deque
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any
+
+import cython
+
+if not cython.compiled:
+    from _thread import get_ident
+
+# How often a waiting thread checks that the owner can ever answer it [s]. A turn wakes it.
+_LOOK: float = 0.25
+
+
+def _wait_on(owner: int) -> None:
+    """Keep waiting for the thread that holds the lock."""
+
+
+@cython.cclass
+class Turn:
+    """Place in the queue: of a thread that waits, or of work that whoever holds the lock does.
+
+    Args:
+        thread: Identifier of the thread; 0 for work.
+        work: What is to be done; None for a thread.
+    """
+
+    def __init__(self, thread: int, work: Callable[[], Any] | None = None) -> None:
+        self.thread = thread
+        self.work = work
+        self.granted: Any = None
+        if work is None:
+            self.granted = allocate_lock()
+            self.granted.acquire()
+
+
+@cython.cclass
+class FairLock:
+    """Re-entrant lock, first come, first served; to be held with ``with``.
+
+    Attributes:
+        owner: Identifier of the thread that holds it; 0 for none.
+        waiting: Turns of threads and of posted work, in the order in which they are served.
+        closed: ``with`` calls ``refuse`` in threads that do not hold it already.
+    """
+
+    def __init__(self) -> None:
+        self.owner = 0
+        self.depth = 0
+        self.closed = False
+        self.waiting: deque[Turn] = deque()
+
+    def watch(self) -> Callable[[int], None]:
+        """Return what is called every now and then, with the owner, while a thread waits.
+
+        What it raises ends the waiting; subclasses override it.
+        """
+        return _wait_on
+
+    def refuse(self) -> None:
+        """Raise the error of a closed lock; subclasses override it."""
+
+    def acquire(self) -> None:
+        """Hold the lock once more, also if it is closed."""
+        self._take()
+
+    def release(self) -> None:
+        """Give up what ``acquire`` got.
+
+        Raises:
+            RuntimeError: The calling thread does not hold it.
+        """
+        self._drop()
+
+    def __enter__(self) -> None:
+        self._take()
+        if self.closed and self.depth == 1:
+            self._drop()
+            self.refuse()
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._drop()
+
+    def is_mine(self) -> bool:
+        """Return whether the calling thread holds it."""
+        return bool(self.owner == get_ident())
+
+    def lend(self) -> None:
+        """Let those that wait have their turns, and hold the lock again when they had.
+
+        A thread that holds it more than once keeps it.
+
+        Raises:
+            KeyboardInterrupt: One came meanwhile; the calling thread holds the lock.
+            Exception: What ``watch`` raised; the calling thread does not hold the lock.
+        """
+        interruption: Any = None
+        if self.depth != 1 or not self.waiting:
+            return
+        while True:
+            try:
+                self._wait(Turn(get_ident()))
+                break
+            except KeyboardInterrupt as error:  # the state is another thread's meanwhile
+                interruption = error
+        if interruption is not None:
+            raise interruption
+
+    def submit(self, work: Callable[[], Any]) -> None:
+        """Have work done by whoever holds the lock when its turn comes, or at once by its owner."""
+        me: cython.ulong = get_ident()
+        if self.owner == me:
+            work()
+            return
+        self.waiting.append(Turn(0, work))
+        if self.owner == 0:
+            self.owner = me
+            self.depth = 1
+            self._pass_on()
+
+    @cython.cfunc
+    def _take(self) -> Any:
+        me: cython.ulong = get_ident()
+        if self.owner == me:
+            self.depth += 1
+        elif self.owner == 0:
+            self.owner = me
+            self.depth = 1
+        else:
+            self._wait(Turn(me))
+
+    @cython.cfunc
+    def _drop(self) -> Any:
+        if self.owner != get_ident():
+            raise RuntimeError("a lock is released by a thread that does not hold it")
+        if self.depth > 1:
+            self.depth -= 1
+        elif self.waiting:
+            self._pass_on()
+        else:
+            self.owner = 0
+
+    @cython.cfunc
+    def _wait(self, turn: Turn) -> Any:
+        """Wait behind all others until the lock is handed over; an exception ends the turn."""
+        watch: Any = None
+        try:
+            self.waiting.append(turn)
+            if self.owner == 0:  # given up meanwhile
+                self.owner = turn.thread
+                self.depth = 1
+            if self.owner == turn.thread:
+                self._pass_on()
+            while not turn.granted.acquire(True, _LOOK):
+                if watch is None:
+                    watch = self.watch()
+                watch(self.owner)
+        except BaseException:
+            if self.owner == turn.thread:
+                self._pass_on()
+            else:
+                self.waiting.remove(turn)
+            raise
+
+    @cython.cfunc
+    def _pass_on(self) -> Any:
+        """Do the work that comes first, and hand the lock to the first thread, if any waits."""
+        while self.waiting:
+            turn: Turn = self.waiting[0]
+            del self.waiting[0]
+            if turn.work is None:
+                self.owner = turn.thread
+                turn.granted.release()
+                return
+            try:
+                turn.work()
+            except BaseException:
+                self._pass_on()
+                raise
+        self.owner = 0

@@ -1,0 +1,316 @@
+"""A lock that threads hold in the order in which they ask for it."""
+
+import signal
+import sys
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from types import SimpleNamespace
+
+import pytest
+
+from gazelle.native import BUILD
+from gazelle.native.fair_lock import FairLock
+
+
+def asking(lock, work):
+    """A thread that does work with the lock, once it waits for it."""
+    before = len(lock.waiting)
+
+    def ask():
+        with lock:
+            work()
+
+    thread = threading.Thread(target=ask)
+    thread.start()
+    while len(lock.waiting) == before:
+        time.sleep(0.001)
+    return thread
+
+
+def test_each_thread_holds_it_in_turn_and_as_often_as_it_likes():
+    lock, order = FairLock(), []
+
+    def note(number):
+        with lock:
+            order.append((number, lock.is_mine()))
+
+    with lock:
+        threads = [asking(lock, lambda n=n: note(n)) for n in range(4)]
+        assert order == []
+        assert lock.is_mine()
+    for thread in threads:
+        thread.join()
+    assert order == [(n, True) for n in range(4)]
+    assert not lock.is_mine()
+    assert lock.owner == 0
+
+
+def test_who_lends_it_has_it_back_before_those_that_come_later():
+    lock, order, late = FairLock(), [], []
+
+    def first():
+        order.append("first")
+        late.append(asking(lock, lambda: order.append("late")))
+
+    with lock:
+        threads = [asking(lock, first), asking(lock, lambda: order.append("second"))]
+        lock.lend()
+        assert lock.is_mine()
+        order.append("owner")
+    for thread in threads + late:
+        thread.join()
+    assert order == ["first", "second", "owner", "late"]
+
+
+def test_who_holds_it_twice_does_not_lend_it():
+    lock, order = FairLock(), []
+    with lock:
+        with lock:
+            thread = asking(lock, lambda: order.append("other"))
+            lock.lend()
+            order.append("owner")
+        lock.lend()
+        order.append("again")
+    thread.join()
+    assert order == ["owner", "other", "again"]
+
+
+@pytest.mark.parametrize("lends", [False, True])
+def test_loops_of_many_threads_take_turns_none_waits_for_more_than_one_of_each(lends):
+    """Counts turns, so it does not matter how fast threads run."""
+    count, turns, worst = 6, [0], [0] * 6
+    lock, begun = FairLock(), threading.Barrier(6)
+
+    def loop(number):
+        begun.wait()
+        for _ in range(200):
+            asked = turns[0]
+            with lock:
+                worst[number] = max(worst[number], turns[0] - asked)
+                turns[0] += 1
+                if lends and number == 0:
+                    lock.lend()
+
+    with ThreadPoolExecutor(count) as pool:
+        list(pool.map(loop, range(count)))
+    assert turns[0] == 200 * count
+    # Between its asking and its place in the queue others may run: the system decides that.
+    assert sorted(worst)[count // 2] <= 2 * count
+
+
+def test_no_two_threads_hold_it_at_once():
+    lock, count = FairLock(), [0]
+
+    def work(_):
+        for _ in range(300):
+            with lock:
+                count[0], before = -1, count[0]
+                count[0] = before + 1
+                if before % 7 == 0:
+                    lock.lend()
+
+    with ThreadPoolExecutor(6) as pool:
+        list(pool.map(work, range(12)))
+    assert count[0] == 12 * 300
+
+
+def test_an_error_of_who_holds_it_gives_it_up():
+    lock, threads = FairLock(), []
+
+    def fail():
+        with lock:
+            threads.append(asking(lock, lambda: None))
+            _ = 1 / 0
+
+    with pytest.raises(ZeroDivisionError):
+        fail()
+    threads[0].join()
+    assert lock.owner == 0
+
+
+def test_an_error_of_who_borrows_it_gives_it_back():
+    lock, errors = FairLock(), []
+
+    def ask():
+        with pytest.raises(ZeroDivisionError), lock:
+            errors.append(1 / 0)
+
+    with lock:
+        thread = threading.Thread(target=ask)
+        thread.start()
+        while not lock.waiting:
+            time.sleep(0.001)
+        lock.lend()
+        assert lock.is_mine()
+    thread.join()
+    assert errors == []
+
+
+def test_only_who_holds_it_releases_it():
+    lock = FairLock()
+    with pytest.raises(RuntimeError, match="does not hold it"):
+        lock.release()
+    with lock:
+        answer = ThreadPoolExecutor(1).submit(lock.release)
+        with pytest.raises(RuntimeError, match="does not hold it"):
+            answer.result()
+        assert lock.is_mine()
+
+
+def test_work_is_done_at_once_by_the_owner_and_else_by_whoever_holds_the_lock():
+    lock, done = FairLock(), []
+    lock.submit(lambda: done.append("free"))
+    with lock:
+        lock.submit(lambda: done.append("owner"))
+        other = threading.Thread(target=lambda: lock.submit(lambda: done.append("other")))
+        other.start()
+        other.join()
+        assert done == ["free", "owner"]
+        lock.lend()
+        assert done == ["free", "owner", "other"]
+
+
+class Watched(FairLock):
+    """Ends the waiting of all at once."""
+
+    def watch(self):
+        def check(owner):
+            raise TimeoutError(owner)
+
+        return check
+
+
+def test_who_gives_up_waiting_leaves_the_queue():
+    lock = Watched()
+    with lock:
+        waits = [ThreadPoolExecutor(1).submit(lock.acquire) for _ in range(3)]
+        for wait in waits:
+            with pytest.raises(TimeoutError):
+                wait.result()
+        assert not lock.waiting
+    assert lock.owner == 0
+
+
+def test_who_lends_it_to_one_that_keeps_it_gives_up_without_it():
+    lock, keep = Watched(), threading.Event()
+    with lock:
+        thread = asking(lock, keep.wait)
+        lock.acquire()
+        lock.release()
+        with pytest.raises(TimeoutError):
+            lock.lend()
+        assert not lock.is_mine()
+        keep.set()
+        thread.join()
+        lock.acquire()  # for the end of this block
+    assert lock.owner == 0
+
+
+@pytest.fixture
+def interrupts():
+    """Raises KeyboardInterrupt in the main thread, at most once each time this is armed."""
+    state = SimpleNamespace(armed=False)
+
+    def interrupt(_signal, _frame):
+        if state.armed:
+            state.armed = False
+            raise KeyboardInterrupt
+
+    def send():
+        signal.pthread_kill(threading.main_thread().ident, signal.SIGINT)
+
+    state.send = send
+    before = signal.signal(signal.SIGINT, interrupt)
+    yield state
+    signal.signal(signal.SIGINT, before)
+
+
+def test_an_interrupt_ends_the_waiting_and_leaves_the_queue(interrupts):
+    lock, held, keep = FairLock(), threading.Event(), threading.Event()
+
+    def hold():
+        with lock:
+            held.set()
+            while not lock.waiting:  # which is inside the block that expects it
+                time.sleep(0.001)
+            interrupts.send()
+            keep.wait()
+
+    holder = threading.Thread(target=hold)
+    holder.start()
+    held.wait()
+    interrupts.armed = True
+    with pytest.raises(KeyboardInterrupt):
+        lock.acquire()
+    assert not lock.waiting
+    assert not lock.is_mine()
+    keep.set()
+    holder.join()
+    with lock:
+        pass
+    assert lock.owner == 0
+
+
+def test_an_interrupt_of_who_lends_it_is_raised_when_the_lock_is_back(interrupts):
+    lock, order = FairLock(), []
+
+    def hold():
+        interrupts.send()
+        while interrupts.armed:  # until the main thread has got it
+            time.sleep(0.001)
+        order.append("given back")
+
+    def lend():
+        with lock:
+            threads.append(asking(lock, hold))
+            interrupts.armed = True
+            try:
+                lock.lend()
+            finally:
+                order.append(lock.is_mine())
+
+    threads = []
+    with pytest.raises(KeyboardInterrupt):
+        lend()
+    assert order == ["given back", True]
+    threads[0].join()
+    assert lock.owner == 0
+
+
+@pytest.mark.skipif(BUILD == "python", reason="only compiled code has no signals between its lines")
+def test_no_interrupt_leaves_the_lock_with_a_thread_that_does_not_know_it(interrupts):
+    lock, done, caught = FairLock(), threading.Event(), 0
+
+    def disturb():
+        while not done.is_set():
+            time.sleep(0.0002)
+            interrupts.send()
+
+    def ask():
+        while not done.is_set():
+            with lock:
+                pass
+
+    threads = [threading.Thread(target=each) for each in (disturb, ask)]
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-4)
+    for thread in threads:
+        thread.start()
+    try:
+        while caught < 100:
+            with suppress(KeyboardInterrupt):
+                interrupts.armed = True
+                while True:
+                    with lock:
+                        pass
+            caught += 1
+            assert not lock.is_mine()
+    finally:
+        sys.setswitchinterval(interval)
+        done.set()
+        for thread in threads:
+            thread.join()
+    assert lock.owner == 0
+    assert not lock.waiting
