@@ -48,6 +48,6 @@ def plain(text: str, comment: re.Pattern[str]) -> tuple[str, int | None]:
 
 
 def curly_hint(text: str) -> str | None:
-    """What to do about a curly quote in a text; None where there is none."""
+    """Return a hint for a curly quote in a text; None where there is none."""
     found = _CURLY.search(text)
     return f"{found[0]} is a curly quote: write a straight one, \" or '" if found else None

@@ -1,4 +1,4 @@
-"""What other packages than Gazelle add to it by entry points.
+"""Entry points by which other packages extend Gazelle.
 
 Gazelle's own parts are found through its rooms, so that a new one is there without installing
 again. Lists of them that an older installation left behind are passed over.

@@ -1,4 +1,4 @@
-"""Where packages are below a folder of ROS_PACKAGE_PATH, and what they are called, by rospack's rules.
+"""Folders and names of packages below a folder of ROS_PACKAGE_PATH, by rospack's rules.
 
 The rules are those of http://www.ros.org/reps/rep-0122.html and of rospack.
 """

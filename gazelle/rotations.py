@@ -52,7 +52,7 @@ def turns(q: Floats) -> Floats:
 
 
 def _from_products() -> Floats:
-    """How the products of (x, y, z, w) make up the transposed rotation matrix, shape (16, 9)."""
+    """Return the weights from products of (x, y, z, w) to the transposed rotation matrix, shape (16, 9)."""
     weights = np.zeros((4, 4, 3, 3))
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3

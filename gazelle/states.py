@@ -1,4 +1,4 @@
-"""What changes in several parts, as one mapping for a snapshot."""
+"""State of several parts, as one mapping for a snapshot."""
 
 from __future__ import annotations
 

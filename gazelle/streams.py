@@ -42,12 +42,12 @@ class Stream:
 
     @property
     def keys(self) -> UInts64:
-        """What makes each world's numbers its own, shape (nworld,); writable, for restoring."""
+        """Keys of the worlds' random numbers, shape (nworld,); writable, for restoring."""
         return self._keys
 
     @property
     def counters(self) -> UInts64:
-        """How many numbers each world has drawn, shape (nworld,); writable, for restoring."""
+        """Number of draws of each world, shape (nworld,); writable, for restoring."""
         return self._counters
 
     def move(self, keys: UInts64, counters: UInts64) -> None:

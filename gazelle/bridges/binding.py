@@ -133,7 +133,7 @@ class Binding:
         self._simulation.lock.post(take)
 
     def _look_up(self, setting: Setting[Any]) -> bool:
-        """Whether nobody waits for it any more."""
+        """Read a setting's parameter; return True when it no longer needs to be awaited."""
         value = self._value_of(setting)
         if value in _MISSING:
             return not setting.awaited
@@ -174,7 +174,7 @@ class Binding:
         self._closing.append(topic.close)
 
     def _prefix(self, output: Output[Any]) -> str:
-        """What goes before the names of an output's frames."""
+        """Return the prefix of an output's frame names."""
         place = output.namespace
         if place is None:
             place = output.topic.rpartition("/")[0] or self._namespace
@@ -234,7 +234,7 @@ class Binding:
             self._closing.append(server.close)
 
     def _is_free(self, service: str) -> bool:
-        """Whether nobody offers a service here yet; says so if somebody does."""
+        """Return whether a service is not offered here yet; warn if it is."""
         if all(server.name != service for server in self._node.services()):
             return True
         warnings.warn(

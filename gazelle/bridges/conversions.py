@@ -19,7 +19,7 @@ from gazelle.ros.time import Time
 
 @dataclass(frozen=True, slots=True)
 class ConversionContext:
-    """How a graph sees a value.
+    """Context of a conversion: frame, world and time of a graph.
 
     Attributes:
         frame: Frame of the port, for kinds that carry none.
@@ -40,7 +40,7 @@ class ConversionContext:
 
 @dataclass(frozen=True, slots=True)
 class Encoder:
-    """How values of one kind become messages.
+    """Conversion of values of one kind to messages.
 
     Attributes:
         message: Type of the messages.
@@ -53,7 +53,7 @@ class Encoder:
 
 @dataclass(frozen=True, slots=True)
 class Decoder:
-    """How messages become values of one kind.
+    """Conversion of messages to values of one kind.
 
     Attributes:
         message: Type of the messages.
@@ -199,7 +199,7 @@ _SERVICES: dict[tuple[type[Any] | None, type[Any] | None], ServiceCodec] = {}
 
 @dataclass(frozen=True, slots=True)
 class ServiceCodec:
-    """How the questions and answers of one kind of service go over ROS.
+    """Conversion of a service's requests and responses to and from ROS.
 
     Attributes:
         service: Type of the service.
@@ -231,7 +231,7 @@ add_service(None, None, ServiceCodec("std_srvs/Empty", lambda _request: None, la
 
 
 def encoder_of(kind: type[Any]) -> Encoder:
-    """How values of a kind become messages; those of message classes are messages already.
+    """Return the encoder of values of a kind; those of message classes are messages already.
 
     Raises:
         RosError: Nobody said; see ``add_encoder``.
@@ -244,7 +244,7 @@ def encoder_of(kind: type[Any]) -> Encoder:
 
 
 def decoder_of(kind: type[Any]) -> Decoder:
-    """How messages become values of a kind.
+    """Return the decoder of values of a kind.
 
     Raises:
         RosError: Nobody said; see ``add_decoder``.
@@ -257,7 +257,7 @@ def decoder_of(kind: type[Any]) -> Decoder:
 
 
 def service_of(request: type[Any] | None, response: type[Any] | None) -> ServiceCodec:
-    """How a kind of service goes over ROS.
+    """Return the codec of a kind of service.
 
     Raises:
         RosError: Nobody said; see ``add_service``.

@@ -38,7 +38,7 @@ class TimedGraph(Protocol):
 
 
 class Graph:
-    """What everything that puts a simulation on a ROS graph shares.
+    """Common base of everything that puts a simulation on a ROS graph.
 
     Args:
         simulation: Runs.

@@ -48,11 +48,11 @@ class Tuned(Protocol):
 
     @property
     def tunables(self) -> Mapping[str, TunedValue]:
-        """What can be changed."""
+        """Values that can be changed."""
 
     @property
     def values(self) -> Values:
-        """What holds now."""
+        """Current values."""
 
     def send(self, /, **wanted: Any) -> Values:
         """Change some values; returns what holds then."""

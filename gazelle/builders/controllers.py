@@ -1,4 +1,4 @@
-"""What a robot needs to be controlled: transmissions, the plugin, controllers and a launch file."""
+"""Files that a robot needs for ros_control: transmissions, the plugin, controllers, a launch file."""
 
 from __future__ import annotations
 

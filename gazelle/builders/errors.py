@@ -1,4 +1,4 @@
-"""What goes wrong when a world is made by code."""
+"""Errors of building a world by code."""
 
 from __future__ import annotations
 

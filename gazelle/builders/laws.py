@@ -32,7 +32,7 @@ finer than the default; and as fast as possible for learning (4 ms steps)."""
 
 @dataclass(frozen=True, slots=True)
 class Planet:
-    """What a place in space does to a world.
+    """Environment of a planet.
 
     Attributes:
         gravity: [m/s²].

@@ -1,4 +1,4 @@
-"""Where things can go: free places that keep away from zones and from one another."""
+"""Placement of models: free places that keep away from zones and from one another."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ def _free(
 
 
 def footprints(model: Model) -> list[Rectangle]:
-    """What a model's collisions cover of the ground, one rectangle each; planes are left out.
+    """Return the footprint of each of a model's collisions as a rectangle; planes are left out.
 
     Exact for upright boxes; other shapes and tilts get a rectangle around them. A mesh,
     heightmap or image, whose size is not known here, counts as a metre.

@@ -60,7 +60,7 @@ def plan_walls(
 
 
 def plan_places(plan: str, letter: str, *, cell: float = 0.5) -> list[tuple[float, float]]:
-    """Where a letter stands in a plan: (x, y) of the cells [m], row by row.
+    """Return the positions of a letter in a plan: (x, y) of the cells [m], row by row.
 
     Raises:
         BuildError: ``letter`` is not one letter, or the cell has no size.
@@ -122,7 +122,7 @@ def _blocks(rows: list[str]) -> list[tuple[int, int, int, int]]:
 
 
 def _run(left: set[tuple[int, int]], start: tuple[int, int], step: tuple[int, int]) -> int:
-    """How many wall cells follow one another from a start."""
+    """Count the wall cells that follow one another from a start."""
     count = 0
     while (start[0] + count * step[0], start[1] + count * step[1]) in left:
         count += 1
@@ -136,7 +136,7 @@ def _grow(
     along: tuple[int, int],
     length: int,
 ) -> int:
-    """How many lines of that length, each one ``step`` further, are all wall."""
+    """Count the lines of that length, each one ``step`` further, that are all wall."""
     count = 1
     while all(
         (

@@ -1,9 +1,8 @@
-"""What robots get before they are simulated: contact and joint properties, transmissions,
-sensors and plugins.
+"""Preparation of robots for simulation: contact and joint properties, sensors, plugins and more.
 
 Every function takes the text of a URDF (or xacro) file and gives text with the elements
 added, or takes a ``Model`` and gives a model that means the same as that text would.
-"""  # noqa: D205  # one sentence
+"""
 
 from __future__ import annotations
 

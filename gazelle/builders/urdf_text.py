@@ -60,7 +60,7 @@ def root_of(text: str) -> Parameters:
 
 
 def is_xacro(text: str) -> bool:
-    """Whether names may come from macros, so that they cannot be looked up."""
+    """Return whether names may come from macros, so that they cannot be looked up."""
     return _XACRO in text or "<xacro:" in text
 
 

@@ -217,14 +217,14 @@ class WorldBuilder:
         return self
 
     def earth(self, latitude: float, longitude: float, elevation: float = 0.0) -> Self:
-        """Where on Earth the origin is [degrees, m], for GPS; x points east."""
+        """Set the position of the origin on Earth [degrees, m], for GPS; x points east."""
         coordinates = SphericalCoordinates(
             latitude=latitude, longitude=longitude, elevation=elevation
         )
         return self._set(spherical_coordinates=coordinates)
 
     def camera(self, eye: Vector3, target: Vector3) -> Self:
-        """Where the viewer starts, and what it sees in its middle [m]."""
+        """Set the viewer's initial position, and the point in the centre of its view [m]."""
         dx, dy, dz = (t - e for e, t in zip(eye, target, strict=True))
         pitch = -math.atan2(dz, math.hypot(dx, dy))
         return self._set(camera=Pose(*eye, pitch=pitch, yaw=math.atan2(dy, dx)))

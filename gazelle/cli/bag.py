@@ -1,4 +1,4 @@
-"""What rosbag does: record, play and inspect bag files.
+"""Record, play and inspect bag files, as rosbag does.
 
 gazelle bag record -O drive /scan /odom
 gazelle bag play drive.bag --clock -r 2 /scan:=/old_scan
@@ -80,7 +80,7 @@ def _play(args: argparse.Namespace) -> int:
 
 
 def _node_options(args: argparse.Namespace, name: str, *lists: str) -> dict[str, Any]:
-    """What the remappings among the words of some lists say of the node; they are taken out."""
+    """Remove the remappings from lists of arguments; return the node's options in them."""
     from gazelle.ros.builtin.arguments import parse_arguments
 
     words = [word for each in lists for word in getattr(args, each)]

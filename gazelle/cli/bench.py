@@ -60,7 +60,7 @@ def benchmarks() -> dict[str, Path]:
 
 
 def _is_run(path: Path) -> bool:
-    """Whether a file is a benchmark, and not there to be imported by one."""
+    """Return whether a file is a benchmark, and not a module that benchmarks import."""
     return path.stem[0] != "_" and '__name__ == "__main__"' in path.read_text(encoding="utf-8")
 
 

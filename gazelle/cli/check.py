@@ -97,7 +97,7 @@ def _show(file: str, found: list[Problem]) -> None:
 
 
 def _advice(each: Problem) -> tuple[str | None, ...]:
-    """What findings that are printed together have in common."""
+    """Return the key of findings that are printed together."""
     return (each.severity, each.rule, each.why, each.hint)
 
 
@@ -127,7 +127,7 @@ def _write(text: str, indent: str) -> None:
 
 
 def _build(file: str, engine: str) -> list[Problem]:
-    """What the engine and the plugins have to say."""
+    """Return the problems that the engine and the plugins report."""
     from gazelle.formats import Problem
     from gazelle.simulation import Simulation
 

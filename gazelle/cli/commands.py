@@ -1,4 +1,4 @@
-"""What sub-commands there are. Their modules are imported only when they are used."""
+"""Sub-commands. Their modules are imported only when they are used."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Protocol, cast
 
 
 class CommandModule(Protocol):
-    """What the module of a sub-command offers."""
+    """Interface of a sub-command's module."""
 
     def configure(self, parser: argparse.ArgumentParser) -> None:
         """Declare the arguments."""

@@ -73,7 +73,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def script_for(shell: str, *, tools: bool = True) -> str:
-    """What a shell is to evaluate.
+    """Return the script that a shell evaluates.
 
     Args:
         shell: ``bash`` or ``zsh``.

@@ -24,7 +24,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _purpose(name: str) -> str:
-    """What a type is for, or why it cannot be had: another package may have a broken one."""
+    """Return the purpose of a type, or the reason why it cannot be loaded."""
     from gazelle.control import registry
 
     try:

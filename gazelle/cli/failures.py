@@ -52,7 +52,7 @@ def save_failures(found: Evaluation, file: Path) -> None:
 
 
 def _by_goal(found: Evaluation) -> list[dict[str, Any]]:
-    """How the last attempts at each goal ended, the worst goals first."""
+    """Return the outcomes of the last attempts at each goal, the worst goals first."""
     goals: dict[tuple[float, ...], dict[str, int]] = {}
     for record in found.records:
         goal = record.info.get("goal")

@@ -1,4 +1,4 @@
-"""What ``gazelle picture`` and ``gazelle film`` have in common: of what, and from where."""
+"""Common arguments of ``gazelle picture`` and ``gazelle film``: source and camera."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def add_source(parser: argparse.ArgumentParser) -> None:
 
 
 def opened(args: argparse.Namespace) -> Any:
-    """What the arguments name: a ``gazelle.viewer.sources.FilmSource``.
+    """Open the source that the arguments name: a ``gazelle.viewer.sources.FilmSource``.
 
     Raises:
         Error: It cannot be read.

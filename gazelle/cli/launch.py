@@ -157,7 +157,7 @@ def _files(words: list[str], packages: Packages, parser: Any) -> list[str]:
 
 
 def _show(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> str | None:
-    """What is asked for instead of a run."""
+    """Return the text that is requested instead of a run; None if none is."""
     from gazelle.ros import net
     from gazelle.ros.launch import describing
 

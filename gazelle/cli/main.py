@@ -79,7 +79,7 @@ def _open_streams() -> bool:
 
 @contextlib.contextmanager
 def _progress() -> Iterator[None]:
-    """What takes long is told on stderr while it lasts: the log of what works on meshes."""
+    """Report long work on stderr while it lasts: the log of mesh processing."""
     log, handler = logging.getLogger("gazelle.formats.convex"), logging.StreamHandler()
     handler.setFormatter(logging.Formatter("gazelle: %(message)s"))
     before = log.level

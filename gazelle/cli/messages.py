@@ -1,4 +1,4 @@
-"""What rosmsg does, and as `gazelle srv` what rossrv does.
+"""Show and list message types (rosmsg); `gazelle srv`: service types (rossrv).
 
 gazelle msg show geometry_msgs/Twist
 gazelle msg show Twist

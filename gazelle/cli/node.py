@@ -1,4 +1,4 @@
-"""What rosnode does, on any ROS 1 graph.
+"""Inspect and end nodes, as rosnode does, on any ROS 1 graph.
 
 gazelle node list
 gazelle node info /gazebo

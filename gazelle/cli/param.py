@@ -1,4 +1,4 @@
-"""What rosparam does, on any ROS 1 graph.
+"""Read and set parameters, as rosparam does, on any ROS 1 graph.
 
 gazelle param list
 gazelle param set /use_sim_time true

@@ -131,7 +131,7 @@ def add_worker_options(parser: argparse.ArgumentParser, what: str) -> None:
 
 
 def environment_options(args: argparse.Namespace) -> dict[str, Any]:
-    """What the functions above collected of a task's options, without what is not given."""
+    """Return the task options collected by the functions above, without those not given."""
     options = dict(args.option)
     for name in ("engine", "world", "robot", "goals", "starts"):
         value = getattr(args, name, None)

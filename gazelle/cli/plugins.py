@@ -24,7 +24,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _purpose(name: str) -> str:
-    """What a plugin does, or why it cannot be had: another package may have a broken one."""
+    """Return the purpose of a plugin, or the reason why it cannot be loaded."""
     from gazelle.simulation import registry
 
     try:

@@ -268,7 +268,7 @@ def _attend(
 
 
 def _paused(sim: Simulation) -> bool:
-    """Whether it is paused, which another thread may change."""
+    """Return whether it is paused, which another thread may change."""
     return sim.paused
 
 

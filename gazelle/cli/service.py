@@ -1,4 +1,4 @@
-"""What rosservice does, on any ROS 1 graph.
+"""List and call services, as rosservice does, on any ROS 1 graph.
 
 gazelle service list
 gazelle service call /gazebo/pause_physics

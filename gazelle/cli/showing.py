@@ -1,4 +1,4 @@
-"""How results look on a terminal."""
+"""Formatting of results for a terminal."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def rate(value: SuccessRate | None) -> str:
 
 
 def training(result: TrainResult, indent: int = 0) -> str:
-    """What a training did, in two lines without the last one's end.
+    """Return a summary of a training in two lines without a final newline.
 
     Args:
         result: What it did.
@@ -92,7 +92,7 @@ def duration(seconds: float) -> str:
 
 
 def program() -> str:
-    """How to call this program again: its name, or its path where the shell would not find it."""
+    """Return the command for this program: its name, or its path where the shell would not find it."""
     called = Path(sys.argv[0])
     if called.name != "gazelle" or shutil.which("gazelle") is not None:
         return "gazelle"

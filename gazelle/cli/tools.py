@@ -1,4 +1,4 @@
-"""What the commands of ROS 1 tools share: sub-commands and questions."""
+"""Common parts of the commands of ROS 1 tools: sub-commands and questions."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class SubCommands:
 
 
 def answer(question: str, choices: set[str]) -> str | None:
-    """What the user types, one of the choices; None at the end of standard input."""
+    """Ask the user for one of the choices; return None at the end of standard input."""
     sys.stdout.write(question)
     sys.stdout.flush()
     while line := sys.stdin.readline():

@@ -1,4 +1,4 @@
-"""What rostopic does, on any ROS 1 graph.
+"""List, print and publish topics, as rostopic does, on any ROS 1 graph.
 
 gazelle topic list -v
 gazelle topic echo /scan -n 1 --noarr
@@ -211,7 +211,7 @@ def _publish(args: argparse.Namespace) -> int:
 
 
 def _source(args: argparse.Namespace, *, takes_values: bool) -> Iterable[list[Any]] | None:
-    """Where messages come from if not from the command line."""
+    """Return the source of messages other than the command line, if any."""
     from gazelle.ros.tools.publishing import documents, file_documents
 
     if args.file:

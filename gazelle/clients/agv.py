@@ -84,7 +84,7 @@ class AGVFleet(Closeable):
         return self
 
     def _absent(self, timeout: float) -> ClientError:
-        """Who is missed, and who is there."""
+        """Return the error for missing robots, with a hint at those present."""
         blind = not self._source.known
         if blind:
             rows = [bool(np.isnan(pose).any()) for pose in self._source.latest()[0]]
@@ -99,7 +99,7 @@ class AGVFleet(Closeable):
         )
 
     def _drives(self) -> list[str]:
-        """What somebody else listens to as to a velocity."""
+        """Return the velocity topics that another node subscribes to."""
         _, listeners, _ = self._node.master.system_state()
         return [topic for topic in listeners if topic.endswith("/cmd_vel")]
 

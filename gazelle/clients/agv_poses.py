@@ -1,4 +1,4 @@
-"""Where AGVs are: from a topic, or from a service that is asked again and again."""
+"""Poses of AGVs: from a topic, or from a service that is polled."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class PoseSource(ABC):
 
     @property
     def known(self) -> bool:
-        """Whether all poses are known."""
+        """True if all poses are known."""
         return not np.isnan(self._poses).any()
 
     def latest(self) -> tuple[Floats, float]:

@@ -55,7 +55,7 @@ class ArmCommander(Closeable):
             raise ClientError(f"{name}: {answer.message}")
 
     def pose(self) -> ModelState:
-        """Where the end effector is, in the frame that is planned in."""
+        """Return the pose of the end effector, in the planning frame."""
         pose = self._caller.call("ee_pose_srv", "fetch_train/EePose").pose
         place, turn = pose.position, pose.orientation
         return ModelState((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))

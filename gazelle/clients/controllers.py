@@ -42,11 +42,11 @@ class Controllers(Closeable):
     # -- what there is -------------------------------------------------------------------
 
     def states(self) -> dict[str, str]:
-        """What each controller does: ``initialized``, ``running`` or ``stopped``."""
+        """Return the state of each controller: ``initialized``, ``running`` or ``stopped``."""
         return {each.name: each.state for each in self.loaded()}
 
     def loaded(self) -> Sequence[Any]:
-        """What is loaded: ``controller_manager_msgs/ControllerState``, with what each claims."""
+        """Return the ``controller_manager_msgs/ControllerState`` of each loaded controller."""
         answer = self._caller.call("list_controllers", "controller_manager_msgs/ListControllers")
         found: Sequence[Any] = answer.controller
         return found
@@ -221,7 +221,7 @@ class Controllers(Closeable):
     # -- calls ------------------------------------------------------------------------------
 
     def _ask(self, name: str, kind: str, /, **fields: object) -> tuple[bool, bool]:
-        """Whether the manager agrees, and whether an earlier try may have been carried out."""
+        """Return whether the manager agrees, and whether an earlier try may have been carried out."""
         answer, again = self._caller.call_again(name, f"controller_manager_msgs/{kind}", **fields)
         return bool(answer.ok), again
 

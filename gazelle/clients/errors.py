@@ -1,4 +1,4 @@
-"""What goes wrong for clients."""
+"""Errors of clients."""
 
 from __future__ import annotations
 

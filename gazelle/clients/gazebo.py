@@ -212,7 +212,7 @@ class Gazebo(PhysicsCalls, Closeable):
             self._caller.accept("delete_model", answer)
 
     def model_state(self, name: str, frame: str = "world") -> ModelState:
-        """Where a model is and how it moves, seen from a frame.
+        """Return pose and velocity of a model, relative to a frame.
 
         Raises:
             ClientError: There is no such model or frame.

@@ -87,7 +87,7 @@ class SimulatorProcess(Closeable):
 
     @property
     def running(self) -> bool:
-        """Whether it runs."""
+        """True if it is running."""
         return self._process.poll() is None
 
     def close(self) -> None:

@@ -50,7 +50,7 @@ class JointCommander(Closeable):
 
     @property
     def positions(self) -> dict[str, float]:
-        """Where its joints are, as last heard [rad or m]."""
+        """Positions of its joints, as last received [rad or m]."""
         return {name: self._positions[name] for name in self.joints if name in self._positions}
 
     def wait(self, timeout: float = 30.0) -> None:

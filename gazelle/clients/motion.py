@@ -53,7 +53,7 @@ class Driver(Closeable):
 
     @property
     def state(self) -> ModelState:
-        """Where the base is and how it moves, as last heard.
+        """Pose and velocity of the base, as last received.
 
         Raises:
             ClientError: Nothing was heard yet; see ``wait``.

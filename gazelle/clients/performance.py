@@ -1,4 +1,4 @@
-"""How fast a simulator runs and what it takes: real-time factor, processor, memory."""
+"""Performance of a simulator: real-time factor, processor time and memory."""
 
 from __future__ import annotations
 

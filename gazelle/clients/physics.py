@@ -13,7 +13,7 @@ from gazelle.ros import load_message
 
 @dataclass(frozen=True, slots=True)
 class PhysicsSettings:
-    """How the physics of a world runs.
+    """Physics settings of a world.
 
     Attributes:
         time_step: Between two steps [s].
@@ -31,13 +31,13 @@ class PhysicsSettings:
 
 
 class PhysicsCalls:
-    """What a client of Gazebo can do to its physics."""
+    """Calls of a client of Gazebo that concern its physics."""
 
     _caller: Caller
 
     @property
     def physics(self) -> PhysicsSettings:
-        """How the physics runs."""
+        """Settings of the physics."""
         found = self._caller.demand("get_physics_properties", "gazebo_msgs/GetPhysicsProperties")
         gravity = (found.gravity.x, found.gravity.y, found.gravity.z)
         return PhysicsSettings(
@@ -107,7 +107,7 @@ class PhysicsCalls:
         self.set_physics(gravity=value)
 
     def set_default_physics(self) -> None:
-        """What an empty world of Gazebo begins with: 1 ms steps in real time, 9.8 m/s² down."""
+        """Set the physics of an empty world of Gazebo: 1 ms steps in real time, 9.8 m/s² down."""
         self.set_physics(
             time_step=0.001,
             max_update_rate=1000.0,

@@ -17,7 +17,7 @@ Quaternion = tuple[float, float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class ModelState:
-    """Where something is and how it moves.
+    """Pose and velocity of a model or link.
 
     Attributes:
         position: [m].
@@ -39,7 +39,7 @@ class ModelState:
 
 
 class ModelPlace(TypedDict, total=False):
-    """Where a model is put: ``position`` [m] and ``rpy`` [rad] as a model or link, ``frame``, has it."""
+    """Pose for placing a model: ``position`` [m] and ``rpy`` [rad] relative to ``frame``."""
 
     position: Vector
     rpy: Vector

@@ -189,7 +189,7 @@ class _Running:
 
     @property
     def runs(self) -> bool:
-        """Whether any of its nodes does."""
+        """True if any of its nodes is running."""
         return not self._launch.idle
 
     def close(self) -> None:

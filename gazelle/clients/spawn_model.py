@@ -205,7 +205,7 @@ def _read(node: Node, options: argparse.Namespace) -> str:
 
 
 def _source(options: argparse.Namespace) -> str:
-    """Where the description is from, in the words of gazebo_ros."""
+    """Return the source of the description, in the words of gazebo_ros."""
     if options.param:
         return f"ros parameter {options.param}"
     if options.database:

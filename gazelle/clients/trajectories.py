@@ -19,7 +19,7 @@ _ACTION = "control_msgs/FollowJointTrajectory"
 
 @dataclass(frozen=True, slots=True)
 class JointWaypoint:
-    """Where joints have to be at a time.
+    """Desired joint positions at a time.
 
     Attributes:
         seconds: Since the start.
@@ -34,7 +34,7 @@ class JointWaypoint:
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryProgress:
-    """How a trajectory goes.
+    """Progress of a trajectory.
 
     Attributes:
         seconds: Since its start.
@@ -49,7 +49,7 @@ class TrajectoryProgress:
 
 @dataclass(frozen=True, slots=True)
 class TrajectoryOutcome:
-    """How a trajectory ended.
+    """Outcome of a trajectory.
 
     Attributes:
         status: ``SUCCEEDED``, ``ABORTED``, ``PREEMPTED``, ``REJECTED``, ``RECALLED`` or ``LOST``.
@@ -63,7 +63,7 @@ class TrajectoryOutcome:
 
     @property
     def succeeded(self) -> bool:
-        """Whether the joints got there in time."""
+        """True if the joints reached the goal in time."""
         return self.status == "SUCCEEDED"
 
 

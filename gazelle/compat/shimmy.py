@@ -1,4 +1,4 @@
-"""What Stable-Baselines3 asks of ``shimmy``: an environment of the old gym with Gymnasium's interface."""
+"""Replacement of ``shimmy`` for Stable-Baselines3: old gym environments with Gymnasium's interface."""
 
 from __future__ import annotations
 

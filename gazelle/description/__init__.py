@@ -1,4 +1,4 @@
-"""What a world is: plain data in SDF's vocabulary, SI units and radians.
+"""Description of a world: plain data in SDF's vocabulary, SI units and radians.
 
 A description is never changed once read: make a changed one with
 ``dataclasses.replace``. All poses are resolved: a link's is in its model's frame, a

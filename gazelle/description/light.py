@@ -13,7 +13,7 @@ from gazelle.description.source import Source
 
 @dataclass(frozen=True, slots=True)
 class Attenuation:
-    """How light fades: 1 / (constant + linear r + quadratic r²), up to ``range`` [m]."""
+    """Attenuation of light: 1 / (constant + linear r + quadratic r²), up to ``range`` [m]."""
 
     range: float = 10.0
     constant: float = 1.0

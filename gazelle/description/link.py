@@ -18,7 +18,7 @@ from gazelle.description.surface import Surface
 
 @dataclass(frozen=True, slots=True)
 class Collision:
-    """What of a link collides.
+    """Collision shape of a link.
 
     Attributes:
         name: Unique in its link.
@@ -40,7 +40,7 @@ class Collision:
 
 @dataclass(frozen=True, slots=True)
 class Visual:
-    """What of a link shows.
+    """Visual shape of a link.
 
     Attributes:
         name: Unique in its link.

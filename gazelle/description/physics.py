@@ -1,4 +1,4 @@
-"""How finely and how exactly a world is simulated. Defaults are SDF 1.7's."""
+"""Resolution and accuracy of a simulation. Defaults are SDF 1.7's."""
 
 from __future__ import annotations
 

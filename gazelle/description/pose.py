@@ -160,7 +160,7 @@ class Pose:
         return matrix
 
     def is_close(self, other: Pose, *, position: float = 1e-9, angle: float = 1e-9) -> bool:
-        """Whether two poses agree within a distance [m] and an angle [rad]."""
+        """Return whether two poses agree within a distance [m] and an angle [rad]."""
         delta = self.inverse() * other
         sine = math.sqrt(sum(q * q for q in delta.quaternion[:3]))
         turned = 2.0 * math.atan2(sine, abs(delta.quaternion[3]))

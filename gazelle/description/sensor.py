@@ -1,4 +1,4 @@
-"""What a link or joint senses with. A sensor's x axis looks forward."""
+"""Sensors of links and joints. A sensor's x axis looks forward."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Lidar:
 
     @property
     def quantum(self) -> float:
-        """What distances are rounded to multiples of [m]; 0 for none."""
+        """Resolution that distances are rounded to [m]; 0 for none."""
         return self.range_resolution if self.quantized else 0.0
 
 

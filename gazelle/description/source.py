@@ -1,4 +1,4 @@
-"""Where a piece of a description came from, so that later errors can say so."""
+"""Source location of a piece of a description, for error messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a robot's parts mean for planning: groups, named states, pairs that may touch (SRDF)."""
+"""Semantic description for planning (SRDF): groups, named states, pairs that may touch."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ VirtualJointType = Literal["fixed", "floating", "planar"]
 
 @dataclass(frozen=True, slots=True)
 class VirtualJoint:
-    """How the robot stands in the world.
+    """Joint between the robot and the world.
 
     Attributes:
         name: Unique among the joints.
@@ -183,7 +183,7 @@ class Semantics(HoldsMappings):
 
 
 class _Tree:
-    """Which joint holds which link of a model."""
+    """Joints of a model and the links they hold."""
 
     def __init__(self, model: Model) -> None:
         self._model = model
@@ -206,7 +206,7 @@ class _Tree:
             waiting.extend(reversed(below.pop(joint.child, [])))
 
     def has_joint(self, name: str, group: JointGroup) -> bool:
-        """Whether a joint that a group names is there: a fixed one may have been lumped away."""
+        """Return whether a joint that a group names exists: a fixed one may have been lumped away."""
         known = [joint.name for joint in self._model.joints]
         if name in known:
             return True

@@ -1,4 +1,4 @@
-"""What a Stage world file says, in Stage's vocabulary but SI units and radians.
+"""Content of a Stage world file, in Stage's vocabulary but SI units and radians.
 
 Names and defaults are those of Stage 4.3 (player-stage-manual.readthedocs.io). A model's
 frame is that of its ``pose``; its body stands in the frame of ``origin`` in that, centred in
@@ -123,7 +123,7 @@ class StageBitmap:
 
 @dataclass(frozen=True, slots=True)
 class StageReturns:
-    """How others perceive a model.
+    """Properties of a model as other models and sensors perceive it.
 
     Attributes:
         obstacle: Whether other models collide with it.
@@ -144,7 +144,7 @@ class StageReturns:
 
 @dataclass(frozen=True, slots=True)
 class StageGui:
-    """How a window shows a model: its nose, a grid on it, an outline; whether a mouse moves it."""
+    """Display of a model in a window: nose, grid, outline, and whether a mouse moves it."""
 
     nose: bool = False
     grid: bool = False
@@ -236,11 +236,11 @@ class StageModel:
 
     @property
     def position(self) -> StagePosition | None:
-        """What makes it a robot; None if it is none."""
+        """Position device that makes it a robot; None if it is none."""
         return self.device_of(StagePosition)
 
     def device_of(self, kind: Kind[D]) -> D | None:
-        """What its type adds, if it is of a kind; else None."""
+        """Return its device, if it is of a kind; else None."""
         return self.device if isinstance(self.device, kind) else None
 
     @property

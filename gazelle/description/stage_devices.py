@@ -1,4 +1,4 @@
-"""What the types of Stage's models add: drives, sensors, grippers, lights.
+"""Devices of Stage's model types: drives, sensors, grippers, lights.
 
 SI units, radians. Names and defaults are those of Stage 4.3.
 """
@@ -72,7 +72,7 @@ class StageSensor:
 
     @property
     def height(self) -> float:
-        """How high its rays are in the ranger's frame [m]."""
+        """Height of its rays in the ranger's frame [m]."""
         return self.pose[2] + self.size[2] / 2.0
 
 

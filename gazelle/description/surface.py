@@ -1,4 +1,7 @@
-"""How a collision touches others: friction, contact stiffness, bounce. Defaults are SDF 1.7's."""
+"""Contact properties of a collision: friction, contact stiffness, bounce.
+
+Defaults are SDF 1.7's.
+"""
 
 from __future__ import annotations
 

@@ -30,7 +30,7 @@ class Scene:
 
 @dataclass(frozen=True, slots=True)
 class SphericalCoordinates:
-    """Where on Earth the world's origin is: degrees, metres; ``heading`` turns x from east."""
+    """Position of the world's origin on Earth: degrees, metres; ``heading`` turns x from east."""
 
     surface_model: str = "EARTH_WGS84"
     latitude: float = 0.0

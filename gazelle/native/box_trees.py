@@ -79,7 +79,7 @@ class BoxTree:
 
     @property
     def depth(self) -> Ints32:
-        """How many nodes are above each, shape (2 n - 1,)."""
+        """Return the number of nodes above each, shape (2 n - 1,)."""
         return np.asarray(self._depth)
 
     @cython.cfunc
@@ -158,7 +158,7 @@ class BoxTree:
     def _cheapest(
         self, first: cython.int, last: cython.int, axis: cython.int, level: cython.int
     ) -> cython.int:
-        """Where to cut boxes in their order along an axis; what that costs is in ``_cost``."""
+        """Return the best split of boxes in their order along an axis; store its ``_cost``."""
         place: cython.int
         middle: cython.int = (first + last) // 2
         self._begin(axis, last - 1)

@@ -1,4 +1,4 @@
-"""Which build of compiled modules a process uses."""
+"""Selection of the build of compiled modules that a process uses."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _HERE: Final = Path(__file__).parent
 
 
 def search_path(path: Iterable[str]) -> list[str]:
-    """Where the modules of a package are looked for: compiled ones before their sources."""
+    """Return the search path for a package's modules: compiled ones before their sources."""
     homes = list(path)
     builds = [] if BUILD == "python" else [BUILD, "baseline"] if BUILD == "avx2" else [BUILD]
     return [f"{home}/_{build}" for build in builds for home in homes] + homes
 
 
 def _chosen() -> str:
-    """What is forced, else the fastest that is there and that the processor can run.
+    """Return the forced build, else the fastest one that exists and that the processor can run.
 
     Raises:
         EngineError: There is no such build, or nothing is built.

@@ -45,7 +45,7 @@ def install() -> None:
 
 
 def structure() -> Any:
-    """What Python has in place of a structure of C: it takes whatever is put into it.
+    """Return Python's substitute for a structure of C: it accepts any attribute.
 
     ``cython.declare(Type[1])`` makes one in sources, which C hands over by its address.
     """

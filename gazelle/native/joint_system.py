@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="misc"
-"""What acts on the joints of a robot between the physics' own steps, in all worlds."""
+"""Systems that act on the joints of a robot between the physics' own steps, in all worlds."""
 
 from __future__ import annotations
 
@@ -194,7 +194,7 @@ def bring_systems(
 
 
 def addresses(systems: Sequence[JointSystem]) -> NDArray[np.int64]:
-    """What ``bring_systems`` takes; good as long as the systems are kept."""
+    """Return the addresses that ``bring_systems`` takes; valid as long as the systems are kept."""
     if not cython.compiled:
         _KNOWN.clear()
         _KNOWN.update((id(each), each) for each in systems)

@@ -168,14 +168,14 @@ class SystemLoop:
     def play_worlds(
         self, part: cython.Py_ssize_t, blocks: cython.Py_ssize_t, until: cython.longlong
     ) -> None:
-        """What a thread does where worlds are shared out; ``run`` calls it."""
+        """Run a thread's part where worlds are divided; ``run`` calls it."""
         with cython.nogil:
             self._play_worlds(part, blocks, until)
 
     def play_together(
         self, part: cython.Py_ssize_t, threads: cython.Py_ssize_t, until: cython.longlong
     ) -> None:
-        """What a thread does where systems are shared out; ``run`` calls it."""
+        """Run a thread's part where systems are divided; ``run`` calls it."""
         with cython.nogil:
             self._play_together(part, threads, until)
 
@@ -280,7 +280,7 @@ class SystemLoop:
     def _is_due(
         self, part: cython.Py_ssize_t, index: cython.Py_ssize_t, time: cython.longlong
     ) -> cython.bint:
-        """Whether a system is due in a step, after which it is at the next multiple of its period."""
+        """Return whether a system is due in a step, and advance it to the next multiple of its period."""
         if self._due[part, index] > time:
             return False
         rate: cython.double = self._rates[index]

@@ -1,4 +1,4 @@
-"""What the processor can do."""
+"""Capabilities of the processor."""
 
 import cython
 
@@ -10,5 +10,5 @@ if not cython.compiled:
 
 
 def has_avx2() -> bool:
-    """Whether it is an x86 with AVX2, and the system saves its wide registers."""
+    """Return whether it is an x86 with AVX2, and the system saves its wide registers."""
     return bool(gazelle_has_avx2())

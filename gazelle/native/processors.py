@@ -1,4 +1,4 @@
-"""How many threads engines use where nobody says a number."""
+"""Default number of threads of engines."""
 
 from __future__ import annotations
 

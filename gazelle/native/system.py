@@ -10,7 +10,7 @@ HEAP_TYPE = 1 << 9
 
 @cython.cclass
 class System:
-    """What is updated together; kernel modules subclass it and override ``update``.
+    """Base of systems, which update all their rows together; kernels override ``update``.
 
     Its arrays have the worlds along their first axis and ``rows`` rows for each, so row
     ``world * rows + part`` belongs to a part. Subclasses keep them as attributes, typed memory

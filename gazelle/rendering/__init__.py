@@ -1,4 +1,4 @@
-"""How worlds look: colour, depth and labels for many cameras at once, on the processor alone."""
+"""Rendering of worlds: colour, depth and labels for many cameras at once, on the processor alone."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from gazelle.array_types import Bools, Bytes, Floats, Indices
 
 @dataclass(frozen=True, slots=True)
 class PixelMeans:
-    """Which four pixels each pixel is a mean of, and how much of each.
+    """Four pixels that each output pixel is a mean of, and their weights.
 
     Attributes:
         shape: Rows and columns of the pictures that are made.

@@ -1,4 +1,4 @@
-"""What the columns of the tables mean that pictures are drawn from."""
+"""Columns of the tables that pictures are drawn from."""
 
 from __future__ import annotations
 

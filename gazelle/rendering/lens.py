@@ -1,4 +1,4 @@
-"""What a camera's picture is like, wherever the camera is."""
+"""Camera lenses, independent of the camera's pose."""
 
 from __future__ import annotations
 

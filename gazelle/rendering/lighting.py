@@ -1,5 +1,5 @@
 # cython: infer_types=True, annotation_typing=False
-"""How bright a matt surface is: lamps, light from all around, and the sky behind."""
+"""Brightness of a matt surface: lamps, ambient light, and the sky."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Lighting:
                 self.seen[i, k], self.seen[i, 3 + k] = place, along
 
     def light_up(self, x: float, y: float, z: float, normal: Floats, out: Floats) -> None:
-        """What falls on a matt surface: red, green and blue.
+        """Compute the light on a matt surface: red, green and blue.
 
         Args:
             x: Of the place in the camera's frame [m].
@@ -109,7 +109,7 @@ class Lighting:
         return cosine * fade  # type: ignore[no-any-return]
 
     def tone(self, value: float) -> int:
-        """What a picture holds for a brightness."""
+        """Return the pixel value of a brightness."""
         most = self.tones.shape[0] - 1
         at = min(max(value, 0.0), 1.0) * most + 0.5
         return self.tones[cython.cast(cython.Py_ssize_t, at)]  # type: ignore[no-any-return]

@@ -1,4 +1,4 @@
-"""What cameras see of an engine's worlds as they are now."""
+"""Camera views of an engine's worlds in their present state."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class LiveScene:
 
     @property
     def renderer(self) -> Renderer:
-        """What draws the models that there are now."""
+        """Renderer of the present models."""
         world = self._engine.world
         if self._renderer is None or self._models is not world.models:
             self._models = world.models

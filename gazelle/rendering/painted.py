@@ -31,7 +31,7 @@ class PaintedPart:
 
 
 def painted_world(links: Sequence[str], parts: Iterable[PaintedPart]) -> VisibleWorld:
-    """What cameras see of links that are all at the origin at first.
+    """Return the visible world of links that are all at the origin at first.
 
     Args:
         links: Their names.

@@ -1,5 +1,5 @@
 # cython: infer_types=True, annotation_typing=False
-"""Which triangle each pixel of a picture shows, and how far away it is: a depth buffer.
+"""Depth buffer: the triangle that each pixel of a picture shows, and its depth.
 
 The inverse of the depth along the optical axis is linear in a picture, as on any graphics card. It
 is taken from the plane of a triangle, so that a flat shape has exact depths all over. A pixel shows
@@ -28,7 +28,7 @@ from gazelle.array_types import Bytes, Floats, Floats32, Ints32, Ints64
 
 
 class DrawnShapes:
-    """What cameras may see in any world: shapes, and parts of links that have them.
+    """Shapes that cameras may see in any world, and the parts of links that have them.
 
     Args:
         vertices: Of all meshes [m], shape (n, 3).
@@ -199,7 +199,7 @@ class Rasterizer:
             )
 
     def is_in_view(self, p: int) -> bool:
-        """Whether the ball around a part is in the pyramid of what is seen."""
+        """Return whether the bounding sphere of a part is in the view pyramid."""
         mesh = self.shapes.parts[p, MESH_OF_PART]
         a, b, c = (
             self.shapes.spheres[mesh, 0],

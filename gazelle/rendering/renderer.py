@@ -27,7 +27,7 @@ from gazelle.rendering.visible import VisiblePart, VisibleWorld, rows_of, visibl
 
 @dataclass(frozen=True, slots=True)
 class Frames:
-    """What some cameras see; what was not asked for has shape (0, height, width, ...).
+    """Images of some cameras; those not requested have shape (0, height, width, ...).
 
     Attributes:
         color: Red, green, blue, shape (n, height, width, channels), top row first.

@@ -1,4 +1,4 @@
-"""Where a directional lamp sees the world from, for shadows: a depth picture along its light.
+"""Depth pictures from a directional lamp, for shadows.
 
 A point is in shadow if the lamp's picture shows something nearer to the lamp there (L. Williams,
 "Casting curved shadows on curved surfaces", 1978); four neighbouring pixels are asked, so that edges
@@ -83,7 +83,7 @@ def extent_of_shapes(shapes: DrawnShapes, placed: Floats) -> tuple[Floats, float
 def shadow_maps(
     cameras: Floats, lamp: int, along: Floats, extent: tuple[Floats, float], side: int
 ) -> ShadowMaps:
-    """What the lamp's pictures are like for these cameras.
+    """Create the cameras of the lamp's pictures for these cameras.
 
     Args:
         cameras: As ``columns.CAMERA`` says, shape (n, CAMERA).

@@ -1,5 +1,5 @@
 # cython: infer_types=True, annotation_typing=False
-"""Where the light of the lamp that has shadows falls, as a depth picture along it tells."""
+"""Lighting by the lamp that has shadows, looked up in a depth picture along its light."""
 
 from __future__ import annotations
 

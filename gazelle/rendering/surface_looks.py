@@ -1,4 +1,4 @@
-"""How a surface looks: what the visual says, its material script, and the mesh file."""
+"""Appearance of a surface: from the visual, its material script, and the mesh file."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _script_of(material: Material) -> tuple[ScriptMaterial, Path | None]:
 
 
 def _alpha(material: Material, script: ScriptMaterial) -> float:
-    """What of it hides: a colour's alpha counts only where the script blends, as in OGRE."""
+    """Return the opacity: a colour's alpha counts only where the script blends, as in OGRE."""
     if script.blended and script.diffuse is not None:
         return script.diffuse[3]
     known = None if material.script is None else script_colors(material.script)

@@ -270,7 +270,7 @@ def _quads(count: int) -> Ints32:
 
 
 def _is_closed(vertices: Floats, faces: Ints32) -> bool:
-    """Whether each edge is between two triangles that go around alike, and the inside is inside."""
+    """Return whether a mesh is closed, consistently oriented, and not inside out."""
     _, welded = np.unique(vertices, axis=0, return_inverse=True)
     corners = welded.reshape(-1)[faces].astype(np.int64)
     edges = np.stack((corners, np.roll(corners, -1, axis=1)), axis=-1).reshape(-1, 2)

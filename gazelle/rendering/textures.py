@@ -31,7 +31,7 @@ class TextureTable:
 
     @property
     def count(self) -> int:
-        """How many there are."""
+        """Number of textures."""
         return len(self._pixels)
 
     def number(self, picture: Path | Bytes) -> int | None:

@@ -1,4 +1,4 @@
-"""What of a world can be seen, as the arrays that are drawn."""
+"""Visible parts of a world, as the arrays that are drawn."""
 
 from __future__ import annotations
 

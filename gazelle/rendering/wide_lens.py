@@ -43,7 +43,7 @@ _FUNCTIONS = {
 
 @dataclass(frozen=True, slots=True)
 class LensMapping:
-    """How far from the middle light of an angle falls: ``c1 f fun(theta / c2 + c3)``.
+    """Radius at which light of an angle falls: ``c1 f fun(theta / c2 + c3)``.
 
     Attributes:
         c1: Factor.
@@ -60,7 +60,7 @@ class LensMapping:
     fun: str = "tan"
 
     def radius(self, angle: float) -> float:
-        """Where light of an angle [rad] falls [half of the picture's width]."""
+        """Return the radius at which light of an angle [rad] falls [half of the picture's width]."""
         return self.c1 * self.f * _FUNCTIONS[self.fun][0](angle / self.c2 + self.c3)
 
     def angles(self, radii: Floats) -> Floats:
@@ -127,7 +127,7 @@ class WideLens:
         )
 
     def rays(self) -> tuple[Floats, Bools]:
-        """Where the light of each pixel comes from, and which of it is beyond the cutoff.
+        """Return the ray direction of each pixel, and a mask of those beyond the cutoff.
 
         Returns:
             Directions of unit length in the camera's frame (x forward, y left, z up), shape

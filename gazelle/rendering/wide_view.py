@@ -61,7 +61,7 @@ class WideView:
     def color(
         self, scene: LiveScene, positions: Floats, quaternions: Floats, worlds: Worlds
     ) -> Bytes:
-        """What one camera in each of some worlds sees now, shape (n, height, width, 3).
+        """Draw the view of one camera in each of some worlds, shape (n, height, width, 3).
 
         Args:
             scene: Draws.

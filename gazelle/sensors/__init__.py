@@ -1,4 +1,4 @@
-"""What sensors measure, with their noise, for all worlds at once."""
+"""Sensors and their noise, for all worlds at once."""
 
 from pathlib import Path
 

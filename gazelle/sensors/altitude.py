@@ -36,7 +36,7 @@ def air_pressure(atmosphere: Atmosphere, altitude: Floats) -> Floats:
 
 @dataclass(frozen=True, slots=True)
 class Altimeter:
-    """What a file says about an altimeter: noise on height [m] and vertical velocity [m/s]."""
+    """Settings of an altimeter: noise on height [m] and vertical velocity [m/s]."""
 
     position: Noise = NO_NOISE
     velocity: Noise = NO_NOISE
@@ -114,7 +114,7 @@ class AltimeterModel(NoisySensor):
 
 @dataclass(frozen=True, slots=True)
 class AirPressure:
-    """What a file says about a barometer.
+    """Settings of a barometer.
 
     Attributes:
         reference_altitude: Altitude of the world's origin [m].

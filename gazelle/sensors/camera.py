@@ -105,7 +105,7 @@ class CameraModel:
         return np.concatenate(parts, axis=1)
 
     def preview(self, worlds: Worlds, width: int) -> Bytes:
-        """What the first camera sees now without its noise, shape (n, rows, columns, 3).
+        """Return the first camera's present view without its noise, shape (n, rows, columns, 3).
 
         Args:
             worlds: Which worlds.
@@ -174,7 +174,7 @@ class CameraModel:
 
 @dataclass(frozen=True, slots=True)
 class _StreamState:
-    """How far a stream has come."""
+    """State of a stream."""
 
     stream: Stream
 

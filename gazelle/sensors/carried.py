@@ -11,7 +11,7 @@ from gazelle.rotations import cross, rotate
 
 @dataclass(frozen=True, slots=True)
 class CarriedPoint:
-    """Where a point of a link is, and how it moves, in every world.
+    """Position and velocity of a point of a link, in every world.
 
     Attributes:
         engine: Knows the motion.

@@ -18,7 +18,7 @@ _WIDTH = 15
 
 @dataclass(frozen=True, slots=True)
 class ContactReading:
-    """What touches the watched collisions of one world.
+    """Contacts of the watched collisions of one world.
 
     Attributes:
         stamp: Simulated time [ns].
@@ -82,12 +82,12 @@ class ContactModel(NoisySensor):
 
     @classmethod
     def together(cls, models: Sequence[ContactModel]) -> ContactGroup:
-        """What measures contacts of many sensors at once."""
+        """Return a group that measures the contacts of many sensors at once."""
         return ContactGroup(models)
 
     @property
     def engine(self) -> Engine:
-        """What knows the contacts."""
+        """Engine that reports the contacts."""
         return self._engine
 
     @property
@@ -114,7 +114,7 @@ class ContactModel(NoisySensor):
         )
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """What the numbers in measurements stand for."""
+        """Return the names that numbers in measurements stand for."""
         return {"names": np.asarray(self._names, np.str_)}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:

@@ -22,7 +22,7 @@ _AXES = tuple(f"{part}/{axis}" for part in ("force", "torque") for axis in "xyz"
 
 @dataclass(frozen=True, slots=True)
 class ForceTorque:
-    """What a file says about a force-torque sensor.
+    """Settings of a force-torque sensor.
 
     Attributes:
         frame: Whose axes the values are in: ``child``, ``parent`` or ``sensor``.

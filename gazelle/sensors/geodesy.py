@@ -1,4 +1,4 @@
-"""Where on Earth a place in the world is: WGS 84 and local tangent planes.
+"""Geodetic coordinates of a position in the world: WGS 84 and local tangent planes.
 
 Figures of the ellipsoid: NIMA TR8350.2, "Department of Defense World Geodetic System 1984".
 Formulas: Bowring, "Transformation from spatial to geographical coordinates", Survey Review

@@ -18,7 +18,7 @@ from gazelle.sensors.noise import NO_NOISE
 
 @dataclass(frozen=True, slots=True)
 class Gps:
-    """What a file says about a satellite receiver.
+    """Settings of a satellite receiver.
 
     Attributes:
         horizontal: Noise along x and y of the world [m].

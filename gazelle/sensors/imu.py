@@ -89,12 +89,12 @@ class ImuModel(NoisySensor):
 
     @classmethod
     def together(cls, models: Sequence[ImuModel]) -> ImuGroup:
-        """What measures IMUs of one kind at once; their noise is in its tables from then on."""
+        """Return a group that measures IMUs of one kind; their noise is in its tables from then on."""
         return ImuGroup(models)
 
     @property
     def engine(self) -> Engine:
-        """What knows the motion."""
+        """Engine that reports the motion."""
         return self._engine
 
     @property
@@ -104,7 +104,7 @@ class ImuModel(NoisySensor):
 
     @property
     def mount(self) -> tuple[Floats, Floats]:
-        """Where it is in the link frame [m], and how it is turned (x, y, z, w)."""
+        """Pose in the link frame: position [m] and quaternion (x, y, z, w)."""
         return self._mount
 
     def reading(self, values: Floats, stamp: int) -> ImuReading:
@@ -131,7 +131,7 @@ class ImuGroup(FromPython):
         self._noises = [JoinedNoise(channel) for channel in noises]
 
     def is_of(self, models: Sequence[ImuModel]) -> bool:
-        """Whether it measures just these."""
+        """Return whether it measures just these."""
         return self._models == list(models)
 
     def measure_all(self, interval: float) -> Floats:

@@ -1,4 +1,4 @@
-"""How a lens bends a picture: Brown's model in the two meanings that Gazebo has.
+"""Distortion of a picture by a lens: Brown's model in the two meanings that Gazebo has.
 
 Brown, "Decentering Distortion of Lenses", Photogrammetric Engineering, 1966. With p the place of a
 pixel from the centre of distortion and r its length, light that a pinhole sends to p falls on
@@ -62,7 +62,7 @@ class LensDistortion:
 
 
 def distort(place: Floats, coefficients: Coefficients) -> Floats:
-    """Where light falls that a pinhole would send to some places, shape (..., 2).
+    """Return the distorted positions of light from undistorted ones, shape (..., 2).
 
     Args:
         place: From the centre of distortion.
@@ -82,7 +82,7 @@ def distort(place: Floats, coefficients: Coefficients) -> Floats:
 
 
 def origin_of(place: Floats, coefficients: Coefficients) -> tuple[Floats, Bools]:
-    """Where light comes from that falls on some places, and whether it was found.
+    """Return the undistorted positions of light from distorted ones, and whether they were found.
 
     By Newton's iteration from the place itself, which finds the origin nearest to the centre.
     """
@@ -112,7 +112,7 @@ def origin_of(place: Floats, coefficients: Coefficients) -> tuple[Floats, Bools]
 
 
 def _crop_of(camera: Camera) -> float:
-    """How much smaller a place is in the picture that a barrel's rim is cut off from."""
+    """Return the scale of the picture after the rim of a barrel distortion is cropped."""
     middle = np.asarray(camera.distortion_center)
     ends = distort(np.array([[0.0, 0.0], [1.0, 1.0]]) - middle, camera.distortion)
     scale = float((ends[1] - ends[0])[0])

@@ -134,7 +134,7 @@ class LidarModel:
 
     @classmethod
     def together(cls, models: Sequence[LidarModel]) -> LidarGroup:
-        """What measures lidars of one kind together; their noise is in its tables from then on."""
+        """Return a group that measures lidars of one kind; their noise is in its tables from then on."""
         first = models[0]
         noise = LidarNoise(*cls._noise_together(models))
         rays = [each.rays for each in models]
@@ -144,7 +144,7 @@ class LidarModel:
     def _noise_together(
         cls, models: Sequence[LidarModel]
     ) -> tuple[Floats, UInts64, UInts64, Floats]:
-        """What native code draws the noise of lidars with, a row for each world and lidar."""
+        """Return the noise tables for native code, a row for each world and lidar."""
         first = models[0]
         biased = first.noise.biased
         shape = first.engine.nworld, len(models)

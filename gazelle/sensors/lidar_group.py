@@ -62,7 +62,7 @@ class LidarGroup:
 
     @property
     def kernel(self) -> System | None:
-        """What measures in turn; its last measurement is ``latest``."""
+        """System that measures in the step loop; its last measurement is ``latest``."""
         return self._system
 
     @property

@@ -1,6 +1,6 @@
 # cython: infer_types=True, annotation_typing=False
 # mypy: disable-error-code="misc"
-"""What lidars report of true ranges: noise, rounding and limits in one go, in native code."""
+"""Conversion of true ranges to a lidar's readings: noise, rounding and limits, in native code."""
 
 # ruff: noqa: FURB136  # loops that become vectors
 
@@ -20,7 +20,7 @@ AT_ONCE = cython.declare(cython.Py_ssize_t, 1024)  # ranges that are in the proc
 
 
 class RangeLaw:
-    """How a lidar reports ranges.
+    """Range model of a lidar.
 
     Args:
         low: Least range that it reports [m].

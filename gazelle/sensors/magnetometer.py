@@ -17,7 +17,7 @@ from gazelle.sensors.noise import NO_NOISE
 
 @dataclass(frozen=True, slots=True)
 class Magnetometer:
-    """What a file says about a magnetometer: noise along x, y, z [T]."""
+    """Settings of a magnetometer: noise along x, y, z [T]."""
 
     noises: tuple[Noise, Noise, Noise] = (NO_NOISE, NO_NOISE, NO_NOISE)
 

@@ -1,4 +1,4 @@
-"""What all sensors have in common, so that whoever reads one needs not know which it is."""
+"""Common interface of all sensors."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class GroupedModel(SensorModel, Protocol):
 
     @classmethod
     def together(cls, models: Sequence[Any]) -> MeasuredTogether:
-        """What measures some of one kind; they share its tables from then on."""
+        """Return a group that measures some of one kind; they share its tables from then on."""
 
 
 class FromPython:

@@ -45,7 +45,7 @@ class NoiseModel:
 
     @property
     def active(self) -> bool:
-        """Whether it changes values."""
+        """True if it changes values."""
         return self._active
 
     @property
@@ -62,7 +62,7 @@ class NoiseModel:
     def tables(
         self, worlds: Worlds | None = None
     ) -> tuple[Floats, NDArray[np.uint64], NDArray[np.uint64], Floats]:
-        """What native code draws noise with, but for drifts: in place, or copies for some worlds.
+        """Return the noise tables for native code, without drifts: in place, or copies for some worlds.
 
         Returns:
             Standard deviations, shape (n,), keys and counters of the stream, and the constant bias
@@ -99,7 +99,7 @@ class NoiseModel:
 
     @property
     def description(self) -> Noise:
-        """What the file says."""
+        """Noise as described in the file."""
         return self._noise
 
     @property
@@ -114,14 +114,14 @@ class NoiseModel:
 
     @property
     def drifts(self) -> bool:
-        """Whether it has a bias that changes with time."""
+        """True if it has a bias that changes with time."""
         noise = self._noise
         changes = noise.dynamic_bias_stddev > 0.0 and noise.dynamic_bias_correlation_time > 0.0
         return self._active and changes
 
     @property
     def biased(self) -> bool:
-        """Whether it has a constant bias."""
+        """True if it has a constant bias."""
         return self._biased
 
     @property
@@ -200,7 +200,7 @@ class NoiseModel:
 
 @dataclass(frozen=True, slots=True)
 class NoiseRows:
-    """What noise has of each world, or of each world and sensor of a kind.
+    """State of noise of each world, or of each world and sensor of a kind.
 
     Attributes:
         noise: What the file says.

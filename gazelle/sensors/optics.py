@@ -1,4 +1,4 @@
-"""How a camera's light becomes a picture: through a pinhole, a bent lens or a wide one."""
+"""Optics of cameras: a pinhole, a distorting lens or a wide-angle one."""
 
 from __future__ import annotations
 

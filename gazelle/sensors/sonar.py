@@ -22,7 +22,7 @@ _SPHERE_RAYS = 400
 
 @dataclass(frozen=True, slots=True)
 class Sonar:
-    """What a file says about a sonar.
+    """Settings of a sonar.
 
     Attributes:
         geometry: ``cone`` or ``sphere``.

@@ -1,4 +1,4 @@
-"""What of a bag can be plotted: numbers of messages over time, and ways over a map."""
+"""Plottable data of a bag: numbers of messages over time, and paths over a map."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def _numbers(bag: Bag, topic: str, way: tuple[str, ...], start: float) -> tuple[
 
 
 def _at(message: Any, way: Sequence[str]) -> Any:
-    """What is at the end of a way of names and indices."""
+    """Return the value at the end of a path of names and indices."""
     for step in way:
         try:
             message = message[int(step)] if step.isdigit() else getattr(message, step)

@@ -1,4 +1,4 @@
-"""What a bag without pictures tells, seen from above: map, scans, plans, and where robots went."""
+"""Top view of a bag without images: map, scans, plans, and paths of robots."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _FOR_EVER = 10**18  # [ns]
 
 @dataclass(frozen=True, slots=True)
 class FramePlace:
-    """Where a frame is: place (3,) [m] and rotation x, y, z, w (4,)."""
+    """Pose of a frame: position (3,) [m] and rotation x, y, z, w (4,)."""
 
     position: Floats
     quaternion: Floats
@@ -49,7 +49,7 @@ class FramePlace:
 
 @dataclass(slots=True)
 class _Shown:
-    """What is drawn now."""
+    """Content that is drawn now."""
 
     grid: OccupancyMap | None = None
     scans: dict[str, Floats] = field(default_factory=dict)
@@ -183,7 +183,7 @@ class BagTopView(FilmSource):
             shown.ways.setdefault(entry.topic, []).append(np.array([there[0], there[1], turn]))
 
     def _place(self, frame: str, stamp: int) -> FramePlace | None:
-        """Where a frame is in the fixed one, then or else at last; None if nobody knows."""
+        """Return the pose of a frame in the fixed one, at that time or the latest; None if unknown."""
         if frame == self._fixed:
             return FramePlace(np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]))
         for when in (stamp, 0):
@@ -246,7 +246,7 @@ def _painted(grid: OccupancyMap, places: Floats) -> Bytes:
 
 
 def _ends(message: Any) -> Floats:
-    """Where the beams of a scan end, in its frame, shape (n, 3) [m]."""
+    """Return the ends of a scan's beams, in its frame, shape (n, 3) [m]."""
     ranges = np.asarray(message.ranges, np.float64)
     angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
     good = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges < message.range_max)
@@ -261,7 +261,7 @@ def _pose(place: FramePlace) -> Floats:
 
 
 def _last_place(shown: _Shown) -> FramePlace | None:
-    """Where odometry has the robot, for scans whose frame nobody places."""
+    """Return the robot's pose by odometry, for scans whose frame has no transform."""
     for way in shown.ways.values():
         x, y, heading = way[-1].tolist()
         turn = np.array([0.0, 0.0, np.sin(heading / 2.0), np.cos(heading / 2.0)])

@@ -1,4 +1,4 @@
-"""Where episodes of an evaluation failed, on the floor plan of their world."""
+"""Picture of failed episodes of an evaluation, on the floor plan of their world."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ class _Canvas:
         self._pen.line((left, bottom, right, top), fill=colour, width=2 * _FINER)
 
     def legend(self, found: Evaluation) -> None:
-        """What is shown, above the plan."""
+        """Draw a legend above the plan."""
         font = ImageFont.load_default(15.0 * _FINER)
         failed = found.failures
         self._pen.text(

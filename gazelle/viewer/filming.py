@@ -15,7 +15,7 @@ from gazelle.viewer.scene_camera import SceneCamera
 
 
 class FilmCamera(Protocol):
-    """What draws a simulation: a ``SceneCamera`` or a ``TopView``."""
+    """Camera that draws a simulation: a ``SceneCamera`` or a ``TopView``."""
 
     def look(self) -> Picture:
         """The simulation now, shape (height, width, 3)."""

@@ -213,7 +213,7 @@ class LiveView(Closeable):
 
 
 def _switch(layer: OptionalLayer) -> Callable[[Any], None]:
-    """What shows a layer, or hides it, as a box is ticked."""
+    """Return a callback that shows or hides a layer when a box is ticked."""
 
     def turn(event: Any) -> None:
         layer.shown = event.target.value

@@ -152,7 +152,7 @@ class PlanFrame:
         self.shape = int(pixels[1]), int(pixels[0])
 
     def middles(self) -> Floats:
-        """Where the middles of all pixels are [m], shape (height, width, 2)."""
+        """Return the centres of all pixels [m], shape (height, width, 2)."""
         rows, columns = np.mgrid[: self.shape[0], : self.shape[1]] + 0.5
         away = np.stack((columns, rows), axis=2) - self._centre
         places: Floats = away / (self._scale * np.array([1.0, -1.0])) + self._middle
@@ -186,7 +186,7 @@ def fleet_of(simulation: Simulation) -> Fleet:
 
 
 def rays_of(scanner: Scanner, world: int) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-    """Where sensors of one world are, where their beams end, and which of these met something.
+    """Return origins and ends of one world's sensor beams, and a mask of those that hit something.
 
     Shapes (sensors, 2), (sensors, beams, 2) and (sensors, beams), all in the world's frame [m].
     """

@@ -1,4 +1,4 @@
-"""What the rangers and lidars of a world in the plane look at, for pictures."""
+"""Beams of the rangers and lidars of a world in the plane, for pictures."""
 
 from __future__ import annotations
 

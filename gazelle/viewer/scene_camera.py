@@ -67,7 +67,7 @@ class SceneCamera:
         self._eye, self._target = self._usual(eye, target)
 
     def look(self) -> Picture:
-        """What is seen now, shape (height, width, 3)."""
+        """Return the present picture, shape (height, width, 3)."""
         with self._simulation.lock:
             return self._draw()
 

@@ -1,4 +1,4 @@
-"""What films and pictures are made of: a file that runs, a recording, a bag, a trained policy."""
+"""Sources of films and pictures: a running file, a recording, a bag, a trained policy."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class FilmSource(Closeable):
 
     @abstractmethod
     def look(self) -> Picture:
-        """What it shows now, shape (height, width, 3)."""
+        """Return the present picture, shape (height, width, 3)."""
 
     def close(self) -> None:
         """Release what it holds."""
@@ -55,7 +55,7 @@ class SimulationSource(FilmSource):
         return True
 
     def look(self) -> Picture:
-        """What the camera sees."""
+        """Return the camera's picture."""
         return self._camera.look()
 
     def close(self) -> None:
@@ -90,7 +90,7 @@ class RecordingSource(FilmSource):
         return True
 
     def look(self) -> Picture:
-        """What the camera sees."""
+        """Return the camera's picture."""
         return self._camera.look()
 
     def close(self) -> None:
@@ -120,7 +120,7 @@ class PolicySource(FilmSource):
         return True
 
     def look(self) -> Picture:
-        """What the environment draws."""
+        """Return the environment's picture."""
         return self._playback.look()
 
     def close(self) -> None:
@@ -244,7 +244,7 @@ def _stamp(read: Any) -> float:
 
 
 def is_run(path: Path) -> bool:
-    """Whether a path is of a trained policy: a run's folder, or ``policy.npz``."""
+    """Return whether a path is of a trained policy: a run's folder, or ``policy.npz``."""
     if path.suffix == ".npz":
         return path.is_file()
     return path.is_dir() and (path / "config.json").is_file()

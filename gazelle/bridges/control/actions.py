@@ -32,7 +32,7 @@ Fill = Callable[[Any, Any, ConversionContext], None]
 
 @dataclass(frozen=True, slots=True)
 class ActionCodec:
-    """How goals of one kind go over ROS.
+    """Conversion of an action's goals, results and feedback to and from ROS.
 
     Attributes:
         action: Type of the action, without ``Action``.
@@ -73,7 +73,7 @@ _CODECS: Mapping[type[Any], ActionCodec] = {
 
 
 def codec_of(kind: type[Any]) -> ActionCodec:
-    """How goals of a kind go over ROS; those of message classes go as they are.
+    """Return the codec of goals of a kind; those of message classes are passed unchanged.
 
     Raises:
         RosError: Nobody said.

@@ -1,4 +1,4 @@
-"""What controllers are told, from ROS messages.
+"""Conversion of ROS messages to controllers' commands.
 
 Unlike a plugin's inputs these may carry a time at which something is to begin: a reader gets the
 graph, which knows what simulated time a stamp is.
@@ -31,7 +31,7 @@ Read = Callable[[Any, TimedGraph], Any]
 
 @dataclass(frozen=True, slots=True)
 class CommandDecoder:
-    """How messages become commands of one kind.
+    """Conversion of messages to commands of one kind.
 
     Attributes:
         message: Type of the messages.
@@ -43,7 +43,7 @@ class CommandDecoder:
 
 
 def command_decoder_of(kind: type[Any]) -> CommandDecoder:
-    """How messages become commands of a kind; those of message classes are commands already.
+    """Return the decoder of commands of a kind; those of message classes are commands already.
 
     Raises:
         RosError: Nobody said; see ``gazelle.bridges.conversions.add_decoder``.

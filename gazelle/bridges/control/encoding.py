@@ -1,4 +1,4 @@
-"""What controllers say, as ROS messages; imported for what it teaches."""
+"""Conversion of controllers' outputs to ROS messages; imported for its registrations."""
 
 from __future__ import annotations
 

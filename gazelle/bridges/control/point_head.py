@@ -159,7 +159,7 @@ class HeadPointer:
         return moved
 
     def _shortest(self, state: Any, change: Floats, goal: Any) -> float:
-        """How long a motion takes at least [s], by the limits of joints and goal."""
+        """Return the least duration of a motion [s], by the limits of joints and goal."""
         bounds = {variable.name: variable.bounds.velocity for variable in self._robot.variables}
         most = np.array([bounds.get(name) or _SPEED for name in state.joint_names])
         most = np.where(np.isfinite(most), most, _SPEED)

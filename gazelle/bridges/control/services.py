@@ -127,7 +127,7 @@ class ManagerServices:
 
 
 def _done(act: Callable[[], None]) -> bool:
-    """Whether something could be done; why not is logged."""
+    """Try to do something; log the reason if it fails, and return whether it succeeded."""
     try:
         act()
     except ControlError as error:

@@ -1,4 +1,4 @@
-"""What gazebo_ros_pkgs puts on a ROS graph: services, topics, parameters, the clock."""
+"""ROS interface of gazebo_ros_pkgs: services, topics, parameters, the clock."""
 
 from gazelle.bridges.gazebo.door import GazeboDoor
 

@@ -1,4 +1,4 @@
-"""What all parts of the Gazebo door share."""
+"""Common context of all parts of the Gazebo interface."""
 
 from __future__ import annotations
 

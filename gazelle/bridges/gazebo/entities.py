@@ -16,7 +16,7 @@ _WORLD = frozenset({"", "world", "map", "/map"})
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """Where something is and how it moves, in one world, seen from the world frame.
+    """Pose and velocity in one world, seen from the world frame.
 
     Attributes:
         position: [m], shape (3,).
@@ -41,7 +41,7 @@ class State:
         )
 
     def placed_in(self, frame: State) -> State:
-        """What is given in a frame's axes, in the world; velocities are only turned."""
+        """Transform a state from a frame's axes to the world; velocities are only rotated."""
         return State(
             frame.position + rotate(frame.quaternion, self.position),
             multiply(frame.quaternion, self.quaternion),
@@ -55,12 +55,12 @@ REST = State(np.zeros(3), np.array([0.0, 0.0, 0.0, 1.0]), np.zeros(3), np.zeros(
 
 
 def is_world(frame: str) -> bool:
-    """Whether a name stands for the inertial frame."""
+    """Return whether a name stands for the inertial frame."""
     return frame in _WORLD
 
 
 class Entities:
-    """What there is in one world of a simulation.
+    """Models, links and joints in one world of a simulation.
 
     Args:
         simulation: Runs.
@@ -105,7 +105,7 @@ class Entities:
         return None
 
     def has_fixed_joint(self, name: str) -> bool:
-        """Whether a model has a joint that does not move, by plain or scoped name."""
+        """Return whether a model has a joint that does not move, by plain or scoped name."""
         return any(
             name in (joint.name, f"{placed.scope}::{joint.name}")
             for robot in self.simulation.robots.values()

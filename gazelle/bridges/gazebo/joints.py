@@ -19,7 +19,7 @@ from gazelle.simulation import JointHandle
 
 
 class JointServices:
-    """What ``/gazebo`` offers about joints."""
+    """Services of ``/gazebo`` about joints."""
 
     def __init__(self, context: GazeboContext) -> None:
         self._context = context
@@ -116,7 +116,7 @@ class JointServices:
 
 
 def _filled(values: Sequence[float], rest: NDArray[np.float64]) -> NDArray[np.float64]:
-    """What is given for the first axes, and ``rest`` for those after."""
+    """Return the given values of the first axes, and ``rest`` for those after."""
     count = min(len(values), len(rest))
     return np.concatenate((np.asarray(values[:count], np.float64), rest[count:]))
 

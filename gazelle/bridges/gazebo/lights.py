@@ -13,7 +13,7 @@ from gazelle.ros import load_message
 
 
 class LightServices:
-    """What ``/gazebo`` offers about lights."""
+    """Services of ``/gazebo`` about lights."""
 
     def __init__(self, context: GazeboContext) -> None:
         self._simulation = context.simulation

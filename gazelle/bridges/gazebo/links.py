@@ -19,7 +19,7 @@ _UNSCOPED = "link not found, did you forget to scope the link by model name?"
 
 
 class LinkServices:
-    """What ``/gazebo`` offers about links."""
+    """Services of ``/gazebo`` about links."""
 
     def __init__(self, context: GazeboContext) -> None:
         self._context = context

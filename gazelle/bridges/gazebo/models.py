@@ -33,7 +33,7 @@ _NO_FRAME = "reference reference_frame not found, did you forget to scope the li
 
 
 class ModelServices:
-    """What ``/gazebo`` offers about models."""
+    """Services of ``/gazebo`` about models."""
 
     def __init__(self, context: GazeboContext, lights: LightServices) -> None:
         self._context = context
@@ -73,7 +73,7 @@ class ModelServices:
         return self._spawn(found, pose, request)
 
     def _pose(self, request: Any) -> Pose | None:
-        """Where a request wants its model; None if there is no such frame."""
+        """Return the pose that a request gives its model; None if there is no such frame."""
         frame = self._entities.frame(request.reference_frame)
         if frame is None:
             return None

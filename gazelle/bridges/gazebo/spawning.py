@@ -24,12 +24,12 @@ TAKEN = "SpawnModel: Failure - entity already exists."
 
 
 def is_urdf(text: str) -> bool:
-    """Whether the first element is URDF's."""
+    """Return whether the first element is URDF's."""
     return _root(text) == "robot"
 
 
 def is_model(text: str) -> bool:
-    """Whether the first element is SDF's or URDF's."""
+    """Return whether the first element is SDF's or URDF's."""
     return _root(text) in _ROOTS
 
 

@@ -1,4 +1,4 @@
-"""What ``/gazebo`` publishes: the clock, all models and links, and how fast the run is."""
+"""Topics of ``/gazebo``: the clock, states of all models and links, and performance."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class ClockPublisher(BasePlugin):
 
     @property
     def active(self) -> bool:
-        """Whether somebody listens."""
+        """True if there are subscribers."""
         return self._publisher.has_listener
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the context knows the time
@@ -93,7 +93,7 @@ class StatesPublisher(BasePlugin):
 
     @property
     def active(self) -> bool:
-        """Whether somebody listens."""
+        """True if there are subscribers."""
         return self._models.has_listener or self._links.has_listener
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  messages carry no time
@@ -152,7 +152,7 @@ class SerializedStates:
         self._known: list[tuple[Placement | None, Motion | None]] = [(None, None)] * len(rows)
 
     def packed(self) -> bytes:
-        """Where all are and how they move, now."""
+        """Return the present poses and velocities of all, serialised."""
         for i, row in enumerate(self._rows):
             place, motion = row.placement(self._worlds), row.motion(self._worlds)
             known = self._known[i]
@@ -187,7 +187,7 @@ class PerformancePublisher(BasePlugin):
 
     @property
     def active(self) -> bool:
-        """Whether somebody listens."""
+        """True if there are subscribers."""
         return self._publisher.has_listener
 
     def on_update(self, time: float) -> None:

@@ -15,7 +15,7 @@ _MOST_STEPS = 10_000_000
 
 
 class WorldServices:
-    """What ``/gazebo`` offers about the world, and ``/gazelle`` about the run."""
+    """Services of ``/gazebo`` about the world, and of ``/gazelle`` about the run."""
 
     def __init__(self, context: GazeboContext) -> None:
         self._context = context

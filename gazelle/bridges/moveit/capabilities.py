@@ -1,4 +1,4 @@
-"""Which services and actions ``move_group`` offers, by the parameters that choose its capabilities."""
+"""Capabilities of ``move_group``: services and actions, selected by parameters."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _PREFIX = "move_group/"
 
 
 class Capabilities:
-    """What ``~disable_capabilities`` leaves; all of them if it says nothing.
+    """Capabilities that ``~disable_capabilities`` leaves enabled; all of them by default.
 
     What ``~capabilities`` adds beyond those that are known is warned of.
 
@@ -47,7 +47,7 @@ class Capabilities:
         self._off = {each for name in disabled for each in CAPABILITIES.get(name, ())}
 
     def __contains__(self, name: str) -> bool:
-        """Whether a service or action is offered."""
+        """Return whether a service or action is offered."""
         return name not in self._off
 
 

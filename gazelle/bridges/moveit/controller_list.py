@@ -1,4 +1,4 @@
-"""Which controllers move a robot: of the parameter ``controller_list``, or of a controller manager."""
+"""Controllers that move a robot: from the parameter ``controller_list``, or a controller manager."""
 
 from __future__ import annotations
 

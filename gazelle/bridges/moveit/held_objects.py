@@ -1,4 +1,4 @@
-"""What links hold: ``moveit_msgs/AttachedCollisionObject``, for good or in a request's state."""
+"""Attached objects: ``moveit_msgs/AttachedCollisionObject``, permanent or in a request's state."""
 
 from __future__ import annotations
 

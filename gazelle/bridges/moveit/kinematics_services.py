@@ -176,7 +176,7 @@ class KinematicsServices:
 
 
 def _kind(name: str, scene: PlanningScene) -> int:
-    """What kind of body ``moveit_msgs/ContactInformation`` says it is."""
+    """Return the body type of ``moveit_msgs/ContactInformation``."""
     if name in scene.robot.links:
         return _LINK
     return _ATTACHED if name in scene.attached else _OBJECT

@@ -1,4 +1,4 @@
-"""Whether what is left of a motion is still free, while things come and go."""
+"""Check of the rest of a motion against changes of the scene."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class PathMonitor:
         self.blocked = False
 
     def look(self) -> bool:
-        """Whether something is in the way, as of now."""
+        """Return whether the rest of the path is blocked now."""
         if self._seen != self._services.revision and not self.blocked:
             with self._context.lock:
                 self._seen = self._services.revision

@@ -32,7 +32,7 @@ _TIME = 5.0
 
 
 class ManipulationAction:
-    """What ``pickup`` and ``place`` have in common: plan, then do one stage after another.
+    """Common base of ``pickup`` and ``place``: plan, then do one stage after another.
 
     Args:
         context: The robot and its scene.
@@ -147,7 +147,7 @@ class ManipulationAction:
     def _change(
         self, plan: ManipulationPlan, stage: ManipulationStage
     ) -> Callable[[], bool] | None:
-        """What becomes of the thing after a stage."""
+        """Return the change of the scene after a stage, if any."""
         scene = self.context.scene
 
         def attach() -> bool:

@@ -1,4 +1,4 @@
-"""Which of several plans is taken, and how fast a link may be on it."""
+"""Choice among several plans, and limits on the speed of a link."""
 
 from __future__ import annotations
 

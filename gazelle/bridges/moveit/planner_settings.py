@@ -29,7 +29,7 @@ class PlannerSettings:
         self._given: Mapping[str, Any] = own if not isinstance(inner, Mapping) else {**own, **inner}
 
     def names(self, groups: list[str]) -> list[str]:
-        """What ``planner_id`` may be: each group, and ``GROUP[CONFIG]``."""
+        """Return the valid values of ``planner_id``: each group, and ``GROUP[CONFIG]``."""
         found = []
         for group in groups:
             configs = self._group(group).get("planner_configs") or [*self._configs()] or [*BOUND]
@@ -58,7 +58,7 @@ class PlannerSettings:
         return float(value) if isinstance(value, int | float) and value > 0.0 else LONGEST_SEGMENT
 
     def parameters(self, config: str, group: str) -> dict[str, str]:
-        """What a planner's configuration says, and a group of it besides; empty if it says nothing."""
+        """Return the parameters of a planner's configuration and its group; empty without any."""
         found: dict[str, str] = {}
         for name in (config, f"{group}[{config}]") if group else (config,):
             given = self._configs().get(name)

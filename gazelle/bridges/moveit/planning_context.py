@@ -1,4 +1,4 @@
-"""What all services and actions of ``move_group`` share."""
+"""Common context of all services and actions of ``move_group``."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class PlanningContext:
         self.monitor.refresh(self.now())
 
     def current(self) -> Floats:
-        """Where the robot is, shape (variables,); the scene knows it from now on."""
+        """Return the robot's joint positions, shape (variables,), and store them in the scene."""
         state = self.monitor.current()
         self.scene.state = state.copy()
         return state

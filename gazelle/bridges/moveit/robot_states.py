@@ -1,4 +1,4 @@
-"""Where a robot's joints are, by the topic ``joint_states``, and states as messages."""
+"""Joint positions of a robot from the topic ``joint_states``, and states as messages."""
 
 from __future__ import annotations
 

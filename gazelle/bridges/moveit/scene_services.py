@@ -85,7 +85,7 @@ class SceneServices:
         return done
 
     def _try(self, act: Callable[[], object]) -> bool:
-        """Whether a part of a change could be done; why not is logged."""
+        """Try a part of a change; log the reason if it fails, and return whether it succeeded."""
         try:
             act()
         except Error as error:
@@ -228,12 +228,12 @@ class SceneServices:
 
 
 def _has_octomap(world: Any) -> bool:
-    """Whether a ``PlanningSceneWorld`` says something of the octomap; one without data clears it."""
+    """Return whether a ``PlanningSceneWorld`` sets the octomap; one without data clears it."""
     return bool(world.octomap.octomap.id or world.octomap.octomap.data)
 
 
 def _says_something(message: Any) -> bool:
-    """Whether a ``PlanningScene`` would change anything."""
+    """Return whether a ``PlanningScene`` would change anything."""
     rules = message.allowed_collision_matrix
     return bool(
         message.world.collision_objects

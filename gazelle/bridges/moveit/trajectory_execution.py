@@ -157,7 +157,7 @@ class TrajectoryExecutor:
         return client
 
     def _part(self, controller: ActionController, trajectory: Any) -> Any:
-        """What is of a controller's joints; others of its own are held where they are."""
+        """Return the part for a controller's joints; its joints that are missing are held in place."""
         made: Any = load_message("trajectory_msgs/JointTrajectory")()
         made.joint_names = list(controller.joints)
         own = {name: number for number, name in enumerate(trajectory.joint_names)}
@@ -218,7 +218,7 @@ def _cancel(clients: list[SimpleActionClient]) -> None:
 
 
 def _has_arrived(client: SimpleActionClient, *, may_stall: bool) -> bool:
-    """Whether a goal is reached, or as near as it can be where that will do."""
+    """Return whether a goal is reached, or as nearly as is acceptable."""
     state = client.get_state()
     if may_stall and state == GoalStatus.ABORTED:
         return bool(getattr(client.get_result(), "stalled", False))
@@ -226,7 +226,7 @@ def _has_arrived(client: SimpleActionClient, *, may_stall: bool) -> bool:
 
 
 def _failure_of(client: SimpleActionClient) -> NoPlanError | None:
-    """How a goal failed; None if it has not."""
+    """Return the failure of a goal; None if it has not failed."""
     state = client.get_state()
     if state in (GoalStatus.PENDING, GoalStatus.ACTIVE, GoalStatus.SUCCEEDED):
         return None
@@ -238,7 +238,7 @@ def _failure_of(client: SimpleActionClient) -> NoPlanError | None:
 
 
 def _fill_gripper(command: Any, controller: ActionController, trajectory: Any) -> None:
-    """Where a gripper goes: the last positions of the joints that it is told, added up."""
+    """Set a gripper's target: the sum of the last positions of the joints it commands."""
     last, named = trajectory.points[-1], list(trajectory.joint_names)
     told = [named.index(name) for name in controller.told if name in named] or [
         next(index for index, name in enumerate(named) if name in controller.joints)

@@ -138,7 +138,7 @@ class AmclNode:
                 change(self._localizer)
 
     def _initial(self) -> tuple[Pose2, Floats]:
-        """Where the parameters say that it begins."""
+        """Return the initial pose and covariance given by parameters."""
         node = self._node
 
         def number(name: str, default: float) -> float:
@@ -215,7 +215,7 @@ class AmclNode:
         return [True]
 
     def _find(self, message: Any) -> tuple[StampedTransform, Pose2] | None:
-        """Where the laser and the robot were; None if transforms, or a map, are not there yet."""
+        """Return the poses of laser and robot; None if transforms, or a map, are not available yet."""
         mounted = self.frames.find(self._base, message.header.frame_id.strip("/"))
         odom = self.frames.pose(self._odom, self._base, message.header.stamp.to_nsec())
         if self._localizer is None or mounted is None or odom is None:
@@ -290,7 +290,7 @@ class AmclNode:
 
 
 class _Tuning:
-    """What dynamic_reconfigure changes: all settings."""
+    """Settings that dynamic_reconfigure changes: all of them."""
 
     def __init__(self, owner: AmclNode) -> None:
         self._owner = owner
@@ -301,12 +301,12 @@ class _Tuning:
 
     @property
     def tunables(self) -> Mapping[str, Tunable]:
-        """What can be changed."""
+        """Settings that can be changed."""
         return self._tunables
 
     @property
     def values(self) -> dict[str, Any]:
-        """What holds now."""
+        """Current values."""
         return dataclasses.asdict(self._owner.settings)
 
     def send(self, /, **wanted: Any) -> dict[str, Any]:

@@ -85,7 +85,7 @@ class CostmapTopics:
         self._updated_ns = -(1 << 62)
 
     def missing(self) -> list[str]:
-        """What it waits for, beside frames."""
+        """Return what it waits for, besides frames."""
         return [
             f"a map on {self._node.resolve(topic)} (map_server or a SLAM node sends it)"
             for name, topic in self._setup.map_topics.items()

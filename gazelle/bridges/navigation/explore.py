@@ -151,7 +151,7 @@ class ExploreNode:
             self._costs[y : y + high, x : x + wide] = _costs_of(cells).reshape(high, wide)
 
     def _missing(self) -> list[str]:
-        """What it waits for."""
+        """Return what it waits for."""
         found = []
         grid = self._grid
         if grid is None:

@@ -89,7 +89,7 @@ def applied(transform: StampedTransform, points: Floats) -> Floats:
 
 
 def missing_links(tree: FrameTree, whole: str, odom: str, base: str, sensor: str = "") -> list[str]:
-    """What of the chain from map to odometry to base to sensor is missing, and who should send it.
+    """Return the missing links from map to odometry to base to sensor, each with its usual sender.
 
     Args:
         tree: What is known.

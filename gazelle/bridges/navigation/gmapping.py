@@ -46,7 +46,7 @@ class GmappingNode(MappingNode):
         self._entropies = node.advertise("~entropy", load_message("std_msgs/Float64"), latch=True)
 
     def place(self) -> Pose2 | None:
-        """Where the frame of the odometry is on the map."""
+        """Return the pose of the odometry frame on the map."""
         return self.slam.map_to_odom
 
     def drawn(self) -> OccupancyMap:

@@ -67,7 +67,7 @@ class HectorNode(MappingNode):
         node.serve("pause_mapping", load_service("std_srvs/SetBool"), self._pause)
 
     def place(self) -> Pose2 | None:
-        """Where the frame of the odometry is on the map."""
+        """Return the pose of the odometry frame on the map."""
         return self._place
 
     def drawn(self) -> OccupancyMap:

@@ -46,7 +46,7 @@ class KartoNode(MappingNode):
         super().__init__(node, "base_link", "scan", interval, period, ahead)
 
     def place(self) -> Pose2 | None:
-        """Where the frame of the odometry is on the map."""
+        """Return the pose of the odometry frame on the map."""
         return self.slam.map_to_odom
 
     def drawn(self) -> OccupancyMap:

@@ -1,4 +1,4 @@
-"""What nodes that make maps have in common: topics of the map, frames, and scans."""
+"""Common base of nodes that make maps: topics of the map, frames, and scans."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class MappingNode(ABC):
 
     @abstractmethod
     def place(self) -> Pose2 | None:
-        """Where the frame of the odometry is on the map; None if it is not known."""
+        """Return the pose of the odometry frame on the map; None if it is not known."""
 
     @abstractmethod
     def take(
@@ -101,7 +101,7 @@ class MappingNode(ABC):
         return found
 
     def _find(self, message: Any) -> tuple[StampedTransform, Pose2 | None] | None:
-        """Where the laser and the robot were; None if transforms are not there yet."""
+        """Return the poses of laser and robot; None if transforms are not available yet."""
         mounted = self.frames.find(self._base, message.header.frame_id.strip("/"))
         odom = None
         if self.needs_odometry:

@@ -108,7 +108,7 @@ def beam_angles(message: Any) -> Floats:
 
 
 def is_upside_down(rotation: tuple[float, float, float, float]) -> bool:
-    """Whether a frame's z axis points down."""
+    """Return whether a frame's z axis points down."""
     x, y, _, _ = rotation
     return 1.0 - 2.0 * (x * x + y * y) < 0.0
 

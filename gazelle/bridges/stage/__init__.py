@@ -1,4 +1,4 @@
-"""What stage_ros puts on a ROS graph: topics, frames, services, the clock."""
+"""ROS interface of stage_ros: topics, frames, services, the clock."""
 
 from gazelle.bridges.stage.door import StageDoor
 from gazelle.bridges.stage.serving import StageServer, serve_stage

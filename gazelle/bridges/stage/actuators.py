@@ -14,7 +14,7 @@ from gazelle.simulation.stage import Actuator
 
 
 class ActuatorTopics:
-    """Where actuators are, and what they are told.
+    """Topics of actuators: positions and commands.
 
     Args:
         at: The robot on the graph.

@@ -30,12 +30,12 @@ class _Eye:
 
     @property
     def watched(self) -> bool:
-        """Whether anybody looks."""
+        """True if an image topic has subscribers."""
         return bool(self.image.has_listener or self.depth.has_listener)
 
     @property
     def wanted(self) -> bool:
-        """Whether anybody listens."""
+        """True if any of its topics has subscribers."""
         return bool(self.watched or self.info.has_listener)
 
 

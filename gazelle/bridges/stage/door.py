@@ -25,7 +25,7 @@ _LATE = 0.1  # what is later than this is not caught up with in a burst [s]
 
 
 class StageDoor(Closeable):
-    """What a ROS graph sees of a Stage world; also a context manager.
+    """ROS interface of a Stage world; also a context manager.
 
     Topics, frames, parameters and services are those of stage_ros (wiki.ros.org/stage_ros);
     the docs list what is added. Everything is published after each step to those who listen,

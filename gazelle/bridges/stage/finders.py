@@ -1,4 +1,4 @@
-"""What one robot's bumpers and finders tell, for those who listen; stage_ros has no such topics."""
+"""Topics of one robot's bumpers and finders, with subscribers; stage_ros has no such topics."""
 
 from __future__ import annotations
 

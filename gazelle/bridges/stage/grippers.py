@@ -13,7 +13,7 @@ from gazelle.simulation.stage import COMMANDS
 
 
 class GripperTopics:
-    """Where paddles and lifts are, and what they are told to do.
+    """Topics of paddles and lifts: states and commands.
 
     Args:
         at: The robot on the graph.

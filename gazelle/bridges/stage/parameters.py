@@ -1,4 +1,4 @@
-"""What a node's private parameters ask of a Stage world on the graph."""
+"""Private parameters of a node that shows a Stage world on the graph."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class StageParameters:
 
     @property
     def flat_poses(self) -> bool:
-        """Whether ``cmd_pose`` carries ``geometry_msgs/Pose2D``."""
+        """True if ``cmd_pose`` carries ``geometry_msgs/Pose2D``."""
         return self.cmd_pose_type == "Pose2D"
 
 

@@ -1,4 +1,4 @@
-"""Where on a graph one robot is: its node, its names, and the world that the graph sees."""
+"""Context of one robot on a graph: its node, its names, and the world that the graph sees."""
 
 from __future__ import annotations
 

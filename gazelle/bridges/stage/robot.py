@@ -75,7 +75,7 @@ class _Laser:
 
 
 class RobotTopics:
-    """What one robot publishes.
+    """Topics that one robot publishes.
 
     Args:
         at: The robot on the graph.
@@ -212,7 +212,7 @@ def heading_of(quaternion: Any) -> float:
 
 
 class RobotInputs:
-    """What one robot listens to: velocities and poses.
+    """Subscriptions of one robot: velocities and poses.
 
     Args:
         at: The robot on the graph.

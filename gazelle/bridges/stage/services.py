@@ -21,7 +21,7 @@ _MOST_STEPS = 10_000_000
 
 
 class Door(Protocol):
-    """What the services need of the door."""
+    """Interface of the door that the services need."""
 
     rate: float | None
 

@@ -187,7 +187,7 @@ class ObservationWrapper(Wrapper):
         return self.observation(observation), reward, done, info
 
     def observation(self, observation: Any) -> Any:
-        """What is made of an observation.
+        """Transform an observation.
 
         Raises:
             NotImplementedError: The class does not say what.
@@ -204,7 +204,7 @@ class RewardWrapper(Wrapper):
         return observation, self.reward(reward), done, info
 
     def reward(self, reward: Any) -> Any:
-        """What is made of a reward.
+        """Transform a reward.
 
         Raises:
             NotImplementedError: The class does not say what.
@@ -221,7 +221,7 @@ class ActionWrapper(Wrapper):
         return result
 
     def action(self, action: Any) -> Any:
-        """What is made of an action.
+        """Transform an action.
 
         Raises:
             NotImplementedError: The class does not say what.

@@ -1,4 +1,4 @@
-"""What goes wrong in gym: Gymnasium's classes, and those that it no longer has."""
+"""Errors of gym: Gymnasium's classes, and those that it no longer has."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What environments with and without goals have in common: the graph, and the order of an episode."""
+"""Common base of environments with and without goals: the graph, and the order of an episode."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ class GraphEnv(Env):
         raise NotImplementedError
 
     def _get_obs(self) -> Any:
-        """What is seen now."""
+        """Return the present observation."""
         raise NotImplementedError
 
     def _init_env_variables(self) -> Any:
@@ -106,11 +106,11 @@ class GraphEnv(Env):
         raise NotImplementedError
 
     def _is_done(self, observations: Any) -> bool:
-        """Whether the episode is over."""
+        """Return whether the episode is over."""
         raise NotImplementedError
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
-        """What the last action is worth."""
+        """Return the reward of the last action."""
         raise NotImplementedError
 
     def _env_setup(self, initial_qpos: Mapping[str, float]) -> Any:

@@ -1,4 +1,4 @@
-"""What is on the graph already, and need not be started."""
+"""Nodes and topics that are on the graph already, and need not be started."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ _SERVICE = "/gazebo/pause_physics"
 
 
 def simulator_runs() -> bool:
-    """Whether a simulator with Gazebo's services is on the graph, and answers."""
+    """Return whether a simulator with Gazebo's services is on the graph, and answers."""
     with GraphInspector("openai_ros", process.require().master_uri) as graph:
         owners = dict(graph.services()).get(_SERVICE, [])
         return any(nodes.alive(graph, name) for name in owners)
 
 
 def published(topics: Iterable[str]) -> bool:
-    """Whether somebody publishes all these topics."""
+    """Return whether all these topics have publishers."""
     known = {name for name, _ in rospy.get_published_topics()}
     return known.issuperset(topics)

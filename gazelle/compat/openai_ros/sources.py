@@ -1,4 +1,4 @@
-"""Where the packages come from that openai_ros clones when it runs."""
+"""Sources of the packages that openai_ros clones when it runs."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What openai_ros and frobs_rl have in common here; no script imports it."""
+"""Common parts of openai_ros and frobs_rl; no script imports it."""

@@ -1,4 +1,4 @@
-"""What a script starts beside itself: launch files and nodes that end with it."""
+"""Background processes of a script: launch files and nodes that end with it."""
 
 from __future__ import annotations
 

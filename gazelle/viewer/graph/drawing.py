@@ -1,4 +1,4 @@
-"""How messages of each kind look on a page."""
+"""Drawing of messages of each type on a page."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _WAY = np.array([1.0, 0.0, 0.0, 0.0])
 
 
 class Drawing:
-    """What one topic has on the page, under the frame of its messages.
+    """Parts of one topic on the page, under the frame of its messages.
 
     Args:
         page: viser's server.

@@ -95,7 +95,7 @@ class GraphView(Closeable):
 
     @property
     def ended(self) -> bool:
-        """Whether it shows nothing any more."""
+        """True once it shows nothing any more."""
         return self._stop.is_set()
 
     def close(self) -> None:

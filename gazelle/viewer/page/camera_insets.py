@@ -1,4 +1,4 @@
-"""What cameras of robots see, on the page's panel."""
+"""Camera images of robots, on the page's panel."""
 
 from __future__ import annotations
 

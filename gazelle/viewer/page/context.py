@@ -1,4 +1,4 @@
-"""What all parts of a page work with."""
+"""Common context of all parts of a page."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class OptionalLayer(PageLayer, Protocol):
 
 @dataclass
 class PageContext:
-    """What a page shows, and how its parts reach the simulation.
+    """Context of a page: what it shows, and access of its parts to the simulation.
 
     Attributes:
         simulation: What runs.
@@ -92,7 +92,7 @@ class PageContext:
 
     @property
     def spot(self) -> Floats:
-        """Where that world stands [m], shape (3,)."""
+        """Position of that world [m], shape (3,)."""
         found: Floats = self.spots[self.world]
         return found
 
@@ -137,7 +137,7 @@ class PageContext:
 
 
 def spots_of(simulation: Simulation, count: int) -> Floats:
-    """Where copies of a world stand beside each other, in rows [m], shape (count, 3)."""
+    """Return the positions of copies of a world beside each other, in rows [m], shape (count, 3)."""
     spots = np.zeros((count, 3))
     if count > 1:
         low, high = extent_of_world(simulation.world)

@@ -30,7 +30,7 @@ class JointSliders:
         context.listeners.append(self.renew)
 
     def read(self) -> dict[str, float]:
-        """Where the joints are [m or rad]."""
+        """Return the positions of the joints [m or rad]."""
         robot = self._context.simulation.robots.get(self._model)
         if robot is None:
             return {}

@@ -1,4 +1,4 @@
-"""What can be done with a model on the page: select, follow, drag, push, delete, spawn."""
+"""Tools for a model on the page: select, follow, drag, push, delete, spawn."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class ModelTools:
         self.renew()
 
     def _offer(self) -> None:
-        """What changes the simulation."""
+        """Add the controls that change the simulation."""
         context = self._context
         gui, careful = context.gui, context.careful
         with gui.add_folder("Change"):
@@ -206,7 +206,7 @@ class _Drag:
 
 
 def _on_level(eye: Floats, through: Floats, height: float) -> Floats:
-    """Where the line from an eye through a point is at a height [m], shape (3,); NaN for nowhere."""
+    """Intersect a ray from the eye through a point with a height [m]: shape (3,); NaN for none."""
     along = through - eye
     if abs(along[2]) < 1e-6 or (share := (height - eye[2]) / along[2]) <= 0.0:
         return np.full(3, math.nan)

@@ -1,4 +1,4 @@
-"""What arms are about to do: motions that were planned, as ghosts of the robots."""
+"""Planned motions of arms, as ghosts of the robots."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class MotionLayer:
         self.forget = context.simulation.events.planned.subscribe(self._take)
 
     def read(self) -> dict[tuple[str, int], _Seen]:
-        """Where the robots of motions are, of those that there are still."""
+        """Return the poses of the robots with motions, of those that still exist."""
         simulation = self._context.simulation
         spots = dict(zip(self._context.worlds.tolist(), self._context.spots, strict=True))
         with self._lock:

@@ -1,4 +1,4 @@
-"""What is not to be seen in a world: names, frames, joints, contacts, rays of lidars."""
+"""Overlays of a world: names, frames, joints, contacts, rays of lidars."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class NameLayer:
         self._labels: dict[str, Any] = {}
 
     def read(self) -> dict[str, Floats]:
-        """Where models are in the first world that is shown [m], each shape (3,)."""
+        """Return the positions of models in the first world that is shown [m], each shape (3,)."""
         simulation = self._context.simulation
         robots = [each for each in simulation.robots.values() if not each.description.static]
         if not self.shown or len(robots) > _NAMES:

@@ -1,4 +1,4 @@
-"""Where robots are going: goals and global plans of ``robot.navigation``."""
+"""Goals and global plans of ``robot.navigation``."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ class PlotLayer:
         self.renew()
 
     def read(self) -> None:
-        """What is plotted comes by itself."""
+        """Do nothing: plotted values arrive by themselves."""
 
     def show(self, _state: None) -> None:
         """Draw what came since."""

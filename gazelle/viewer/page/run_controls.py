@@ -15,7 +15,7 @@ _WINDOW = 1.0  # over which the real-time factor is measured [s]
 
 @dataclass(frozen=True, slots=True)
 class ClockState:
-    """What the clock says.
+    """State of the clock.
 
     Attributes:
         time: Simulated [s].

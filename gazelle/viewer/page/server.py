@@ -82,12 +82,12 @@ class PageServer(Closeable):
 
     @property
     def watched(self) -> bool:
-        """Whether anybody looks."""
+        """True if any page is open."""
         return bool(self.viser.get_clients())
 
     @property
     def closed(self) -> bool:
-        """Whether it serves nobody any more."""
+        """True once it serves no pages any more."""
         return self._closed
 
     def wait(self, seconds: float | None = None) -> None:

@@ -24,7 +24,7 @@ _FAR = 40.0
 
 @dataclass(frozen=True, slots=True)
 class Instance:
-    """What of a batch was met.
+    """Instance of a batch that was hit.
 
     Attributes:
         link: Scoped name.
@@ -194,7 +194,7 @@ class ShapeBatches:
 
 
 def rest_of(world: World, links: tuple[str, ...]) -> tuple[Floats, Floats]:
-    """Where links are in a description: positions (links, 3), quaternions (links, 4)."""
+    """Return the initial poses of links: positions (links, 3), quaternions (links, 4)."""
     poses: dict[str, Pose] = {}
     for model in world.models:
         for placed in model.walk():

@@ -83,7 +83,7 @@ def leg(
 
 
 def ring(turn: int) -> np.ndarray:
-    """Which corner of its square of four neighbours each AGV is at after some turns."""
+    """Return the corner of its square of four neighbours that each AGV is at after some turns."""
     column, row = np.arange(COUNT) % PER_ROW % 2, np.arange(COUNT) // PER_ROW % 2
     corner = np.where(row == 0, column, 3 - column)  # counter-clockwise from the lower left
     corner = (corner + turn) % 4

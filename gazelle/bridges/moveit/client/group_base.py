@@ -1,4 +1,4 @@
-"""What ``MoveGroupInterface`` says of a group: names, states, limits."""
+"""Names, states and limits of a group, as in ``MoveGroupInterface``."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class GroupBase:
         return list(self._joints.variables)
 
     def get_variable_count(self) -> int:
-        """How many variables it has."""
+        """Return the number of its variables."""
         return len(self._joints.variables)
 
     def get_end_effector_link(self) -> str:
@@ -148,11 +148,11 @@ class GroupBase:
         return self._joints.random()
 
     def get_current_pose(self, end_effector_link: str = "") -> list[float]:
-        """Where a link is now: x, y, z, qx, qy, qz, qw."""
+        """Return the present pose of a link: x, y, z, qx, qy, qz, qw."""
         return self._pose_list(self._access.current(), end_effector_link)
 
     def get_random_pose(self, end_effector_link: str = "") -> list[float]:
-        """Where a link would be with drawn positions."""
+        """Return the pose of a link with random joint positions."""
         state = self._access.current()
         if state is not None:
             state[self._columns()] = self._joints.random()
@@ -160,7 +160,7 @@ class GroupBase:
         return self._pose_list(state, end_effector_link)
 
     def get_current_rpy(self, end_effector_link: str = "") -> list[float]:
-        """How a link is turned now: roll, pitch, yaw [rad]; empty if that is not known."""
+        """Return the present rotation of a link: roll, pitch, yaw [rad]; empty if unknown."""
         state, link = self._access.current(), end_effector_link or self._poses.link
         if state is None or link not in self._access.robot.links:
             return []
@@ -192,7 +192,7 @@ class GroupBase:
     def get_jacobian_matrix(
         self, joint_values: Sequence[float], reference_point: Sequence[float] | None = None
     ) -> Floats:
-        """How a point of the last link moves with each variable, shape (6, variables).
+        """Return the Jacobian of a point of the last link, shape (6, variables).
 
         Args:
             joint_values: Of all variables of the group.

@@ -8,7 +8,7 @@ from gazelle.ros.messages import load_message
 
 
 class GroupSettings(GroupTargets):
-    """How a group plans: tolerances, times, factors, planners, constraints."""
+    """Planning settings of a group: tolerances, times, factors, planners, constraints."""
 
     # -- tolerances ----------------------------------------------------------------------
 
@@ -96,11 +96,11 @@ class GroupSettings(GroupTargets):
         self._settings.set_workspace(corners, self.get_planning_frame())
 
     def allow_looking(self, value: bool) -> None:  # noqa: FBT001  # MoveIt's interface
-        """Whether to look around."""
+        """Set whether to look around."""
         self._settings.look = bool(value)
 
     def allow_replanning(self, value: bool) -> None:  # noqa: FBT001
-        """Whether to plan anew while moving."""
+        """Set whether to replan while moving."""
         self._settings.replan = bool(value)
 
     def set_support_surface_name(self, name: str) -> None:

@@ -1,4 +1,4 @@
-"""Where joints of a group shall be, as ``set_joint_value_target`` and its kin say it."""
+"""Joint targets of a group, as set by ``set_joint_value_target`` and similar."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where links shall be, as ``set_pose_target`` and its kin say it."""
+"""Pose targets of links, as set by ``set_pose_target`` and similar."""
 
 from __future__ import annotations
 

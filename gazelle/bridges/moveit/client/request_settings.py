@@ -1,4 +1,4 @@
-"""What a client wants of plans beside where to go: times, factors, planners, constraints."""
+"""Settings of a client's planning requests besides the goal: times, factors, planners, constraints."""
 
 from __future__ import annotations
 

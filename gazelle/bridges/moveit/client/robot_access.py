@@ -28,7 +28,7 @@ _WAIT_S = 1.0
 
 
 class RobotAccess:
-    """What clients know of a robot without asking ``move_group``.
+    """Client-side model of a robot, which needs no calls to ``move_group``.
 
     Args:
         node: On the graph.
@@ -67,7 +67,7 @@ class RobotAccess:
         return self.robot.complete(np.where(inside, 0.0, middle))
 
     def current(self, wait: float = _WAIT_S) -> Floats | None:
-        """Where the robot is now, shape (variables,); None if nobody says so in time.
+        """Return the present positions, shape (variables,); None if none arrive in time.
 
         Args:
             wait: The longest wait for a message that is not older than the question [s].
@@ -78,7 +78,7 @@ class RobotAccess:
         return self._monitor.current()
 
     def known(self, wait: float = _WAIT_S) -> Floats:
-        """Where the robot was last, after a wait for all joints [s] if some are not known yet."""
+        """Return the last known positions, after a wait for all joints [s] if some are not known yet."""
         if not self._monitor.wait(wait):
             LOG.warning(
                 "Joint values for monitored state are requested but the full state is not known: %s",
@@ -124,7 +124,7 @@ class RobotAccess:
     # -- limits --------------------------------------------------------------------------
 
     def within(self, state: Floats, variables: Iterable[str], margin: float) -> bool:
-        """Whether variables keep their limits, but for a margin [m or rad]."""
+        """Return whether variables are within their limits, but for a margin [m or rad]."""
         for name in variables:
             column = self.robot.column(name)
             bounds = self.robot.variables[column].bounds

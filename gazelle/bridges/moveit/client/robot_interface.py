@@ -57,7 +57,7 @@ class RobotInterface:
         return list(self._names.groups)
 
     def has_group(self, group: str) -> bool:
-        """Whether there is a group of a name."""
+        """Return whether there is a group of a name."""
         return group in self._names.groups
 
     def get_group_joint_names(self, group: str) -> list[str]:
@@ -119,7 +119,7 @@ class RobotInterface:
         return packed(self._access.message(self._access.known()))
 
     def get_link_pose(self, link: str) -> list[float]:
-        """Where a link is now: x, y, z, qx, qy, qz, qw; empty if there is no such link."""
+        """Return the present pose of a link: x, y, z, qx, qy, qz, qw; empty if there is no such link."""
         if link not in self._robot.links:
             return []
         pose = self._robot.pose(self._access.known(), link)

@@ -27,7 +27,7 @@ class NamedJoint:
 
     @property
     def moves(self) -> bool:
-        """Whether it has a variable."""
+        """True if it has a variable."""
         return self.type in _ONE_VARIABLE
 
 
@@ -144,7 +144,7 @@ class RobotNames:
     # -- how they hang together ----------------------------------------------------------
 
     def _hangs_on(self, joint: NamedJoint, other: NamedJoint) -> bool:
-        """Whether a joint is next after another, but for fixed ones between."""
+        """Return whether a joint follows another one directly, except for fixed ones between."""
         above = self._parents.get(joint.parent)
         while above is not None and above.name != other.name and above.type == "fixed":
             above = self._parents.get(above.parent)

@@ -17,7 +17,7 @@ from gazelle.text_files import read_text
 
 
 class SpawnReport(NamedTuple):
-    """Whether a robot was spawned, and what the simulator said; true if it was."""
+    """Result of spawning a robot, with the simulator's message; true if it succeeded."""
 
     success: bool
     status_message: str
@@ -27,7 +27,7 @@ class SpawnReport(NamedTuple):
 
 
 class SpawnPlace(TypedDict, total=False):
-    """Where a model is put: ``pos_x`` ... [m] and the quaternion ``ori_x`` ..., as a frame has it.
+    """Pose for placing a model: ``pos_x`` ... [m] and the quaternion ``ori_x`` ..., in a frame.
 
     The same may be given without names, in this order, after what describes the model.
     """
@@ -124,7 +124,7 @@ def gazebo_delete_model(model_name: str) -> None:
 def gazebo_get_model_state(
     model_name: str, relative_entity_name: str = _FRAME
 ) -> tuple[Any, Any, Any, bool]:
-    """Where a model is and how it moves, seen from another or the world.
+    """Return pose and velocity of a model, relative to another or the world.
 
     Returns:
         A ``std_msgs/Header``, a ``geometry_msgs/Pose``, a ``geometry_msgs/Twist``, and whether there is

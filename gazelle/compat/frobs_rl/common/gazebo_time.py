@@ -43,7 +43,7 @@ def gazebo_unpause_physics(retries: int = 5) -> None:
 
 @functools.lru_cache(maxsize=4)
 def _is_gazelle(simulator: Gazebo) -> bool:
-    """Whether a simulator makes steps when asked by a service."""
+    """Return whether a simulator offers a service that makes steps."""
     with GraphInspector("frobs_rl", simulator.node.master_uri) as graph:
         return graph.service_uri(_STEP) is not None
 

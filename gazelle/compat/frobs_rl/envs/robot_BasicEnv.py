@@ -209,15 +209,15 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         raise NotImplementedError
 
     def _get_observation(self) -> Any:
-        """What is seen now."""
+        """Return the present observation."""
         raise NotImplementedError
 
     def _get_reward(self) -> float:
-        """What the last action is worth."""
+        """Return the reward of the last action."""
         raise NotImplementedError
 
     def _check_if_done(self) -> bool:
-        """Whether the episode is over; of a success ``info["is_success"] = 1.0`` tells."""
+        """Return whether the episode is over; a success also sets ``info["is_success"] = 1.0``."""
         raise NotImplementedError
 
     def _check_subs_and_pubs_connection(self) -> Any:

@@ -1,4 +1,4 @@
-"""What the algorithms have in common: parameters, checkpoints, logs."""
+"""Common base of the algorithms: parameters, checkpoints, logs."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from gazelle.compat.frobs_rl.envs import robot_BasicEnv
 
 
 class CustomRobotEnv(robot_BasicEnv.RobotBasicEnv):
-    """What a robot senses, and how it is moved; tasks derive from it.
+    """Sensors and motion of a robot; tasks derive from it.
 
     Args:
         options: See `RobotBasicEnv`.

@@ -11,7 +11,7 @@ from gazelle.compat.frobs_rl.templates.CustomRobotEnv import CustomRobotEnv
 
 
 class CustomTaskEnv(CustomRobotEnv):
-    """What is seen, done and rewarded: here nothing yet.
+    """Observations, actions and rewards of a task: here still empty.
 
     Args:
         options: See `RobotBasicEnv`.
@@ -29,13 +29,13 @@ class CustomTaskEnv(CustomRobotEnv):
         """Publish the action, and wait while it acts."""
 
     def _get_observation(self) -> Any:
-        """What is seen now."""
+        """Return the present observation."""
         return np.zeros(1, np.float32)
 
     def _get_reward(self) -> float:
-        """What the last action is worth."""
+        """Return the reward of the last action."""
         return 0.0
 
     def _check_if_done(self) -> bool:
-        """Whether the episode is over; set ``self.info["is_success"] = 1.0`` for a success."""
+        """Return whether the episode is over; set ``self.info["is_success"] = 1.0`` for a success."""
         return False

@@ -22,7 +22,7 @@ EntryPoint = str | Callable[..., Any]
 
 @dataclass
 class EnvSpec:
-    """What an environment is registered as.
+    """Registration of an environment.
 
     Attributes:
         id: Its name, which ends in ``-v`` and a number.
@@ -44,7 +44,7 @@ class EnvSpec:
 
     @property
     def timestep_limit(self) -> int | None:
-        """What the limit was called before gym 0.10."""
+        """Step limit, under its name before gym 0.10."""
         return self.max_episode_steps
 
     def make(self, **options: Any) -> Env:

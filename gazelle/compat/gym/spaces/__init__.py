@@ -1,4 +1,4 @@
-"""What may be observed and done: Gymnasium's spaces."""
+"""Spaces of observations and actions: those of Gymnasium."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ class Monitor(Wrapper):
         return self._total
 
     def get_episode_rewards(self) -> list[float]:
-        """What each episode came to."""
+        """Return the total reward of each episode."""
         return self._rewards
 
     def get_episode_lengths(self) -> list[int]:

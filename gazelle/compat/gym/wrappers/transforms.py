@@ -40,7 +40,7 @@ class TransformObservation(ObservationWrapper):
         self.f = f
 
     def observation(self, observation: Any) -> Any:
-        """What the function returns."""
+        """Return the function's value for an observation."""
         return self.f(observation)
 
 
@@ -52,7 +52,7 @@ class TransformReward(RewardWrapper):
         self.f = f
 
     def reward(self, reward: Any) -> Any:
-        """What the function returns."""
+        """Return the function's value for a reward."""
         return self.f(reward)
 
 

@@ -1,4 +1,4 @@
-"""What the robots have in common: topics that are listened to, and a launch file that spawns them."""
+"""Common base of the robots: subscribed topics, and a launch file that spawns them."""
 
 from __future__ import annotations
 
@@ -199,7 +199,7 @@ class TopicRobotEnv(RobotGazeboEnv):
         check_value_array: Sequence[float],
         epsilon: float,
     ) -> bool:
-        """Whether numbers are as near to each other as they shall be."""
+        """Return whether numbers agree within a tolerance."""
         return bool(np.allclose(ref_value_array, check_value_array, atol=epsilon))
 
 

@@ -1,4 +1,4 @@
-"""What robots on wheels have in common: a topic for velocities."""
+"""Common base of robots on wheels: a topic for velocities."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where things are, as openai_ros' tasks see it."""
+"""Geometry of openai_ros' tasks."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def point(x: float, y: float, z: float = 0.0) -> Any:
 
 
 def is_at(place: Any, goal: Any, epsilon: float = NEAR) -> bool:
-    """Whether a point is within a square around another; its upper edges belong to it."""
+    """Return whether a point is within a square around another; its upper edges belong to it."""
     return all(
         here - epsilon < there <= here + epsilon
         for here, there in ((goal.x, place.x), (goal.y, place.y))
@@ -79,6 +79,6 @@ def step_between(count: int, parts: int) -> int:
 
 
 def too_near(ranges: Sequence[float], step: int, least: float) -> bool:
-    """Whether a sample is nearer than it may be; zero means no measurement."""
+    """Return whether a sample is nearer than it may be; zero means no measurement."""
     taken = np.asarray(ranges[::step], np.float64)
     return bool(np.any((taken > 0.0) & (taken < least)))

@@ -9,7 +9,7 @@ from gazelle.compat.openai_ros.task_envs.steering import SteeringTask
 
 
 class DesiredPoint:
-    """What tasks with a place to reach have in common.
+    """Common base of tasks with a position to reach.
 
     Attributes:
         desired_point: The goal, a ``geometry_msgs/Point`` [m].
@@ -20,14 +20,14 @@ class DesiredPoint:
     previous_distance_from_des_point: float = 0.0
 
     def _comes_nearer(self, place: Any) -> bool:
-        """Whether a place is nearer to the goal than the one before; takes note of it."""
+        """Return whether a position is nearer to the goal than the last; store the distance."""
         left = self.get_distance_from_desired_point(place)
         nearer = left < self.previous_distance_from_des_point
         self.previous_distance_from_des_point = left
         return nearer
 
     def is_in_desired_position(self, current_position: Any, epsilon: float = 0.05) -> bool:
-        """Whether a place is the goal; heights do not count."""
+        """Return whether a position is the goal; heights do not count."""
         return is_at(current_position, self.desired_point, epsilon)
 
     def get_distance_from_desired_point(self, current_position: Any) -> float:

@@ -102,7 +102,7 @@ class SteeringTask(WheeledRobotEnv):
         return reward
 
     def _way_reward(self, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
-        """What forward, turning, or the end is worth."""
+        """Return the reward of going forward, of turning, or of the end."""
         if done:
             return -float(self.parameter("end_episode_points"))
         name = "forwards_reward" if self.last_action == FORWARDS else "turn_reward"

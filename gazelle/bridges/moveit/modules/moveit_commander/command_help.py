@@ -1,4 +1,4 @@
-"""What the interpreter of commands tells people, and completes as they type."""
+"""Help texts and completion of the interpreter of commands."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _PLAIN = (
 
 
 def help_text() -> str:
-    """What commands there are, one a line."""
+    """Return the list of commands, one a line."""
     return "\n".join(["Known commands:", *(f"  {form:<38}{text}" for form, text in _HELP)])
 
 

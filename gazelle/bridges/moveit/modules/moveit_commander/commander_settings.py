@@ -16,7 +16,7 @@ _FLAT, _SOLID = 4, 6
 
 
 class CommanderSettings:
-    """What a commander knows and sets; all of it is said to ``move_group`` with each request."""
+    """State and settings of a commander, which are sent to ``move_group`` with each request."""
 
     _g: MoveGroupInterface
 
@@ -67,7 +67,7 @@ class CommanderSettings:
     stop = _same()
 
     def has_end_effector_link(self) -> bool:
-        """Whether there is a link that poses are of."""
+        """Return whether there is an end effector link."""
         return bool(self._g.get_end_effector_link())
 
     def set_end_effector_link(self, link_name: str) -> None:

@@ -1,7 +1,7 @@
-"""What goes wrong."""
+"""Errors of the commander."""
 
 __all__ = ["MoveItCommanderException"]
 
 
 class MoveItCommanderException(Exception):  # noqa: N818  # MoveIt's name
-    """What was asked for cannot be."""
+    """Error of a request that cannot be fulfilled."""

@@ -1,4 +1,4 @@
-"""What a command of the interpreter has a group do, and what it answers; answers are MoveIt's."""
+"""Commands of the interpreter for a group, with MoveIt's answers."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Answer = tuple[int, str]
 
 
 class MoveGroupInfoLevel:
-    """What kind of answer it is."""
+    """Kinds of answers."""
 
     FAIL = 1
     WARN = 2
@@ -44,7 +44,7 @@ def good(text: str) -> Answer:
 
 
 def info(text: str) -> Answer:
-    """What was asked for."""
+    """Return an answer with requested information."""
     return MoveGroupInfoLevel.INFO, text
 
 
@@ -79,7 +79,7 @@ def remembered(group: MoveGroupCommander) -> Answer:
 
 
 def show(group: MoveGroupCommander, name: str) -> Answer:
-    """What is remembered under a name."""
+    """Return the values remembered under a name."""
     known = group.get_remembered_joint_values()
     if name in known:
         return info(listed(known[name]))
@@ -87,7 +87,7 @@ def show(group: MoveGroupCommander, name: str) -> Answer:
 
 
 def current(group: MoveGroupCommander) -> Answer:
-    """Where joints and end effector are."""
+    """Return the present joint values and the pose of the end effector."""
     text = f"joints = [{', '.join(map(str, group.get_current_joint_values()))}]"
     link = group.get_end_effector_link()
     if link:
@@ -97,7 +97,7 @@ def current(group: MoveGroupCommander) -> Answer:
 
 
 def group_state(group: MoveGroupCommander) -> Answer:
-    """Where joints are, as an SRDF says it."""
+    """Return the present joint values as SRDF."""
     variables = group._g.get_variables()  # noqa: SLF001  # of the same package
     values = zip(variables, group.get_current_joint_values(), strict=True)
     lines = [

@@ -252,11 +252,11 @@ class MoveGroupCommandInterpreter:
         return group_commands.remembered(g)
 
     def command_group_state(self, g: MoveGroupCommander) -> Answer:
-        """Where joints are, as an SRDF says it."""
+        """Return the present joint values as SRDF."""
         return group_commands.group_state(g)
 
     def command_current(self, g: MoveGroupCommander) -> Answer:
-        """Where joints and end effector are."""
+        """Return the present joint values and the pose of the end effector."""
         return group_commands.current(g)
 
     def command_go_offset(
@@ -322,7 +322,7 @@ class MoveGroupCommandInterpreter:
     # -- for people ----------------------------------------------------------------------
 
     def get_help(self) -> str:
-        """What commands there are."""
+        """Return the list of commands."""
         return help_text()
 
     def get_keywords(self) -> dict[str, list[str]]:

@@ -256,7 +256,7 @@ def _primitive(name: str, pose: Any, kind: int, lengths: Sequence[float]) -> Any
 
 
 def _existing(name: str) -> Any:
-    """What stands for a thing that is known."""
+    """Return a collision object that refers to an existing one by its name."""
     return load_message("moveit_msgs/CollisionObject")(id=name)
 
 

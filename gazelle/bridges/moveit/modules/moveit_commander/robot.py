@@ -32,7 +32,7 @@ class CommanderJoint:
         return self._robot._r.get_joint_limits(self._name)  # noqa: SLF001  # of the same package
 
     def variable_count(self) -> int:
-        """How many variables it has."""
+        """Return the number of its variables."""
         return len(self._limits())
 
     def bounds(self) -> Any:
@@ -48,7 +48,7 @@ class CommanderJoint:
         return _one([high for _, high in self._limits()])
 
     def value(self) -> Any:
-        """Where it is now, or a list of that."""
+        """Return its present position, or a list of positions."""
         return _one(self._robot._r.get_current_joint_values(self._name))  # noqa: SLF001
 
     def move(self, position: Any, wait: bool = True) -> bool:  # noqa: FBT001, FBT002  # MoveIt's interface

@@ -172,10 +172,10 @@ class HopperStayUpEnv(HopperEnv):
         return magnitude(point(*total.sum(axis=0)))
 
     def monoped_height_ok(self, height_base: float) -> bool:
-        """Whether the base is as high as it may be [m]."""
+        """Return whether the height of the base [m] is within its limits."""
         return self.min_height <= height_base < self.max_height
 
     def monoped_orientation_ok(self) -> bool:
-        """Whether the base does not lean too much."""
+        """Return whether the base does not lean too much."""
         rpy = self.get_base_rpy()
         return bool(abs(rpy.x) < self.max_incl_roll and abs(rpy.y) < self.max_incl_pitch)

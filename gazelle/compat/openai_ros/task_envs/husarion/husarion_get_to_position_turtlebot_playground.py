@@ -119,11 +119,11 @@ class HusarionGetToPosTurtleBotPlayGroundEnv(SteeringTask, HusarionEnv):
         )
 
     def check_husarion_has_crashed(self, laser_readings: Any) -> bool:
-        """Whether a sample is as near as can be."""
+        """Return whether a sample is at the smallest range."""
         return any(each == self.min_laser_value for each in laser_readings)
 
     def check_inside_workspace(self, current_position: Any) -> bool:
-        """Whether a place is where the robot may be; the upper edges belong to it."""
+        """Return whether a position is in the work space; the upper edges belong to it."""
         return bool(
             self.work_space_x_min < current_position.x <= self.work_space_x_max
             and self.work_space_y_min < current_position.y <= self.work_space_y_max
@@ -132,7 +132,7 @@ class HusarionGetToPosTurtleBotPlayGroundEnv(SteeringTask, HusarionEnv):
     def check_reached_desired_position(
         self, current_position: Any, desired_position: Any, epsilon: float = 0.1
     ) -> bool:
-        """Whether a place is the goal."""
+        """Return whether a position is the goal."""
         return is_at(current_position, desired_position, epsilon)
 
     def get_distance_from_desired_point(

@@ -138,7 +138,7 @@ class ParrotDroneGotoEnv(DesiredPoint, ParrotDroneEnv):
         return reward
 
     def is_inside_workspace(self, current_position: Any) -> bool:
-        """Whether a place is in the work space; its upper edges belong to it."""
+        """Return whether a position is in the work space; its upper edges belong to it."""
         return bool(
             self.work_space_x_min < current_position.x <= self.work_space_x_max
             and self.work_space_y_min < current_position.y <= self.work_space_y_max
@@ -146,11 +146,11 @@ class ParrotDroneGotoEnv(DesiredPoint, ParrotDroneEnv):
         )
 
     def sonar_detected_something_too_close(self, sonar_value: float) -> bool:
-        """Whether a distance ahead is below the least [m]."""
+        """Return whether a distance ahead is below the least [m]."""
         return sonar_value < self.min_sonar_value
 
     def drone_has_flipped(self, current_orientation: Any) -> bool:
-        """Whether roll (x) or pitch (y) are beyond what they may be [rad]."""
+        """Return whether roll (x) or pitch (y) exceed their limits [rad]."""
         return not (
             -self.max_roll < current_orientation.x <= self.max_roll
             and -self.max_pitch < current_orientation.y <= self.max_pitch

@@ -126,7 +126,7 @@ class WamvNavTwoSetsBuoysEnv(DesiredPoint, WamvEnv):
         return reward
 
     def is_inside_workspace(self, current_position: Any) -> bool:
-        """Whether a place is in the work space; its upper edges belong to it."""
+        """Return whether a position is in the work space; its upper edges belong to it."""
         return bool(
             self.work_space_x_min < current_position.x <= self.work_space_x_max
             and self.work_space_y_min < current_position.y <= self.work_space_y_max
