@@ -54,27 +54,16 @@ class ContactModel(NoisySensor):
         self._engine = engine
         self._most = most
         self._names: list[str] = []
+        self._alone = ContactGroup((self,))
 
-    def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:  # noqa: ARG002  touch has no drift
-        """Contacts now, shape (n, most * 15); see ``reading``.
+    def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
+        """Return contacts now, shape (n, most * 15); see ``reading``.
 
         Args:
             worlds: Which worlds; all if None.
             interval: Not used.
         """
-        chosen = np.arange(self._engine.nworld) if worlds is None else np.asarray(worlds)
-        values = np.full((len(chosen), self._most, _WIDTH), np.nan)
-        table = self._engine.contacts([self.collisions], chosen)
-        where, touching = table.worlds, table.named()
-        if len(touching):
-            # Contacts come world by world: the first of each world, and each one's place in it.
-            first = np.flatnonzero(np.diff(where, prepend=-1))
-            place = np.arange(len(where)) - np.repeat(first, np.diff(first, append=len(where)))
-            order = np.argsort(chosen)
-            row = order[np.searchsorted(chosen, where, sorter=order)]
-            kept = place < self._most
-            values[row[kept], place[kept]] = self._rows(touching)[kept]
-        return values.reshape(len(chosen), -1)
+        return self._alone.measure_all(interval, worlds)[:, 0]
 
     def kind(self) -> Hashable | None:
         """Equal for those with room for as much."""
@@ -120,21 +109,7 @@ class ContactModel(NoisySensor):
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Put back what ``state`` gave."""
         self._names = [str(name) for name in state["names"]]
-
-    def _rows(self, touching: Contacts) -> Floats:
-        mine = [self.number(name) for name in touching.collisions]
-        others = [self.number(name) for name in touching.others]
-        return np.column_stack(
-            (
-                mine,
-                others,
-                touching.position,
-                touching.normal,
-                touching.depth,
-                touching.force,
-                touching.torque,
-            )
-        )
+        self._alone = ContactGroup((self,))  # it has the numbers of the former names
 
     def number(self, name: str) -> float:
         """A name as a number that a measurement can hold."""
@@ -160,19 +135,22 @@ class ContactGroup(FromPython):
         self._names: Sequence[str] = ()
         self._codes = self._numbers = np.zeros(0, np.intp)
 
-    def measure_all(self, interval: float) -> Floats:  # noqa: ARG002  touch has no drift
-        """Contacts now, shape (nworld, n, most * 15); see ``ContactModel.measure``."""
-        found = self._engine.contacts(self._sets)
-        shape = self._engine.nworld, len(self._sets), self._most
+    def measure_all(self, interval: float, worlds: Worlds | None = None) -> Floats:  # noqa: ARG002  touch has no drift
+        """Return contacts now, shape (n, sensors, most * 15); see ``ContactModel.measure``."""
+        chosen = np.arange(self._engine.nworld) if worlds is None else np.asarray(worlds)
+        found = self._engine.contacts(self._sets, chosen)
+        shape = len(chosen), len(self._sets), self._most
         values = np.full((*shape, _WIDTH), np.nan)
         if len(found.sets):
             # Contacts come set by set and world by world: each one's place in its world.
-            run = found.sets * shape[0] + found.worlds
+            run = found.sets * self._engine.nworld + found.worlds
             first = np.flatnonzero(np.diff(run, prepend=-1))
             place = np.arange(len(run)) - np.repeat(first, np.diff(first, append=len(run)))
             kept = place < self._most
+            order = np.argsort(chosen)
+            row = order[np.searchsorted(chosen, found.worlds, sorter=order)]
             rows = np.column_stack((*self._named(found), found.terms))
-            values[found.worlds[kept], found.sets[kept], place[kept]] = rows[kept]
+            values[row[kept], found.sets[kept], place[kept]] = rows[kept]
         return values.reshape(*shape[:2], -1)
 
     def _named(self, found: ContactTable) -> tuple[Indices, Indices]:
