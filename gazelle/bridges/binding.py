@@ -34,7 +34,7 @@ from gazelle.simulation.plugin_errors import warn_of_fault
 
 _LOOK_S = 0.1
 _MISSING = (None, "")
-"""What no value is; launch files set an empty text where they have nothing to say."""
+"""Values that count as unset; launch files set an empty text where they have nothing to say."""
 
 
 def _nothing() -> None:

@@ -9,7 +9,7 @@ import time
 from gazelle.simulation import Simulation
 
 ACCEPTED = "a positive number or max"
-"""What ``read_factor`` takes, for people."""
+"""Description of the values that ``read_factor`` takes."""
 
 # Wall time between two looks at the clock, and at the pause [s].
 _SLICE = 0.002

@@ -23,7 +23,7 @@ class Command:
     """A sub-command."""
 
     name: str
-    """What the user types."""
+    """Name as typed by the user."""
     purpose: str
     """One line for ``gazelle --help``."""
     group: str

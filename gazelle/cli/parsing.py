@@ -20,7 +20,7 @@ class Parser(NumberParser):
     """A parser whose errors are one line and a hint, with exit code 2."""
 
     intermixed = False
-    """Whether options may stand between words, as those of nodes with remappings do."""
+    """True if options may stand between words, as those of nodes with remappings do."""
 
     def __init__(self, **keywords: Any) -> None:
         super().__init__(formatter_class=_formatter, allow_abbrev=False, **keywords)

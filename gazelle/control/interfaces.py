@@ -32,7 +32,7 @@ COMMAND_FIELDS: Mapping[str, tuple[str, ...]] = {
     POS_VEL: ("position", "velocity"),
     POS_VEL_ACC: ("position", "velocity", "acceleration"),
 }
-"""What each kind of command consists of."""
+"""Fields of each kind of command."""
 
 
 def cpp_name(interface: str) -> str:

@@ -170,7 +170,7 @@ PID_TUNABLES = (
     TunableValue("i_clamp_max", 10.0, 0.0, 100000.0, "Max bounds for the integral windup"),
     TunableValue("antiwindup", False, False, True, "Antiwindup."),
 )
-"""What control_toolbox/Parameters lets be changed."""
+"""Parameters that control_toolbox/Parameters makes changeable."""
 
 
 def pid_values(pid: Pid, loop: int = 0) -> dict[str, bool | float]:

@@ -28,7 +28,7 @@ Kind = Literal[
     "yaw_rate",
     "other",
 ]
-"""What a part of an observation is made of; ``other`` is known to its task alone."""
+"""Kinds of parts of an observation; ``other`` is known to its task alone."""
 
 _MEANINGS = {
     "achieved_goal": "what is reached now, in the terms of goals",
@@ -44,11 +44,11 @@ class ObservationPart:
     name: str
     """Such as ``ranges``."""
     kind: Kind = "other"
-    """What it is made of."""
+    """Kind of the part."""
     start: int = 0
     """Index of the first entry."""
     size: int = 1
-    """How many entries."""
+    """Number of entries."""
     unit: str = ""
     """``m``, ``rad``, ``m/s``, ``rad/s``; ``1`` for counts; empty where nobody said."""
     low: float | tuple[float, ...] | None = None
@@ -70,15 +70,15 @@ class ScanRule:
     last_angle: float
     """Angle of the last one [rad]; the others lie evenly between."""
     no_return: float
-    """What stands for +inf: nothing was in range [m]."""
+    """Value that replaces +inf: nothing was in range [m]."""
     too_near: float
-    """What stands for -inf: something is nearer than the lidar can measure [m]."""
+    """Value that replaces -inf: something is nearer than the lidar can measure [m]."""
     failed: float = 0.0
-    """What stands for NaN: the ray failed [m]."""
+    """Value that replaces NaN: the ray failed [m]."""
     farthest: float = np.inf
     """Longer ranges are cut to this [m]."""
     frame: str = "base_scan"
-    """Where ranges are measured from; x ahead, z up, as REP 103 asks."""
+    """Frame that ranges are measured from; x ahead, z up, as REP 103 asks."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,7 +88,7 @@ class ActionRule:
     kind: Literal["velocity", "other"] = "other"
     """``velocity``: a forward speed and a yaw rate; ``other`` is known to its task alone."""
     type: Literal["discrete", "continuous"] = "continuous"
-    """Whether an action is one int or some floats."""
+    """Type of an action: one int or some floats."""
     first: int = 0
     """The number of the first discrete action."""
     low: tuple[float, ...] = ()
@@ -102,7 +102,7 @@ class ActionRule:
     at_high: tuple[float, float] | None = None
     """The same of the greatest actions."""
     frame: str = "base_footprint"
-    """What the velocities are of; x ahead, left turns positive, as REP 103 asks."""
+    """Frame of the velocities; x ahead, left turns positive, as REP 103 asks."""
     meaning: str = ""
     """One sentence."""
 
@@ -118,9 +118,9 @@ class PolicyContract:
     observation: tuple[ObservationPart, ...] = ()
     """The observation, part by part, without gaps."""
     action: ActionRule = ActionRule()
-    """What the action means."""
+    """Meaning of the action."""
     scan: ScanRule | None = None
-    """How ranges are made, if the policy sees any."""
+    """Conversion of ranges, if the policy observes any."""
     goal_distance: float | None = None
     """Nearer to the goal than this it is reached [m]."""
     collision_range: float | None = None
@@ -128,7 +128,7 @@ class PolicyContract:
     time_limit: float | None = None
     """An episode was cut off after this [s]."""
     frames: dict[str, str] = field(default_factory=dict)
-    """What poses and goals are given in."""
+    """Frames of poses and goals."""
     versions: dict[str, str] = field(default_factory=dict)
     """Of the packages that trained it."""
     training: dict[str, Any] = field(default_factory=dict)

@@ -15,7 +15,7 @@ from gazelle.errors import TaskError, did_you_mean
 
 RENDER_MODES = ("rgb_array",)
 SPLITS = ("published", "training", "held-out")
-"""Where starts and goals may come from: as published, or free space for one of two purposes."""
+"""Sources of starts and goals: as published, or free space for one of two purposes."""
 
 _WIDEST_MARGIN = 0.15  # [m]; some 0.3 m are free where episodes begin
 

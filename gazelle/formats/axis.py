@@ -9,7 +9,7 @@ from gazelle.formats import values
 from gazelle.formats.reading import Reading
 
 _FALLBACK = (1.0, 0.0, 0.0)
-"""What ODE makes of a vector of length zero (``dSafeNormalize3``)."""
+"""Vector by which ODE replaces one of length zero (``dSafeNormalize3``)."""
 
 
 def direction(xyz: Vector3, node: Parameters, reading: Reading) -> Vector3:

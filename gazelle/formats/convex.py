@@ -27,7 +27,7 @@ from gazelle.formats.surface import WeldedSurface, clean, components
 
 CACHED = 256
 PROMISED = 0.01
-"""How far pieces of what stands still are off its surface at most [m]."""
+"""Largest deviation of static models' pieces from their surface [m]."""
 MOVING = 0.005
 _SHARE = 0.01
 """Largest distance of the pieces of a moving mesh from its surface: a length [m], and a share of its size."""
@@ -42,7 +42,7 @@ _DENT = 0.01
 _DEEPEST_DENT = 0.01
 """Depth of dents that are filled: a share of the size, a length [m]."""
 _ROUNDING = 1e-5
-"""What counts as convex where all edges must be, as a share of the size."""
+"""Tolerance of convexity where all edges must be convex, as a share of the size."""
 _MOST_CORNERS = 100_000
 """Vertices up to which it is asked whether dents are small."""
 _FIRST_LOOK = 256

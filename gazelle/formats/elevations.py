@@ -85,7 +85,7 @@ READERS: Final[dict[str, Callable[[Path], Floats]]] = {
     ".tif": read_elevations,
     ".tiff": read_elevations,
 }
-"""What reads files of elevations, by suffix."""
+"""Readers of elevation files, by suffix."""
 
 
 def _bytes_of(path: Path) -> bytes:

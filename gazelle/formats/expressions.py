@@ -197,7 +197,7 @@ def _counted() -> Iterator[None]:
 
 
 _POWER, _PRODUCT, _SHIFT, _WIDTH = "<power>", "<product>", "<shift>", "<width>"
-"""What no file can call its own properties."""
+"""Names that no file can give to its own properties."""
 _CHECKED: dict[type[ast.operator], str] = {
     ast.LShift: _SHIFT,
     ast.Mult: _PRODUCT,

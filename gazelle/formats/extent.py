@@ -10,7 +10,7 @@ from gazelle.formats.limits import LONGEST
 from gazelle.formats.reading import Reading
 
 LEAST = 1e-4
-"""What Gazebo with DART takes for a length of zero; ODE makes a shape of no thickness [m]."""
+"""Length that Gazebo with DART uses for zero; ODE makes a shape of no thickness [m]."""
 
 
 Primitive = Box | Sphere | Cylinder | Capsule | Cone | Ellipsoid

@@ -16,7 +16,7 @@ FEWEST = 4000
 
 _MOST_NODES = 250_000
 _EDGE = 1e-5
-"""How far nodes on the rim are moved inwards, as a share of the size."""
+"""Distance by which nodes on the rim are moved inwards, as a share of the size."""
 _COVERED = 1e-3
 """Share of the rectangle that may not be covered, or covered twice."""
 

@@ -23,7 +23,7 @@ _told: set[tuple[str, Path]] = set()
 """Models of the environment that have been told not to be taken."""
 
 _own_worlds: dict[tuple[Path, int], World] = {}
-"""What came with Gazelle and was read, by the file and when that was written."""
+"""Bundled worlds that were read, by the file and its time of writing."""
 
 _WORLD_SUFFIXES = (".world", ".sdf")
 _ROBOT_SUFFIXES = (".urdf.xacro", ".urdf")

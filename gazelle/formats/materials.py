@@ -11,7 +11,7 @@ from dataclasses import replace
 from gazelle.description import Color, Material
 
 STANDARD = "file://media/materials/scripts/gazebo.material"
-"""Where files say that Gazebo's own scripts are."""
+"""URI by which files name Gazebo's own scripts."""
 
 URDF_COLOR = "gazelle:color"
 """Attribute of a ``<material>``: the colour of a URDF that its colours were made of."""

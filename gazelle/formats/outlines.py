@@ -12,7 +12,7 @@ _AT_ONCE = 2_000_000
 _ROUNDING = 1e-9
 """Share of the squared length at which a turn counts as none."""
 _FULL = 1e-6
-"""What all turns of a convex polygon together may differ from one full turn by [rad]."""
+"""Tolerance of the sum of a convex polygon's turns about one full turn [rad]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,14 +21,14 @@ from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.surface import WeldedSurface
 
 FINE = 7e-3
-"""How far solids may be off a surface before there are as many as it takes [m]."""
+"""Largest deviation of solids from a surface before their number is unlimited [m]."""
 MOST_PATCHES = 20_000
 """Solids from which on they are coarser than that."""
 
 _FEW = 1000
 """Solids up to which they follow the surface exactly."""
 _ROUNDING = 1e-6
-"""What counts as flat, as a share of the size."""
+"""Tolerance of flatness, as a share of the size."""
 _MANY = 40_000
 """Polygons from which on only the last tolerance is tried."""
 _FIRST = (5e-4, 2e-3)
@@ -40,7 +40,7 @@ _THINNEST = 2e-4
 _DEEPEST = 0.05
 """Thickness up to which a body is filled behind its surface [m]."""
 _INSET = 0.02
-"""How far from a corner the thickness there is measured, as a share of the way to the middle."""
+"""Distance from a corner at which its thickness is measured, as a share of the way to the middle."""
 _MOST_RAYS = 20_000
 
 

@@ -36,7 +36,7 @@ _LOCK = threading.Lock()  # the package keeps its state in module globals
 
 MAX_MADE = 60_000
 MAX_INCLUDED = 20
-"""How often a file may be included by what it includes."""
+"""Number of times that a file may be included by what it includes."""
 
 
 class _Made(threading.local):

@@ -14,7 +14,7 @@ from xml.parsers import expat
 _NAME = re.compile(rb"[^\s<>/=]+")
 _TAG_OPEN = re.compile(rb"<[^<>]*\Z")
 _LONGEST = 10_000
-"""How many bytes before a fault are looked at."""
+"""Number of bytes before a fault that are examined."""
 
 _MISMATCH, _INVALID, _NO_ELEMENT = (
     expat.errors.codes[message]

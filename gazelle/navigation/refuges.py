@@ -21,7 +21,7 @@ _DECAY: Final = 4.0
 _MARGIN: Final = 0.1
 """Between robots that pass each other [m]."""
 _CLOSE: Final = 0.15
-"""How far from what the map has a robot may see it [m]."""
+"""Distance of the map's obstacles from those that a robot may see [m]."""
 _OCCUPIED: Final = 50
 
 

@@ -28,9 +28,9 @@ _MOVED: Final = 0.3
 _MOST_ENCOUNTERS: Final = 12
 """For one goal of a robot; then it is left to ``move_base``, which gives up at last."""
 _STUCK: Final = 20.0
-"""How long one that is to make way may stand on the way there, until it is waited for no more [s]."""
+"""Time that a robot may be stuck on its way to a refuge, until others stop waiting for it [s]."""
 _BESIDE: Final = 0.8
-"""How near others that move keep a robot that made way where it is [m]."""
+"""Distance of other moving robots that keeps a robot in its refuge [m]."""
 _RETRY: Final = 3.0
 """After robots were looked at that cannot make way [s]."""
 

@@ -17,7 +17,7 @@ from gazelle.geometry.planar_part import PlanarPart
 _MOST_CELLS = 16_384
 """Along a side of a map; more would be gigabytes."""
 _ROUNDING, _ASIDE = 1e-7, 1e-3
-"""How near to a border of cells a point counts as on it, and what is beside it [cells]."""
+"""Tolerance of a point on a border of cells, and the offset to either side of it [cells]."""
 
 
 def true_map(

@@ -25,7 +25,7 @@ from gazelle.navigation.world_exploration import WorldExploration
 EXPLORED = "Exploration stopped."
 """As explore_lite says it."""
 _ASIDE = 0.1
-"""How near to a place is there [m]."""
+"""Tolerance of a position [m]."""
 
 
 class WorldPilot:

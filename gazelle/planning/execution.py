@@ -22,7 +22,7 @@ from gazelle.simulation.robot import Robot
 DURATION_SCALING = 1.1
 """Of a trajectory's duration, after which it has taken too long (MoveIt's default)."""
 DURATION_MARGIN = 0.5
-"""What is added to that [s]."""
+"""Additional time [s]."""
 _ACTION = "follow_joint_trajectory"
 _STEP = 0.01
 

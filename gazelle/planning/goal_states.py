@@ -24,7 +24,7 @@ from gazelle.planning.state_validity import StateValidity
 Goal = Pose | str | Mapping[str, float] | ConstraintSet | ArrayLike
 
 _WANTED = 4
-"""How many positions are looked for; planners go to the one that is found first."""
+"""Number of positions to look for; planners go to the one that is found first."""
 _DRAWN = 10
 """Places within the tolerances of a goal that are tried."""
 _ALTERNATIVES = 100

@@ -33,7 +33,7 @@ from gazelle.simulation.joint_motion import JointMotion
 from gazelle.simulation.robot import Robot
 
 START_TOLERANCE = 0.01
-"""How far joints may be from where a plan begins [m or rad] (MoveIt's allowed_start_tolerance)."""
+"""Tolerance of joints about the start of a plan [m or rad] (MoveIt's allowed_start_tolerance)."""
 
 
 @dataclass(frozen=True, slots=True)

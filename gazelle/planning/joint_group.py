@@ -15,7 +15,7 @@ from gazelle.errors import PlanningError, did_you_mean
 from gazelle.planning.variables import Variable
 
 SAMPLED_SPAN = math.pi
-"""How far from zero variables without limits are sampled [m or rad]."""
+"""Range about zero in which variables without limits are sampled [m or rad]."""
 
 
 @dataclass(frozen=True, slots=True)

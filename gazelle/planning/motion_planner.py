@@ -33,11 +33,13 @@ from gazelle.planning.time_parameterization import (
 )
 
 _TOLERANCES = (0.1, 0.03, 0.01, 0.003, 0.001)
-"""How far corners are rounded off, until what comes of it collides with nothing."""
+"""Tolerances of rounded corners, tried until the result is collision-free."""
 _FINER = 10.0
 """By how much closer the states of the result are checked than those of the search."""
 START_SLACK = 0.05
-"""How far a start may be beyond limits: it is moved onto them (MoveIt's start_state_max_bounds_error)."""
+"""Largest violation of limits by a start, which is moved onto them (MoveIt's
+start_state_max_bounds_error).
+"""
 
 
 @dataclass(frozen=True, slots=True)

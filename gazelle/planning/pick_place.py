@@ -33,7 +33,7 @@ from gazelle.planning.scene import PlanningScene
 from gazelle.planning.state_validity import StateValidity
 
 _RESTING = 0.003
-"""How deep a thing may be in what it stands on [m]."""
+"""Largest depth of an object in its support [m]."""
 _TRIES = 12
 """Postures of the arm that are tried for one grasp."""
 

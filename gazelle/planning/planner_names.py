@@ -8,7 +8,7 @@ import warnings
 from gazelle.errors import PlanningError, PlanningWarning, closest_of
 
 OWN = "RRTConnect"
-"""What plans where OMPL is not installed, and on constraints."""
+"""Planner used where OMPL is not installed, and on constraints."""
 
 BOUND = {
     "AORRTC": "AORRTC",

@@ -21,7 +21,7 @@ DEFAULT_VELOCITY = 1.0
 DEFAULT_ACCELERATION = 1.0
 """Likewise [m/s² or rad/s²]."""
 PATH_TOLERANCE = 0.1
-"""How far corners are rounded off, at most, as in MoveIt."""
+"""Largest deviation by rounding of corners, as in MoveIt."""
 RESAMPLE = 0.05
 """Time between the points of a trajectory [s]."""
 _STEPS = 300

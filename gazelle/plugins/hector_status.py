@@ -23,7 +23,7 @@ FLAGS = tuple(
         ("SERVICE_GALILEO", True, "Galileo is used"),
     )
 )
-"""What can be changed."""
+"""Flags that can be changed."""
 
 
 def status_of(flags: Mapping[str, bool]) -> tuple[int, int]:

@@ -14,7 +14,7 @@ from gazelle.rendering import columns as c
 from gazelle.rendering.lighting import Lighting
 
 SUN = Light("sun", "directional", direction=(-0.5, 0.1, -0.9), diffuse=(0.8, 0.8, 0.8, 1.0))
-"""What shines where a world has no light."""
+"""Light of a world that has none."""
 
 SKY_TOP = (0.45, 0.62, 0.86)
 SKY_HORIZON = (0.86, 0.91, 0.96)

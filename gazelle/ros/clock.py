@@ -16,9 +16,9 @@ from gazelle.ros.errors import TimeMovedBackwardsError
 
 SECOND = 1_000_000_000
 _CHECK_S = 0.3
-"""How often a sleeper looks whether it is to give up, in seconds of wall time."""
+"""Interval at which a sleeper checks whether to give up, in seconds of wall time."""
 _SILENCE_S = 2.0
-"""How long a sleeper waits for a first ``/clock`` before it says so."""
+"""Time that a sleeper waits for a first ``/clock`` before it warns."""
 
 Cancelled = Callable[[], bool]
 

@@ -36,7 +36,7 @@ from gazelle.ros.xmlrpc.async_client import AsyncClient
 from gazelle.ros.xmlrpc.server import XmlRpcServer
 
 _CLOSING_S = 5.0
-"""How long the main thread waits for another that closes the node already."""
+"""Time that the main thread waits for another that closes the node already."""
 _REQUIRED: Any = object()
 
 

@@ -13,7 +13,7 @@ from gazelle.ros.loop import EventLoop
 
 _BATCH = 16
 _TURN_S = 0.002
-"""How long one queue keeps a worker before others get a turn."""
+"""Time that one queue keeps a worker before others get a turn."""
 _SLOW_S = 0.02
 
 

@@ -13,7 +13,7 @@ from typing import Protocol
 from gazelle.ros.errors import report
 
 GROWTH_DELAY_S = 0.001
-"""How long a task waits for a worker before there is another one."""
+"""Time that a task waits for a worker before there is another one."""
 MAX_IDLE = 16
 """Idle workers that are kept."""
 MAX_WORKERS = 1000
@@ -82,9 +82,9 @@ class ThreadPool:
         self._spare = 0
         """Workers that are idle, less the tasks that wait."""
         self._taken = 0
-        """How many tasks were taken by workers so far."""
+        """Number of tasks taken by workers so far."""
         self._growing = False
-        """Whether it is to be looked soon whether tasks wait too long."""
+        """True if a check for tasks that wait too long is scheduled."""
         self._stopping = False
         self._started = 0
 

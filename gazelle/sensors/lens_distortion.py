@@ -23,7 +23,7 @@ Coefficients = tuple[float, float, float, float, float]
 
 _ITERATIONS = 50
 _SHARP = 1e-9
-"""Where a pixel comes from is known to this, in units of p."""
+"""Accuracy of a pixel's origin, in units of p."""
 
 _LEAST_SCALE = 1e-7
 

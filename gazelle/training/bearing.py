@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import torch  # policies act without it
 
 COUNT = 3
-"""How many numbers are added: distance, ahead, left."""
+"""Number of added entries: distance, ahead, left."""
 NEAR = 0.03
 """Distance below which the logarithm hardly changes [m]."""
 CENTRE, HALF = -0.6, 2.9
@@ -40,7 +40,7 @@ class Bearing:
     yaw: int | None = None
     """Entry with its yaw [rad]; None where that is not observed: then ahead is along x."""
     goal: tuple[float, float]
-    """Where to go, x and y [m]."""
+    """Goal position, x and y [m]."""
 
     def check(self, entries: int) -> None:
         """Raise TaskError unless observations of so many entries have these."""

@@ -33,7 +33,7 @@ class Episodes:
     """
 
     slots: npt.NDArray[np.intp]
-    """Which copies of the environment they ran in."""
+    """Indices of the environment's copies they ran in."""
     returns: Floats
     """Sums of rewards."""
     lengths: Ints64
@@ -46,14 +46,14 @@ class Episodes:
     since_goal: Ints64
     """Control steps since the last goal on the way was reached, or since the start."""
     truncated: Bools
-    """Whether the episode was cut off."""
+    """True where the episode was cut off."""
     limit: int | None = None
     """Control steps after which an episode is cut off; None where that is not known. Then an attempt
     is left out where time runs out after less than half of the episode."""
     late_goals: Ints64 | None = None
-    """How many of the goals are of attempts that began too late to count; None for none."""
+    """Number of goals of attempts that began too late to count; None for none."""
     scenarios: Floats | None = None
-    """What the environment says of how they began, shape (k, size)."""
+    """Initial conditions that the environment reports, shape (k, size)."""
     info: dict[str, Floats] = field(default_factory=dict)
     """Numbers of their last info, shapes (k,) or (k, few), if they were asked for."""
 

@@ -41,9 +41,9 @@ class Evaluation:
     task: str
     """The task's id or name."""
     episodes: int
-    """How many episodes were counted."""
+    """Number of episodes counted."""
     distinct: int
-    """How many of them differ: the others repeat one of these."""
+    """Number of different episodes: the others repeat one of these."""
     seed: int
     """Seed of the environment."""
     success: SuccessRate | None
@@ -65,7 +65,7 @@ class Evaluation:
     records: tuple[EpisodeRecord, ...] = field(default=(), repr=False)
     """Each episode by itself."""
     floor_plan: FloorPlan | None = field(default=None, repr=False)
-    """What stands in the world, seen from above; None when the task does not tell."""
+    """Obstacles of the world, seen from above; None when the task does not tell."""
 
     @property
     def rtf(self) -> float | None:

@@ -54,7 +54,7 @@ class EvaluationPart:
     copies: int
     """Of the environment."""
     episodes: int
-    """How many are counted."""
+    """Number of episodes counted."""
     seed: int
     """Seed from which the seeds of its rounds are derived."""
 
@@ -70,7 +70,7 @@ class EpisodesPlayed:
     sim_seconds: float | None
     """Of all copies together [s]; None when the task has no control period."""
     floor_plan: FloorPlan | None
-    """What stands in the world; None when the task does not tell."""
+    """Obstacles of the world; None when the task does not tell."""
 
 
 def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int) -> EpisodesPlayed:

@@ -34,7 +34,7 @@ class GoalReward:
     other_end: float = 0.0
     """Taken where the task ends an episode otherwise, such as out of its work space."""
     own: float = 0.0
-    """What the task's own reward is multiplied by and added."""
+    """Factor of the task's own reward, which is added."""
 
 
 class GoalRewards:

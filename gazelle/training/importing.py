@@ -27,7 +27,7 @@ class TaskModule:
     name: str
     """As it is imported, such as ``my_package.tasks``."""
     folder: str | None = None
-    """Where its outermost package is, if that is no place of installed packages."""
+    """Folder of its outermost package, if it is not among installed packages."""
 
     @staticmethod
     def find(text: str) -> TaskModule:

@@ -30,7 +30,7 @@ class PolicyFiles:
     policy: Path
     """The policy."""
     contract: Path
-    """What it sees and does, as JSON; see `PolicyContract`."""
+    """Contract of its observations and actions, as JSON; see `PolicyContract`."""
 
 
 def export_policy(

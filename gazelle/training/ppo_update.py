@@ -71,7 +71,7 @@ NAMES = (
     "approx_kl",
     "clip_fraction",
 )
-"""What `loss_of` tells, in order."""
+"""Names of the values of `loss_of`, in order."""
 
 
 def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Tensor, torch.Tensor]:

@@ -45,7 +45,7 @@ class PPOSettings:
     gae_lambda: float = 0.95
     """Trade of bias for variance (Schulman et al. 2015, arXiv 1506.02438)."""
     clip_range: float = 0.2
-    """How far the new policy's probability ratio may move from 1."""
+    """Largest change of the new policy's probability ratio from 1."""
     ent_coef: float = 0.005
     """Weight of the entropy bonus."""
     vf_coef: float = 0.5
@@ -56,9 +56,9 @@ class PPOSettings:
     """Standard deviation of continuous actions at first, in their units: what is learnt of is soon lost
     in the noise where it is many times what actions should be."""
     bfloat16: bool = False
-    """Whether updates multiply in bfloat16 where the processor can, which is faster."""
+    """True if updates multiply in bfloat16 where the processor can, which is faster."""
     overlap: bool = False
-    """Whether updates run beside the next rollout, on another processor."""
+    """True if updates run beside the next rollout, on another processor."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +84,7 @@ class OffPolicySettings:
     action_penalty: float = 0.0
     """Price of an action's mean square (DDPG, TD3), so that small ones are not given up for good."""
     bound_values: bool = False
-    """Whether targets stay within what the rewards seen so far can add up to (DDPG, TD3)."""
+    """True if targets stay within what the rewards seen so far can add up to (DDPG, TD3)."""
     policy_delay: int | None = None
     """Minibatches for each update of the policy (DDPG, TD3, SAC); by default 1, for TD3 2."""
     initial_entropy_weight: float = 1.0
@@ -97,7 +97,9 @@ class OffPolicySettings:
     """Price of the mean square by which the policy misses actions that were shown (DDPG, TD3), where
     they are worth more than its own."""
     bfloat16: bool = False
-    """Whether hidden layers multiply in bfloat16 (DDPG, TD3, SAC), where the processor can far faster."""
+    """True if hidden layers multiply in bfloat16 (DDPG, TD3, SAC), where the processor can far
+    faster.
+    """
     exploration_fraction: float = 0.2
     """Share of the training in which DQN's random actions become rare."""
     exploration_final: float = 0.05
@@ -130,11 +132,11 @@ class Recipe:
     net_arch: tuple[int, ...] = (64, 64)
     """Sizes of the hidden layers."""
     activation: Activation = "tanh"
-    """What follows each hidden layer."""
+    """Activation after each hidden layer."""
     learning_rate: float = 3e-4
     """Step size of Adam at the start."""
     learning_rate_decay: bool = True
-    """Whether the step size falls in a straight line to 0 at the end."""
+    """True if the step size falls in a straight line to 0 at the end."""
     learning_rate_hold: float = 0.0
     """Share of the training before it begins to fall."""
     gamma: float = 0.98
@@ -142,17 +144,19 @@ class Recipe:
     reward_scale: float = 1.0
     """Rewards are multiplied by this before they reach the learner (reports show them as they are)."""
     goal_reward: GoalReward | None = None
-    """What the learner is given in place of the task's rewards (reports show those)."""
+    """Reward for the learner in place of the task's rewards (reports show those)."""
     scale_observations: bool = True
-    """Whether observations are scaled before the first layer: by bounds that fit, else as observed."""
+    """True if observations are scaled before the first layer: by bounds that fit, else as observed."""
     features: bool = False
-    """Whether the network is also given sines and cosines of angles and logarithms of ranges."""
+    """True if the network also gets sines and cosines of angles and logarithms of ranges."""
     angles: tuple[int, ...] = ()
-    """Which entries of observations are angles, beside those whose bounds are -pi and pi (`features`):
-    those of joints, whose limits are anywhere."""
+    """Indices of observation entries that are angles, beside those with bounds -pi and pi
+    (`features`): those of joints, whose limits are anywhere.
+    """
     bearing: Bearing | None = None
-    """Which entries say where a base is and where its goal stands, if the network is also given how far that
-    is and in which direction: of tasks whose goal is fixed and so not observed."""
+    """Indices of a base's pose and its goal, if the network also gets distance and direction: for
+    tasks whose goal is fixed and so not observed.
+    """
     hindsight: float = 0.8
     """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
     by algorithms with a replay memory."""
@@ -163,14 +167,14 @@ class Recipe:
     """Share of those steps that is drawn again, up to twice, where that goal was reached before the
     step already: such steps teach standing still, and are most of all while nothing is learnt yet."""
     goal_differences: bool = False
-    """Whether the network is also given how far what is reached is from the goal, entry by entry."""
+    """True if the network also gets the difference of achieved and desired goal, entry by entry."""
     training_options: Mapping[str, Any] = field(default_factory=dict)
     """Options of the environment that a training sets, unless the user does."""
     evaluation_options: Mapping[str, Any] = field(default_factory=dict)
     """Options of the environment that evaluations set differently from the training, beside
     those that the task itself asks for."""
     settings: Settings = PPOSettings()
-    """What only this algorithm knows."""
+    """Settings that only this algorithm has."""
 
     def __post_init__(self) -> None:
         """Check that the numbers can work, and that the algorithm takes notice of them.

@@ -23,8 +23,9 @@ class EpisodeRecord:
     """One episode."""
 
     outcome: str
-    """How it ended: ``success``, ``collision``, ``time-out``, ``other``, or ``undecided`` where
-    time ran out on the way to one more goal."""
+    """Outcome: ``success``, ``collision``, ``time-out``, ``other``, or ``undecided`` where time ran
+    out on the way to one more goal.
+    """
     goals: int
     """Goals that were reached."""
     length: int
@@ -32,7 +33,7 @@ class EpisodeRecord:
     sum_of_rewards: float
     """Its return."""
     scenario: dict[str, float]
-    """How it began, as far as the environment tells."""
+    """Initial conditions, as far as the environment tells."""
     info: dict[str, tuple[float, ...]]
     """The numbers of its last info, such as ``goal`` and ``position`` (x, y) [m]."""
     ends: tuple[int, int, int]
@@ -40,7 +41,7 @@ class EpisodeRecord:
     counted_goals: int
     """Goals of attempts that count, see `Episodes`."""
     counted: bool
-    """Whether the last attempt counts."""
+    """True if the last attempt counts."""
 
     @property
     def failed(self) -> bool:

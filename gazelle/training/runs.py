@@ -43,7 +43,7 @@ class RunConfig:
     task: str
     """Gymnasium id of the task."""
     recipe: Recipe
-    """How it is trained."""
+    """Recipe of the training."""
     seed: int
     """Seed of everything random."""
     options: dict[str, Any] = field(default_factory=dict)
@@ -59,7 +59,7 @@ class RunConfig:
     imports: tuple[TaskModule, ...] = ()
     """Modules that register the task, where that is not one of Gazelle's."""
     sharded: bool = False
-    """Whether workers play its rollouts, see `gazelle.training.workers`."""
+    """True if workers play its rollouts, see `gazelle.training.workers`."""
 
 
 @dataclass(frozen=True)
@@ -67,9 +67,9 @@ class Run:
     """A run on disk."""
 
     folder: Path
-    """Where its files are."""
+    """Folder of its files."""
     config: RunConfig
-    """What shapes it."""
+    """Configuration of the run."""
 
     @staticmethod
     def create(config: RunConfig, out: Path) -> Run:

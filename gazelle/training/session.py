@@ -57,7 +57,7 @@ class TrainResult:
     sim_seconds: float | None
     """Simulated time of this call, all copies together [s]; None when the task has no period."""
     interrupted: bool
-    """Whether a signal ended it early; everything is saved then, see `resume`."""
+    """True if a signal ended it early; everything is saved then, see `resume`."""
     stop_signal: int | None
     """The signal that ended it early, such as `signal.SIGINT`, or None."""
     summary: dict[str, float]

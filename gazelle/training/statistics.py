@@ -21,11 +21,11 @@ class SuccessRate:
     """Rate of an event, with a 95 % confidence interval."""
 
     count: int
-    """How often it happened."""
+    """Number of times it happened."""
     total: int
-    """How often it could have."""
+    """Number of times it could have happened."""
     effective: float | None = None
-    """How many independent draws tell as much as these do; None for all of them."""
+    """Effective number of independent draws; None for all of them."""
 
     @property
     def value(self) -> float:

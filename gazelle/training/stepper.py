@@ -41,15 +41,15 @@ class TrainingStep:
     """Result of one control step of all N copies."""
 
     obs: Floats32
-    """What the policy acts on next, shape (N, ...)."""
+    """Observations that the policy acts on next, shape (N, ...)."""
     rewards: Floats
     """As the task gives them, shape (N,)."""
     taught: Floats
-    """What the learner is given in their place, shape (N,)."""
+    """Rewards for the learner in their place, shape (N,)."""
     terminated: Bools
-    """Whether the episode came to its end, shape (N,)."""
+    """True where the episode terminated, shape (N,)."""
     truncated: Bools
-    """Whether the episode was cut off (and not terminated), shape (N,)."""
+    """True where the episode was cut off (and not terminated), shape (N,)."""
     valid: Bools
     """False where the copy spent this step on its reset, shape (N,)."""
     final_obs: Floats32 | None

@@ -73,9 +73,9 @@ class StudyResult:
     rows: list[dict[str, Any]]
     """The whole table."""
     new: int
-    """How many rows are new."""
+    """Number of new rows."""
     failed: int
-    """How many of all calls ended in an error, which their rows tell."""
+    """Number of all calls that ended in an error, which their rows tell."""
 
 
 class ExperimentHost:

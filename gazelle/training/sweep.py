@@ -42,7 +42,7 @@ class SweepTrial:
     values: dict[str, Any]
     """Of the parameters."""
     score: float | None
-    """What it reached; None if it failed."""
+    """Score; None if it failed."""
     run: str
     """Folder of its run; empty if it failed."""
 
@@ -52,11 +52,11 @@ class SweepResult:
     """Result of a hyperparameter search."""
 
     folder: Path
-    """Where its journal and runs are."""
+    """Folder of its journal and runs."""
     trials: tuple[SweepTrial, ...]
     """Those that ended, the best first."""
     new: int = 0
-    """How many of them in this call."""
+    """Number of those in this call."""
 
 
 def sweep(

@@ -23,7 +23,7 @@ class SweepPlan:
     """By the name of a recipe's value, see `with_values`: ``{"choices": [...]}`` or
     ``{"low": a, "high": b}``, with ``"log": true`` for steps of equal ratio. Ints stay ints."""
     trials: int = 20
-    """How many in all."""
+    """Number of all trials."""
     workers: int = 1
     """Processes."""
     steps: int | None = None

@@ -28,9 +28,9 @@ class Task:
     """One registered task."""
 
     name: str
-    """What the user types, such as ``TurtleBot3Stage1``."""
+    """Name as typed by the user, such as ``TurtleBot3Stage1``."""
     id: str
-    """What Gymnasium knows, such as ``gazelle/TurtleBot3Stage1-v0``."""
+    """Gymnasium's id, such as ``gazelle/TurtleBot3Stage1-v0``."""
 
 
 def list_tasks() -> list[Task]:

@@ -24,7 +24,7 @@ class TrialJob:
     task: str
     """A task's id or name."""
     plan: SweepPlan
-    """What is tried."""
+    """Plan of the search."""
     folder: Path
     """Of the search."""
     imports: tuple[TaskModule, ...] = ()

@@ -20,7 +20,7 @@ _POSES = {
     "geometry_msgs/PoseWithCovarianceStamped": ("pose", "pose", "position"),
     "nav_msgs/Odometry": ("pose", "pose", "position"),
 }
-"""Where messages that tell a place have it."""
+"""Path to the position in messages that have one."""
 
 
 def bag_series(path: Path, fields: Sequence[str]) -> Series:

@@ -22,7 +22,7 @@ from gazelle.ros import Node, load_message, load_service
 LOG = logging.getLogger("gazelle.control")
 _LOOK_S = 0.005
 _GRACE_S = 1.0
-"""How much longer than its time-out a switch is waited for, in wall time."""
+"""Wait for a switch beyond its time-out, in wall time."""
 
 
 class ManagerServices:

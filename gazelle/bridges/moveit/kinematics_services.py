@@ -30,7 +30,7 @@ from gazelle.ros.time import Time
 
 _LINK, _OBJECT, _ATTACHED = 0, 1, 2
 _EXACT = (1e-5, 1e-5)
-"""How near several links come to their poses at once [m, rad]; one alone comes as near."""
+"""Tolerance of the poses of several links at once [m, rad]; one alone comes as near."""
 
 
 class KinematicsServices:

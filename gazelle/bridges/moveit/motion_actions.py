@@ -20,7 +20,7 @@ from gazelle.ros.messages import load_message
 _BLOCKED = PlanOutcome.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE
 _RECOVERABLE = (PlanOutcome.PLANNING_FAILED, PlanOutcome.INVALID_MOTION_PLAN, _BLOCKED)
 _REPLANS = 5
-"""How often it is planned where a goal allows that and says no number, as in MoveIt."""
+"""Number of replans where a goal allows them and gives no number, as in MoveIt."""
 _LONGEST_DELAY_S = 60.0
 
 

@@ -29,7 +29,7 @@ from gazelle.ros.messages import load_message
 _LOOK_S = 0.01
 _SERVER_S = 5.0
 _GRIPPER_S = 5.0
-"""How much longer grippers may take: what plans say of them has no times."""
+"""Additional time for grippers: their plans have no times."""
 
 
 class TrajectoryExecutor:

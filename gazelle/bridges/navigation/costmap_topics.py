@@ -22,7 +22,7 @@ from gazelle.ros.time import Time
 
 _SECOND = 1_000_000_000
 _PATIENCE_NS = _SECOND
-"""How long what a sensor saw waits for its transform [ns]."""
+"""Longest time that a sensor reading waits for its transform [ns]."""
 _MOST_WAITING = 50
 
 

@@ -63,7 +63,7 @@ class MappingNode(ABC):
         self._diagnosis = StartDiagnosis(node, self._missing)
 
     needs_odometry = True
-    """Whether a scan waits for the odometry of its time."""
+    """True if a scan waits for the odometry of its time."""
 
     @abstractmethod
     def place(self) -> Pose2 | None:

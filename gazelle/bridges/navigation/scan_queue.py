@@ -29,7 +29,7 @@ class ScanQueue:
         self._waiting: deque[Any] = deque(maxlen=_KEPT)
         self._news = threading.Condition()
         self.seen = 0
-        """How many came."""
+        """Number of scans received."""
         self.frame = ""
         """Of the last one."""
         node.subscribe(topic, kind, self._take, queue_size=_KEPT)

@@ -31,7 +31,7 @@ ARRIVED = 0.5
 GOAL_REWARD, COLLISION_REWARD, STEP_REWARD, PROGRESS = 10.0, -10.0, -0.02, 1.0
 
 PLACES = ("training", "held-out")
-"""Where AGVs start and goals are: on a grid, or in the middles of its squares."""
+"""Positions of starts and goals: on a grid, or in the middles of its squares."""
 
 _STEPS = 4
 _TRIES = 24

@@ -19,13 +19,13 @@ class DriveRules:
     robot: str
     """Bundled robot."""
     robot_args: Mapping[str, str] = field(default_factory=dict)
-    """What its file is told (xacro)."""
+    """Arguments of its file (xacro)."""
     space_step: float = 0.004
     """Physics step in three dimensions [s]; at longer ones a light base's wheels slip."""
     start: Place = (0.0, 0.0)
-    """Where it starts, looking along x [m]."""
+    """Start position, facing along x [m]."""
     start_margin: float = 0.85
-    """How far from all that stands other starts are [m]: enough to turn round from there."""
+    """Distance of other starts from all obstacles [m]: enough to turn round from there."""
     every: int
     """It sees ray 0 of its laser and every so manieth after that."""
     decimals: int | None = None
@@ -47,17 +47,17 @@ class DriveRules:
     end_reward: float = 200.0
     """Of the last step: at the goal, and less than nothing elsewhere."""
     goal: Place | None = None
-    """Where to go [m]; None if it should just not crash."""
+    """Goal position [m]; None if it should just not crash."""
     tolerance: float = 0.05
-    """How far it may be off along x and along y [m]."""
+    """Tolerance along x and along y [m]."""
     bounds: tuple[float, float, float, float] | None = None
     """x and y that it must stay within: lowest x, highest x, lowest y, highest y [m]."""
     place_decimals: int = 2
     """Of x, y and yaw."""
     sees_yaw: bool = False
-    """Whether yaw is seen behind x and y."""
+    """True if yaw is observed after x and y."""
     sees_goal: bool = False
-    """Whether the goal is seen behind those."""
+    """True if the goal is observed after those."""
 
 
 def _turns(turning: float, rate: float) -> tuple[Place, ...]:

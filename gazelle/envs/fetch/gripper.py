@@ -27,7 +27,7 @@ GRIP = np.array([0.02, 0.0, 0.0])
 """The point between the fingers, in the gripper's frame [m]."""
 
 DOWN = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
-"""How the gripper's frame is turned: its x axis down."""
+"""Orientation of the gripper's frame: its x axis down."""
 
 _OPEN = 0.05  # that a finger opens at most [m]
 _GRASP = 120.0  # of the motor that closes both fingers: as much as two of 60 N [N]

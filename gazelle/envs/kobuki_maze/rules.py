@@ -26,9 +26,9 @@ class KobukiRules:
     robot: str
     """Robot file in the package ``kobuki_maze_rl``."""
     boxes: tuple[Place, ...] = ()
-    """Where the boxes that move stand at first [m]."""
+    """Initial positions of the moving boxes [m]."""
     box_steps: tuple[int, int] = (1000, 1000)
-    """How many steps they go before they first turn back, and later."""
+    """Number of steps before they first turn back, and later."""
     speed: float = 0.3
     """Greatest forward speed [m/s] and yaw rate [rad/s]."""
     starts: tuple[Place, Place] = ((0.0, 0.0), (0.0, 0.0))
@@ -40,9 +40,9 @@ class KobukiRules:
     farthest: float
     """Bound of the distance to a goal in the space [m]."""
     sees_place: bool = False
-    """Whether x, y, yaw and the goal are seen."""
+    """True if x, y, yaw and the goal are observed."""
     sees_ranges: bool = True
-    """Whether the laser is seen."""
+    """True if the laser is observed."""
     distance_weight: float = 0.5
     """Taken for each metre to the goal, each step."""
     heading_weight: float = 0.0
@@ -56,7 +56,7 @@ class KobukiRules:
     goal_reward: float = 10.0
     """Of a goal reached, in place of what is taken."""
     tolerance: float = 0.5
-    """How near to a goal is there [m]."""
+    """Tolerance of a goal [m]."""
 
     def paths(self) -> Floats:
         """The goals of each way [m], shape (ways, points, 2); one of one point without any."""

@@ -12,7 +12,7 @@ _STANDING = ((5.6, 6.4, -1.0, 1.04), (8.4, 9.6, 2.5, 4.6))
 _AROUND, _AHEAD = 0.6, 1.4
 _SIDE = 0.5
 JITTER = 0.2
-"""How far from the middle of its square a start can be, along x and along y [m]."""
+"""Largest offset of a start from the middle of its square, along x and along y [m]."""
 
 
 def squares(*, held_out: bool) -> Floats:

@@ -9,13 +9,13 @@ import numpy as np
 from gazelle.array_types import Bools, Floats
 
 GOAL = (9.0, 4.0, 2.0)
-"""Where to fly [m]; how high it is there does not matter for the end."""
+"""Goal position [m]; its height does not matter for the end."""
 LOW, HIGH = (-1.0, -1.0, -1.0), (10.0, 5.0, 3.0)
 """Edges of the work space along x, y and z [m], as published."""
 STEEPEST = 1.57
 """Largest roll and pitch [rad]."""
 NEAREST, FARTHEST = 0.5, 5.0
-"""What the sonar may measure without an end, and its range [m]."""
+"""Shortest distance measured by the sonar without an end, and its range [m]."""
 CLOSER, END = 10.0, 200.0
 """Reward of a step that came nearer to the goal, and of an end."""
 _AROUND, _AT = 1.0, 0.5

@@ -16,7 +16,7 @@ class ReachRules:
     robot: str
     """Bundled robot."""
     by_speed: bool = False
-    """Whether actions are speeds of the joints; else changes of their angles."""
+    """True if actions are speeds of the joints; else changes of their angles."""
     most_speed: float = 0.2
     """Of an action that is a speed [rad/s]."""
     lower: tuple[float, ...]
@@ -30,11 +30,11 @@ class ReachRules:
     goal_high: Corner
     """The other corner [m]."""
     random_start: bool = True
-    """Whether joints start anywhere within their limits; else at 0."""
+    """True if joints start anywhere within their limits; else at 0."""
     tolerance: float = 0.05
-    """How near to the goal is there [m]."""
+    """Tolerance of the goal [m]."""
     ends: bool = True
-    """Whether being there is the end."""
+    """True if reaching the goal ends the episode."""
     distance_weight: float = 1.0
     """Taken for each metre to the goal, each step."""
     step_reward: float = -0.01

@@ -7,9 +7,9 @@ import numpy as np
 from gazelle.array_types import Bools, Floats
 
 GOAL = (30.0, 0.0, 1.0)
-"""Where to go [m]; distances count its height, ends do not."""
+"""Goal position [m]; distances count its height, ends do not."""
 TOLERANCE = 0.5
-"""How far it may be off along x and along y [m]."""
+"""Tolerance along x and along y [m]."""
 LOW, HIGH = (-1.0, -5.0), (30.0, 5.0)
 """Edges of the work space along x and y [m]."""
 CLOSER, DONE = 100.0, 1000.0

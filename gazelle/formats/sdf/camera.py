@@ -21,7 +21,7 @@ CAMERA: Pattern = {
     "distortion": dict.fromkeys((*_DISTORTION, "center")),
     "lens": None,
 }
-"""What ``read_camera`` takes."""
+"""Pattern of the elements that ``read_camera`` reads."""
 
 
 def read_camera(node: Parameters) -> Camera:

@@ -153,7 +153,7 @@ PARTS: dict[str, Callable[[Parameters, Reading], Parameters]] = {
     "pose": pose,
     "range": span,
 }
-"""What is mended by its tag, wherever it stands."""
+"""Functions that repair elements, by tag."""
 
 
 def part(node: Parameters, reading: Reading) -> Parameters:

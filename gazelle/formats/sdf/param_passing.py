@@ -28,7 +28,7 @@ _OWN = {"action", "element_id"}
 _ITSELF = "__model__"
 """``element_id`` of a model that a parameter of a model around it changes."""
 _OF_INCLUDE = {"pose", "static"}
-"""What an include says of its model, rather than the model's own file."""
+"""Elements that an include sets for its model, rather than the model's own file."""
 
 Parts = tuple[Parameters, ...]
 Change = Callable[[Parameters, str], Parts]

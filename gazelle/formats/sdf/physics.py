@@ -15,7 +15,7 @@ _PATTERN: Pattern = {
     **dict.fromkeys(("@name", "@default", "@type", *_STEPS, "gravity", "magnetic_field")),
     "ode": {"solver": dict.fromkeys(_SOLVER), "constraints": dict.fromkeys(_CONSTRAINTS)},
 }
-"""What is read here, and by the world up to SDF 1.5."""
+"""Pattern of the elements that are read here, and by the world up to SDF 1.5."""
 
 
 def read_physics(node: Parameters) -> Physics:

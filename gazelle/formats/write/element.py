@@ -17,7 +17,7 @@ from gazelle.formats.sdf.pose import QUATERNION
 Value = bool | int | float | str | tuple[float, ...]
 
 ENDLESS = "1e16"
-"""How SDF and URDF write "no limit"."""
+"""Value by which SDF and URDF write "no limit"."""
 
 
 def element(tag: str, *children: Parameters | None, text: str = "", **names: str) -> Parameters:

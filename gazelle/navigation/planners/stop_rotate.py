@@ -22,7 +22,7 @@ _OLD_NAMES = {
     "trans_stopped_vel": "trans_stopped_velocity",
     "theta_stopped_vel": "rot_stopped_velocity",
 }
-"""What the parameters were called before Melodic."""
+"""Names of the parameters before Melodic."""
 
 
 @dataclass(frozen=True, slots=True)

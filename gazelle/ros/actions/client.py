@@ -47,7 +47,7 @@ class GoalMachine:
         self.lock = threading.RLock()
         self._sent = time.monotonic()
         self._known = False
-        """Whether the server has spoken of it."""
+        """True if the server has reported it."""
         self.latest_result: Any = None
         self.latest_status: Any = load_message("actionlib_msgs/GoalStatus")(
             status=GoalStatus.PENDING

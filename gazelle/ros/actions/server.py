@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _LOG = logging.getLogger("gazelle.ros.actions")
 _QUEUE = 50
 _PEER_S = 0.005
-"""How long clients elsewhere get to note a goal they sent, or feedback, before what follows.
+"""Time for remote clients to note a goal they sent, or feedback, before the next message.
 
 A rospy client drops what comes for a goal before its ``send_goal`` has returned, and feedback that comes
 after the result, as each has a connection of its own. Real servers are slower than this anyway.

@@ -21,9 +21,9 @@ from gazelle.ros.raw import RawMessage
 from gazelle.ros.time import Time
 
 _SLICE_S = 0.05
-"""How long it sleeps before it looks whether it is to pause or end."""
+"""Interval at which it checks whether to pause or end."""
 _SETTLE_S = 0.2
-"""How long subscribers that have just connected get before the first message."""
+"""Time for new subscribers before the first message."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -25,7 +25,7 @@ from gazelle.ros.subscribing import Subscriber
 from gazelle.ros.xmlrpc.client import BlockingClient
 
 _LOOK_S = 0.5
-"""How often it looks for new topics."""
+"""Interval at which it looks for new topics."""
 _ACTIVE = ".active"
 _KEPT = ("callerid", "latching", "md5sum", "message_definition", "topic", "type")
 _DURATION = re.compile(r"(\d+(?:\.\d+)?)([smh]?)")

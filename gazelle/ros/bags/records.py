@@ -55,7 +55,7 @@ class Chunk:
     """A block of messages. Times are in nanoseconds."""
 
     position: int
-    """Where in the file its record begins."""
+    """Offset of its record in the file."""
     start: int
     end: int
     counts: dict[int, int]
@@ -66,7 +66,7 @@ class Chunk:
     size: int = 0
     """Bytes of its records."""
     data: int = -1
-    """Where in the file its data begin; -1 until that is looked up."""
+    """Offset of its data in the file; -1 until that is looked up."""
     entries: dict[int, Any] | None = None
     """Time and place of the messages by connection, for a chunk without index records."""
 

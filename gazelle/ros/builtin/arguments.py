@@ -27,7 +27,7 @@ class NodeArguments:
     plain: list[str]
     """Without remappings."""
     options: dict[str, Any]
-    """What `Node` takes: ``name``, ``namespace``, ``remappings`` and so on."""
+    """Arguments of `Node`: ``name``, ``namespace``, ``remappings`` and so on."""
     parameters: dict[str, str] = field(default_factory=dict)
     """Private parameters, as YAML."""
 

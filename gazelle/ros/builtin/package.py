@@ -15,7 +15,7 @@ class BuiltinPackage:
     nodes: Mapping[str, str] = field(default_factory=dict)
     """From the type of a node to ``module:function``, a `Main`."""
     folder: Path | None = None
-    """What ``$(find PACKAGE)`` gives, if it has files."""
+    """Result of ``$(find PACKAGE)``, if it has files."""
     skipped: str | None = None
     """Why its nodes are left out, such as "it needs a screen"; all others of it are then skipped."""
     preferred: frozenset[str] = frozenset()

@@ -15,7 +15,7 @@ from gazelle.ros.publishing import Publisher
 from gazelle.ros.raw import RawMessage
 
 Pass = Callable[[RawMessage], bool]
-"""Whether a message goes on."""
+"""Predicate of messages that are passed on."""
 
 
 class Repeater:

@@ -12,7 +12,7 @@ from xml.etree import ElementTree as ET
 
 _OUTPUT = XML_OUTPUT_FLAG = "--gtest_output=xml:"
 _NO_NAMES = str.maketrans(dict.fromkeys(" \"'&$!`/\\", "_"))
-"""What is not written in names of files."""
+"""Replacement of characters that are not written in names of files."""
 
 
 def unitrun(

@@ -24,7 +24,7 @@ _ROSOUT_S = 10.0
 """Seconds to wait for rosout; nodes work without, but what they log early would be lost."""
 
 ROSOUT_PROGRAM = Program((sys.executable, "-m", "gazelle.ros.builtin.rosout"), None)
-"""What copies all that nodes log to ``/rosout_agg``."""
+"""Program that copies all that nodes log to ``/rosout_agg``."""
 MASTER = NodePlan(
     package="rosmaster", type="rosmaster", name="master", namespace="/", place=_PLACE, required=True
 )

@@ -21,7 +21,7 @@ _ADVICE = (
     (re.compile(r"""<[^>]*=\s*[^"'\s>]"""), "write values in quotes"),
     (re.compile(r"<\?xml"), 'write <?xml version="1.0"?> at the very beginning, or leave it out'),
 )
-"""What a line may hold that is not well-formed, and what to do about it."""
+"""Patterns of lines that are not well-formed, with advice."""
 
 
 @dataclass(slots=True)

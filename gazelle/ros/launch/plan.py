@@ -23,7 +23,7 @@ class ParameterCommand:
 
     text: str
     kind: str
-    """How the output is read: ``auto``, ``str``, ``int``, ``double``, ``bool`` or ``yaml``."""
+    """Format of the output: ``auto``, ``str``, ``int``, ``double``, ``bool`` or ``yaml``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ class NodePlan:
     """With slashes at both ends."""
     place: SourceLocation
     arguments: str = ""
-    """What follows the program on its command line, to be split as a shell does."""
+    """Arguments of the program on its command line, to be split as a shell does."""
     machine: str = ""
     respawn: bool = False
     respawn_delay: float = 0.0
@@ -118,7 +118,7 @@ class LaunchPlan:
     files: list[str] = field(default_factory=list)
     """The launch files read, those included too."""
     arguments: dict[str, Argument] = field(default_factory=dict)
-    """What the files themselves declare, not those that they include."""
+    """Arguments that the files themselves declare, not those that they include."""
     clear: list[str] = field(default_factory=list)
     """Namespaces to delete before parameters are set."""
     actions: list[Action] = field(default_factory=list)
@@ -127,4 +127,4 @@ class LaunchPlan:
     tests: list[TestPlan] = field(default_factory=list)
     machines: dict[str, LaunchMachine] = field(default_factory=dict)
     notices: list[str] = field(default_factory=list)
-    """What is ignored or suspicious, one line each, with file and line."""
+    """Notices of ignored or suspicious elements, one line each, with file and line."""

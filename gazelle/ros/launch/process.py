@@ -20,7 +20,7 @@ _HAS_GROUPS = hasattr(os, "killpg")
 """False on Windows: there the process alone is ended."""
 _POLL_S = 0.02
 _ORPHAN_S = 0.5
-"""How long what a node started may live after it."""
+"""Time that processes started by a node may outlive it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class Start:
     environment: dict[str, str]
     folder: Path
     log: Path | None
-    """Where standard output goes; None for that of this process."""
+    """File of standard output; None for that of this process."""
 
 
 def _terminal_input() -> int | None:

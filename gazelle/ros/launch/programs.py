@@ -36,7 +36,7 @@ class Program:
     command: tuple[str, ...]
     """Without the node's own arguments."""
     folder: Path | None
-    """Where the program is; None for built-in ones."""
+    """Folder of the program; None for built-in ones."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,9 +55,9 @@ class Options:
     patience: StopTimeouts = field(default_factory=StopTimeouts)
     run_id: str = ""
     core_survives: bool = False
-    """Whether a master that the launch started outlives it if it is killed, as with roslaunch."""
+    """True if a master that the launch started outlives it if it is killed, as with roslaunch."""
     nodes_survive: bool = False
-    """Whether the nodes do, as with roslaunch."""
+    """True if the nodes do, as with roslaunch."""
 
 
 class Launch(Closeable):

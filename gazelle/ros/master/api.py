@@ -12,7 +12,7 @@ from gazelle.ros.master.parameters import ParameterTree, changes
 from gazelle.ros.master.registrations import NodeEntry, Registrations, Roles
 
 CALLER = "/master"
-"""What the master calls itself when it calls nodes."""
+"""Name by which the master calls nodes."""
 
 Notify = Callable[[str, str, Sequence[Any]], None]
 """Calls `method(*params)` of the node at a URI, later, without an answer."""

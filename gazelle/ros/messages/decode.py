@@ -42,7 +42,7 @@ class DecoderWriter:
         self._codes = ""
         self._targets: list[str] = []
         self.sliced = False
-        """Whether the last thing read was a slice, which may run over the end unnoticed."""
+        """True if the last thing read was a slice, which may run over the end unnoticed."""
 
     def position(self, extra: int = 0) -> str:
         """An expression for where the next byte is, plus ``extra``."""

@@ -18,7 +18,7 @@ from gazelle.ros.time import Duration, Time, TVal
 
 FieldFilter = Callable[[Message], Iterable[str]]
 _PLAIN = re.compile(r"[ !#-\[\]-~]{1,60}")
-"""What needs no escapes, and no second line, between double quotes."""
+"""Pattern of text that needs no escapes, and no second line, between double quotes."""
 
 
 def strify_message(

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _LOG = logging.getLogger("gazelle.ros.robot")
 _AHEAD_NS = SECOND // 2
-"""How far ahead fixed joints are stamped when they are sent again and again."""
+"""Time by which stamps of fixed joints are ahead when they are sent repeatedly."""
 
 
 class RobotStatePublisher:

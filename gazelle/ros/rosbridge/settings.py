@@ -52,7 +52,7 @@ class BridgeSettings:
     max_incoming_bytes: int = 64 * _MEBI
     """Longest message from a client; a longer one ends its connection."""
     max_waiting_bytes: int = 16 * _MEBI
-    """What waits for a slow client; beyond it the oldest messages of a topic are dropped."""
+    """Largest queue of a slow client; beyond it the oldest messages of a topic are dropped."""
     max_clients: int = 1000
 
     def may_use_topic(self, topic: str) -> bool:

@@ -11,7 +11,7 @@ from gazelle.errors import RosError
 from gazelle.ros.node import Node
 
 _CONNECTING_S = 1.0
-"""What is published so soon after a topic was advertised waits for the first subscriber [s]."""
+"""Time after advertising a topic in which messages wait for the first subscriber [s]."""
 _MOST_HELD = 1000
 
 

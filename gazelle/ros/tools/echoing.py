@@ -40,7 +40,7 @@ class EchoOptions:
     width: int | None = None
     """Characters of each number."""
     keep: Callable[[Any], bool] | None = None
-    """Which messages are written; it gets whole messages."""
+    """Predicate of the messages that are written; it gets whole messages."""
 
 
 class Echo:

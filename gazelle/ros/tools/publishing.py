@@ -22,7 +22,7 @@ from gazelle.ros.tools.watching import tool_node
 from gazelle.text_files import read_text
 
 ONCE_S = 3.0
-"""How long a message is offered with ``--once``, so that subscribers can come."""
+"""Time that a message is offered with ``--once``, so that subscribers can connect."""
 _PATIENCE_S = 1.0
 _PIPED_HZ = 10.0
 

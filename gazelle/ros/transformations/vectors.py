@@ -10,7 +10,7 @@ import numpy.typing as npt
 from gazelle.array_types import Floats
 
 EPS = 4.0 * float(np.finfo(np.float64).eps)
-"""What counts as zero where a formula divides."""
+"""Threshold of zero where a formula divides."""
 
 
 def vector_norm(data: npt.ArrayLike, axis: int | None = None, out: Floats | None = None) -> Any:

@@ -11,7 +11,7 @@ from gazelle.ros.thread_pool import Task
 LONG_BYTES = 64 * 1024
 """Reading or writing a document of this length takes a few milliseconds."""
 _TAGS = 30
-"""What a value takes at least, with its tags [bytes]."""
+"""Least size of a value, with its tags [bytes]."""
 
 
 def is_long(value: Any) -> bool:

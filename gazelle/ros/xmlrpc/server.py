@@ -200,7 +200,7 @@ class _Connection:
         self._outgoing = bytearray()
         self._closing = False
         self._working = False
-        """Whether a long document is read or written for it."""
+        """True if a long document is read or written for it."""
         self._events = READ
         self.last_heard = time.monotonic()
         loop.watch(sock, READ, self._ready)

@@ -30,9 +30,9 @@ class GoalResult:
     outcome: str
     """``reached``, ``collision``, ``time-out`` or ``replaced`` by another goal."""
     seconds: float
-    """How long it took [s of the node's clock]."""
+    """Duration [s of the node's clock]."""
     distance: float
-    """How far from it the robot was then [m]."""
+    """Distance of the robot from it then [m]."""
 
 
 def read_goals(file: Path) -> list[GoalPlace]:

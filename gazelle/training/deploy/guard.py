@@ -24,9 +24,11 @@ from gazelle.ros import Node, Publisher, load_message
 from gazelle.ros.errors import RosError
 
 ORDER = struct.Struct("<?dd")
-"""What comes through the pipe: whether the node has a say, forward speed [m/s], yaw rate [rad/s]."""
+"""Format of orders in the pipe: whether the node is in control, forward speed [m/s], yaw rate
+[rad/s].
+"""
 READY = b"ready\n"
-"""What the guard answers when it is connected."""
+"""Answer of the guard when it is connected."""
 
 _AGAIN = 0.1  # commands that do not change are sent again after this [s]
 _FAREWELLS = 5  # zeros at the end, in case a subscriber loses some

@@ -29,9 +29,9 @@ class Acted:
     """One act of the policy."""
 
     decision: Decision
-    """What it decided."""
+    """Decision of the policy."""
     gain: float
-    """How much nearer to the goal the robot came since the act before [m]."""
+    """Approach of the robot to the goal since the act before [m]."""
     score: float
     """Sum of those since the goal was set [m]."""
 
@@ -41,11 +41,11 @@ class Tick:
     """Output of the pilot at one moment."""
 
     command: VelocityCommand
-    """What the robot is to do."""
+    """Command to the robot."""
     active: bool
-    """Whether the pilot has a say; if not, others may drive."""
+    """True if the pilot is in control; if not, others may drive."""
     wanted: VelocityCommand = STAND
-    """What the policy wants."""
+    """Command of the policy."""
     reason: str | None = None
     """Why the command is not what the policy wants; None where it is."""
     acted: Acted | None = None

@@ -33,7 +33,7 @@ class Decision:
     action: tuple[float, ...]
     """The number of a discrete action, or the numbers of a continuous one."""
     command: VelocityCommand
-    """What it means."""
+    """Velocity command that it stands for."""
     best_output: float
     """The greatest output of the last layer: of DQN, the value of the action."""
 

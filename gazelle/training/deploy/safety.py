@@ -47,7 +47,7 @@ class SafetyLimits:
     stop_distance: float = _STOP_DISTANCE
     """With anything nearer than this in the way the robot may turn, but not drive [m]; 0: never."""
     stop_angle: float = math.radians(60.0)
-    """What lies within this angle of the way the robot drives is in its way [rad]."""
+    """Angle from the direction of motion within which obstacles block the robot [rad]."""
     scan_timeout: float = 0.4
     """Without a scan for so long, the robot stands still [s]."""
     odometry_timeout: float = 0.4

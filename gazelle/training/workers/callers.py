@@ -14,7 +14,7 @@ from gazelle.training.workers.team import WorkerLink, WorkerLostError
 JobT = TypeVar("JobT")
 
 TRIES = 3
-"""How often a job is given to a worker before it counts as one that no worker survives."""
+"""Number of tries of a job before it counts as one that no worker survives."""
 
 
 def call_all(

@@ -62,7 +62,7 @@ class Blueprint:
     reward_scale: float = 1.0
     """Rewards are multiplied by this."""
     goal_reward: GoalReward | None = None
-    """What the learner is given in place of the task's rewards."""
+    """Reward for the learner in place of the task's rewards."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +76,7 @@ class Spaces:
     control_period: float | None
     """Simulated seconds of a control step."""
     contract: PolicyContract
-    """What its policies see and do."""
+    """Contract of its policies: observations and actions."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -236,4 +236,4 @@ KINDS: dict[str, Callable[[Drawing, Any], None]] = {
     "sensor_msgs/LaserScan": draw_scan,
     "sensor_msgs/PointCloud2": draw_cloud,
 }
-"""What draws messages of which type."""
+"""Functions that draw messages, by type."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from viser import GuiApi, SceneApi, ViserServer
 
 ROOT = "/world"
-"""What moves when a model is followed; everything hangs on it."""
+"""Node that moves when a model is followed; everything hangs on it."""
 
 _GAP = 1.0  # between worlds that stand side by side [m]
 _log = logging.getLogger("gazelle.viewer")

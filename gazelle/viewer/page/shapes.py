@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from viser import SceneApi
 
 _FAR = 40.0
-"""What is larger than this does not count for how far worlds stand from each other [m]."""
+"""Largest extent that counts for the distance of worlds from each other [m]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ PLACES = [
 ]
 ROBOTS = 4
 PATIENCE = 600.0
-"""How long to wait for a server or a result, by the wall clock [s]."""
+"""Longest wait for a server or a result, by the wall clock [s]."""
 
 
 def goal_at(x: float, y: float) -> Any:

@@ -11,7 +11,7 @@ from gazelle.description import JointGroup, Semantics
 from gazelle.errors import PlanningError
 
 NO_VIRTUAL_JOINT = "ASSUMED_FIXED_ROOT_JOINT"
-"""What MoveIt calls the root joint of a robot whose SRDF has none."""
+"""MoveIt's name of the root joint of a robot whose SRDF has none."""
 _ONE_VARIABLE = ("revolute", "continuous", "prismatic")
 
 

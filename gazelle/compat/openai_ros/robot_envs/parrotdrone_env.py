@@ -11,7 +11,7 @@ from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
 
 _HOLD_S = 1.0
-"""How long a velocity acts before a step goes on [s of simulated time]."""
+"""Time that a velocity acts before a step goes on [s of simulated time]."""
 _UP, _DOWN = 0.8, 0.6
 """Heights above which it has taken off, and below which it has landed [m]."""
 _LONGEST_S = 10.0

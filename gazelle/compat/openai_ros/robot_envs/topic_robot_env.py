@@ -18,7 +18,7 @@ from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
 
 PATIENCE_S = 60.0
-"""How long a topic may be silent, or a command unheard, before that is an error [s of wall time]."""
+"""Longest silence of a topic, or wait for a subscriber, before an error [s of wall time]."""
 _LOOK_S = 0.005
 
 

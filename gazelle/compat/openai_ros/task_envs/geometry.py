@@ -12,7 +12,7 @@ from gazelle.ros import load_message
 from gazelle.ros.transformations import euler_from_quaternion
 
 NEAR = 0.05
-"""How near to a place counts as there, along x and along y [m]."""
+"""Tolerance of a position along x and along y [m]."""
 
 
 def euler_of(orientation: Any) -> tuple[float, float, float]:

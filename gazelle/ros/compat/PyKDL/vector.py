@@ -10,7 +10,7 @@ from typing import Any, overload
 from gazelle.ros.tf import rotations
 
 EPSILON = 1e-6
-"""How far apart values may be that are equal."""
+"""Tolerance of equal values."""
 DIGITS = 6
 _WIDTH = 12
 

@@ -15,7 +15,7 @@ from gazelle.ros.compat.cfg_modules import SUFFIX, cfg_files
 from gazelle.ros.compat.dynamic_reconfigure.encoding import extract_params
 
 _open: list[list[types.ModuleType]] = []
-"""Where modules are put that are generated meanwhile; the innermost file last."""
+"""Stack of lists that collect generated modules; the innermost file last."""
 
 
 def load_cfg(package: str, name: str) -> types.ModuleType:

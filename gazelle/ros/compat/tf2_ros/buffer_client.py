@@ -27,7 +27,7 @@ ERRORS = {
     5: TimeoutException,
     6: TransformException,
 }
-"""What the numbers of tf2_msgs/TF2Error stand for."""
+"""Exceptions for the numbers of tf2_msgs/TF2Error."""
 
 
 class BufferClient(BufferInterface):

@@ -21,7 +21,7 @@ _SPACE = "/drone"
 _EDGES = tuple(f"{axis}_{end}" for axis in "xyz" for end in ("min", "max"))
 _ACTIONS = ("FORWARDS", "BACKWARDS", "STRAFE_LEFT", "STRAFE_RIGHT", "UP", "DOWN")
 _AT_GOAL = 0.5
-"""How near to the goal earns the reward, along x and along y [m]."""
+"""Distance from the goal that earns the reward, along x and along y [m]."""
 
 
 class ParrotDroneGotoEnv(DesiredPoint, ParrotDroneEnv):
