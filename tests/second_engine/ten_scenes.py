@@ -25,7 +25,7 @@ DEPTH = "how deep a contact rests, and how soft it is"
 IMPACT = "when in a step an impact falls, and how soft it is"
 CREEP = "friction that holds creeps a little there"
 RIM = "sliding contacts: the wheels slip for the first 0.2 s, the caster all the way"
-LIMIT = "the stop of a joint is a spring of five steps here, rigid in Bullet"
+LIMIT = "a stop takes the velocity within a step in both; what is left is rounding"
 
 
 def joints(*names: str):
@@ -248,8 +248,8 @@ SCENES = (
         squeezed,
         1.0,
         (
-            Measure("both fingers", "mm", joints("left", "right"), 0.8, LIMIT),
-            Measure("where they stop", "mm", joints("left", "right"), 0.05, LIMIT, 0.7),
+            Measure("both fingers", "mm", joints("left", "right"), 0.25, DAMPING),
+            Measure("where they stop", "mm", joints("left", "right"), 1e-4, LIMIT, 0.7),
         ),
     ),
 )

@@ -27,11 +27,12 @@ def test_two_engines_move_a_scene_alike(scene):
 
 
 @pytest.mark.parametrize(
-    ("name", "why", "order"), [("arm of six axes", DAMPING, 1), ("four-bar", LOOP, 2)]
+    ("name", "why", "order"),
+    [("arm of six axes", DAMPING, 1), ("mimic gripper", DAMPING, 1), ("four-bar", LOOP, 2)],
 )
 def test_what_the_step_explains_goes_away_with_the_step(name, why, order):
     scene = BY_NAME[name]
-    assert [measure.why for measure in scene.measures] == [why]
+    assert scene.measures[0].why == why
     coarse, fine = (compare(scene, step)[0].difference for step in (0.001, 0.0005))
     assert fine == pytest.approx(coarse / 2**order, rel=0.4)
 

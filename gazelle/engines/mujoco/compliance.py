@@ -29,7 +29,8 @@ def retune(batch: Batch, springs: Sequence[int]) -> None:
     """
     model = batch.model
     of_dofs, of_bodies = batch.expanded("dof_invweight0"), batch.expanded("body_invweight0")
-    stops = np.flatnonzero((model.jnt_limited != 0) & (model.jnt_solref[:, 1] < 0.0))
+    soft = model.jnt_solimp[:, 0] < _MOST
+    stops = np.flatnonzero((model.jnt_limited != 0) & (model.jnt_solref[:, 1] < 0.0) & soft)
     if stops.size and of_dofs is not None:
         dofs = model.jnt_dofadr[stops]
         _keep(batch, "jnt", stops, model.dof_invweight0[dofs], of_dofs[:, dofs])

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats
 from gazelle.engines.mujoco.compiler.inertia import matrices, principal, tensor
-from gazelle.engines.mujoco.compiler.joints import LIMIT_STEPS
+from gazelle.engines.mujoco.compiler.joints import rigid_stop
 from gazelle.engines.mujoco.compiler.motors import stiffen_worlds
 from gazelle.engines.mujoco.compiler.options import PASSIVE_OFF
 from gazelle.engines.mujoco.compiler.surfaces import LARGEST_FRICTION, LEAST_FRICTION
@@ -174,9 +174,11 @@ def _write_limit(target: _Target, name: str, values: Floats, side: int) -> None:
     bounds = batch.expand("jnt_range")
     never = batch.model.jnt_limited[ids] == 0
     fresh = never & ~(batch.expand("jnt_limited")[:, ids] != 0).any(axis=0)
+    reference, impedance = rigid_stop(float(batch.model.opt.timestep))
     for joint in np.asarray(ids)[fresh]:
         bounds[:, joint] = (-_FAR, _FAR)
-        batch.expand("jnt_solref")[:, joint] = (LIMIT_STEPS * batch.model.opt.timestep, 1.0)
+        batch.expand("jnt_solref")[:, joint] = reference
+        batch.expand("jnt_solimp")[:, joint] = impedance
     bounds[:, ids, side] = np.clip(values, -_FAR, _FAR)
     batch.expand("jnt_limited")[:, ids] = (np.abs(bounds[:, ids]) < _FAR).any(axis=2)
 
