@@ -74,7 +74,10 @@ class BlockedOwner:
 def _waits(frame: FrameType) -> bool:
     if frame.f_code.co_filename in _WAITING:
         return True
-    return _LOCKING.search(linecache.getline(frame.f_code.co_filename, frame.f_lineno)) is not None
+    # Between two lines, as at the end of a `with`, an instruction belongs to none.
+    line: int | None = frame.f_lineno
+    text = linecache.getline(frame.f_code.co_filename, line) if line else ""
+    return _LOCKING.search(text) is not None
 
 
 def _joins_me(frame: FrameType | None) -> bool:

@@ -133,7 +133,11 @@ class ActionBridge:
         )
 
     def close(self) -> None:
-        """Take it off the graph, after all that is known of goals was said."""
+        """Take no more goals, and leave the graph after all that is known of goals was sent.
+
+        Goals are refused at once: a controller that is loaded again under the name gets the next.
+        """
+        self._server.refuse()
         self._queue.post(self._server.stop)
 
     def _take(self, handle: ServerGoalHandle) -> None:

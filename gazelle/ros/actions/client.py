@@ -97,7 +97,9 @@ class GoalMachine:
         return not self._known and time.monotonic() - self._sent < _UNKNOWN_S
 
     def _lose(self) -> None:
-        self.latest_status.status = GoalStatus.LOST
+        # A copy: within a process the message is the server's own.
+        last = self.latest_status
+        self.latest_status = type(last)(last.goal_id, GoalStatus.LOST, last.text)
         self.transition_to(CommState.DONE)
 
     def update_result(self, action_result: Any) -> None:

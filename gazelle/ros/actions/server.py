@@ -223,7 +223,6 @@ class ActionServer:
         self.started = False
         self.status_list: list[ServerGoalHandle] = []
         self._last_cancel = Time(0)
-        self._stopped = False
         self._due = time.monotonic()
         self._open()
         if auto_start:
@@ -264,17 +263,20 @@ class ActionServer:
             self.started = True
         self._tick()
 
-    def stop(self) -> None:
-        """Take no more goals, and close the topics."""
-        self._stopped = True
+    def refuse(self) -> None:
+        """Take and list no more goals, as another server may do so now; results are still sent."""
         self.started = False
-        for publisher in (self._status, self._result, self._feedback):
-            publisher.close()
         for subscriber in self._subscribers:
             subscriber.close()
 
+    def stop(self) -> None:
+        """Take no more goals, and close the topics."""
+        for publisher in (self._status, self._result, self._feedback):
+            publisher.close()
+        self.refuse()
+
     def _tick(self) -> None:
-        if self._stopped or self.node.closed:
+        if not self.started or self.node.closed:
             return
         if self.status_frequency > 0:
             self._due = max(self._due + 1.0 / self.status_frequency, time.monotonic())
@@ -290,14 +292,15 @@ class ActionServer:
             time.sleep(left)
 
     def _greet(self, _peer: str) -> None:
-        if self.started:
-            self.publish_status()
+        self.publish_status()
 
     # What goes out -----------------------------------------------------------------------------
 
     def publish_status(self) -> None:
         """List the goals."""
         with self.lock:
+            if not self.started:
+                return
             self._forget_old()
             message: Any = self._status_array()
             message.header = header(self.clock)
@@ -325,7 +328,7 @@ class ActionServer:
         try:
             publisher.publish(message)
         except NodeClosedError:
-            self._stopped = True
+            self.started = False
 
     def _forget_old(self) -> None:
         limit = self.clock.now() - self.status_list_timeout.to_nsec()

@@ -16,7 +16,8 @@ TURNED = {"orientation__z": math.sin(0.25), "orientation__w": math.cos(0.25)}
 
 
 def at(world, robot=0):
-    return world.sim.poses[0, robot].tolist()
+    """Return a pose between two steps: a message may be setting it on another thread."""
+    return world.sim.requests.call(world.sim.poses[0, robot].tolist)
 
 
 def test_cmd_pose(stage):

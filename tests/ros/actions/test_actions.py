@@ -301,3 +301,42 @@ def test_a_client_that_comes_gets_the_status_at_once(make_node):
     assert client.wait_for_server(60.0)
     assert time.monotonic() - begin < 60.0, "the next one comes after 100 s"
     server.stop()
+
+
+def goal_on(client, taken, number):
+    """Send a goal, and return both handles once it is accepted."""
+    handle = client.send_goal(GOAL(number))
+    until(lambda: taken and taken[-1].get_goal().goal == number)
+    taken[-1].set_accepted()
+    until(lambda: handle.get_comm_state() == CommState.ACTIVE)
+    return handle, taken[-1]
+
+
+def done(handle):
+    until(lambda: handle.get_comm_state() == CommState.DONE)
+    return handle.get_goal_status()
+
+
+@pytest.mark.parametrize("over", [True, False])
+def test_a_server_in_the_place_of_another_gets_all_goals(make_node, over):
+    """The first has results to send yet; a goal that did not end is lost to its client only."""
+    node, taken, new = make_node("server"), [], []
+    first = ActionServer(node, "/act", TEST, taken.append)
+    client = ActionClient(make_node("client"), "/act", TEST)
+    assert client.wait_for_server(60.0)
+    before, old = goal_on(client, taken, 1)
+    first.refuse()
+    if over:
+        old.set_succeeded(RESULT(1))
+        assert done(before) == GoalStatus.SUCCEEDED
+    second = ActionServer(node, "/act", TEST, new.append)
+    until(lambda: client.connected)
+    after, goal = goal_on(client, new, 2)
+    if not over:
+        assert done(before) == GoalStatus.LOST
+        assert old.set_succeeded(RESULT(1))
+    first.stop()
+    goal.set_succeeded(RESULT(2))
+    assert done(after) == GoalStatus.SUCCEEDED
+    assert [len(taken), len(new)] == [1, 1]
+    second.stop()
