@@ -40,6 +40,11 @@ def running(work, done, end):
         thread.join()
 
 
+def watch_for_ever(watch, owner):
+    while True:
+        watch.check(owner)
+
+
 @pytest.mark.parametrize("work", [spin, without_lines, without_file])
 def test_an_owner_that_works_is_not_taken_for_one_that_waits(work, monkeypatch):
     monkeypatch.setattr("gazelle.simulation.deadlocks._PATIENCE", 60.0)
@@ -57,8 +62,7 @@ def test_an_owner_that_waits_is_told_of(monkeypatch):
     with running(threading.Event.wait, done, done.set) as owner:
         watch = BlockedOwner()
         with pytest.raises(SimulationError, match="waits for another thread"):
-            while True:
-                watch.check(owner)
+            watch_for_ever(watch, owner)
 
 
 def test_an_owner_that_has_ended_is_not_waited_for():

@@ -25,6 +25,8 @@ from gazelle.training.deploy.safety import SafetyLimits
 _LOG = logging.getLogger(__name__)
 
 _TICK_S = 0.02
+_CLOCK_LATE_S = 1.0
+"""A stamp that is ahead of the clock by more is not of this time: the clock began anew [s]."""
 _MASTER_LOOK_S = 0.5
 _MASTER_MISSES = 2
 _FAREWELLS = 5
@@ -179,17 +181,27 @@ class DeployNode(Closeable):
     def _now(self) -> float:
         return self.node.clock.now() * 1e-9
 
+    def _measured_at(self, message: Any) -> float:
+        """Return the time of a reading [s].
+
+        A robot's clock may differ from this machine's, so the arrival counts. A simulated clock is
+        one for all; on a busy machine it comes before what was measured earlier, or after it.
+        """
+        now, stamp = self._now(), message.header.stamp.to_sec()
+        known = self.node.clock.simulated and 0.0 < stamp < now + _CLOCK_LATE_S
+        return stamp if known else now
+
     def _hear_scan(self, message: Any) -> None:
         reading = scan_of(message)
         with self._lock:
-            self.pilot.see(reading, self._now())
+            self.pilot.see(reading, self._measured_at(message))
         self._news.set()
 
     def _hear_odometry(self, message: Any) -> None:
         reading = odometry_of(message)
         with self._lock:
             self._frame = message.header.frame_id.removeprefix("/")
-            self.pilot.feel(reading, self._now())
+            self.pilot.feel(reading, self._measured_at(message))
 
     def _serve_arm(self, request: Any) -> Any:
         response: Any = load_service("std_srvs/SetBool")._response_class()

@@ -20,7 +20,7 @@ def wait_for(condition, what):
     deadline = time.monotonic() + PATIENCE
     while not condition():
         if time.monotonic() > deadline:
-            raise AssertionError(f"waited in vain for {what}")
+            raise AssertionError(f"waited in vain for {what() if callable(what) else what}")
         time.sleep(0.005)
 
 
@@ -33,6 +33,8 @@ class FakeRobot:
         self.ranges = list(ranges)
         self.x = self.y = self.yaw = 0.0
         self.time = 10.0
+        self.delay = 0.0
+        """How old the readings of its sensors are [s]."""
         self.twists = []
         self.results, self.actions, self.status = [], [], []
         self._lock = threading.Lock()
@@ -67,12 +69,16 @@ class FakeRobot:
     def tell(self, *, scan=True, odom=True):
         """Publish the time and what the sensors measure."""
         clock = load_message("rosgraph_msgs/Clock")()
-        clock.clock.secs, clock.clock.nsecs = divmod(round(self.time * 1e9), 10**9)
+        self._set(clock.clock)
         self._clock.publish(clock)
         if odom:
             self._odom.publish(self._odom_message())
         if scan:
             self._scan.publish(self._scan_message())
+
+    def _set(self, stamp, delay=0.0):
+        """Write the time into a message."""
+        stamp.secs, stamp.nsecs = divmod(round((self.time - delay) * 1e9), 10**9)
 
     def go(self, seconds, **what):
         """Move on in time, and tell."""
@@ -108,6 +114,7 @@ class FakeRobot:
     def _scan_message(self):
         scan = load_message("sensor_msgs/LaserScan")()
         scan.header.frame_id = "base_scan"
+        self._set(scan.header.stamp, self.delay)
         scan.angle_max = 2.0 * math.pi
         scan.angle_increment = 2.0 * math.pi / (len(self.ranges) - 1)
         scan.range_min, scan.range_max = 0.12, 3.5
@@ -117,6 +124,7 @@ class FakeRobot:
     def _odom_message(self):
         odom = load_message("nav_msgs/Odometry")()
         odom.header.frame_id = "odom"
+        self._set(odom.header.stamp, self.delay)
         odom.pose.pose.position.x, odom.pose.pose.position.y = self.x, self.y
         odom.pose.pose.orientation.z = math.sin(self.yaw / 2.0)
         odom.pose.pose.orientation.w = math.cos(self.yaw / 2.0)
