@@ -1,4 +1,4 @@
-"""How worlds move: the ``Engine`` protocol and the engines that implement it."""
+"""Engines that move worlds: the ``Engine`` protocol and its implementations."""
 
 from __future__ import annotations
 

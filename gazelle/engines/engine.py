@@ -1,4 +1,4 @@
-"""What every engine can do: hold many copies of one world, and move them.
+"""Protocol of engines: hold many copies of one world, and move them.
 
 All state is in arrays with a leading axis over worlds. ``worlds`` arguments name some
 of them by index, shape (n,), sorted and unique; None means all, n = nworld. Positions are in

@@ -1,4 +1,4 @@
-"""What holds for a whole world: its physics profile, apart from what is in it."""
+"""Physics profile of a whole world, apart from its content."""
 
 from __future__ import annotations
 
@@ -17,5 +17,5 @@ def with_profile(world: World, profile: Physics) -> World:
 
 
 def laws_of(world: World) -> tuple[Physics, Vector3, Vector3]:
-    """What moves bodies: physics profile, gravity and magnetic field."""
+    """Return the laws that move bodies: physics profile, gravity and magnetic field."""
     return world.profile, world.gravity, world.magnetic_field

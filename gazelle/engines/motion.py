@@ -1,4 +1,4 @@
-"""Where things are in each world, how they move, and what rays meet; see ``engine`` for frames."""
+"""Poses, velocities and ray hits in each world; see ``engine`` for frames."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gazelle.array_types import Floats
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """Where something is in each world.
+    """Pose in each world.
 
     Attributes:
         position: [m], shape (n, 3).
@@ -25,7 +25,7 @@ class Placement:
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """How something moves in each world, seen from the world frame.
+    """Velocity in each world, in the world frame.
 
     Attributes:
         linear: Velocity of its origin [m/s], shape (n, 3).
@@ -38,7 +38,7 @@ class Motion:
 
 @dataclass(frozen=True, slots=True)
 class Hits:
-    """What rays met in each world.
+    """Hits of rays in each world.
 
     Attributes:
         distance: To the nearest collision shape [m], shape (n, rays); infinite for none.

@@ -1,4 +1,4 @@
-"""What all plugins have in common, whatever they are loaded on."""
+"""Common base of all plugins, whatever they are loaded on."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gazelle.simulation.plugin_system import PluginSystem, Published
 
 
 class BasePlugin:
-    """What all plugins have in common.
+    """Base class of all plugins.
 
     Attributes:
         update_rate: Calls of ``on_update`` a simulated second [Hz]; 0 means every physics
@@ -33,7 +33,7 @@ class BasePlugin:
 
     @property
     def active(self) -> bool:
-        """Whether it needs its updates now; one that only publishes needs them when heard."""
+        """True if it needs its updates now; one that only publishes needs them when it has subscribers."""
         return True
 
     def on_update(self, time: float) -> None:

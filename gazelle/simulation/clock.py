@@ -39,7 +39,7 @@ class Clock:
 
 
 class Stopwatch:
-    """How long something lasts, counted in whole nanoseconds.
+    """Stopwatch that counts in integer nanoseconds.
 
     The difference of two times in seconds is wrong by the last digit of those times, the more the
     longer a simulation runs; that of two counts is not.
@@ -121,7 +121,7 @@ class Schedule:
             self._count, self.due_ns = round(due_ns * self.rate / NANOSECONDS), due_ns
 
     def is_due(self, now_ns: int) -> bool:
-        """Whether its time has come."""
+        """Return whether it is due."""
         return now_ns >= self.due_ns
 
     def done(self, now_ns: int) -> None:

@@ -144,7 +144,7 @@ class ControlLoop(ModelPlugin):
         self._tell_of_stops()
 
     def _tell_of_stops(self) -> None:
-        """What the hardware was told of the emergency stop holds no more."""
+        """Clear the hardware's record of the emergency stop."""
         self._told, self._restarts = False, bool(self._released.any())
 
     def _stop_emergency(self) -> None:
@@ -157,7 +157,7 @@ class ControlLoop(ModelPlugin):
 
     @property
     def active(self) -> bool:
-        """Whether there is anything to do: a controller, or a joint that has to be held."""
+        """True if there is anything to do: a controller, or a joint that has to be held."""
         return self.manager.busy or not self.hardware.idle
 
     def on_update(self, time: float) -> None:

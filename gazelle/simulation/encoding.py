@@ -63,7 +63,7 @@ _WRITERS: tuple[tuple[Any, Callable[[Any], Any]], ...] = (
 
 
 def decode(value: Any) -> Any:
-    """What ``encode`` was given.
+    """Decode a value that ``encode`` returned.
 
     Raises:
         SimulationError: It is nothing that ``encode`` gives.

@@ -1,4 +1,4 @@
-"""What happens to a simulation as a whole, for doors that must follow it."""
+"""Events of a simulation as a whole, for the interfaces that follow it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What happens when a world breaks down: it is named, dumped for replay, and starts over."""
+"""Handling of a diverged world: it is reported, dumped for replay, and reset."""
 
 from __future__ import annotations
 

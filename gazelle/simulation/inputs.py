@@ -77,7 +77,7 @@ def one_world(world: int, nworld: int) -> int:
 
 
 def size_of(worlds: Worlds | None, nworld: int) -> int:
-    """How many worlds are chosen."""
+    """Return the number of chosen worlds."""
     return nworld if worlds is None else len(worlds)
 
 

@@ -227,7 +227,7 @@ class JointHardware(SimulatedHardware):
 
     @property
     def idle(self) -> bool:
-        """Whether efforts are all that is commanded, and there are none."""
+        """True if only efforts are commanded, and all are zero."""
         if (self._kinds != BY_EFFORT).any():
             return False
         commands = [each for each in self.interfaces.values() if each.name == EFFORT]
@@ -238,7 +238,7 @@ class JointHardware(SimulatedHardware):
 
     @property
     def in_step(self) -> ControlCycle | None:
-        """What an engine may take into its steps; None while Python has to act on joints."""
+        """Control cycle that an engine can run in its steps; None while Python has to act on joints."""
         own = type(self)
         if own.read is not JointHardware.read or own.write is not JointHardware.write:
             return None

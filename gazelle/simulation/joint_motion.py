@@ -10,7 +10,7 @@ from gazelle.array_types import Floats
 
 @dataclass(frozen=True, slots=True)
 class JointMotion:
-    """Where joints are meant to be, and when.
+    """Planned motion of joints over time.
 
     Attributes:
         joints: Names of those that move.

@@ -26,7 +26,7 @@ class JointHandle:
 
     @property
     def simulation(self) -> RunningState:
-        """What it is in."""
+        """Simulation it is in."""
         return self._simulation
 
     @property
@@ -73,7 +73,7 @@ class JointHandle:
     @property
     @between_steps
     def axes(self) -> int:
-        """How many ways the joint can move: numbers of a velocity or an effort."""
+        """Number of the joint's degrees of freedom: the length of a velocity or an effort."""
         return int(self._row.velocity(np.array([0])).shape[1])
 
     @between_steps
@@ -141,7 +141,7 @@ class JointHandle:
 
     @between_steps
     def wrench(self, worlds: Worlds | None = None) -> Wrench:
-        """What the child exerts on the parent, about the joint's origin, in the world frame."""
+        """Return the wrench of the child on the parent, about the joint's origin, in the world frame."""
         return self._row.wrench(self._some(worlds))
 
     @between_steps
@@ -168,7 +168,7 @@ class JointHandle:
     @property
     @between_steps
     def has_motor(self) -> bool:
-        """Whether there is a velocity motor on it."""
+        """True if there is a velocity motor on it."""
         calls = (call for call in self._engine.history() if call.method == "add_motor")
         return any(call.arguments[0] == self.name for call in calls)
 

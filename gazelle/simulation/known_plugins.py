@@ -36,7 +36,7 @@ class KnownPlugin:
 
     @property
     def purpose(self) -> str:
-        """What it is for, and what Gazelle does instead where it does not do that."""
+        """Purpose of the plugin, and what Gazelle does instead where it does not simulate it."""
         if self.missing:
             return f"{self.what} (not simulated: {self.missing})"
         return f"{self.what} (nothing to do: {self.done_by})" if self.done_by else self.what

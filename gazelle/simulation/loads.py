@@ -76,7 +76,7 @@ class TimedEffort:
 
 @dataclass(slots=True, eq=False)
 class _Joint:
-    """What acts on a joint besides timed efforts, while there are some."""
+    """Loads on a joint besides timed efforts, while there are some."""
 
     lasting: Floats
     efforts: list[TimedEffort] = field(default_factory=list)
@@ -163,7 +163,7 @@ class Loads:
         self._schedule()
 
     def turns(self, joints: Iterable[str]) -> bool:
-        """Whether a timed effort acts, or waits, on one of some joints."""
+        """Return whether a timed effort is acting or scheduled on one of some joints."""
         return bool(self._joints) and any(joint in self._joints for joint in joints)
 
     @property
@@ -207,7 +207,7 @@ class Loads:
 
     @property
     def any(self) -> bool:
-        """Whether any force acts or waits."""
+        """True if any force is acting or scheduled."""
         return self._due_ns is not None or self._follows
 
     def update(self, now_ns: int) -> None:

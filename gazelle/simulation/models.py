@@ -1,4 +1,4 @@
-"""Which sensor of a file is measured by which model."""
+"""Selection of the model that measures each sensor of a file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ``robot.navigation`` can do, whoever does it."""
+"""Interface of ``robot.navigation``, independent of its implementation."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class NavigationTask(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class NavigationPlan:
-    """What a robot is about to do.
+    """Present goal and plan of a robot.
 
     Attributes:
         goal: x, y and heading, in the map's frame [m, rad].

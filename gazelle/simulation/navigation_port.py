@@ -1,4 +1,4 @@
-"""What ``robot.navigation`` is: a plugin of a room above this one, found by its file name."""
+"""Lookup of ``robot.navigation``: a plugin of a higher package, found by its file name."""
 
 from __future__ import annotations
 

@@ -68,7 +68,7 @@ class Measured(Protocol):
 
     @property
     def model(self) -> object:
-        """What measures it."""
+        """Model that measures it."""
 
 
 class Equipped(Protocol):
@@ -121,7 +121,7 @@ class SensorNoise:
 
 
 class InitialPoses:
-    """Where models start after a reset, by name: arrays (nworld, 7) of x, y, z and quaternion."""
+    """Initial poses of models after a reset, by name: arrays (nworld, 7) of x, y, z and quaternion."""
 
     def __init__(self, simulation: PopulatedState) -> None:
         self._simulation = simulation
@@ -168,7 +168,7 @@ class InitialPoses:
 
 
 class WorldParameters:
-    """What each world has of its own, for domain randomisation.
+    """Parameters that each world has of its own, for domain randomisation.
 
     Nothing is drawn at random unless ``randomize`` is called. What is set lasts: a reset
     keeps it, a snapshot holds it, spawning and deleting other models do not touch it.
@@ -292,7 +292,7 @@ class WorldParameters:
 
     @between_steps
     def state(self) -> dict[str, Any]:
-        """What is not the engine's, for a snapshot."""
+        """Return the state that is not the engine's, for a snapshot."""
         streams = {n: (s.keys.copy(), s.counters.copy()) for n, s in self._streams.items()}
         return {"pose": self.pose.state(), "streams": streams}
 

@@ -65,7 +65,7 @@ _NOT_NEGATIVE = (
 
 
 class PhysicsProperties:
-    """What holds for a whole running world, readable and settable in the middle of a run.
+    """Physics properties of a whole running world, readable and settable in the middle of a run.
 
     Every change keeps all states. Changing several things by ``set`` is done at once.
 
@@ -255,7 +255,7 @@ class PhysicsProperties:
 
     @property
     def auto_disable(self) -> bool | None:
-        """Whether loose bodies at rest go to sleep; None: where there are many."""
+        """Whether free bodies at rest go to sleep; None: where there are many."""
         return self.profile.auto_disable
 
     @auto_disable.setter
@@ -264,7 +264,7 @@ class PhysicsProperties:
 
     @property
     def speculative_contacts(self) -> bool | None:
-        """Whether fast bodies meet thin ones on the way; None: where a body is that small."""
+        """Whether contacts of fast bodies are predicted; None: where a body is small enough to need it."""
         return self.profile.speculative_contacts
 
     @speculative_contacts.setter

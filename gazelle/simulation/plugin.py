@@ -1,4 +1,4 @@
-"""What a plugin is: code that a file names, run with the simulation.
+"""Base classes of plugins: code that a file names, run with the simulation.
 
 Subclass one of these, override what you need, and register it under the file name that
 SDF and URDF files use (see ``registry``). All worlds of a batch share one plugin object, so

@@ -207,7 +207,7 @@ class Service(StatePart, Generic[Q, R]):
 
 
 class FramePrefix(Enum):
-    """What a graph puts before the names of frames; Gazebo's plugins differ in it."""
+    """Prefix that a graph puts before the names of frames; Gazebo's plugins differ in it."""
 
     NEAREST = "tf_prefix of the namespace, or of the nearest above it that has one"
     OWN = "tf_prefix of the namespace itself"
@@ -257,13 +257,13 @@ class Output(StatePart, Generic[T]):
 
     @property
     def wanted(self) -> bool:
-        """Whether anybody listens."""
+        """True if there are subscribers."""
         return bool(self._listeners)
 
     @property
     @between_steps
     def last(self) -> T:
-        """What was published last; what would be published now if nobody listens."""
+        """Value that was published last; without subscribers, the one that would be published now."""
         if self._last is None or not self._listeners:
             return self._produce()
         return self._last
@@ -367,7 +367,7 @@ class Ports:
         self.tunings: dict[str, Tuning] = PortTable(lock)
 
     def mark(self) -> tuple[Mapping[str, Any], ...]:
-        """What there is now, for ``back_to``."""
+        """Return the present ports, for ``back_to``."""
         return tuple(dict(table) for table in self._tables())
 
     def back_to(self, mark: tuple[Mapping[str, Any], ...]) -> None:

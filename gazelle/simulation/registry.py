@@ -38,7 +38,7 @@ def names() -> list[str]:
 
 
 def purpose(filename: str) -> str:
-    """What the plugin of a file name is for, in a line; empty if it does not say, or is unknown.
+    """Return the purpose of the plugin of a file name in a line; empty if undocumented or unknown.
 
     Raises:
         Exception: It is another package's, and cannot be imported; that may raise anything.
@@ -91,7 +91,7 @@ def _warn(plugin: description.Plugin, what: str) -> None:
 
 
 def _nearest(filename: str) -> str:
-    """What may have been meant; nothing where no name is near."""
+    """Return a hint at the name that may have been meant; empty where no name is near."""
     hint = did_you_mean(filename, names())
     return f"{hint} " if hint.startswith("did you mean") else ""
 

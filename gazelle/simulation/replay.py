@@ -59,7 +59,7 @@ class Replay(Closeable):
 
     @property
     def done(self) -> bool:
-        """Whether there is nothing more to do."""
+        """True if there are no more events."""
         return self._next >= len(self._events)
 
     def step(self, most: int | None = None) -> bool:

@@ -54,7 +54,7 @@ def _in_carrier(body: TreeLink, bodies: Mapping[str, TreeLink]) -> Pose:
 
 
 def _reach(shape: Geometry) -> float | None:
-    """How far a shape's points are from its centre; None if its corners cannot be told [m]."""
+    """Return the distance of a shape's farthest point from its centre [m]; None if it is not known."""
     if isinstance(shape, Box):
         return math.hypot(*shape.size) / 2.0
     if isinstance(shape, Cylinder | Capsule):

@@ -40,7 +40,7 @@ class Attachment:
         return ends if self.settling is None else (*ends, self.settling)
 
     def is_of(self, model: str) -> bool:
-        """Whether one of the links is a model's."""
+        """Return whether one of the links is a model's."""
         return any(link.startswith(f"{model}::") for link in (self.parent, self.child))
 
 
