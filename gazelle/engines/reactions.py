@@ -1,4 +1,4 @@
-"""What engines tell of forces: what joints carry, and what touches what."""
+"""Forces that engines report: joint wrenches and contacts."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def names() -> tuple[str, ...]:
 
 
 def find(name: str) -> EngineFactory:
-    """What makes the engine of a name.
+    """Return the factory of the engine of a name.
 
     Raises:
         EngineError: There is none, or its package cannot be imported.

@@ -1,4 +1,4 @@
-"""What rays see: the visible shapes of a world, apart from what collides.
+"""Ray tracing of the visible shapes of a world, apart from those that collide.
 
 A tracer knows no physics. It is told where the links are and follows rays to the nearest
 visual, on the processor, with no graphics card and no screen.
@@ -19,7 +19,7 @@ from gazelle.description import Pose, Visual, World
 
 @dataclass(frozen=True, slots=True)
 class RayHits:
-    """What rays met.
+    """Hits of rays.
 
     Attributes:
         distance: [m], shape (rays,); infinite for nothing.

@@ -184,7 +184,7 @@ def _exchanged(closure: Closure, carrying: dict[str, tuple[str, Joint]]) -> Clos
 
 
 def lost_in_loop(joint: Joint) -> tuple[str, ...]:
-    """What of a joint is rather kept in the tree, in words; empty for nothing."""
+    """Describe the properties of a joint that only the tree keeps; empty for none."""
     if joint.type in _ONLY_IN_TREES:
         return (f"type '{joint.type}'",)
     if joint.type == "screw":  # a link of its own does all that it does

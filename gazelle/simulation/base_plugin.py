@@ -33,7 +33,7 @@ class BasePlugin:
 
     @property
     def active(self) -> bool:
-        """True if it needs its updates now; one that only publishes needs them when it has subscribers."""
+        """True if it needs its updates now; without subscribers, one that only publishes does not."""
         return True
 
     def on_update(self, time: float) -> None:

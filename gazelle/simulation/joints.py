@@ -141,7 +141,7 @@ class JointHandle:
 
     @between_steps
     def wrench(self, worlds: Worlds | None = None) -> Wrench:
-        """Return the wrench of the child on the parent, about the joint's origin, in the world frame."""
+        """Return the wrench of child on parent, about the joint's origin, in the world frame."""
         return self._row.wrench(self._some(worlds))
 
     @between_steps

@@ -255,7 +255,7 @@ class PhysicsProperties:
 
     @property
     def auto_disable(self) -> bool | None:
-        """Whether free bodies at rest go to sleep; None: where there are many."""
+        """True if free bodies at rest go to sleep; None: where there are many."""
         return self.profile.auto_disable
 
     @auto_disable.setter
@@ -264,7 +264,7 @@ class PhysicsProperties:
 
     @property
     def speculative_contacts(self) -> bool | None:
-        """Whether contacts of fast bodies are predicted; None: where a body is small enough to need it."""
+        """True if contacts of fast bodies are predicted; None: where a body needs it."""
         return self.profile.speculative_contacts
 
     @speculative_contacts.setter

@@ -40,7 +40,7 @@ class RunningState(Protocol):
 
     @property
     def engine(self) -> Engine:
-        """What moves the world."""
+        """Engine that moves the world."""
 
     @property
     def loads(self) -> Loads:
@@ -48,7 +48,7 @@ class RunningState(Protocol):
 
 
 class StepMaker(Protocol):
-    """What makes the steps of a simulation; see ``StepLoop``.
+    """Protocol of what makes the steps of a simulation; see ``StepLoop``.
 
     Attributes:
         followers: Called after every step, before sensors measure.

@@ -27,7 +27,7 @@ class SceneRenderer:
         return range_image(self._placed(simulation, world), view)
 
     def _placed(self, simulation: RunningState, world: int) -> Tracer:
-        """What follows rays through one world as it is now."""
+        """Return a tracer of one world in its present state."""
         engine = simulation.engine
         if self._tracer is None or self._models is not engine.world.models:
             self._models, self._tracer = engine.world.models, make_tracer(engine.world)

@@ -24,7 +24,7 @@ class GroupedUnit(Protocol):
 
     @property
     def heard(self) -> bool:
-        """Whether anybody subscribed."""
+        """True if there are subscribers."""
 
     @property
     def period(self) -> float:

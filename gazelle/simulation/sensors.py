@@ -23,7 +23,7 @@ _NO_WORLDS = np.zeros(0, np.intp)
 
 
 class SampledSensor:
-    """What measures at its own rate; with its robot it is a ``SensorUnit``.
+    """Sensor that measures at its own rate; with its robot it is a ``SensorUnit``.
 
     It sleeps until somebody reads or subscribes; then it measures at its ``update_rate``.
 
@@ -56,7 +56,7 @@ class SampledSensor:
 
     @property
     def awake(self) -> bool:
-        """Whether it measures at its rate."""
+        """True if it measures at its rate."""
         return self._awake or bool(self._listeners)
 
     @between_steps
@@ -206,7 +206,7 @@ class SampledSensor:
 
     @property
     def heard(self) -> bool:
-        """Whether anybody subscribed."""
+        """True if there are subscribers."""
         return bool(self._listeners)
 
     def join(self, group: SensorGroup, part: int) -> None:

@@ -1,4 +1,4 @@
-"""What is set from around a plugin instead of in its file.
+"""Values that are set from outside a plugin instead of in its file.
 
 A setting is found once, when its owner joins a graph: a parameter of ROS. A tuning can be
 changed at any time: what ROS calls dynamic_reconfigure. Both hold in all worlds, and a reset
@@ -116,7 +116,7 @@ class Tuning(StatePart):
     @property
     @between_steps
     def values(self) -> dict[str, Any]:
-        """What holds now."""
+        """Current values."""
         return dict(self._values())
 
     @between_steps

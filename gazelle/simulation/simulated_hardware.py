@@ -36,7 +36,7 @@ class CommandedJoint:
 
 @dataclass(frozen=True, slots=True)
 class HardwareSetup:
-    """What the robot's side of control is made of.
+    """Setup of the robot's side of control.
 
     Attributes:
         namespace: Of the robot.
@@ -67,7 +67,7 @@ class SimulatedHardware(RobotHardware):
 
     @property
     def idle(self) -> bool:
-        """Whether nothing is to be done while no controller runs."""
+        """True if there is nothing to do while no controller runs."""
         return False
 
     @property
@@ -84,4 +84,4 @@ class SimulatedHardware(RobotHardware):
         self.read(time, 0.0)
 
     def stop_emergency(self, stopped: Bools) -> None:
-        """Whether the emergency stop is pressed now, shape (nworld,); told before every step."""
+        """Set whether the emergency stop is pressed, shape (nworld,); called before every step."""

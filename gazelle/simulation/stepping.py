@@ -17,7 +17,7 @@ from gazelle.simulation.sensors import SampledSensor
 
 
 class StepPlan:
-    """Who is asked and updated between steps, until somebody subscribes or models come or go.
+    """Update order between steps; rebuilt when subscriptions or models change.
 
     Args:
         plugins: All, in the order they were loaded.

@@ -1,4 +1,4 @@
-"""What touches what, and how hard: the contacts of all worlds, and whose they are."""
+"""Contacts of all worlds, their forces, and the collisions they belong to."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class _Layer:
 
 
 class _GeomList:
-    """What MuJoCo's geoms stand for.
+    """Collisions that MuJoCo's geoms stand for.
 
     Attributes:
         names: Scoped names of their collisions.
@@ -176,7 +176,7 @@ class ContactAccess:
 
 
 def _touches_of(layer: _Layer, geoms: NDArray[np.int32]) -> tuple[Indices, Indices, Indices]:
-    """Which sets contacts are of, which contacts they are, and which of the two geoms is the set's.
+    """Return the sets that contacts are of, their indices, and which of the two geoms is the set's.
 
     A contact between two of one set is listed once, for the one that is named first; one between
     two sets for both.

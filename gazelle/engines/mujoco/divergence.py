@@ -1,4 +1,4 @@
-"""Who broke a world: the first thing to look at, from its last good state."""
+"""Divergence report: the likely cause, from a world's last good state."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from gazelle.engines.mujoco.state import StateViews
 
 
 def suspect(layout: MujocoLayout, views: StateViews, states: Floats, before: Floats) -> str:
-    """What of a world was not finite, or else moved fastest, before it broke down.
+    """Describe what of a world was not finite, or else moved fastest, before it diverged.
 
     Args:
         layout: Names of what runs.

@@ -43,7 +43,7 @@ class EffortLimits:
         return effort if largest is None else np.clip(effort, -largest, largest)
 
     def govern(self, state: StateViews) -> bool:
-        """Whether an effort acts in some world on a joint with a velocity limit."""
+        """Return whether an effort acts in some world on a joint with a velocity limit."""
         return bool(self.dofs.size) and bool(np.count_nonzero(state.qfrc_applied[:, self.dofs]))
 
     @contextmanager

@@ -1,4 +1,4 @@
-"""What joints carry, and what touches what: forces, measured without moving anything.
+"""Reactions of joints and contacts: forces, measured without moving anything.
 
 MuJoCo has both only after the constraint forces of a state are known. They are computed
 when asked for, so that a step costs nothing more.
@@ -40,7 +40,7 @@ class JointReactions:
         self._probed: tuple[Batch, mujoco.MjModel, mujoco.MjData] | None = None
 
     def joint_wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
-        """What the child of a joint exerts on the parent; see the protocol."""
+        """Return the wrench of a joint's child on its parent; see the protocol."""
         layout = self._run.now()
         if joint in layout.loops:
             return self._loop_wrench(layout.loops[joint], worlds)
@@ -120,7 +120,7 @@ class JointReactions:
         return self._tied(slot, pulls, chosen)
 
     def _tied(self, slot: LoopSlot, pulls: Floats, worlds: Worlds) -> Wrench:
-        """What the child exerts by the pulls of its constraints, shape (n, constraints, 6)."""
+        """Return the child's wrench from its constraints' forces, shape (n, constraints, 6)."""
         self._run.refresh()
         given, model = self._run.of_worlds("eq_data"), self._run.batch.model
         here, turn = self._frame(slot.body, worlds)
@@ -139,7 +139,7 @@ class JointReactions:
         return Wrench(force, torque)
 
     def _frame(self, body: int, worlds: Worlds) -> tuple[Floats, Floats]:
-        """Where a body of MuJoCo's is, and how it is turned (x, y, z, w), as ``_refresh`` left it."""
+        """Return a body's position and orientation (x, y, z, w) as ``_refresh`` left them."""
         return self._run.batch.xpos[worlds, body], xyzw_from_wxyz(
             self._run.batch.xquat[worlds, body]
         )

@@ -1,4 +1,4 @@
-"""Where in MuJoCo's arrays each named thing lives."""
+"""Indices of each named thing in MuJoCo's arrays."""
 
 from __future__ import annotations
 
@@ -163,7 +163,7 @@ class MujocoLayout:
         return look_up("model", name, self.models)
 
     def motor(self, joint: str) -> MotorSlot:
-        """Where a joint's motor is.
+        """Return the slot of a joint's motor.
 
         Raises:
             EngineError: The joint has no motor.
@@ -172,7 +172,7 @@ class MujocoLayout:
 
 
 def look_up(kind: str, name: str, known: Mapping[str, T]) -> T:
-    """What a name stands for.
+    """Look up a name.
 
     Raises:
         EngineError: There is none of that name.

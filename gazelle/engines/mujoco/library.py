@@ -1,4 +1,4 @@
-"""What MuJoCo does to the process that it runs in, and is told not to."""
+"""Side effects of MuJoCo on its process, and their suppression."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def settle() -> None:
 
 @functools.cache
 def address_of(name: str) -> int:
-    """Where a function of MuJoCo's C library is, for compiled code that calls it."""
+    """Return the address of a function of MuJoCo's C library, for compiled code that calls it."""
     library = ctypes.CDLL(sys.modules[mujoco.set_mjcb_time.__module__].__file__)
     return ctypes.cast(getattr(library, name), ctypes.c_void_p).value or 0
 

@@ -49,7 +49,7 @@ class _Target:
         return self.layout.link(link).body
 
     def is_held(self, link: str) -> bool:
-        """Whether a link moves only when it is placed."""
+        """Return whether a link moves only when it is placed."""
         slot = self.layout.link(link)
         return slot.body == 0 or slot.mocap is not None
 
@@ -277,7 +277,7 @@ class ParameterStore:
 
     @property
     def values(self) -> Mapping[Key, Floats]:
-        """What was set, by kind and name, shape (nworld, width)."""
+        """Parameters that were set, by kind and name, shape (nworld, width)."""
         return self._values
 
     def read(self, batch: Batch, layout: MujocoLayout, kind: str, name: str) -> Floats:
@@ -313,7 +313,7 @@ class ParameterStore:
             self._derive(batch, layout)
 
     def _derive(self, batch: Batch, layout: MujocoLayout) -> None:
-        """What follows from masses and inertias: springs and slips stay as they are."""
+        """Derive terms that depend on masses and inertias: springs and slips keep their values."""
         batch.set_const()
         stiffen_worlds(batch)
         retune(batch, layout.springs)

@@ -195,7 +195,7 @@ class Overlaps:
 
     @property
     def size(self) -> int:
-        """How many numbers ``saved`` has for a world while something overlaps."""
+        """Number of entries in ``saved`` of a world while something overlaps."""
         return 2 * len(self._rates)
 
     def saved(self) -> Floats:
@@ -262,7 +262,7 @@ class Overlaps:
 
 
 def _shown(margins: Floats, usual: float, other: float) -> Floats:
-    """What MuJoCo is told, which adds the margin of the ``other`` geom; ``usual`` of the rest."""
+    """Return the margins for MuJoCo, which adds that of the ``other`` geom; ``usual`` elsewhere."""
     return np.where(margins < 0.0, margins - other, usual)
 
 
@@ -306,7 +306,7 @@ class Calming:
         np.maximum.at(self._most, self._place[self._place >= 0], speed[self._place >= 0])
 
     def concerns(self, marked: NDArray[np.bool_]) -> bool:
-        """Whether any loose body is let out."""
+        """Return whether any free body is under penetration recovery."""
         return bool((marked.any(axis=0) & (self._place >= 0)).any())
 
     def before(self, state: StateViews) -> tuple[Floats, Floats]:

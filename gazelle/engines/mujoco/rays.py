@@ -34,7 +34,7 @@ _MOST_PASSED = 8
 def nearest(
     run: RunningWorlds, start: Floats, along: Floats, worlds: Worlds | None, excluded: int = 0
 ) -> tuple[Hits, NDArray[np.int32]]:
-    """What rays meet first, and which geom it is (-1 for nothing).
+    """Return the first hits of rays, and the geoms hit (-1 for nothing).
 
     Args:
         run: Worlds that run.
@@ -66,7 +66,7 @@ def beside(run: RunningWorlds) -> Floats:
 def behind(
     run: RunningWorlds, start: Floats, along: Floats, worlds: Worlds | None, own: Sequence[int]
 ) -> Hits:
-    """What rays meet first that is none of some geoms of the world's body.
+    """Return the first hits of rays, except on some geoms of the world's body.
 
     MuJoCo passes through whole bodies only. Rays that meet one of these go on behind it.
     """

@@ -113,7 +113,7 @@ class ForcedSteps:
             yield
 
     def change_in_step(self, motion: Callable[[], Motion], worlds: Worlds | None) -> Motion:
-        """How a motion changes in the next physics step of some worlds; nothing moves."""
+        """Return the change of a motion in the next physics step of some worlds; nothing moves."""
         before = motion()
         state, warnings = self._run.batch.state.copy(), self._run.batch.warning.copy()
         with self.forced():
@@ -156,7 +156,7 @@ _PLUGINS = ("WindPlugin", "wind-effects")
 
 
 def wind_strength(world: World) -> float:
-    """How hard the wind of a world pushes [1/s]."""
+    """Return the strength of the wind of a world [1/s]."""
     for plugin in world.plugins:
         if any(word in plugin.filename for word in _PLUGINS):
             return plugin.parameters.get("force_approximation_scaling_factor", 1.0)

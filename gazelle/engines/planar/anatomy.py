@@ -42,7 +42,7 @@ class Anatomy:
 
     @property
     def leaning(self) -> bool:
-        """Whether its frame does not stand upright."""
+        """True if its frame does not stand upright."""
         return abs(self.tilt.quaternion[3]) < 1.0 - 1e-15
 
 

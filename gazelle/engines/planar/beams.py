@@ -175,14 +175,14 @@ class Beams:
         )
 
     def hidden(self, lo: int, hi: int, inverse: float) -> bool:
-        """Whether beams lo to hi all meet something nearer than one over ``inverse``."""
+        """Return whether beams lo to hi all meet something nearer than one over ``inverse``."""
         for k in range(lo, hi):  # noqa: SIM110  # kernels know no generators
             if self.best[k] < inverse:
                 return False
         return True
 
     def too_near(self) -> bool:
-        """Whether a beam met something nearer than where beams begin."""
+        """Return whether a beam met something nearer than where beams begin."""
         most = 0.0
         for k in range(self.count):
             most = max(most, self.best[k])
@@ -190,7 +190,7 @@ class Beams:
         return nearer
 
     def farthest(self) -> float:
-        """How far the beam is that has got farthest [m]."""
+        """Return the length of the longest beam [m]."""
         least = INF
         for k in range(self.count):
             least = min(least, self.best[k])

@@ -54,7 +54,7 @@ class RollingBase:
 
 @dataclass(frozen=True, slots=True)
 class PlanarLayout:
-    """Where everything is.
+    """Indices of models, bodies and joints.
 
     Attributes:
         models: By name.

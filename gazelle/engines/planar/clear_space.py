@@ -1,5 +1,5 @@
 # cython: infer_types=True, annotation_typing=False
-"""Where there is nothing static: a grid that says how far beams can go on without a look.
+"""Clear space without statics: a grid of distances that beams can skip.
 
 Statics have a grid of their own for this, the finer the more of them there are; where there is a
 bitmap, its cells are that grid's. For each of four directions ``clear`` says how large a square
@@ -35,7 +35,7 @@ class ClearSpace:
         self.fine, self.start, self.items, self.clear = fine, start, items, clear
 
     def is_clear(self, height: float) -> bool:
-        """Whether what is solid is so at a height; if not, beams must not go through it."""
+        """Return whether solid cells are solid at this height; if not, beams must not skip them."""
         if self.fine[SOLID_NAME] == 0.0:
             return True
         inside: bool = height >= self.fine[SOLID_LOW] and height <= self.fine[SOLID_HIGH]

@@ -1,4 +1,4 @@
-"""Where there is nothing static, so that beams can go on without a look."""
+"""Construction of the grid of clear space that beams can skip."""
 
 from __future__ import annotations
 

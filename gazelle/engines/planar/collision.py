@@ -1,7 +1,7 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
 # ruff: noqa: FBT001  # kernels take their arguments in order
-"""Who is in whose way: convex pieces against static primitives and against each other.
+"""Overlap tests: convex pieces against static primitives and against each other.
 
 A move that would make a body overlap something is not made, position and heading both. It is
 decided as if bodies moved one after another in the order of their indices, so that they never
@@ -58,7 +58,7 @@ STEPS = cython.declare(cython.double, 4.0)  # for so many steps at least, else i
 
 
 def reaches(x: float, y: float, x0: float, y0: float, x1: float, y1: float, radius: float) -> bool:
-    """Whether a disc meets a segment."""
+    """Return whether a disc meets a segment."""
     ex, ey = x1 - x0, y1 - y0
     square = ex * ex + ey * ey
     t = 0.0
@@ -69,7 +69,7 @@ def reaches(x: float, y: float, x0: float, y0: float, x1: float, y1: float, radi
 
 
 def separates(w: Bodies, i: int, j: int, x0: float, y0: float, x1: float, y1: float) -> bool:
-    """Whether both points are on the right of the edge from corner i to corner j, outside."""
+    """Return whether both points are on the right of the edge from corner i to corner j, outside."""
     ax, ay = w.corners[i, 0], w.corners[i, 1]
     ex, ey = w.corners[j, 0] - ax, w.corners[j, 1] - ay
     most = TOUCH * sqrt(ex * ex + ey * ey)
@@ -78,7 +78,7 @@ def separates(w: Bodies, i: int, j: int, x0: float, y0: float, x1: float, y1: fl
 
 
 def crosses(w: Bodies, first: int, count: int, x0: float, y0: float, x1: float, y1: float) -> bool:
-    """Whether a segment has a part inside a convex polygon."""
+    """Return whether a segment has a part inside a convex polygon."""
     for i in range(first, first + count):
         if separates(w, i, i + 1 if i + 1 < first + count else first, x0, y0, x1, y1):
             return False
@@ -92,7 +92,7 @@ def crosses(w: Bodies, first: int, count: int, x0: float, y0: float, x1: float, 
 
 
 def near_polygon(w: Bodies, first: int, count: int, x: float, y: float, radius: float) -> bool:
-    """Whether a disc meets a convex polygon."""
+    """Return whether a disc meets a convex polygon."""
     inside = True
     for i in range(first, first + count):
         j = i + 1 if i + 1 < first + count else first
@@ -104,7 +104,7 @@ def near_polygon(w: Bodies, first: int, count: int, x: float, y: float, radius: 
 
 
 def piece_meets(w: Bodies, p: int, s: int, x0: float, y0: float, x1: float, y1: float) -> bool:
-    """Whether a piece meets a static primitive, given in the frame of the piece's body."""
+    """Return whether a piece meets a static primitive, given in the frame of the piece's body."""
     cx, cy, bound = w.pieces[p, CENTRE_X], w.pieces[p, CENTRE_Y], w.pieces[p, BOUND]
     first = cython.cast(cython.Py_ssize_t, w.pieces[p, FIRST])
     count = cython.cast(cython.Py_ssize_t, w.pieces[p, COUNT])
@@ -119,7 +119,7 @@ def piece_meets(w: Bodies, p: int, s: int, x0: float, y0: float, x1: float, y1: 
 
 
 def static_meets(w: Bodies, b: int, k: int, s: int) -> bool:
-    """Whether body b, of kind k, at its goal meets a static primitive."""
+    """Return whether body b, of kind k, at its goal meets a static primitive."""
     kind = cython.cast(cython.int, w.statics[s, KIND])
     if (kind & GHOST) != 0:
         return False
@@ -148,7 +148,7 @@ def static_meets(w: Bodies, b: int, k: int, s: int) -> bool:
 
 
 def any_near(w: Bodies, x: float, y: float, radius: float) -> bool:
-    """Whether any of few static primitives is within a radius of a point."""
+    """Return whether any of few static primitives is within a radius of a point."""
     near = 0
     for i in range(w.lanes.shape[1]):
         ax, ay = w.lanes[X0, i] - x, w.lanes[Y0, i] - y
@@ -161,7 +161,7 @@ def any_near(w: Bodies, x: float, y: float, radius: float) -> bool:
 
 
 def near_static(w: Bodies, s: int, x: float, y: float, radius: float) -> bool:
-    """Whether a disc, at any height, meets a static primitive."""
+    """Return whether a disc, at any height, meets a static primitive."""
     kind = cython.cast(cython.int, w.statics[s, KIND])
     x0, y0, x1, y1 = w.statics[s, X0], w.statics[s, Y0], w.statics[s, X1], w.statics[s, Y1]
     if (kind & CIRCLE) != 0:
@@ -170,7 +170,7 @@ def near_static(w: Bodies, s: int, x: float, y: float, radius: float) -> bool:
 
 
 def has_room(w: Bodies, b: int, radius: float) -> bool:
-    """Whether there is so much room around a body's goal that nothing static can be met.
+    """Return whether there is enough free space around a body's goal to meet nothing static.
 
     A disc without statics, somewhat larger than the body, is remembered, and as long as the body is
     within it nothing need be looked for. It is looked for where a body does not leave it at once.
@@ -197,7 +197,7 @@ def has_room(w: Bodies, b: int, radius: float) -> bool:
 
 
 def statics_meet(w: Bodies, b: int, k: int) -> bool:
-    """Whether body b, of kind k, at its goal meets anything static."""
+    """Return whether body b, of kind k, at its goal meets anything static."""
     x, y, r = w.goal[b, X], w.goal[b, Y], w.kinds[k, RADIUS]
     if has_room(w, b, r):
         return False
@@ -219,7 +219,7 @@ def outside(
     w: Bodies, first: int, count: int, cos: float, sin: float, x: float, y: float,
     start: int, number: int,
 ) -> bool:  # fmt: skip
-    """Whether an edge of a polygon separates it from another one.
+    """Return whether an edge of a polygon separates it from another one.
 
     The other's frame is at (x, y, cos, sin) in the frame of the first.
     """
@@ -241,7 +241,7 @@ def outside(
 
 
 def pieces_meet(w: Bodies, p: int, q: int, x: float, y: float, cos: float, sin: float) -> bool:
-    """Whether two pieces overlap; the frame of q's body is at (x, y, cos, sin) in that of p's."""
+    """Return whether two pieces overlap; the frame of q's body is at (x, y, cos, sin) in that of p's."""
     qx = x + cos * w.pieces[q, CENTRE_X] - sin * w.pieces[q, CENTRE_Y]
     qy = y + sin * w.pieces[q, CENTRE_X] + cos * w.pieces[q, CENTRE_Y]
     px, py = w.pieces[p, CENTRE_X], w.pieces[p, CENTRE_Y]
@@ -267,7 +267,7 @@ def pieces_meet(w: Bodies, p: int, q: int, x: float, y: float, cos: float, sin: 
 
 
 def bodies_meet(w: Bodies, a: int, ka: int, b: int, kb: int, gone: bool) -> bool:
-    """Whether body a at its goal overlaps body b where it is, or at its goal if it has ``gone``."""
+    """Return whether body a at its goal overlaps body b where it is, or at its goal if ``gone``."""
     at_x = w.goal[b, X] if gone else w.rows[b, X]
     at_y = w.goal[b, Y] if gone else w.rows[b, Y]
     ox, oy = at_x - w.goal[a, X], at_y - w.goal[a, Y]
@@ -295,7 +295,7 @@ def bodies_meet(w: Bodies, a: int, ka: int, b: int, kb: int, gone: bool) -> bool
 
 
 def obstructed(w: Bodies, a: int, reach: float) -> bool:
-    """Whether body a's way is barred by a body.
+    """Return whether a body blocks body a.
 
     For one that is MOVING: by any body, where it is or where it would be. For one that is
     UNDECIDED: by those with lower indices where they have got to, and by the others where
@@ -319,7 +319,7 @@ def obstructed(w: Bodies, a: int, reach: float) -> bool:
 
 
 def bars_in(w: Bodies, a: int, k: int, world: int, cell: int, ordered: bool) -> bool:
-    """Whether a body in a cell is in the way of body a; see ``obstructed``."""
+    """Return whether a body in a cell blocks body a; see ``obstructed``."""
     b = w.head[world, cell]
     while b >= 0:
         if b != a and bars(w, a, k, b, b - world * w.nbody, ordered):
@@ -329,7 +329,7 @@ def bars_in(w: Bodies, a: int, k: int, world: int, cell: int, ordered: bool) -> 
 
 
 def bars(w: Bodies, a: int, k: int, b: int, kb: int, ordered: bool) -> bool:
-    """Whether body b is in the way of body a; see ``obstructed``."""
+    """Return whether body b blocks body a; see ``obstructed``."""
     ahead = w.state[b] == MOVING or w.state[b] == UNDECIDED
     gone = w.state[b] == MOVING and b < a
     if (not ordered or not gone) and bodies_meet(w, a, k, b, kb, False):

@@ -1,4 +1,4 @@
-"""What the columns of the arrays mean that kernels work on.
+"""Columns of the arrays that kernels work on.
 
 A row of a primitive, of a body or of a piece is as large as a line of a processor's cache.
 """

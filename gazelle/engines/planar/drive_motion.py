@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
-"""Where bodies would go in a step: limits, drives and the way along an arc."""
+"""Motion of bodies in a step: limits, drives and the path along an arc."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ def propose(w: Bodies, first: int, last: int, dt: float) -> float:
 
 
 def fastest(w: Bodies, b: int, k: int, axis: int) -> float:
-    """How fast a body may go along an axis in this step."""
+    """Return the highest speed of a body along an axis in this step."""
     wanted = w.command[b, axis]
     if w.drives[k, DRIVE_KIND] != CAR:
         wanted = bounded(w, wanted, k, axis)

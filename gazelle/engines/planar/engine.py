@@ -123,12 +123,12 @@ class PlanarEngine:
 
     @property
     def fleet(self) -> Fleet:
-        """What moves the bodies; it is replaced when models come or go."""
+        """Fleet that moves the bodies; it is replaced when models come or go."""
         return self._run.fleet
 
     @property
     def layout(self) -> PlanarLayout:
-        """Where models, joints and links are among the bodies; to be read."""
+        """Indices of models, joints and links among the bodies; read-only."""
         return self._run.layout
 
     @property

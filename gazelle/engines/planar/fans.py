@@ -72,7 +72,7 @@ class Fan:
 
 @dataclass(frozen=True, slots=True)
 class Mount:
-    """Where a sensor is on a body.
+    """Mount of a sensor on a body.
 
     Attributes:
         body: Index of the body.
@@ -160,7 +160,7 @@ class Scanner:
         self._native = self._native_of(self._way())
 
     def _way(self) -> int:
-        """How to scan fastest here."""
+        """Return the fastest way of scanning here."""
         scene = self.fleet.scene
         if scene.cells > 1 and self.fan.count <= _FEW_BEAMS:
             return SINGLY
@@ -195,7 +195,7 @@ class Scanner:
 
     @cached_property
     def mounts(self) -> list[Mount]:
-        """Where the fans are, in one world."""
+        """Mounts of the fans, in one world."""
         carried = zip(self._carriers.tolist(), self._mounts.tolist(), strict=True)
         return [Mount(body, x, y, math.atan2(sin, cos), z) for body, (x, y, cos, sin, z) in carried]
 
@@ -227,7 +227,7 @@ class Scanner:
 
     @property
     def system(self) -> System:
-        """What scans everywhere; its time counts scans, on which noise depends."""
+        """System that scans everywhere; its time counts scans, on which noise depends."""
         return self._native
 
     # -- what was met ------------------------------------------------------------------

@@ -33,7 +33,7 @@ _SHARE = 64  # bodies that are worth a thread
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """What moves a body.
+    """Drive of a body: its kind and limits.
 
     Attributes:
         kind: ``diff`` goes forward and turns, ``omni`` also goes sideways, ``car`` steers: its
@@ -205,7 +205,7 @@ class Fleet:
 
     @property
     def sweep(self) -> bool:
-        """Whether to look for what is in the way within a step too; settable."""
+        """True if collisions are also sought within a step; settable."""
         return bool(self.bodies.sweep)
 
     @sweep.setter
@@ -254,7 +254,7 @@ class Fleet:
 
     @property
     def stalled(self) -> NDArray[np.bool_]:
-        """Whether the last move of a body was not made, shape (nworld, nbody)."""
+        """True where the last move of a body was not made, shape (nworld, nbody)."""
         return self._stalled.reshape(self.nworld, self.nbody)
 
     @property
@@ -353,7 +353,7 @@ class Fleet:
         self.changes += 1
 
     def systems(self) -> list[System]:
-        """What makes a step: to be updated in this order.
+        """Return the systems of a step, to be updated in this order.
 
         Large worlds are shared among threads, each of many worlds is stepped by one.
         """
@@ -363,12 +363,12 @@ class Fleet:
 
     @property
     def threads(self) -> int:
-        """How many threads are worth it; 0 for all."""
+        """Number of threads that pay off; 0 for all."""
         return 1 if self.alone else 0
 
     @property
     def alone(self) -> bool:
-        """Whether one thread does all of a step."""
+        """True if one thread does all of a step."""
         return self.pool.size == 1 or self.nworld * self.nbody < 2 * _SHARE
 
     def close(self) -> None:

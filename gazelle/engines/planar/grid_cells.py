@@ -37,7 +37,7 @@ def cell_of(grid: Floats, x: float, y: float) -> int:
 def stretch(
     low: float, high: float, y0: float, y1: float, x0: float, x1: float
 ) -> tuple[float, float]:
-    """Where a segment is between two heights: its least and greatest x; (inf, -inf) if nowhere."""
+    """Return the least and greatest x of a segment between two heights; (inf, -inf) if none."""
     if (y0 < low and y1 < low) or (y0 > high and y1 > high):
         return INFINITE, -INFINITE
     t0, t1 = 0.0, 1.0

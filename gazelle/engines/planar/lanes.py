@@ -137,7 +137,7 @@ class Lanes:
         return min(max(u, 0.0), columns - 1.0), min(max(v, 0.0), rows - 1.0)
 
     def beyond(self, i: int, u: float, v: float, wide: float) -> float:
-        """How far lane i is when it leaves the square of cells around (u, v)."""
+        """Return how far lane i is when it leaves the square of cells around (u, v)."""
         to_u = u + wide if self.table[LANE_DU + i] > 0.0 else u + 1.0 - wide
         to_v = v + wide if self.table[LANE_DV + i] > 0.0 else v + 1.0 - wide
         edge = min(

@@ -18,7 +18,7 @@ from cython.cimports.gazelle.native.system import System
 
 
 def plan(w: Bodies, first: int, last: int, dt: float) -> float:
-    """Where the bodies first to last would go, if nothing static bars it; the longest way [m]."""
+    """Plan the moves of the bodies first to last where nothing static blocks; return the longest [m]."""
     longest = propose(w, first, last, dt)
     for b in range(first, last):
         if w.state[b] == MOVING and statics_meet(w, b, b % w.nbody):
@@ -143,7 +143,7 @@ def settle_world(w: Bodies, world: int) -> None:
 
 
 def reach_in(w: Bodies, world: int) -> float:
-    """How far from a body there can be another that it meets in this step [m]."""
+    """Return the greatest distance of another body that one can meet in this step [m]."""
     longest = 0.0
     for b in range(world * w.nbody, (world + 1) * w.nbody):
         longest = max(longest, w.way[b])

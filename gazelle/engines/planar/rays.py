@@ -68,7 +68,7 @@ class KeptCaster:
     along: Floats
 
     def holds(self, angles: Floats) -> bool:
-        """Whether the joints are where they were."""
+        """Return whether the joints have not moved."""
         return not len(self.columns) or np.array_equal(self.angles, angles[:, self.columns])
 
 
@@ -122,7 +122,7 @@ def fan_of(body: int, origins: Floats, directions: Floats, reach: float) -> RayF
 
 
 def caster_of(fleet: Fleet, rays: RayFan) -> Caster:
-    """What casts rays that move with a body, among what a fleet is."""
+    """Return a caster of rays that move with a body, among the bodies of a fleet."""
     named = Scanner(fleet, rays.fan, rays.mounts, named=True)
     signed = Scanner(fleet, rays.fan, rays.mounts, missing=math.inf, signed=True)
     count = rays.fan.count * len(rays.mounts)

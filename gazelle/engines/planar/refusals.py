@@ -1,4 +1,4 @@
-"""What a plane without forces cannot do: the part of ``Engine`` that needs them."""
+"""Operations that need forces, which the planar engine lacks; part of ``Engine``."""
 
 # ruff: noqa: ARG001  # whatever is asked for is refused
 

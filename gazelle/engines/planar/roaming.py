@@ -14,7 +14,7 @@ from gazelle.native.loop import SystemLoop
 
 @dataclass(frozen=True, slots=True)
 class Manner:
-    """How to roam.
+    """Parameters of roaming.
 
     Attributes:
         cruise: Speed ahead [m/s].

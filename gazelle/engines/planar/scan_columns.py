@@ -1,4 +1,4 @@
-"""What the columns of the tables mean that scans work on."""
+"""Columns of the tables that scans work on."""
 
 from __future__ import annotations
 

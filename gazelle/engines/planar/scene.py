@@ -1,4 +1,4 @@
-"""What a fleet moves in: static primitives and the grid over them."""
+"""Static scene of a fleet: primitives and the grid over them."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class StaticScene:
         return len(self.start) - 1
 
     def clearing(self, *, solid: bool) -> Clearing:
-        """Where beams can go on without a look; made when it is first asked for.
+        """Return the clear space that beams can skip; it is made on the first call.
 
         Args:
             solid: Whether a bitmap's cells may be solid, as they are for beams that begin where

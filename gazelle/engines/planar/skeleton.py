@@ -38,7 +38,7 @@ class Hinge:
 
     @property
     def is_sliding(self) -> bool:
-        """Whether it shifts instead of turning."""
+        """True if it slides instead of turning."""
         return self.joint.type == "prismatic"
 
 
@@ -82,7 +82,7 @@ class Skeleton:
     width: int
 
     def place(self, name: str, angles: Floats) -> Place:
-        """Where a link is in the model's frame: positions (n, 3), quaternions (n, 4).
+        """Return the pose of a link in the model's frame: positions (n, 3), quaternions (n, 4).
 
         Args:
             name: Scoped name of the link.
@@ -112,7 +112,7 @@ class Skeleton:
         return np.array(sorted(found), np.intp)
 
     def motion(self, name: str, angles: Floats, rates: Floats) -> Place:
-        """How a link moves in the model's frame: linear (n, 3) and angular (n, 3)."""
+        """Return the velocity of a link in the model's frame: linear (n, 3) and angular (n, 3)."""
         bone, count = self.bones[name], len(angles)
         linear, angular = np.zeros((count, 3)), np.zeros((count, 3))
         if bone.fixed:
@@ -182,7 +182,7 @@ def _hinge_of(body: TreeLink, column: int) -> Hinge | None:
 
 
 def _moved(hinge: Hinge, angles: Floats) -> Place:
-    """How far a hinge has moved its link, in the link's frame at zero."""
+    """Return the displacement of a hinge's link, in the link's frame at zero."""
     count, frame = len(angles), hinge.joint.pose
     moved = _placed(frame, count)
     for number, axis in enumerate(hinge.joint.axes):

@@ -13,7 +13,7 @@ from gazelle.engines.planar.scan_columns import ROOM
 
 
 def front_faces_of(fleet: Fleet) -> FrontFaces | None:
-    """What there is to see of a fleet and around it; None if it is too much, or in a grid.
+    """Return the faces of a fleet and its surroundings; None if they are too many, or in a grid.
 
     Each thread needs one of its own, as scans are made on it.
     """

@@ -33,7 +33,7 @@ Key = tuple[int, int, int]
 
 @dataclass(slots=True)
 class StageLayout:
-    """What models of Stage files are in a fleet.
+    """Models of Stage files in a fleet.
 
     Attributes:
         bodies: One a robot, then one a thing, then one a model that is only moved when told to.
@@ -94,7 +94,7 @@ def layout_of(
 
 
 def stage_model(model: Model) -> StageModel | None:
-    """What a Stage file says of a model, by the name and at the pose that it has now."""
+    """Return a model's Stage description, with the name and the pose that it has now."""
     stage = model.stage
     if stage is None:
         return None
@@ -143,7 +143,7 @@ class _View:
 
 @dataclass(slots=True)
 class _Shape:
-    """What robots of one macro have in common."""
+    """Common parts of robots of one macro."""
 
     parts: tuple[PlanarPart, ...]
     drive: Drive
@@ -228,7 +228,7 @@ class _Maker:
         return Ranger(whole, placed.model, sensors, tuple(places), placed.pose, direct)
 
     def shape(self, model: StageModel) -> _Shape:
-        """What is on a robot, in its frame."""
+        """Return the shape of a robot, in its frame."""
         own = list(replace(without_actuators(model), pose=StagePose()).walk())
         rangers = []
         for placed in own:
@@ -241,7 +241,7 @@ class _Maker:
         return _Shape(parts, _drive_of(model.position or StagePosition()), rangers, moved)
 
     def view(self, placed: PlacedStageModel, sensor: StageSensor) -> _View:
-        """Where a sensor is, and the scanner with its beams."""
+        """Return the pose of a sensor, and the scanner with its beams."""
         fan = _fan_of(sensor)
         which = self.fans.setdefault(fan, len(self.fans))
         if which == len(self.layout.fans):

@@ -57,7 +57,7 @@ class SystemSteps:
         self._fleet.changes += 1
 
     def _put_together(self, systems: Sequence[System]) -> tuple[SystemLoop, int]:
-        """What makes steps with these systems, and on how many threads."""
+        """Return the loop that makes steps with these systems, and its number of threads."""
         fleet, joints = self._fleet, self._joints()
         last = [Turning(fleet.bodies, joints)] if self._axes else []
         early = [each for each in systems if not each.late]

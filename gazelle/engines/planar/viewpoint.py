@@ -1,5 +1,5 @@
 # cython: infer_types=True, annotation_typing=False
-"""What may be met from where a sensor is: found row by row of cells, and drawn.
+"""Visible objects from a sensor's position: found row by row of cells, and drawn.
 
 Nothing is done a beam and cell, so the cost grows with what is in view, not with the number of
 beams times the way they go, nor with the number of bodies in the world.
@@ -28,7 +28,7 @@ CROWD = cython.declare(cython.int, 128)  # bodies that are sorted at once
 
 
 class Viewpoint:
-    """Where a sensor is now, and what a thread writes on while it scans with it.
+    """Pose of a sensor, and the memory that a thread uses while it scans.
 
     Args:
         bodies: What there is to see.
@@ -124,7 +124,7 @@ class Viewpoint:
         )
 
     def is_crowded(self, most: int) -> bool:
-        """Whether more than so many statics are listed in cells in view."""
+        """Return whether more than this many statics are listed in cells in view."""
         bottom, top = self.rows_of(0.0)
         listed = 0
         for r in range(bottom, top + 1):

@@ -13,7 +13,7 @@ from gazelle.simulation.stage.outlines import Outlines
 
 
 def find_bumps(around: Surroundings, robot: int, which: int, world: int) -> tuple[str | None, ...]:
-    """What each strip of a bumper of a robot touches: the whole name of a model, or None.
+    """Return what each strip of a bumper touches: the whole name of a model, or None.
 
     A strip touches what is nearer than a cell of Stage's grid and as high as anything of its
     robot, whether that is an obstacle or not.

@@ -20,7 +20,7 @@ from gazelle.simulation.stage.stage_bodies import StageBodies
 
 @dataclass(frozen=True, slots=True)
 class CameraPictures:
-    """What some cameras see.
+    """Images of some cameras.
 
     Attributes:
         color: Red, green, blue and 255, bytes, shape (..., height, width, 4), top row first.
@@ -90,7 +90,7 @@ class Cameras:
         self._placed = np.zeros(simulation.nworld, np.bool_)
 
     def picture(self, robot: int, which: int, world: int) -> CameraPictures:
-        """What one camera sees, shape (height, width, ...).
+        """Return the image of one camera, shape (height, width, ...).
 
         Raises:
             SimulationError: The robot has no camera of this number.
@@ -119,7 +119,7 @@ class Cameras:
                 self._seen[key] = CameraPictures(color, depth)
 
     def pictures(self, robots: list[int], which: int, worlds: Worlds) -> CameraPictures:
-        """What the cameras of a number see, shape (worlds, robots, height, width, ...).
+        """Return the images of the cameras of a number, shape (worlds, robots, height, width, ...).
 
         Raises:
             SimulationError: A robot has no camera of this number, or they differ in their lens.

@@ -152,7 +152,7 @@ class Wander(FleetController):
         self._mood[:] = state["mood"]
 
     def _law(self, ranges: Floats) -> Wandering:
-        """What chooses by what is seen; kept while that is written to the same place."""
+        """Return the law for these ranges; kept while they are written to the same place."""
         if self._made is None or self._made[0] is not ranges:
             law = Wandering(
                 self._simulation.fleet.command.reshape(-1, 3),

@@ -34,7 +34,7 @@ class Devices:
         self.actuators = actuators_of(simulation)
 
     def __bool__(self) -> bool:
-        """Whether there are any."""
+        """Return whether there are any."""
         return bool(self.grippers or self.actuators)
 
     def update(self, dt: float) -> None:

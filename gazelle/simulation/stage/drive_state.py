@@ -1,4 +1,4 @@
-"""How Stage's robots move, for whom it concerns: their odometry, and their poses before a step."""
+"""Motion state of Stage's robots: their odometry, and their poses before a step."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from gazelle.simulation.stage.steering import Steering
 
 
 class DriveState:
-    """What is updated with every step of some robots, in native code.
+    """State that is updated with every step of some robots, in native code.
 
     Args:
         robots: The first of the fleet's bodies.
@@ -50,7 +50,7 @@ class DriveState:
         self.remember()
 
     def watch(self) -> NDArray[np.bool_]:
-        """Whether robots were stalled since that was cleared, shape (nworld, nrobot)."""
+        """Return whether robots were stalled since this was last cleared, shape (nworld, nrobot)."""
         fleet = self._fleet
         if self._stalls is None:
             now = fleet.stalled.view(np.uint8).reshape(-1)

@@ -90,11 +90,11 @@ class Surroundings:
         return self._simulation.description.resolution
 
     def model(self, robot: int) -> StageModel:
-        """What the file says of a robot."""
+        """Return the description of a robot in the file."""
         return self._simulation.robots[robot].model
 
     def place(self, body: int, world: int) -> StagePose:
-        """Where a robot, or after all robots a thing, is."""
+        """Return the pose of a robot or, after all robots, of a thing."""
         fleet = self._simulation.fleet
         x, y, yaw = fleet.pose[world, body].tolist()
         return StagePose(x, y, float(fleet.heights[world, body]), yaw)
@@ -151,14 +151,14 @@ def models_of(simulation: StageBodies) -> list[StageModel]:
 
 
 def _strangers(simulation: StageBodies) -> int:
-    """How many bodies are of no Stage file."""
+    """Return the number of bodies that are of no Stage file."""
     riders = sum(len(robot.riders) for robot in simulation.robots)
     known = len(simulation.robots) + len(simulation.things) + len(simulation.placed) + riders
     return simulation.fleet.nbody - known
 
 
 def find_fiducials(around: Surroundings, robot: int, which: int, world: int) -> list[Fiducial]:
-    """What a fiducial finder of a robot sees, nearest first.
+    """Return the fiducials that a finder of a robot sees, nearest first.
 
     Raises:
         SimulationError: It has no such finder.
@@ -189,7 +189,7 @@ def find_fiducials(around: Surroundings, robot: int, which: int, world: int) -> 
 
 
 def find_blobs(around: Surroundings, robot: int, which: int, world: int) -> list[Blob]:
-    """What a blob finder of a robot sees, from left to right, whatever its height.
+    """Return the blobs that a finder of a robot sees, from left to right, whatever its height.
 
     Its columns are spread from edge to edge of its field of view, as in Stage.
 

@@ -1,4 +1,4 @@
-"""What drives robots of Stage files from one step to the next."""
+"""Controllers that drive robots of Stage files from one step to the next."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class FleetController(Protocol):
         """Act on the state between two steps: read scans, write commands."""
 
     def systems(self) -> list[System] | None:
-        """What ``update`` does in native code, step by step; None if it does more."""
+        """Return the native systems of ``update``, step by step; None if it does more."""
         return None
 
     def reset(self, worlds: Worlds | None = None) -> None:

@@ -108,7 +108,7 @@ class Gripper:
         )
 
     def beams(self, world: int = 0) -> tuple[bool, bool]:
-        """Whether something that can be gripped breaks the inner and the outer beam."""
+        """Return whether an object that can be gripped breaks the inner and the outer beam."""
         if self.carried[one_world(world, len(self.paddles))] != _NONE:
             return (True, True)
         length = self._device.paddle_size[0] * self._model.size.x
@@ -120,7 +120,7 @@ class Gripper:
         return (found[0], found[1])
 
     def update(self) -> None:
-        """What happens in a step of the simulation."""
+        """Advance by one step of the simulation."""
         step = _STEP * self._simulation.time_step / max(self._model.update_interval, 1e-9)
         if self._device.autosnatch:
             for world in range(len(self.paddles)):
@@ -206,7 +206,7 @@ class Gripper:
         return len(self._simulation.robots) + thing
 
     def _edge(self, world: int) -> float:
-        """How far the inner sides of the paddles are from the middle [m]."""
+        """Return the distance of the paddles' inner sides from the middle [m]."""
         width = self._model.size.y
         return float((1.0 - self.paddles[world]) * width * (0.5 - self._device.paddle_size[1]))
 
@@ -232,7 +232,7 @@ class Gripper:
 
 
 def _crosses(strip: Floats, there: Outlines, low: float, high: float) -> bool:
-    """Whether a line meets outlines that there are at some height, or ends inside of them."""
+    """Return whether a line meets outlines that exist at some height, or ends inside of them."""
     level = there.lines[(there.heights[:, 0] < high) & (there.heights[:, 1] > low)]
     if not len(level):
         return False

@@ -25,7 +25,7 @@ from gazelle.simulation.values import Odometry
 
 
 def sensor_models(fleet: StageFleet, model: Model) -> list[tuple[Sensor, SensorModel]]:
-    """What measures with the rangers and cameras of a model, and what its file says of each."""
+    """Return the models that measure with a model's rangers and cameras, and their descriptions."""
     robot = fleet.named.get(model.name)
     if robot is None:
         return []
@@ -78,7 +78,7 @@ def open_outputs(fleet: StageFleet, robot: Robot) -> None:
 
 
 def _odometry(fleet: StageFleet, name: str, frames: tuple[str, str]) -> Odometry:
-    """Where a robot believes it is."""
+    """Return the odometry of a robot."""
     nworld, robot = fleet.nworld, fleet.robot(name)
     pose, driven = fleet.odometry[:, robot.index], fleet.velocities[:, robot.index]
     position, linear, angular = (np.zeros((nworld, 3)) for _ in range(3))

@@ -1,4 +1,4 @@
-"""Where Stage's robots believe they are."""
+"""Odometry of Stage's robots."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class WheelOdometry:
         self._draw(None)
 
     def system(self, velocity: Floats, dt: float) -> Reckoning:
-        """What adds a step of ``dt`` at body velocities, shape (nworld, n, 3).
+        """Return the system that adds a step of ``dt`` at body velocities, shape (nworld, n, 3).
 
         Of the n the first are the robots; the array is contiguous.
         """

@@ -51,7 +51,7 @@ class Rangers:
         self._changes = -1
 
     def scan(self, scanner: int) -> Floats:
-        """What all sensors of a scanner measure now [m], shape (nworld, sensors, samples).
+        """Return the present ranges of all sensors of a scanner [m], shape (nworld, sensors, samples).
 
         Raises:
             SimulationError: There is no such scanner.
@@ -64,7 +64,7 @@ class Rangers:
         return self._seen[scanner]
 
     def system(self, scanner: int) -> tuple[System, Floats] | None:
-        """What scans in native code, and where it writes, a row a sensor; None if that is not all.
+        """Return the native scan system and its output, a row a sensor; None if Python takes part.
 
         Raises:
             SimulationError: There is no such scanner.

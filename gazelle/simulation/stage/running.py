@@ -1,4 +1,4 @@
-"""What lets the robots of Stage files act in a simulation's steps."""
+"""Integration of Stage's robots into a simulation's steps."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from gazelle.states import Restorable, restore_all, states_of
 
 
 class Steps(Protocol):
-    """What makes steps.
+    """Protocol of what makes steps.
 
     Attributes:
         followers: Called after every step, before sensors measure.

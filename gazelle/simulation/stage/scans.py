@@ -1,4 +1,4 @@
-"""What rangers measure: distances with noise, and how bright that is which they met."""
+"""Measurements of rangers: distances with noise, and intensities."""
 
 from __future__ import annotations
 
@@ -74,13 +74,13 @@ class RangerScanner:
         return np.clip(measured, 0.0, self.fan.reach, out=measured)
 
     def system(self) -> System | None:
-        """What scans in native code; None if that is not all."""
+        """Return the system that scans in native code; None if Python takes part."""
         noisy = any(self._noisy) or bool(self._noise.angle.any())
         return None if noisy else self._scanner.system
 
     @property
     def flat_ranges(self) -> Floats:
-        """Where it writes, a row a sensor."""
+        """Array it writes to, a row a sensor."""
         return self._scanner.flat_ranges
 
     def returns(self, sensor: int, world: int = 0) -> Floats:

@@ -1,4 +1,4 @@
-"""What robots of a Stage world see and feel beside their rangers, asked for one by one."""
+"""Devices of Stage's robots besides their rangers, read one by one."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ class Senses(StageBodies):
             self.__dict__.pop(name, None)
 
     def fiducials(self, name: str, finder: int = 0, world: int = 0) -> list[Fiducial]:
-        """What a fiducial finder of a robot sees now, nearest first.
+        """Return the fiducials that a finder of a robot sees now, nearest first.
 
         Raises:
             SimulationError: There is no such robot or finder.
@@ -83,7 +83,7 @@ class Senses(StageBodies):
         return find_fiducials(self._around, self.robot(name).index, finder, self._one(world))
 
     def blobs(self, name: str, finder: int = 0, world: int = 0) -> list[Blob]:
-        """What a blob finder of a robot sees now, from left to right.
+        """Return the blobs that a finder of a robot sees now, from left to right.
 
         Raises:
             SimulationError: There is no such robot or finder.
@@ -99,7 +99,7 @@ class Senses(StageBodies):
         return find_bumps(self._around, self.robot(name).index, bumper, self._one(world))
 
     def picture(self, name: str, camera: int = 0, world: int = 0) -> CameraPictures:
-        """What a camera of a robot sees now, drawn once a step: colours and depths.
+        """Return the present image of a robot's camera, drawn once a step: colours and depths.
 
         Args:
             name: Of the robot.
@@ -133,7 +133,7 @@ class Senses(StageBodies):
         camera: int = 0,
         worlds: Worlds | None = None,
     ) -> CameraPictures:
-        """What cameras of many robots and worlds see now, drawn by all threads.
+        """Return the present images of cameras of many robots and worlds, drawn by all threads.
 
         Args:
             names: Of the robots; all that have such a camera if None.

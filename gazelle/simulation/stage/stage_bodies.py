@@ -1,4 +1,4 @@
-"""What devices on robots may know of the simulation that they are part of."""
+"""Interface of the simulation for the devices on its robots."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class StageBodies(ABC):
     @property
     @abstractmethod
     def description(self) -> StageWorld:
-        """What the file says of the world."""
+        """Description of the world in the file."""
 
     @property
     @abstractmethod

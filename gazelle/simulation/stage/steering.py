@@ -1,4 +1,4 @@
-"""What the drives of Stage's robots come to as velocities of their bodies."""
+"""Velocities of bodies from the drives of Stage's robots."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Steering:
 
     @property
     def needed(self) -> bool:
-        """Whether there is any car."""
+        """True if there is any car."""
         return len(self._cars) > 0
 
     def velocities(self, driven: Floats) -> Floats:

@@ -1,4 +1,4 @@
-"""What plugins are told to do, and what they answer."""
+"""Commands to plugins, and their answers."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class LinkPair:
 
 @dataclass(frozen=True, slots=True)
 class JointPath:
-    """Where joints have to be, and when.
+    """Desired joint positions over time.
 
     Attributes:
         names: Plain joint names.
@@ -86,7 +86,7 @@ class PathRequest:
 
 @dataclass(frozen=True, slots=True)
 class ServiceOutcome:
-    """Whether something could be done.
+    """Outcome of a service call.
 
     Attributes:
         success: Whether.
@@ -104,14 +104,14 @@ class Trigger:
 
 @dataclass(frozen=True, slots=True)
 class EmergencyStop:
-    """Whether the emergency stop is pressed."""
+    """State of the emergency stop: pressed or not."""
 
     on: bool
 
 
 @dataclass(frozen=True, slots=True)
 class MotorPower:
-    """Whether motors shall have power."""
+    """Command to switch the power of motors."""
 
     on: bool
 
@@ -125,7 +125,7 @@ class Number:
 
 @dataclass(frozen=True, slots=True)
 class DriveCommand:
-    """What the two sides of a vessel shall do, in one world or in many.
+    """Commands to the two sides of a vessel, in one world or in many.
 
     Attributes:
         left: Of the full thrust, from -1 to 1, shape () or (n,).
@@ -138,7 +138,7 @@ class DriveCommand:
 
 @dataclass(frozen=True, slots=True)
 class Bias:
-    """What a sensor shall be wrong by from now on.
+    """Error that is added to a sensor from now on.
 
     Attributes:
         values: Three numbers, in the sensor's unit.
@@ -149,7 +149,7 @@ class Bias:
 
 @dataclass(frozen=True, slots=True)
 class GeoReference:
-    """Where on Earth the world's origin is to be.
+    """Position on Earth of the world's origin.
 
     Attributes:
         latitude: [deg].

@@ -1,4 +1,4 @@
-"""What plugins of cameras tell."""
+"""Values that camera plugins publish."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class CompressedImageValue:
 
 @dataclass(frozen=True, slots=True)
 class CameraInfoValue:
-    """What a camera's lens is like: the same in every world.
+    """Parameters of a camera's lens: the same in every world.
 
     Attributes:
         stamp: Simulated time [ns].
@@ -63,7 +63,7 @@ class CameraInfoValue:
 
 @dataclass(frozen=True, slots=True)
 class PixelPoints:
-    """What each pixel shows, as points in the optical frame: x right, y down, z forward.
+    """Points that pixels show, in the optical frame: x right, y down, z forward.
 
     Attributes:
         stamp: Simulated time [ns].

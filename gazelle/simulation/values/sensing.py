@@ -1,4 +1,4 @@
-"""What sensors of plugins tell."""
+"""Values that sensor plugins publish."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Flags:
 
 @dataclass(frozen=True, slots=True)
 class LaserPoints:
-    """Where the rays of a lidar ended, in its own frame, in every world.
+    """End points of a lidar's rays, in its own frame, in every world.
 
     Attributes:
         stamp: Simulated time [ns].
@@ -107,7 +107,7 @@ class UnsureImu:
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """Where a receiver is on Earth, in every world.
+    """Position of a receiver on Earth, in every world.
 
     Attributes:
         stamp: Simulated time [ns].
@@ -155,7 +155,7 @@ class PointValue(VectorValue):
 
 @dataclass(frozen=True, slots=True)
 class AltimeterValue:
-    """What a barometer makes of the air's pressure, in every world.
+    """Altitude from a barometer's air pressure, in every world.
 
     Attributes:
         stamp: Simulated time [ns].
@@ -172,7 +172,7 @@ class AltimeterValue:
 
 @dataclass(frozen=True, slots=True)
 class CliffValue:
-    """What a sensor that looks at the floor sees.
+    """Reading of a cliff sensor.
 
     Attributes:
         place: 0 left, 1 in the middle, 2 right.
@@ -187,7 +187,7 @@ class CliffValue:
 
 @dataclass(frozen=True, slots=True)
 class BumperValue:
-    """Whether a bumper is pressed.
+    """State of a bumper: pressed or not.
 
     Attributes:
         place: 0 left, 1 in the middle, 2 right.

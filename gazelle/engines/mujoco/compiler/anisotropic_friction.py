@@ -16,7 +16,7 @@ from gazelle.rotations import rotate
 
 
 def is_directional(collision: Collision) -> bool:
-    """Whether a surface resists more in one direction than in the other."""
+    """Return whether a surface has more friction in one direction than in the other."""
     return friction_of(collision) != second_friction_of(collision)
 
 

@@ -107,7 +107,7 @@ class Spring:
 
 @dataclass(frozen=True, slots=True)
 class Pairs:
-    """What the pairs of a world ask of it.
+    """Requirements of a world's contact pairs.
 
     Attributes:
         springs: To be tuned by ``tune_springs`` when the model is compiled.
@@ -163,7 +163,7 @@ def add_pairs(
 
 
 def ask_for_cone(solids: Iterable[ContactGeom]) -> bool:
-    """Whether some contact may have more friction than a pyramid bears."""
+    """Return whether some contact may have more friction than a pyramid bears."""
     frictions = [(friction_of(solid.collision), math.isfinite(solid.mass)) for solid in solids]
     return needs_cone(
         (mu for mu, moves in frictions if moves), (mu for mu, moves in frictions if not moves)
@@ -171,7 +171,7 @@ def ask_for_cone(solids: Iterable[ContactGeom]) -> bool:
 
 
 def may_slide(solids: Iterable[ContactGeom]) -> bool:
-    """Whether something that moves rubs."""
+    """Return whether any moving surface has friction."""
     return any(friction_of(each.collision) and math.isfinite(each.mass) for each in solids)
 
 

@@ -1,4 +1,4 @@
-"""What couples joints and closes loops, as MuJoCo equality constraints.
+"""Couplings of joints and closed loops, as MuJoCo equality constraints.
 
 Mimic joints, screws and gearboxes tie one coordinate to another; joints that close a loop
 hold two bodies together at points.

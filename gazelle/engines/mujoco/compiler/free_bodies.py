@@ -27,7 +27,7 @@ _MOST_PAIRS = 200_000
 
 
 def lets_sleep(world: World, kinematic: Collection[str] = ()) -> bool:
-    """Whether bodies at rest go to sleep: as the world says, else where many could.
+    """Return whether bodies at rest go to sleep: as the world says, else where many could.
 
     Args:
         world: The description.
@@ -41,7 +41,7 @@ def lets_sleep(world: World, kinematic: Collection[str] = ()) -> bool:
 
 
 def looks_ahead(world: World, time_step: float, kinematic: Collection[str] = ()) -> bool:
-    """Whether contacts are sought on the way of a step: as the world says, else if need be.
+    """Return whether contacts are predicted within a step: as the world says, else if need be.
 
     There is need when a loose body is so small that, at ``_FAST``, it moves in one step by
     more than half its thickness. Robots do not get that fast.
@@ -76,7 +76,7 @@ def look_no_farther(model: mujoco.MjModel, world: World) -> None:
 
 
 def has_loose(world: World, kinematic: Collection[str] = ()) -> bool:
-    """Whether there is something that may be pushed, stacked or gripped.
+    """Return whether there is something that may be pushed, stacked or gripped.
 
     Args:
         world: The description.

@@ -37,7 +37,7 @@ def tumbling(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> list[str
 
 
 def swings(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> bool:
-    """Whether there are joints, to whose swing Euler's method would add.
+    """Return whether there are joints, whose swing Euler's method would amplify.
 
     Args:
         world: The description.
@@ -74,7 +74,7 @@ def unbalanced_dofs(model: mujoco.MjModel) -> tuple[list[int], list[int]]:
 
 
 def _is_wheel(model: mujoco.MjModel, joint: int) -> bool:
-    """Whether a hinge carries nothing but a body of revolution about its axis."""
+    """Return whether a hinge carries nothing but a body of revolution about its axis."""
     body = int(model.jnt_bodyid[joint])
     # A tyre that slips weighs next to nothing, see ``wheel_slip``.
     carried = float(model.body_subtreemass[body] - model.body_mass[body])
@@ -95,7 +95,7 @@ def _is_wheel(model: mujoco.MjModel, joint: int) -> bool:
 
 
 def _is_round(body: TreeLink) -> bool:
-    """Whether all axes through a link's centre are alike."""
+    """Return whether all axes through a link's centre have equal inertia."""
     inertia = (body.link.inertial or Inertial()).inertia
     mixed = (inertia.ixy, inertia.ixz, inertia.iyz)
     return not any(mixed) and inertia.ixx == inertia.iyy == inertia.izz

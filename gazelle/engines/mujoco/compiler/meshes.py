@@ -42,7 +42,7 @@ _TINY = 2e-3
 
 
 def inertia_of(vertices: Any) -> mujoco.mjtMeshInertia:
-    """What it goes by: a mesh as thin as a sheet has no volume to go by."""
+    """Return the kind of inertia: a mesh as thin as a sheet has no volume to use."""
     spans = np.linalg.svd(vertices - vertices.mean(axis=0), compute_uv=False)
     flat = spans[-1] < _FLAT * spans[0] or np.ptp(vertices, axis=0).max() < _TINY
     return SHELL if flat else mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX

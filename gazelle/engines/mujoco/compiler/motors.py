@@ -57,7 +57,7 @@ class Motor:
 
 @dataclass(frozen=True, slots=True)
 class MotorSlot:
-    """Where a joint's motors are.
+    """Indices of a joint's motors.
 
     Attributes:
         targets: Columns of the wanted velocities in ``userdata``, one an axis, and MuJoCo's
@@ -157,7 +157,7 @@ def add_motors(spec: mujoco.MjSpec, motors: Iterable[Motor], time_step: float) -
 
 
 def motor_count(motors: Mapping[str, Motor]) -> int:
-    """How many axes have a motor."""
+    """Return the number of axes with a motor."""
     return sum(len(motor.max_effort) for motor in motors.values())
 
 
@@ -173,7 +173,7 @@ def stiffen_worlds(batch: Batch) -> None:
 
 
 def motor_slots(motors: Mapping[str, Motor]) -> dict[str, MotorSlot]:
-    """Where the motors of a model are, in the order that they were added in."""
+    """Return the slots of a model's motors, in the order that they were added in."""
     count = motor_count(motors)
     found: dict[str, MotorSlot] = {}
     start = 0

@@ -78,7 +78,7 @@ def torsional_friction_of(collision: Collision) -> float:
 
 
 def rigid_terms(time_step: float) -> dict[str, list[float]]:
-    """How a rigid contact corrects what is wrong, in MuJoCo's words."""
+    """Return MuJoCo's terms for the error correction of a rigid contact."""
     return {
         "solref": [_TIME_CONSTANT_STEPS * time_step, _DAMPING_RATIO],
         "solimp": list(_IMPEDANCE),
@@ -107,7 +107,7 @@ def friction_ranks(collisions: Iterable[Collision]) -> dict[float, int]:
 
 
 def needs_cone(moving: Iterable[float], resting: Iterable[float]) -> bool:
-    """Whether some contact has more friction than a pyramid bears.
+    """Return whether some contact has more friction than a pyramid bears.
 
     Args:
         moving: Coefficients of the surfaces that move.

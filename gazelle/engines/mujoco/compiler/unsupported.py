@@ -1,4 +1,4 @@
-"""What is not simulated of links as their files say: one warning for all links of a world."""
+"""Warnings for what is not simulated of links: one for all links of a world."""
 
 from __future__ import annotations
 

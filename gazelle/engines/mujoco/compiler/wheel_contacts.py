@@ -1,4 +1,4 @@
-"""Which shapes are the treads of wheels, and where their middles are."""
+"""Detection of wheels' treads, and their middles."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _turns_freely(body: TreeLink) -> bool:
 
 
 def middle_of(model: mujoco.MjModel, geom: int, joint: int) -> float | None:
-    """Where the middle of a tread is along its axle, from MuJoCo's centre of the geom [m].
+    """Return the position of a tread's middle along its axle, from MuJoCo's centre of the geom [m].
 
     Returns:
         None if it is not round about the joint's axis.

@@ -48,7 +48,7 @@ _MASS, _MOMENT = 1e-6, 1e-9
 
 @dataclass(frozen=True, slots=True)
 class TyreSlot:
-    """Where a tyre is in MuJoCo's arrays: first along the axle, then about it.
+    """Indices of a tyre in MuJoCo's arrays: first along the axle, then about it.
 
     Attributes:
         positions: Columns in ``qpos``.
@@ -109,7 +109,7 @@ def hold_tyres(spec: mujoco.MjSpec, links: Iterable[str], time_step: float) -> N
 
 
 def tyre_slot(model: mujoco.MjModel, link: str) -> TyreSlot | None:
-    """Where the tyre of a link is; None if it has none."""
+    """Return the slot of a link's tyre; None if it has none."""
     names = (_slide(link), _turn(link))
     joints = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name) for name in names]
     if min(joints) < 0:
@@ -276,7 +276,7 @@ def _slip_of(collision: Collision, body: TreeLink, pose: Pose) -> Slip | None:
 
 
 def _first_is_along(collision: Collision, body: TreeLink, pose: Pose) -> bool | None:
-    """Whether a wheel's first friction direction is its axle; None if it is oblique."""
+    """Return whether a wheel's first friction direction is its axle; None if it is oblique."""
     if body.joint is None:
         return None
     axle = np.array(body.joint.pose.rotate(body.joint.axes[0].xyz))

@@ -1,4 +1,4 @@
-"""What MuJoCo is told in the middle of a step, by compiled code that it calls.
+"""Laws that MuJoCo lacks, applied in the middle of a step by compiled code that it calls.
 
 These laws need more than MuJoCo's terms can say: motors that hold a velocity, bounces that reach
 e² of the height whatever part of a step the impact falls in, friction by directions that turn

@@ -1,4 +1,4 @@
-"""How gravity would move two surfaces that touch, if nothing held them."""
+"""Free acceleration of two touching surfaces under gravity."""
 
 # mypy: disallow-untyped-decorators=False
 
@@ -37,7 +37,7 @@ def fall(touch: cython.pointer[Touch], way: cython.int) -> cython.double:
 @cython.nogil
 @cython.exceptval(check=False)
 def never_moved(touch: cython.pointer[Touch]) -> cython.bint:
-    """Whether this is the first step of a free body, which then tells nothing of the last one."""
+    """Return whether this is a free body's first step, so that there is no acceleration of the last."""
     for side in range(2):
         body: cython.int = integers(word(touch.model + AT.model_bodyid))[touch.geoms[side]]
         first = _free_velocity(touch, body)

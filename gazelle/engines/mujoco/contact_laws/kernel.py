@@ -280,7 +280,7 @@ def _rotate(
 
 
 def address() -> int:
-    """Where ``apply`` is, for MuJoCo; 0 where Python runs it."""
+    """Return the address of ``apply``, for MuJoCo; 0 where Python runs it."""
     if cython.compiled:
         return int(cython.cast(cython.size_t, cython.cast(cython.p_void, apply)))
     return 0

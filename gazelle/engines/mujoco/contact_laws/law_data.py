@@ -1,4 +1,4 @@
-"""Which of the laws beyond MuJoCo's a model needs, written into the model."""
+"""Additional laws that a model needs, written into the model."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ _NAME = "gazelle_laws"
 
 @dataclass(frozen=True, slots=True)
 class Rub:
-    """How a geom's friction differs by direction.
+    """Friction of a geom that differs by direction.
 
     Attributes:
         along: The first direction in the frame of MuJoCo's body; None if the normal gives it.
@@ -78,17 +78,17 @@ class Extras:
 
     @property
     def any(self) -> bool:
-        """Whether there is need of any."""
+        """True if any is needed."""
         return self.touches or bool(self.tumbling) or self.swings or self.vital
 
     @property
     def touches(self) -> bool:
-        """Whether there are contacts that slide or that leave what they overlap."""
+        """True if there are contacts that slide or that leave an overlap."""
         return self.slides or bool(self.exits)
 
     @property
     def vital(self) -> bool:
-        """Whether there is need of one without which the world would move quite differently."""
+        """True if one is needed without which the world would move quite differently."""
         return bool(self.bounces or self.rubs or self.motors or self.hooks)
 
 

@@ -134,7 +134,7 @@ def _write(
 
 
 def address() -> int:
-    """Where ``plane_cylinder`` is, for MuJoCo; 0 where Python runs it."""
+    """Return the address of ``plane_cylinder``, for MuJoCo; 0 where Python runs it."""
     if cython.compiled:
         return int(cython.cast(cython.size_t, cython.cast(cython.p_void, plane_cylinder)))
     return 0

@@ -1,4 +1,4 @@
-"""What rolls need not be held as fast as what is gripped.
+"""Softer friction constraints for rolling contacts.
 
 Friction is stiff, so that what is held does not creep (``surfaces.hold_fast``). Two wheels on an
 axle that turn as their robot's do hold it aside at two points of one rigid body, though, and by
@@ -72,7 +72,7 @@ def _tell_the_island(touch: cython.pointer[Touch]) -> cython.void:
 @cython.nogil
 @cython.exceptval(check=False)
 def _rolling(touch: cython.pointer[Touch]) -> cython.double:
-    """How fast one surface turns on another, about axes in both [rad/s]."""
+    """Return the speed of one surface turning on another, about axes in both [rad/s]."""
     if min(touch.geoms[0], touch.geoms[1]) < 0:
         return 0.0
     bodies = integers(word(touch.model + AT.model_bodyid))

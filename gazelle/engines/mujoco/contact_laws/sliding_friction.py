@@ -157,7 +157,7 @@ def _begin_on_a_pyramid(touch: cython.pointer[Touch], mu: cython.double) -> cyth
 @cython.nogil
 @cython.exceptval(check=False)
 def _is_level(touch: cython.pointer[Touch]) -> cython.bint:
-    """Whether gravity acts along the normal of a contact alone."""
+    """Return whether gravity acts along the normal of a contact alone."""
     gravity = floats(touch.model + AT.model_gravity)
     along, square = 0.0, 0.0
     for axis in range(3):

@@ -72,7 +72,7 @@ def stand_in_the_middle(touch: cython.pointer[Touch]) -> cython.void:
 def is_level_tread(
     model: cython.size_t, geom: cython.int, lean: cython.double, half: cython.double
 ) -> cython.bint:
-    """Whether a cylinder is the tread of a wheel that stands on its middle rather than an edge.
+    """Return whether a cylinder is a wheel's tread that stands on its middle rather than an edge.
 
     Args:
         model: Address of the ``mjModel``.
@@ -134,7 +134,7 @@ def _move(touch: cython.pointer[Touch], shift: cython.p_double) -> cython.void:
 def _by_rows(
     touch: cython.pointer[Touch], ways: cython.p_double, parts: cython.p_double
 ) -> cython.int:
-    """What (normal, first, second) direction are in the rows of sliding: n ± mu t in a pyramid.
+    """Transform (normal, first, second) directions to the rows of sliding: n ± mu t in a pyramid.
 
     Returns:
         How many rows that are.
@@ -153,7 +153,7 @@ def _by_rows(
 @cython.nogil
 @cython.exceptval(check=False)
 def _column(touch: cython.pointer[Touch], dof: cython.int) -> cython.int:
-    """Where rows of the Jacobian have the number of a velocity; -1 if nowhere."""
+    """Return the index of a velocity in rows of the Jacobian; -1 if it is absent."""
     if not touch.sparse:
         return dof
     for column in range(touch.width):

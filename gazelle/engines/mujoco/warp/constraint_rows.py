@@ -26,7 +26,7 @@ class ConstraintRows:
 
 @wp.func
 def row_width(rows: ConstraintRows, world: int, row: int) -> int:
-    """How many numbers the Jacobian of a row has."""
+    """Return the number of entries in the Jacobian of a row."""
     if rows.sparse != 0:
         return rows.count[world, row]
     return rows.nv
@@ -34,7 +34,7 @@ def row_width(rows: ConstraintRows, world: int, row: int) -> int:
 
 @wp.func
 def row_dof(rows: ConstraintRows, world: int, row: int, place: int) -> int:
-    """Which velocity a number of a row's Jacobian is for."""
+    """Return the velocity index of an entry in a row's Jacobian."""
     if rows.sparse != 0:
         return rows.column_index[world, 0, rows.address[world, row] + place]
     return place

@@ -1,4 +1,4 @@
-"""What laws of contacts know on the device: the contacts, and what holds for each geom."""
+"""State of contacts and geoms for contact laws on the device."""
 
 import warp as wp
 
@@ -41,7 +41,7 @@ class ContactList:
 
 @wp.struct
 class ContactLaws:
-    """Which laws hold, and for what.
+    """Contact laws that apply, and their parameters.
 
     Of a geom there are: whether it has a direction of friction of its own (1) or takes it from the
     normal (2), which, and its coefficient; as a wheel's tread one more than its joint, and where its

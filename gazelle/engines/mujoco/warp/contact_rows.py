@@ -169,7 +169,7 @@ def _move(
 
 @wp.func
 def _sliding_rows(laws: ContactLaws) -> int:
-    """How many rows the normal and the two directions of sliding have."""
+    """Return the number of rows of the normal and the two directions of sliding."""
     if laws.cone != 0:
         return 3
     return 4
@@ -177,7 +177,7 @@ def _sliding_rows(laws: ContactLaws) -> int:
 
 @wp.func
 def _by_rows(found: ContactList, laws: ContactLaws, contact: int, ways: wp.vec3) -> wp.vec4:
-    """What (normal, first, second) direction are in the rows of sliding: n ± mu t in a pyramid."""
+    """Transform (normal, first, second) directions to the rows of sliding: n ± mu t in a pyramid."""
     if laws.cone != 0:
         return wp.vec4(ways[0], ways[1], ways[2], 0.0)
     first = found.friction[contact][0] * ways[1]
@@ -244,7 +244,7 @@ def _bounce(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact
 
 @wp.func
 def _pull(found: ContactList, laws: ContactLaws, contact: int) -> float:
-    """How much faster two bodies approach a second later if nothing holds them."""
+    """Return the free acceleration by which two bodies approach each other."""
     world = found.world[contact]
     geoms = found.geom[contact]
     normal = found.frame[contact][0]

@@ -41,7 +41,7 @@ def _fields() -> Mapping[str, bool]:
 
 
 def _is_read(name: str) -> bool:
-    """Whether steps on the device depend on a field of the model."""
+    """Return whether steps on the device depend on a field of the model."""
     return name in _BY_PRESENCE or (name in _fields() and name not in _UNUSED)
 
 
@@ -84,7 +84,7 @@ def share_field(model: Any, name: str, values: Floats) -> None:
 
 
 def can_share(name: str) -> bool:
-    """Whether a field can be changed on the device without making the model anew."""
+    """Return whether a field can be changed on the device without making the model anew."""
     return not _is_read(name) or (_fields().get(name, False) and name not in _BY_PRESENCE)
 
 
@@ -120,7 +120,7 @@ def _common(host: mujoco.MjModel, name: str, values: Floats) -> Floats:
 
 
 def _element(host: mujoco.MjModel, name: str, row: int) -> str:
-    """What a row of a field is of, by its name in the model."""
+    """Describe the element that a row of a field belongs to, by its name in the model."""
     kinds = {"geom": host.geom, "body": host.body, "jnt": host.joint, "pair": host.pair}
     named = kinds.get(name.split("_", maxsplit=1)[0])
     return f"'{named(row).name}'" if named is not None else f"row {row}"

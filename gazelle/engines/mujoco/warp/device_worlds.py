@@ -108,7 +108,7 @@ class DeviceWorlds:
         return {n: getattr(self._data, n).numpy().astype(np.float64) for n in WRITTEN}
 
     def turned_too_far(self) -> bool:
-        """Whether something turned too fast for the step since this was asked last."""
+        """Return whether something turned too fast for the step since the last call."""
         found = bool(self._laws.told.numpy()[0])
         if found:
             self._laws.told.zero_()
