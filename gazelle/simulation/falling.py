@@ -68,8 +68,6 @@ class FallWatch:
             for model in world.models
             if not model.static and model.links and model.name not in self._warned
         ]
-        if self._watched and not self._can_fall(self._watched[0]):
-            self._watched = []
         self._links = tuple(_first_link(model) for model in self._watched)
         starts = [(model.pose * model.links[0].pose).z for model in self._watched]
         self._lowest = np.array(starts) - _DEPTH
@@ -93,18 +91,13 @@ class FallWatch:
         ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
         origins = np.vstack([radius * ring for radius in _RINGS])
         down = np.broadcast_to(_DOWN, origins.shape)
-        hits = self._engine.links[name].cast_rays(rotate(back, origins), rotate(back, down), worlds)
-        return bool(np.isfinite(hits.distance).any())
-
-    def _can_fall(self, model: Model) -> bool:
-        """Return whether the engine knows an up and a down; planar ones do not."""
-        row, world = self._engine.links[_first_link(model)], np.array([0])
-        down = rotate(conjugate(row.placement(world).quaternion[0]), _DOWN)
         try:
-            row.cast_rays(np.zeros((1, 3)), down[None], world)
-        except EngineError:
-            return False
-        return True
+            hits = self._engine.links[name].cast_rays(
+                rotate(back, origins), rotate(back, down), worlds
+            )
+        except EngineError:  # the plane has no below
+            return True
+        return bool(np.isfinite(hits.distance).any())
 
     def _cause(self, model: Model) -> str:
         if not _collides(model):

@@ -74,3 +74,10 @@ def test_what_has_ground_below_does_not_count_as_fallen():
         warnings.simplefilter("error")
         sim.run(5.0)
         assert sim.robots["high"].pose.z < 1.0
+
+
+def test_looking_for_models_that_fall_changes_nothing_in_the_plane():
+    with gazelle.Simulation(world(TABLE, model("box")), "planar", threads=1) as sim:
+        before = sim.engine.revision
+        sim.run(3.0)
+        assert sim.engine.revision == before

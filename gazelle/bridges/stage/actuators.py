@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.array_types import Worlds
 from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import load_message
 from gazelle.simulation.stage import Actuator
@@ -21,38 +22,38 @@ class ActuatorTopics:
     """
 
     def __init__(self, at: GraphRobot) -> None:
-        self._lock, self._world = at.simulation.lock, at.world
+        self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
         self._number: Any = load_message("std_msgs/Float64")
-        self._own = at.simulation.devices.actuators.get(at.robot.index, [])
-        count = len(self._own)
+        count = len(at.simulation.devices.actuators.get(at.robot.index, []))
         self._publishers = [at.advertise("actuator", self._number, k, count) for k in range(count)]
         self._subscribers = [
-            at.subscribe(f"cmd_actuator_{kind}", self._number, told, k, count)
-            for k, each in enumerate(self._own)
-            for kind, told in (
-                ("speed", self._told(each.set_speed)),
-                ("position", self._told(each.go_to)),
-            )
+            at.subscribe(f"cmd_actuator_{kind}", self._number, self._told(k, act), k, count)
+            for k in range(count)
+            for kind, act in (("speed", Actuator.set_speed), ("position", Actuator.go_to))
         ]
 
-    def _told(self, act: Callable[[float, Any], None]) -> Callable[[Any], None]:
+    def _actuator(self, which: int) -> Actuator:
+        """Return an actuator, which is another object when models came or went."""
+        return self._simulation.actuator(self._robot.name, which)
+
+    def _told(
+        self, which: int, act: Callable[[Actuator, float, Worlds], None]
+    ) -> Callable[[Any], None]:
         worlds = np.array([self._world])
 
         def told(message: Any) -> None:
             if math.isfinite(message.data):
-                with self._lock:
-                    act(message.data, worlds)
+                with self._simulation.lock:
+                    act(self._actuator(which), message.data, worlds)
 
         return told
 
     def publish(self) -> None:
         """Publish what is listened to."""
-        for publisher, actuator in zip(self._publishers, self._own, strict=True):
+        for which, publisher in enumerate(self._publishers):
             if publisher.has_listener:
-                publisher.publish(self._number(self._position(actuator)))
-
-    def _position(self, actuator: Actuator) -> float:
-        return float(actuator.position[self._world])
+                position = self._actuator(which).position[self._world]
+                publisher.publish(self._number(float(position)))
 
     def close(self) -> None:
         """Publish and hear no more."""

@@ -36,9 +36,8 @@ class GripperTopics:
         def told(message: Any) -> None:
             word = message.data.strip().lower()
             if word in COMMANDS:
-                gripper = self._simulation.gripper(self._robot.name, which)
                 with self._simulation.lock:
-                    gripper.do(word, worlds)
+                    self._simulation.gripper(self._robot.name, which).do(word, worlds)
 
         return told
 
