@@ -111,7 +111,8 @@ class Recorder(Closeable):
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
-        with self._simulation.lock:
+        self._simulation.lock.acquire()  # also of a simulation that is closed
+        try:
             if not self._file.closed:
                 for name in CHANGES:
                     delattr(self._engine, name)
@@ -120,6 +121,8 @@ class Recorder(Closeable):
                 self._note_writes()
                 self._flush()
                 self._file.close()
+        finally:
+            self._simulation.lock.release()
 
     def _stepped(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
         """Make steps, and update systems between them."""
