@@ -152,7 +152,10 @@ def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:
 
 def _undriven(sim: Simulation, args: argparse.Namespace) -> str:
     """Return a line that says how to move the robots of a Stage file if nothing does, else ""."""
-    if sim.stage is None or args.ros or not sim.stage.robots or sim.stage.controllers:
+    from gazelle.simulation.stage import StageFleet
+
+    fleet = sim.extension(StageFleet)
+    if fleet is None or args.ros or not fleet.robots or fleet.controllers:
         return ""
     view = "" if args.view is None else ", or the page"
     return f"nothing drives the robots: --wander does, or --ros with cmd_vel{view}\n"
@@ -236,10 +239,11 @@ def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
     """Be a ROS node until Ctrl-C, the end of the time, or the master's word."""
     from gazelle.bridges import serve_ros
     from gazelle.bridges.stage import serve_stage
+    from gazelle.simulation.stage import StageFleet
 
     if args.paused:
         sim.pause()
-    if sim.stage is not None:
+    if sim.extension(StageFleet) is not None:
         with serve_stage(sim, rate=args.rate) as server, rosbridge_beside(server, args):
             if sim.paused:
                 sys.stderr.write("paused; the service /gazelle/unpause starts it\n")

@@ -101,6 +101,11 @@ class Model:
     stage: StageModel | None = field(default=None, compare=False, repr=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 
+    @property
+    def kind(self) -> str:
+        """Name of the kind of world file, for what runs it in a way of its own; mostly empty."""
+        return "" if self.stage is None else "stage"
+
     def walk(self, prefix: str = "", pose: Pose | None = None) -> Iterator[PlacedModel]:
         """This model and all nested ones, depth first, each with its scope and pose.
 

@@ -98,6 +98,11 @@ class World:
     source: Source | None = field(default=None, compare=False, repr=False)
 
     @property
+    def kind(self) -> str:
+        """Name of the kind of world file, for what runs it in a way of its own; mostly empty."""
+        return "" if self.stage is None else "stage"
+
+    @property
     def profile(self) -> Physics:
         """The physics profile in use: the default one, else the first, else SDF's defaults."""
         for physics in self.physics:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TypeVar
 
 from gazelle.array_types import Worlds
 from gazelle.description import Model
 from gazelle.errors import SimulationError, did_you_mean
-from gazelle.simulation.loading import adopt, is_plain, run_stage
+from gazelle.simulation.loading import adopt, is_plain
 from gazelle.simulation.robot import Robot, RobotHost, SensorUnit
 from gazelle.simulation.robots import MadeOnDemand
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
+from gazelle.simulation.world_kinds import WorldKind, find_world_kind
 
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.fleet import StageFleet
+T = TypeVar("T")
 
 
 class EntityManager:
@@ -33,7 +33,7 @@ class EntityManager:
         self._simulation = simulation
         self.robots: MadeOnDemand[Robot] = MadeOnDemand(self._make)
         self._awaited: dict[str, Model] = {}
-        self._stage: StageFleet | None = None
+        self._kinds: dict[str, WorldKind | None] = {"": None}
         self.sensors: list[SensorUnit] = []
         self.plugins: list[ScheduledPlugin] = []
 
@@ -54,52 +54,52 @@ class EntityManager:
         self._simulation.events.spawned.tell(robot)
         return robot
 
-    @property
-    def stage(self) -> StageFleet | None:
-        """All robots of Stage files, as arrays; None without."""
-        return self._stage
+    def extension(self, kind: type[T]) -> T | None:
+        """Return what a kind of world adds to the simulation, by its class; None without."""
+        found = (each.extension for each in self._kinds.values() if each is not None)
+        return next((each for each in found if isinstance(each, kind)), None)
 
     def adopt_all(self, models: Sequence[Model]) -> None:
         """Make the handles of models that the engine has, and start their plugins.
 
-        Those of Stage files are run all together, so that a handle can wait until it is needed.
+        Those that a kind of world runs without a plugin can wait until their handle is needed.
         All handles are made before the first plugin is started: plugins ask the engine for motors
         and the like, which it compiles all together when it is next asked for what it has.
         """
-        self._look_for_stage(models)
+        self._start_kinds(models)
         made = []
         for model in models:
-            if self._stage is not None and is_plain(model):
+            kind = self._kinds[model.kind]
+            if kind is not None and is_plain(model, kind):
                 self._awaited[model.name] = model
                 self.robots.put_off(model.name)
             else:
                 made.append((model, self._handle(model, "")))
         for model, robot in made:
-            adopt(self._simulation, model, robot, self._stage_of(model))
+            adopt(self._simulation, model, robot, self._kinds[model.kind])
 
     def adopt(self, model: Model, namespace: str) -> Robot:
         """Make the handle of a model that the engine has, and start its plugins."""
-        self._look_for_stage((model,))
+        self._start_kinds((model,))
         robot = self._handle(model, namespace)
-        adopt(self._simulation, model, robot, self._stage_of(model))
+        adopt(self._simulation, model, robot, self._kinds[model.kind])
         return robot
 
     def _handle(self, model: Model, namespace: str) -> Robot:
-        robot = Robot(self._simulation, model, namespace, self._stage_of(model))
+        kind = self._kinds[model.kind]
+        sensors = None if kind is None else kind.sensors(model)
+        robot = Robot(self._simulation, model, namespace, sensors)
         self.robots[model.name] = robot
         self.sensors.extend(robot.sensors.values())
         self._simulation.lock.changes += 1
         return robot
 
-    def _stage_of(self, model: Model) -> StageFleet | None:
-        return self._stage if model.stage is not None else None
-
-    def _look_for_stage(self, models: Sequence[Model]) -> None:
-        """Run models of Stage files as Stage does, if the engine can."""
-        simulation = self._simulation
-        of_stage = simulation.world.stage is not None
-        if self._stage is None and (of_stage or any(m.stage is not None for m in models)):
-            self._stage = run_stage(simulation)
+    def _start_kinds(self, models: Sequence[Model]) -> None:
+        """Start what runs the world and models in a way of their own, if the engine can."""
+        for name in (self._simulation.world.kind, *(model.kind for model in models)):
+            if name not in self._kinds:
+                start = find_world_kind(name)
+                self._kinds[name] = None if start is None else start(self._simulation)
 
     def _make(self, name: str) -> Robot:
         """Make the handle of a model that was put off."""

@@ -3,45 +3,25 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, cast
+from collections.abc import Iterable, Iterator
+from typing import Any, cast
 
 from gazelle import description
-from gazelle.description import Link, Model, StagePlugin
+from gazelle.description import Link, Model
 from gazelle.errors import SimulationWarning, located
-from gazelle.formats.stage.plugins import without_stage_plugins
 from gazelle.simulation import registry
 from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.robot import Robot, RobotHost
 from gazelle.simulation.scheduled_plugin import make_scheduled, title
-
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.fleet import StageFleet
+from gazelle.simulation.world_kinds import WorldKind
 
 
-def run_stage(simulation: RobotHost) -> StageFleet | None:
-    """Run the models of Stage files as Stage does; None if the engine moves them in another way."""
-    from gazelle.engines.planar import PlanarEngine
-    from gazelle.simulation.stage.controllers import make_controllers
-    from gazelle.simulation.stage.fleet import StageFleet
-    from gazelle.simulation.stage.running import StageRunner
-
-    engine = simulation.engine
-    if not isinstance(engine, PlanarEngine):
-        return None
-    clock, lock, seed = simulation.clock, simulation.lock, simulation.seed
-    fleet = StageFleet(engine, clock, lock, seed, make_controllers)
-    runner = StageRunner(fleet, simulation.loop)
-    simulation.plugins.append(make_scheduled(runner, "stage", ""))
-    return fleet
-
-
-def is_plain(model: Model) -> bool:
-    """Whether a model is all of a Stage file, without plugins of its own."""
-    return model.stage is not None and not any(
-        not isinstance(plugin, StagePlugin)
+def is_plain(model: Model, kind: WorldKind) -> bool:
+    """Return whether a kind of world does all that the file says of a model."""
+    return not any(
+        kind.starts(plugin)
         for plugin in (*model.plugins, *(p for link in model.links for p in _plugins_on(link)))
     )
 
@@ -53,35 +33,29 @@ def _plugins_on(link: Link) -> Iterator[description.Plugin]:
         yield from sensor.plugins
 
 
-def adopt(
-    simulation: RobotHost, model: Model, robot: Robot, stage: StageFleet | None = None
-) -> None:
+def adopt(simulation: RobotHost, model: Model, robot: Robot, kind: WorldKind | None = None) -> None:
     """Start the plugins of a model that the engine has, in file order.
 
     Args:
         simulation: Runs.
         model: That.
         robot: Its handle.
-        stage: Moves it, and lets it see; plugins that do so in other engines are left out.
+        kind: Runs it, in place of some of its plugins; None for models of no special kind.
     """
-    if stage is not None:
-        from gazelle.simulation.stage.device_ports import open_devices
-        from gazelle.simulation.stage.handles import inputs_of, open_outputs
 
-        robot.inputs.update(inputs_of(stage, model.name))
-        open_outputs(stage, robot)
-        open_devices(stage, robot)
-        model = without_stage_plugins(model)
+    def start(element: str, entity: object, plugins: Iterable[description.Plugin]) -> None:
+        for plugin in plugins:
+            if kind is None or kind.starts(plugin):
+                _start(simulation, element, entity, plugin, robot)
+
+    if kind is not None:
+        kind.open_ports(robot)
     for placed in model.walk():
-        for plugin in placed.model.plugins:
-            _start(simulation, "model", robot, plugin, robot)
+        start("model", robot, placed.model.plugins)
         for visual in (visual for link in placed.model.links for visual in link.visuals):
-            for plugin in visual.plugins:
-                _start(simulation, "visual", robot, plugin, robot)
+            start("visual", robot, visual.plugins)
     for unit in robot.sensors.values():
-        for plugin in unit.description.plugins:
-            if stage is None or not isinstance(plugin, StagePlugin):
-                _start(simulation, "sensor", unit, plugin, robot)
+        start("sensor", unit, unit.description.plugins)
 
 
 def load_world_plugin(simulation: RobotHost, plugin: description.Plugin) -> None:

@@ -33,7 +33,6 @@ from gazelle.simulation.state_lock import between_steps
 
 if TYPE_CHECKING:
     from gazelle.simulation.navigation_control import NavigationControl
-    from gazelle.simulation.stage.fleet import StageFleet
 
 
 class RobotHost(RunningState, Protocol):
@@ -141,7 +140,7 @@ class Robot(Ports):
         simulation: RobotHost,
         model: Model,
         namespace: str = "",
-        stage: StageFleet | None = None,
+        sensors: Sequence[tuple[Sensor, SensorModel]] | None = None,
     ) -> None:
         super().__init__(simulation.lock, namespace)
         self.simulation = simulation
@@ -157,7 +156,7 @@ class Robot(Ports):
             f"moving joint {own}", joint_handles(simulation, model), self.name
         )
         self.sensors: Mapping[str, SensorUnit] = Named(
-            f"sensor {own}", _sensor_units(self, model, stage), self.name
+            f"sensor {own}", _sensor_units(self, model, sensors), self.name
         )
 
     @property
@@ -391,15 +390,16 @@ class SensorUnit(SampledSensor):
         self.robot = robot
 
 
-def _sensor_units(robot: Robot, model: Model, stage: StageFleet | None) -> dict[str, SensorUnit]:
+def _sensor_units(
+    robot: Robot, model: Model, sensors: Sequence[tuple[Sensor, SensorModel]] | None
+) -> dict[str, SensorUnit]:
+    """Return the sensors by name: those that are given, else what the file says."""
     simulation = robot.simulation
-    if stage is not None:
-        from gazelle.simulation.stage.handles import sensor_models
-
+    if sensors is not None:
         base = f"{model.name}::{model.links[0].name}"
         return {
             sensor.name: SensorUnit(robot, sensor, f"{base}::{sensor.name}", made)
-            for sensor, made in sensor_models(stage, model)
+            for sensor, made in sensors
         }
     units: dict[str, SensorUnit] = {}
     for mount in mounts(simulation.engine, simulation.live_scene, model, simulation.seed):

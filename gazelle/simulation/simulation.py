@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,8 +43,7 @@ from gazelle.simulation.stepping import indices_of
 from gazelle.simulation.walking import CLOSED, StepLoop
 from gazelle.streams import seed_of
 
-if TYPE_CHECKING:
-    from gazelle.simulation.stage.fleet import StageFleet
+T = TypeVar("T")
 
 
 class Simulation(Closeable):
@@ -154,13 +153,15 @@ class Simulation(Closeable):
         """Simulated time [s]."""
         return self.clock.now
 
-    @property
-    def stage(self) -> StageFleet | None:
-        """All robots of a Stage file as arrays: poses, commands, scans, what else they sense.
+    def extension(self, kind: type[T]) -> T | None:
+        """Return what a kind of world adds to a simulation; None if this one has no such thing.
 
-        None without such robots, and with an engine that does not move them as Stage does.
+        A world of Stage in the planar engine has a ``StageFleet``: all its robots as arrays.
+
+        Args:
+            kind: The class of the extension.
         """
-        return self.entities.stage
+        return self.entities.extension(kind)
 
     # -- time --------------------------------------------------------------------------
 

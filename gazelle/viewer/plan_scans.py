@@ -5,11 +5,12 @@ from __future__ import annotations
 from gazelle.engines.planar import Fan, Fleet, Mount, PlanarEngine, Scanner
 from gazelle.sensors import LidarModel
 from gazelle.simulation import Simulation
+from gazelle.simulation.stage import StageFleet
 
 
 def scanners_of(simulation: Simulation, fleet: Fleet) -> list[Scanner]:
     """Scanners without noise, with the beams of all rangers and lidars."""
-    stage = simulation.stage
+    stage = simulation.extension(StageFleet)
     pairs = [] if stage is None else list(zip(stage.fans, stage.mounts, strict=True))
     return [Scanner(fleet, fan, mounts) for fan, mounts in (*pairs, *_lidars(simulation))]
 

@@ -12,6 +12,7 @@ from PIL import Image
 import gazelle
 from gazelle.ros import Time, load_message
 from gazelle.ros.bags import Bag
+from gazelle.simulation.stage import stage_of
 
 SIDE, CELL = 60.0, 0.1
 """Of the hall and of its map's cells [m]; as in those tests the map begins at the origin."""
@@ -165,23 +166,23 @@ def record(drive, folder, bag_path):
     left = [*drive.via, drive.end[:2]]
     with gazelle.Simulation(world, engine="planar", seed=3) as sim, Bag(bag_path, "w") as bag:
         for _ in range(round((drive.skips + drive.seconds + 30.0) / 0.1)):
-            pose = sim.stage.poses[0, 0]
+            pose = stage_of(sim).poses[0, 0]
             while left and math.dist(pose[:2], left[0]) < 0.1:
                 left.pop(0)
             moved = sim.time > drive.waits
             forward, turn = command(pose, left[0] if left else pose, None if left else drive.end[2])
-            sim.stage.commands[0, 0] = (forward * moved, 0.0, turn * moved)
+            stage_of(sim).commands[0, 0] = (forward * moved, 0.0, turn * moved)
             sim.step()
             stamp = Time(nsecs=round(1e9 * (drive.begins + sim.time)))
             bag.write("/tf", _transforms(sim, drive, stamp), stamp)
             bag.write("/base_scan", _scan(sim, stamp), stamp)
         assert not left
-        return sim.stage.poses[0, 0].copy()
+        return stage_of(sim).poses[0, 0].copy()
 
 
 def _transforms(sim, drive, stamp):
     links = [
-        (drive.odom, "base_link", sim.stage.odometry[0, 0]),
+        (drive.odom, "base_link", stage_of(sim).odometry[0, 0]),
         ("base_link", "base_laser_link", (0.25, 0.0, 0.0)),
     ]
     made = load_message("tf2_msgs/TFMessage")()
@@ -197,7 +198,7 @@ def _transforms(sim, drive, stamp):
 def _scan(sim, stamp):
     made = load_message("sensor_msgs/LaserScan")()
     made.header.stamp, made.header.frame_id = stamp, "base_laser_link"
-    ranges = np.asarray(sim.stage.scan_of("r0")).ravel()
+    ranges = np.asarray(stage_of(sim).scan_of("r0")).ravel()
     made.angle_min, made.angle_max = -math.radians(135.0), math.radians(135.0)
     made.angle_increment = math.radians(270.0) / (len(ranges) - 1)
     made.range_min, made.range_max = 0.05, 30.0

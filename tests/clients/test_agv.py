@@ -14,6 +14,7 @@ from gazelle.navigation import Limits
 from gazelle.ros import Master, Node
 from gazelle.ros.messages import UnknownTypeError, register
 from gazelle.simulation import Simulation
+from gazelle.simulation.stage import stage_of
 
 WORLD = """
 interval_sim 100
@@ -55,11 +56,11 @@ def test_an_agv_moves_and_tells_how_long_it_took(running, poses):
         # In the world's time, of which a pause of this process lasts twenty times as much.
         took = agv.move_l(4.0, 0.0, timeout=4000.0)
         assert 4.0 <= took <= 4000.0
-        x, y, heading = simulation.stage.poses[0, 0]
+        x, y, heading = stage_of(simulation).poses[0, 0]
         assert math.hypot(x - 4.0, y) < 0.03
         assert agv.move_c(math.pi / 2) >= 1.5
         agv.move_ofsc(-math.pi / 2)
-        heading = simulation.stage.poses[0, 0, 2]
+        heading = stage_of(simulation).poses[0, 0, 2]
         assert abs(heading + math.pi / 2) < 0.02
 
 
@@ -70,7 +71,7 @@ def test_a_fleet_moves_all_at_once(running):
         fleet.wait()
         took = fleet.move_l([3.0, 3.0, 3.0], [0.0, 3.0, -3.0], timeout=4000.0)
         assert (took > 3.0).all()
-        away = simulation.stage.poses[0, :, :2] - [[3.0, 0.0], [3.0, 3.0], [3.0, -3.0]]
+        away = stage_of(simulation).poses[0, :, :2] - [[3.0, 0.0], [3.0, 3.0], [3.0, -3.0]]
         assert np.hypot(*away.T).max() < 0.1
 
 

@@ -12,6 +12,7 @@ from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import Error
 from gazelle.navigation.refuges import RefugeMap, RobotDisc
 from gazelle.navigation.right_of_way import RightOfWay, RightOfWaySettings
+from gazelle.simulation.stage import stage_of
 
 ROOM = """
 interval_sim 100
@@ -82,7 +83,7 @@ def meet(tmp_path, name, settings, seed=None):
                     sim.robots[each].navigation.configure(BRISK | rules)
                     tasks[each] = sim.robots[each].navigation.go_to(x, y)
             sim.step()
-            touched |= sim.stage.stalled[0]
+            touched |= stage_of(sim).stalled[0]
             done = {each: task for each, task in tasks.items() if task.done}
             reached += [e for e, task in done.items() if task.succeeded and e not in reached]
             failed = {each: task.text for each, task in done.items() if not task.succeeded}

@@ -9,6 +9,7 @@ import gazelle
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import SimulationError
 from gazelle.navigation.outline import outline_of
+from gazelle.simulation.stage import stage_of
 
 ROOM = """
 interval_sim 100
@@ -61,7 +62,7 @@ def run_until_done(sim, tasks, seconds=40.0):
     """Run, and see that no robot is ever stopped by what it met."""
     while not all(task.done for task in tasks) and sim.time < seconds:
         sim.step()
-        assert not sim.stage.stalled.any()
+        assert not stage_of(sim).stalled.any()
     return [task.text for task in tasks]
 
 
@@ -77,7 +78,7 @@ def test_two_robots_go_around_what_stands_there_and_each_other(start):
     assert off(robots[0], 1.5, 0.5) < 0.2
     assert off(robots[1], -1.5, -0.5) < 0.2
     assert abs(robots[0].pose.yaw) < 0.3
-    assert not sim.stage.commands.any()
+    assert not stage_of(sim).commands.any()
 
 
 def test_the_map_is_that_of_the_world_without_robots(start):
@@ -113,8 +114,8 @@ def test_what_its_map_lacks_is_seen_by_the_laser_in_each_world_not_by_sonars(sta
     aside = np.zeros(2, np.bool_)
     while not all(task.done for task in tasks) and sim.time < 30.0:
         sim.step()
-        assert not sim.stage.stalled.any()
-        aside |= np.abs(sim.stage.commands[:, 0, 1]) > 0.1
+        assert not stage_of(sim).stalled.any()
+        aside |= np.abs(stage_of(sim).commands[:, 0, 1]) > 0.1
     assert [task.text for task in tasks] == ["Goal reached."] * 2
     assert aside.all()
     assert all(off(robot, 1.0, side, world) < 0.2 for world, side in enumerate((0.6, -0.2)))

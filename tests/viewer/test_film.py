@@ -10,6 +10,7 @@ import gazelle
 from gazelle import assets
 from gazelle.errors import Error, MissingExtraError
 from gazelle.simulation import Simulation
+from gazelle.simulation.stage import stage_of
 from gazelle.viewer import TopView, film_plan, take_picture, take_plan
 
 ROOM = """
@@ -44,7 +45,7 @@ def test_a_picture_of_a_stage_world_shows_its_robot_and_what_that_sees(room, tmp
 def test_a_robot_moves_in_the_picture_and_leaves_a_trail(room):
     view = TopView(room, size=(320, 240), scans=False)
     before = view.look()
-    room.stage.commands[0, 0, 0] = 1.0
+    stage_of(room).commands[0, 0, 0] = 1.0
     room.run(2.0)
     with_trail = view.look()
     view.forget()
@@ -57,7 +58,7 @@ def test_a_robot_moves_in_the_picture_and_leaves_a_trail(room):
 
 
 def test_a_film_has_as_many_pictures_as_asked_for(room, tmp_path):
-    room.stage.commands[0, 0, 0] = 0.5
+    stage_of(room).commands[0, 0, 0] = 0.5
     assert film_plan(room, tmp_path / "room.gif", 2.0, rate=5.0, speed=2.0) == 6
     assert room.time == pytest.approx(2.0)
     with Image.open(tmp_path / "room.gif") as film:
@@ -67,7 +68,7 @@ def test_a_film_has_as_many_pictures_as_asked_for(room, tmp_path):
 
 def test_an_mp4_is_a_film_that_can_be_read(room, tmp_path):
     av = pytest.importorskip("av", reason="the extra 'film' is not installed")
-    room.stage.commands[0, 0, 0] = 0.5
+    stage_of(room).commands[0, 0, 0] = 0.5
     view = TopView(room, size=(161, 121))
     assert film_plan(room, tmp_path / "room.mp4", 2.0, view=view, rate=5.0) == 11
     with av.open(str(tmp_path / "room.mp4")) as film:

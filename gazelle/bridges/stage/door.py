@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.bridges.stage.naming import Naming
 from gazelle.bridges.stage.parameters import read_parameters
-from gazelle.bridges.stage.place import GraphRobot, stage_of
+from gazelle.bridges.stage.place import GraphRobot
 from gazelle.bridges.stage.poses import PoseServices
 from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
 from gazelle.bridges.stage.services import Services
@@ -18,6 +18,7 @@ from gazelle.ros import Node, Time, load_message
 from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Simulation
 from gazelle.simulation.clock import Schedule
+from gazelle.simulation.stage import stage_of
 
 _SLICE = 0.005  # wall time between two looks at a pause [s]
 _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]

@@ -7,25 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.bridges.stage.naming import Naming
-from gazelle.errors import SimulationError
 from gazelle.ros import Node, Publisher, Subscriber
-from gazelle.simulation import Simulation
 from gazelle.simulation.stage import StageFleet, StageRobot
 
 _QUEUE = 10
-
-
-def stage_of(simulation: Simulation) -> StageFleet:
-    """The robots of Stage files in a simulation.
-
-    Raises:
-        SimulationError: Nobody moves them as Stage does.
-    """
-    if simulation.stage is None:
-        raise SimulationError(
-            "this is no world of Stage in the plane", hint='use a Stage file and engine="planar"'
-        )
-    return simulation.stage
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from gazelle.bridges.serving import join_graph
 from gazelle.bridges.stage.door import StageDoor
-from gazelle.bridges.stage.place import stage_of
 from gazelle.closing import Closeable
 from gazelle.ros import Master, Node
 from gazelle.simulation import Simulation
+from gazelle.simulation.stage import stage_of
 
 
 class StageServer(Closeable):

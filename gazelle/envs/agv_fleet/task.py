@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import gymnasium as gym
 import numpy as np
@@ -21,7 +21,7 @@ from gazelle.envs.options import TaskOptions, TaskSettings, check_name, check_wh
 from gazelle.envs.polar import heading_to
 from gazelle.errors import TaskError
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import StageFleet
+from gazelle.simulation.stage import stage_of
 from gazelle.streams import Stream
 
 PERIOD = 0.2
@@ -114,7 +114,7 @@ class AGVFleetTask(BatchedTask):
         self.simulation = Simulation(
             world, settings.engine, nworld=self.halls, threads=settings.threads
         )
-        self.agvs = cast("StageFleet", self.simulation.stage)
+        self.agvs = stage_of(self.simulation)
         self._samples = settings.lidar_samples
         self._places = settings.free_places()
         self._start = np.zeros((nworld, 3))

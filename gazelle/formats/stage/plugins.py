@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from gazelle.description import Model, Parameters, Sensor, StagePlugin
+from gazelle.description import Parameters, Sensor, StagePlugin
 
 _DRIVE = "libgazebo_ros_planar_move.so"
 _LASER = "libgazebo_ros_laser.so"
@@ -58,12 +58,6 @@ class Names:
             ),
         )
         return replace(sensor, plugins=(plugin,))
-
-
-def without_stage_plugins(model: Model) -> Model:
-    """A model without those that are its own."""
-    kept = tuple(plugin for plugin in model.plugins if not isinstance(plugin, StagePlugin))
-    return replace(model, plugins=kept)
 
 
 @lru_cache(maxsize=64)

@@ -14,7 +14,7 @@ from gazelle.simulation.stage.finders import Blob, Fiducial
 from gazelle.simulation.stage.fleet import StageFleet
 from gazelle.simulation.stage.fleet_controller import FleetController
 from gazelle.simulation.stage.grippers import COMMANDS, Gripper, GripperState
-from gazelle.simulation.stage.simulation import StageSimulation
+from gazelle.simulation.stage.simulation import StageSimulation, stage_of
 
 __all__ = [
     "COMMANDS",
@@ -32,5 +32,6 @@ __all__ = [
     "StageSimulation",
     "cameras_of",
     "register_controller",
+    "stage_of",
     "with_wander",
 ]

@@ -27,7 +27,7 @@ from gazelle.simulation.state_lock import StateLock
 
 
 class StageFleet(Senses):
-    """Commands, poses, odometry and scans of all robots of Stage files; ``Simulation.stage``.
+    """Commands, poses, odometry and scans of all robots of Stage files: ``Simulation.extension(StageFleet)``.
 
     All arrays have the axes (nworld, nrobot, ...); robots are in the order of the world's models.
     They are views of what runs: other threads than the one that steps hold ``Simulation.lock``.

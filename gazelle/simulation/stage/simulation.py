@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 from gazelle import formats
 from gazelle.closing import Closeable
@@ -18,8 +18,22 @@ from gazelle.simulation.stage.fleet import StageFleet
 from gazelle.simulation.state_lock import StateLock
 
 
+def stage_of(simulation: Simulation) -> StageFleet:
+    """Return the robots of Stage files in a simulation, as arrays.
+
+    Raises:
+        SimulationError: The engine does not move them as Stage does, or it has none.
+    """
+    fleet = simulation.extension(StageFleet)
+    if fleet is None:
+        raise SimulationError(
+            "this is no world of Stage in the plane", hint='use a Stage file and engine="planar"'
+        )
+    return fleet
+
+
 class StageSimulation(Closeable):
-    """``Simulation(world, engine="planar")`` and its ``stage`` as one object.
+    """``Simulation(world, engine="planar")`` and its ``StageFleet`` as one object.
 
     What a ``StageFleet`` has is an attribute here too; time is that of the simulation.
 
@@ -63,7 +77,7 @@ class StageSimulation(Closeable):
         if not controllers:
             loaded = replace(loaded, models=tuple(map(_uncontrolled, loaded.models)))
         self.simulation = Simulation(loaded, "planar", nworld=nworld, seed=seed, threads=threads)
-        self.stage_fleet = cast("StageFleet", self.simulation.stage)
+        self.stage_fleet = stage_of(self.simulation)
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_") or "stage_fleet" not in self.__dict__:

@@ -20,6 +20,7 @@ from gazelle.navigation.move_base import navigation_stack
 from gazelle.navigation.true_map import true_map
 from gazelle.ros import Master
 from gazelle.ros.launch import load_launch
+from gazelle.simulation.stage import stage_of
 
 PACKAGE = assets.root() / "fleet_stage"
 DEPOT = PACKAGE / "launch" / "depot.launch"
@@ -67,7 +68,7 @@ def test_there_is_one_map_and_a_stack_for_each(plan):
 @pytest.mark.parametrize("name", NAMES)
 def test_all_start_where_the_world_has_them(plan, depot, name):
     amcl = parameters(plan, f"{name}/amcl")
-    x, y, yaw = depot.stage.poses[0, NAMES.index(name)]
+    x, y, yaw = stage_of(depot).poses[0, NAMES.index(name)]
     assert [amcl["initial_pose_x"], amcl["initial_pose_y"]] == pytest.approx([x, y])
     assert math.remainder(amcl["initial_pose_a"] - yaw, 2 * math.pi) == pytest.approx(0, abs=1e-4)
 

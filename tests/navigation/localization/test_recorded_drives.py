@@ -18,6 +18,7 @@ from amcl_drives import DRIVES, WORLD, command, hall, save_hall, seen_hall
 import gazelle
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
+from gazelle.simulation.stage import stage_of
 
 COMMON = {
     "min_particles": 500, "max_particles": 5000, "kld_err": 0.05, "laser_max_beams": 30, "laser_z_hit": 0.5,
@@ -84,18 +85,18 @@ def follow(folder, drive, guess, settings, grid):
     left = [*drive.via, drive.end[:2]]
     with gazelle.Simulation(path, engine="planar", seed=3) as sim:
         while sim.time < drive.skips + drive.seconds:
-            pose = sim.stage.poses[0, 0]
+            pose = stage_of(sim).poses[0, 0]
             while left and math.dist(pose[:2], left[0]) < 0.1:
                 left.pop(0)
             forward, turn = command(pose, left[0] if left else pose, None if left else drive.end[2])
             moves = sim.time > drive.waits
-            sim.stage.commands[0, 0] = (forward * moves, 0.0, turn * moves)
+            stage_of(sim).commands[0, 0] = (forward * moves, 0.0, turn * moves)
             sim.step()
             if sim.time < drive.skips:
                 continue
-            ranges = np.asarray(sim.stage.scan_of("r0"), np.float64).ravel()
+            ranges = np.asarray(stage_of(sim).scan_of("r0"), np.float64).ravel()
             scan = PlanarScan(ranges, ANGLES, 30.0, 0.05, (0.25, 0.0, 0.0))
-            odom = tuple(sim.stage.odometry[0, 0].tolist())
+            odom = tuple(stage_of(sim).odometry[0, 0].tolist())
             localizer.update(odom, scan)
         x, y, turned = localizer.map_to_odom
         cos, sin = math.cos(turned), math.sin(turned)

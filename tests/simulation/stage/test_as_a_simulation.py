@@ -6,8 +6,9 @@ from stage_samples import write
 
 import gazelle
 from gazelle import assets
+from gazelle.errors import SimulationError
 from gazelle.simulation import Replay, Simulation, WorldPlugin
-from gazelle.simulation.stage import StageSimulation
+from gazelle.simulation.stage import StageFleet, StageSimulation, stage_of
 
 SCANNER = "ranger ( pose [0 0 -0.2 0] sensor ( range [0 8] fov 180 samples 31 {} ) )"
 WORLD = """
@@ -44,7 +45,7 @@ def open_file(tmp_path):
 
 def test_handles_are_rows_of_the_arrays(open_file):
     sim = open_file(NOISY, nworld=2, seed=4)
-    stage = sim.stage
+    stage = stage_of(sim)
     assert list(sim.robots) == ["ground_plane", "a", "b", "c", "wall"]
     assert sim.clock.step_ns == 50_000_000
     sim.robots["b"].inputs["cmd_vel"].send([[0.1, 0.2, 0.0], [0.3, 0.0, 0.0]], [0.0, 0.4])
@@ -72,7 +73,7 @@ def test_it_is_what_a_stage_simulation_is(open_file, tmp_path):
         sim.step(120)
         other.step(120)
         for name in ("poses", "commands", "odometry", "stalled", "true_velocities"):
-            assert np.array_equal(getattr(sim.stage, name), getattr(other, name)), name
+            assert np.array_equal(getattr(stage_of(sim), name), getattr(other, name)), name
 
 
 def test_a_reset_begins_anew(open_file):
@@ -81,14 +82,14 @@ def test_a_reset_begins_anew(open_file):
     first = sim.state_hash()
     sim.reset()
     assert sim.time == 0.0
-    assert not sim.stage.commands.any()
+    assert not stage_of(sim).commands.any()
     sim.step(60)
     assert sim.state_hash() == first
     sim.reset(seed=8)
     sim.step(60)
     sim.reset(seed=3)
     sim.step(60)
-    assert sim.stage.odometry.any()
+    assert stage_of(sim).odometry.any()
 
 
 @pytest.mark.parametrize("text", [WANDERING, NOISY, BUSY])
@@ -97,14 +98,14 @@ def test_a_snapshot_goes_on_as_the_run_did(open_file, text):
     for name in ("a", "b", "c"):
         sim.robots[name].inputs["cmd_vel"].send(0.3, 0.2)
     if text is BUSY:
-        sim.stage.gripper("d").do("close")
-        sim.stage.actuator("d").set_speed(0.3)
+        stage_of(sim).gripper("d").do("close")
+        stage_of(sim).actuator("d").set_speed(0.3)
     sim.step(20)
     saved = sim.snapshot()
 
     def look():
         sim.step(20)
-        stage = sim.stage
+        stage = stage_of(sim)
         names = ("poses", "odometry", "commands", "true_velocities")
         seen = [getattr(stage, name).copy() for name in names]
         return [*seen, *(stage.scan(k).copy() for k in range(stage.scanners))]
@@ -117,7 +118,7 @@ def test_a_snapshot_goes_on_as_the_run_did(open_file, text):
     twin = open_file(text, nworld=2, seed=7)
     twin.restore(saved)
     twin.step(20)
-    assert np.array_equal(twin.stage.odometry, first[1])
+    assert np.array_equal(stage_of(twin).odometry, first[1])
 
 
 @pytest.mark.parametrize("text", [WANDERING, BUSY])
@@ -126,29 +127,29 @@ def test_a_recording_is_done_again_to_the_bit(open_file, tmp_path, text):
     for each in (sim, quiet):
         each.robots["b"].inputs["cmd_vel"].send(0.3, 0.2)
         if text is BUSY:
-            each.stage.gripper("d").do("close")
-            each.stage.actuator("d").go_to(1.0)
+            stage_of(each).gripper("d").do("close")
+            stage_of(each).actuator("d").go_to(1.0)
         each.step(3)
     with sim.record(tmp_path / "run.jsonl"):
         sim.step(40)
-        sim.stage.set_pose("a", (0.0, -1.5, 2.0))
+        stage_of(sim).set_pose("a", (0.0, -1.5, 2.0))
         sim.robots["a"].inputs["cmd_vel"].send(-0.2)
         sim.step(10)
     quiet.step(40)
-    quiet.stage.set_pose("a", (0.0, -1.5, 2.0))
+    stage_of(quiet).set_pose("a", (0.0, -1.5, 2.0))
     quiet.robots["a"].inputs["cmd_vel"].send(-0.2)
     quiet.step(10)
     assert sim.state_hash() == quiet.state_hash()
     with Replay(tmp_path / "run.jsonl") as replay:
         assert replay.run() > 0
         assert replay.simulation.state_hash() == sim.state_hash()
-        assert np.array_equal(replay.simulation.stage.poses, sim.stage.poses)
+        assert np.array_equal(stage_of(replay.simulation).poses, stage_of(sim).poses)
 
 
 def test_models_come_and_go(open_file):
     sim = open_file(WANDERING, seed=1)
     sim.step(30)
-    stage = sim.stage
+    stage = stage_of(sim)
     believed, poses = stage.odometry.copy(), stage.poses.copy()
     burger = sim.spawn("turtlebot3_burger", pose=gazelle.Pose(-2.0, 0.0, 0.0))
     assert np.array_equal(stage.odometry, believed)
@@ -174,12 +175,12 @@ def test_models_come_and_go(open_file):
 
 def test_what_is_carried_stays_so_when_models_come(open_file):
     sim = open_file(BUSY)
-    gripper = sim.stage.gripper("d")
+    gripper = stage_of(sim).gripper("d")
     gripper.do("close")
     sim.step(30)
-    assert sim.stage.gripper("d").state().carried == "thing"
+    assert stage_of(sim).gripper("d").state().carried == "thing"
     sim.spawn("turtlebot3_burger", pose=gazelle.Pose(9.0, 9.0, 0.0))
-    assert sim.stage.gripper("d").state().carried == "thing"
+    assert stage_of(sim).gripper("d").state().carried == "thing"
     sim.step(5)
     sim.delete("thing")
     sim.step(5)
@@ -215,7 +216,7 @@ def test_it_does_not_matter_who_else_acts(open_file):
     beside.load_plugin(f"{__name__}:_Nothing")
     alone.step(50)
     beside.step(50)
-    assert np.array_equal(alone.stage.poses, beside.stage.poses)
+    assert np.array_equal(stage_of(alone).poses, stage_of(beside).poses)
 
 
 def test_static_models_can_be_moved(open_file):
@@ -225,20 +226,22 @@ def test_static_models_can_be_moved(open_file):
     sim.robots["wall"].set_pose([6.0, 0.0, 0.0])
     assert sim.robots["a"].sensors["ranger:0"].measure()[0, 15] == pytest.approx(5.5)
     sim.step(2)
-    assert sim.stage.poses.shape == (1, 3, 3)
+    assert stage_of(sim).poses.shape == (1, 3, 3)
 
 
 def test_the_bundled_fleet_is_a_world_like_any_other():
     with Simulation(assets.world("fleet"), "planar") as sim:
-        assert len(sim.stage.robots) == 72
-        sim.robots[sim.stage.robots[40].name].inputs["cmd_vel"].send(0.3)
+        assert len(stage_of(sim).robots) == 72
+        sim.robots[stage_of(sim).robots[40].name].inputs["cmd_vel"].send(0.3)
         sim.step(5)
-        assert (sim.stage.velocities[0, :, 0] != 0.0).nonzero()[0].tolist() == [40]
+        assert (stage_of(sim).velocities[0, :, 0] != 0.0).nonzero()[0].tolist() == [40]
 
 
 def test_other_engines_run_its_bodies(tmp_path):
     with Simulation(write(tmp_path, WANDERING), "mujoco") as sim:
-        assert sim.stage is None
+        assert sim.extension(StageFleet) is None
+        with pytest.raises(SimulationError, match="no world of Stage"):
+            stage_of(sim)
         sim.robots["a"].inputs["cmd_vel"].send(0.4)
         sim.run(0.5)
         assert sim.robots["a"].pose.x > 0.05  # it stands 0.2 s after its last command
@@ -246,18 +249,18 @@ def test_other_engines_run_its_bodies(tmp_path):
 
 def test_odometry_goes_on_with_another_time_step(open_file):
     sim = open_file(WORLD.format(""))
-    sim.stage.commands[:, 1] = (0.3, 0.1, 0.2)
+    stage_of(sim).commands[:, 1] = (0.3, 0.1, 0.2)
     sim.run(1.0)
     sim.physics.time_step = 0.01
     sim.run(1.0)
     assert sim.time == pytest.approx(2.0)
-    turned = sim.stage.odometry[0, 1, 2]
+    turned = stage_of(sim).odometry[0, 1, 2]
     assert turned == pytest.approx(0.4, rel=0.03)  # its share of error is 2.5 % at most
 
 
 def test_many_robots_are_placed_at_once_and_bumps_are_kept(open_file):
     sim = open_file(WORLD.format(""), nworld=2)
-    stage = sim.stage
+    stage = stage_of(sim)
     bumped = stage.bumped
     stage.commands[1, 0, 0] = 1.0
     stage.place(np.array([0, 3]), [[1.0, 1.0, 0.5], [4.2, 0.0, 0.0]])
@@ -281,13 +284,13 @@ def test_cameras_are_sensors_too(open_file):
     eye = "camera ( resolution [16 12] range [0.2 8] fov [60 45] )"
     swivel = f'actuator ( type "rotational" max_position 3 size [.1 .1 .1] {eye} )'
     sim = open_file(WORLD.format(eye + swivel + SCANNER.format("")), nworld=2)
-    sim.stage.set_pose("a", [[0.0, 0.0, 0.0], [0.0, 0.0, 3.0]])
+    stage_of(sim).set_pose("a", [[0.0, 0.0, 0.0], [0.0, 0.0, 3.0]])
     sensors = sim.robots["a"].sensors
     assert set(sensors) == {"camera:0", "actuator:0.camera:0", "ranger:0"}
     for which, name in enumerate(("camera:0", "actuator:0.camera:0")):
         for world in range(2):
             image = sensors[name].read(world)
-            seen = sim.stage.picture("a", which, world)
+            seen = stage_of(sim).picture("a", which, world)
             assert np.array_equal(image.color, seen.color[..., :3])
             assert np.array_equal(image.depth, seen.depth)
     assert np.isfinite(sensors["camera:0"].read(0).depth).any()
@@ -306,6 +309,6 @@ def test_outputs_tell_what_stage_ros_would(open_file):
     assert (told[-1].frame, told[-1].child_frame) == ("robot_1/odom", "robot_1/base_footprint")
     assert told[-1].linear[:, 0] == pytest.approx(0.4)
     now = robot.outputs["odom"].last
-    assert np.array_equal(now.position[:, :2], sim.stage.odometry[:, 1, :2])
+    assert np.array_equal(now.position[:, :2], stage_of(sim).odometry[:, 1, :2])
     assert robot.outputs["base_scan"].topic == "/robot_1/base_scan"
     assert robot.outputs["base_scan"].last.ranges.shape[-1] == 31

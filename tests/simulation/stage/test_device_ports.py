@@ -11,7 +11,7 @@ from gazelle.description import Parameters, Plugin
 from gazelle.errors import SimulationError
 from gazelle.formats import load, load_string, to_string
 from gazelle.simulation import ModelPlugin, Simulation, register, registry
-from gazelle.simulation.stage import Blob, Fiducial, GripperState
+from gazelle.simulation.stage import Blob, Fiducial, GripperState, stage_of
 
 DEVICES = """
 interval_sim 100
@@ -62,7 +62,7 @@ def test_every_device_is_there_by_its_name_in_the_file(sim):
 
 
 def test_outputs_say_what_the_methods_say_in_each_world(sim):
-    robot, stage = sim.robots["a"], sim.stage
+    robot, stage = sim.robots["a"], stage_of(sim)
     stage.set_pose("a", (1.64, 0.0, 0.0), worlds=np.array([1]))
     sim.step()
     (finder,), (blobs,) = named(robot.outputs, "fiducial"), named(robot.outputs, "blobfinder")
@@ -115,7 +115,7 @@ def test_ports_follow_their_robot_when_others_go(sim):
     (finder,) = named(robot.outputs, "fiducial")
     sim.delete("b")
     sim.step()
-    assert robot.outputs[finder].last[0] == tuple(sim.stage.fiducials("a"))
+    assert robot.outputs[finder].last[0] == tuple(stage_of(sim).fiducials("a"))
 
 
 class Shove(ModelPlugin):
@@ -158,7 +158,7 @@ model ( size [1 9 1] pose [2 0 0 0] )
 
 def test_a_reset_of_some_worlds_resets_what_wander_does_there(open_file):
     sim, fresh = open_file(WANDER, nworld=3, seed=5), open_file(WANDER, nworld=3, seed=5)
-    (wander,) = sim.stage.controllers
+    (wander,) = stage_of(sim).controllers
     while not wander.state()["mood"][:, 0].all():
         sim.step()
     sim.reset(worlds=[1])
@@ -166,5 +166,5 @@ def test_a_reset_of_some_worlds_resets_what_wander_does_there(open_file):
     assert mood[1].tolist() == [0, 0]
     assert mood[0].any()
     assert mood[2].any()
-    (other,) = fresh.stage.controllers
+    (other,) = stage_of(fresh).controllers
     assert other.state()["mood"][1].tolist() == mood[1].tolist()

@@ -7,7 +7,7 @@ from stage_samples import write
 from gazelle import formats
 from gazelle.errors import SimulationError
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import StageSimulation, with_wander
+from gazelle.simulation.stage import StageSimulation, stage_of, with_wander
 from gazelle.simulation.stage.controllers import Wander
 from gazelle.simulation.stage.wandering import Wandering
 
@@ -170,9 +170,11 @@ def test_robots_that_nothing_drives_wander_if_asked_to(tmp_path):
     text += "position ( size [.1 .1 .1] " + SCANNER.format(9) + " pose [0 0 0 0] )"
     world = with_wander(formats.load(write(tmp_path, text)))
     with Simulation(world, "planar") as sim:
-        assert sim.stage.controllers
+        assert stage_of(sim).controllers
         sim.run(2.0)
-        assert np.hypot(*sim.stage.poses[0, :, :2].T).tolist() == pytest.approx([3.0, 0.8], abs=0.1)
+        assert np.hypot(*stage_of(sim).poses[0, :, :2].T).tolist() == pytest.approx(
+            [3.0, 0.8], abs=0.1
+        )
 
 
 def test_only_robots_of_stage_files_wander():

@@ -97,11 +97,12 @@ def world(rate: float) -> Iterator[str]:
     from gazelle.bridges.stage import serve_stage
     from gazelle.ros import Master
     from gazelle.simulation import Simulation
+    from gazelle.simulation.stage import stage_of
 
     with Master(port=0) as master, Simulation(assets.world("fleet"), "planar") as simulation:
         stalls: set[int] = set()
-        if (robots := simulation.stage) is not None:
-            simulation.subscribe(lambda: stalls.update(np.flatnonzero(robots.stalled[0]).tolist()))
+        robots = stage_of(simulation)
+        simulation.subscribe(lambda: stalls.update(np.flatnonzero(robots.stalled[0]).tolist()))
         with serve_stage(simulation, master.uri, rate=rate) as server:
             thread = threading.Thread(target=server.run, args=(1e9,))
             thread.start()
