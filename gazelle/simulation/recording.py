@@ -111,18 +111,21 @@ class Recorder(Closeable):
 
     def close(self) -> None:
         """Stop listening; a second call does nothing."""
-        self._simulation.lock.acquire()  # also of a simulation that is closed
+        lock = self._simulation.lock
+        lock.acquire()  # also of a simulation that is closed, and its engine with it
         try:
-            if not self._file.closed:
+            if self._file.closed:
+                return
+            if not lock.closed:
                 for name in CHANGES:
                     delattr(self._engine, name)
                     if name in self._methods:
                         setattr(self._engine, name, self._methods[name])
                 self._note_writes()
-                self._flush()
-                self._file.close()
+            self._flush()
+            self._file.close()
         finally:
-            self._simulation.lock.release()
+            lock.release()
 
     def _stepped(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
         """Make steps, and update systems between them."""

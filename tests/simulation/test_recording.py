@@ -307,3 +307,15 @@ def test_a_recording_does_not_tell_where_steps_were_cut_for_the_sake_of_others(t
         texts.append((tmp_path / name).read_text().splitlines()[3:])
     assert texts[0] == texts[1]
     assert len(texts[0]) == 2
+
+
+@pytest.mark.parametrize("engine", ["mujoco", "planar"])
+def test_a_recording_may_be_closed_after_its_simulation(tmp_path, engine):
+    sim = Simulation(world(), engine, threads=1)
+    recorder = sim.record(tmp_path / "run.jsonl")
+    sim.step(3)
+    sim.close()
+    recorder.close()
+    with Replay(tmp_path / "run.jsonl") as replay:
+        assert replay.run() == 1
+        assert replay.simulation.clock.now_ns == 3 * replay.simulation.clock.step_ns
