@@ -17,7 +17,8 @@ TURNED = {"orientation__z": math.sin(0.25), "orientation__w": math.cos(0.25)}
 
 def at(world, robot=0):
     """Return a pose between two steps: a message may be setting it on another thread."""
-    return world.sim.requests.call(world.sim.poses[0, robot].tolist)
+    with world.sim.lock:
+        return world.sim.poses[0, robot].tolist()
 
 
 def test_cmd_pose(stage):
