@@ -1,4 +1,4 @@
-"""How long something took, and how busy other programs kept the machine meanwhile.
+"""Duration of a measurement, and the load of other programs meanwhile.
 
 A wall time says something only beside what else ran: two trainings on one processor take twice as
 long each. So the time of all processors is read where the system tells it, and what is not this

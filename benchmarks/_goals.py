@@ -1,4 +1,4 @@
-"""What ``gazelle bench env`` and ``gazelle bench stage`` are held to, and whether a run reached it."""
+"""Goals of ``gazelle bench env`` and ``gazelle bench stage``, and whether a run reached them."""
 
 from __future__ import annotations
 

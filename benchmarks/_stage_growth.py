@@ -1,4 +1,4 @@
-"""What a robot costs among ever more robots that see the same, for ``gazelle bench stage``.
+"""Cost of a robot among ever more robots that see the same, for ``gazelle bench stage``.
 
 Halls with 100 robots each stand side by side in one world, so that a robot has as much around it
 in the largest world as in the smallest; all are measured over the same time after the start, as

@@ -1,4 +1,4 @@
-"""Where rays meet the triangles of a mesh, without an index and without an engine."""
+"""Hits of rays on the triangles of a mesh, without an index and without an engine."""
 
 import numpy as np
 

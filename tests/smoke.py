@@ -1,4 +1,4 @@
-"""What a plain installation must do: no extra, an empty folder. Run it with that Python.
+"""Checks of a plain installation: no extra, an empty folder. Run it with that Python.
 
 It is no test of pytest's, for pytest is not installed there: `.ci/plain_wheel` runs it.
 """

@@ -1,4 +1,4 @@
-"""What the package imports is declared, and what tests import comes with the extra `test`."""
+"""Imports of the package are declared, and those of tests come with the extra `test`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the documentation shows works as typed."""
+"""Commands and code of the documentation work as typed."""
 
 import importlib
 import os

@@ -1,4 +1,4 @@
-"""What packages are called, whoever asks."""
+"""Names of packages are the same by every lookup."""
 
 import time
 

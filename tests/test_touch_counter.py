@@ -1,4 +1,4 @@
-"""What counts collisions in other tests does count them."""
+"""Counter of collisions in other tests."""
 
 from touch_counter import Touches
 

@@ -1,4 +1,4 @@
-"""How far the walls of a map are from the true ones."""
+"""Deviation of a map's walls from the true ones."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Which pairs of links a robot's SRDF need not check, and why: lines for the file.
+"""Pairs of links that a robot's SRDF need not check, with reasons: lines for the file.
 
 Links that a joint holds together, those that touch with all joints at zero, those that touch in nearly every
 state that is drawn, and those that never touch in any: as MoveIt's setup assistant has it.

@@ -1,4 +1,4 @@
-"""How long HopperStayUp's leg can stay up at all: a search over what it does, from one lean.
+"""Longest time that HopperStayUp's leg can stay up: a search over its actions, from one lean.
 
 The cross-entropy method (R. Y. Rubinstein, 1999): sequences of actions are drawn, those that last longest
 say how the next are drawn. It sees nothing and need not: it may try the same start as often as it likes.

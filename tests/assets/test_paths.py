@@ -1,4 +1,4 @@
-"""What is bundled is found by name, and by the folders that ROS and Gazebo look in."""
+"""Lookup of bundled files by name, and by the folders of ROS and Gazebo."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the launch files of the corpus bring up."""
+"""Table of what the corpus' launch files bring up."""
 
 from launching import Expected
 

@@ -1,4 +1,4 @@
-"""What is in the worlds of gazebo_ros_pkgs: models, topics, and what has no model here."""
+"""Table of the worlds of gazebo_ros_pkgs: models, topics, and missing models."""
 
 WORLDS = {
     "test/test_worlds/gazebo_ros_depth_camera.world": (

@@ -1,4 +1,4 @@
-"""What is built passes the judgement of `gazelle check` and runs, piece by piece."""
+"""Built pieces pass `gazelle check` and run, one by one."""
 
 import inspect
 import warnings

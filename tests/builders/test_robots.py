@@ -1,4 +1,4 @@
-"""What is added to a robot's text means what is added to its model."""
+"""Additions to a robot's text mean the same as additions to its model."""
 
 from dataclasses import replace
 

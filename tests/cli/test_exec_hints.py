@@ -1,4 +1,4 @@
-"""What `gazelle exec` says of what is not there."""
+"""Hints of `gazelle exec` at missing scripts and modules."""
 
 import pytest
 

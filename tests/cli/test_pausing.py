@@ -1,4 +1,4 @@
-"""What runs from the shell is paused and slowed by whoever asks for it meanwhile."""
+"""Pausing and slowing of runs from the shell by other programs."""
 
 import argparse
 import threading

@@ -1,4 +1,4 @@
-"""What users type first does what they mean: ROS's words, a shell of them, and the tab key."""
+"""Words that users type first: ROS's commands, a shell with them, and the tab key."""
 
 from __future__ import annotations
 

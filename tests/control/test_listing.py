@@ -1,4 +1,4 @@
-"""What `gazelle controllers` and the registry say of the types there are."""
+"""Lists of controller types by `gazelle controllers` and the registry."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What else lies on the search paths changes no task, and hides nothing that comes with Gazelle."""
+"""Other files on the search paths change no task, and hide nothing bundled."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""What is done after close() or before reset() is an error of Gazelle's and of Gymnasium's."""
+"""Calls after close() or before reset() raise an error of Gazelle's and of Gymnasium's."""
 
 import gymnasium as gym
 import numpy as np

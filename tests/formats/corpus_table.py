@@ -1,4 +1,4 @@
-"""What becomes of every description file of the corpus: loaded, warned about, or refused.
+"""Results of loading every description file of the corpus: loaded, warned about, or refused.
 
 The table beside this file, ``corpus_table.txt``, holds what is not simply loaded. After a
 change on purpose it is written again by ``python tests/formats/corpus_table.py CORPUS``.

@@ -1,4 +1,4 @@
-"""What `ign sdf` does, without Ruby and the loading of libsdformat for every file.
+"""Replacement of `ign sdf`, without Ruby and the loading of libsdformat for every file.
 
 `ign` is a Ruby program that loads libsdformat and calls one function of it. A server loads it once, and
 calls the same function in a fork of itself for each file. Which library that is, says the part of

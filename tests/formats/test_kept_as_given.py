@@ -1,4 +1,4 @@
-"""What simulation takes otherwise than a file says it is written as the file says it, as libsdformat."""
+"""Values that simulation changes are written as in the file, as libsdformat does."""
 
 import xml.etree.ElementTree as ET
 from dataclasses import replace

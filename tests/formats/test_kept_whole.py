@@ -1,4 +1,4 @@
-"""What a file says and nothing here simulates is written back as it was."""
+"""Content of a file that nothing here simulates is written back unchanged."""
 
 import xml.etree.ElementTree as ET
 

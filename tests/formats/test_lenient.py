@@ -1,4 +1,4 @@
-"""What the formats do not allow and Gazebo goes on with: one warning, an error for a check."""
+"""Faults that the formats forbid and Gazebo tolerates: one warning, an error for a check."""
 
 import math
 import warnings

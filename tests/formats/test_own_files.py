@@ -1,4 +1,4 @@
-"""What comes with Gazelle is read once in a process."""
+"""Bundled files are read once in a process."""
 
 import os
 import shutil

@@ -1,4 +1,4 @@
-"""What cannot be is one error; what is not done is one warning; each names its place."""
+"""Errors of SDF files: one error or one warning each, with its place."""
 
 import pytest
 from xml_samples import model, sdf, world

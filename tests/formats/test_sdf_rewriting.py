@@ -1,4 +1,4 @@
-"""What stands for other elements: old spellings, merges, actors, populations, saved changes."""
+"""Elements that stand for others: old spellings, merges, actors, populations, saved changes."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""What is saved as SDF is the same when it is loaded: exactly, in all fields."""
+"""Files saved as SDF are the same when loaded: exactly, in all fields."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""What is saved as URDF is the same robot when it is loaded; what it cannot say is named."""
+"""Files saved as URDF are the same robot when loaded; what URDF cannot express is named."""
 
 import math
 import warnings

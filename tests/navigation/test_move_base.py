@@ -1,4 +1,4 @@
-"""What ``move_base`` does while there is no way on."""
+"""Behaviour of ``move_base`` while there is no way on."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What touches what alone, what is in a box, and what goes from pad to pad."""
+"""Plugins for touch, boxes and transporters."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What swings, turns and grips in the ten scenes, built from primitive links."""
+"""Mechanisms of the ten scenes, built from primitive links."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a lidar reports of true ranges, against the same in NumPy."""
+"""Readings of a lidar from true ranges, against the same in NumPy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What plugins ask of the engine when a world starts is compiled with it, once."""
+"""Requests of plugins at a world's start are compiled with it, once."""
 
 from dataclasses import replace
 

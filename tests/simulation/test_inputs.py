@@ -1,4 +1,4 @@
-"""What users hand in is judged at once, in one line, and nothing changes if it cannot be."""
+"""Invalid arguments raise an error at once, in one line, and change nothing."""
 
 import math
 

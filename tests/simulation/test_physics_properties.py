@@ -1,4 +1,4 @@
-"""What holds for a whole run, and changes in the middle of it: ``Simulation.physics``."""
+"""Properties of a whole run that change in the middle of it: ``Simulation.physics``."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""How long a reset takes where learning needs it most."""
+"""Duration of a reset where learning needs it most."""
 
 import time
 

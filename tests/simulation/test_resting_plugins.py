@@ -1,4 +1,4 @@
-"""What only publishes is not asked at every step while nobody listens, and wakes at once."""
+"""Plugins that only publish rest without subscribers, and wake at once."""
 
 from __future__ import annotations
 

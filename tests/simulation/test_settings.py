@@ -1,4 +1,4 @@
-"""What is set from around a plugin."""
+"""Settings of a plugin from outside."""
 
 import pytest
 

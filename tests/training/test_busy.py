@@ -1,4 +1,4 @@
-"""How benchmarks tell how long a training took and what ran beside it."""
+"""Measurement of a training's duration and of the load beside it in benchmarks."""
 
 from __future__ import annotations
 

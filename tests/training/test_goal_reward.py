@@ -1,4 +1,4 @@
-"""What the learner is paid in place of the task's own reward."""
+"""Rewards of the learner in place of the task's own."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which recipe a task without one of its own is trained with."""
+"""Choice of the recipe for a task without one of its own."""
 
 from __future__ import annotations
 

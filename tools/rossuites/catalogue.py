@@ -1,4 +1,4 @@
-"""Which suites there are, and how many of their tests the real ROS 1 passes."""
+"""Test suites, and how many of their tests the real ROS 1 passes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tool rqt_joint_trajectory_controller asks for is there, for both clients of Python."""
+"""Interfaces that the tool rqt_joint_trajectory_controller uses, for both clients of Python."""
 
 import os
 import subprocess

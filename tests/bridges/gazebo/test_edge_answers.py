@@ -1,4 +1,4 @@
-"""What the services answer where a call is odd, as gazebo_ros_api_plugin does."""
+"""Answers of services to unusual calls, as of gazebo_ros_api_plugin."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What gazebo_ros_pkgs' own ``ros_api_checker`` looks for: its two lists, in the corpus."""
+"""Lists of gazebo_ros_pkgs' own ``ros_api_checker``, from the corpus."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What requests to ``move_group`` say besides where to go: attempts, speeds of links, planners' parameters."""
+"""Settings of ``move_group`` requests besides the goal: attempts, link speeds, planners' parameters."""
 
 import threading
 from types import SimpleNamespace

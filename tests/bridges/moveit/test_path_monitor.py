@@ -1,4 +1,4 @@
-"""What comes into the way of a motion stops it, and it is planned anew where the goal allows that."""
+"""Obstacles that appear during a motion stop it, and it is replanned where the goal allows that."""
 
 from bridges.moveit.moveit_graph import message
 from bridges.moveit.test_move_group_actions import action, goal_of, robot, send

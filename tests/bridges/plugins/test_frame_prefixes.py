@@ -1,4 +1,4 @@
-"""Which parameter tf_prefix goes before the frames of which plugin; Gazebo's differ in it."""
+"""Use of the parameter tf_prefix for each plugin's frames; Gazebo's plugins differ in it."""
 
 import pytest
 from models import block, plugin

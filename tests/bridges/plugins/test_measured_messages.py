@@ -1,4 +1,4 @@
-"""What Gazebo's older plugins measure, as a client on a graph with a tf_prefix gets it."""
+"""Measurements of Gazebo's older plugins, as a client on a graph with a tf_prefix gets them."""
 
 import math
 

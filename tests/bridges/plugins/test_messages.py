@@ -1,4 +1,4 @@
-"""What plugins publish, hear and answer, as a client on the graph sees it."""
+"""Messages and answers of plugins, as a client on the graph sees them."""
 
 from __future__ import annotations
 

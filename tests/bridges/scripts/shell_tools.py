@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # ruff: noqa: B007, PLW1510, PTH118, UP031  it is written as people write such scripts
-"""What people do with the command-line tools from Python, and with the modules behind them."""
+"""Common uses of the command-line tools from Python, and of the modules behind them."""
 
 import os
 import signal

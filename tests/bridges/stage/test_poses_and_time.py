@@ -1,4 +1,4 @@
-"""What people asked of stage_ros for years: set pose, reset, pause, step, any speed."""
+"""Poses and time of stage_ros: set pose, reset, pause, step, any speed."""
 
 import math
 import time

@@ -1,4 +1,4 @@
-"""What the topics of a Stage world say."""
+"""Topics of a Stage world."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""How well the burger drives, against kinematics, with the errors stated.
+"""Accuracy of the burger's drive, against kinematics, with the errors stated.
 
 The driver of a wheeled robot asks for speeds; what the wheels make of it is limited by
 contact. The bounds below are the measured errors, rounded up.

@@ -1,4 +1,4 @@
-"""What makes steps faster changes no bit of what happens."""
+"""Optimisations of steps change no bit of the result."""
 
 import mujoco
 import numpy as np

@@ -1,4 +1,4 @@
-"""What spins and swings: precession, nutation and energy against theory."""
+"""Spinning and swinging bodies: precession, nutation and energy against theory."""
 
 import math
 import warnings

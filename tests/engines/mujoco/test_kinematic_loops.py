@@ -1,4 +1,4 @@
-"""Which joint of a loop closes it, and what that costs."""
+"""Choice of the joint that closes a loop, and its cost."""
 
 import math
 import warnings

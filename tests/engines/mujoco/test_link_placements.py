@@ -1,4 +1,4 @@
-"""Where many links are is read at once, and is what is read of each alone."""
+"""Placements of many links read at once equal those read alone."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What a file puts into something else comes out slowly, and nothing else is disturbed."""
+"""Overlaps in a file are resolved slowly, and nothing else is disturbed."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""What rolls is held with less effort, and what lies is held as fast as ever."""
+"""Rolling contacts are softer, and resting ones as stiff as ever."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What slides stays down, upright and on its way, and stops where Coulomb's friction says.
+"""Sliding bodies stay down, upright and on course, and stop by Coulomb's friction.
 
 Semi-implicit Euler moves a body by the velocity at the end of each step: what slows down falls
 short of the closed form by half a step, v h / 2, and what speeds up gains as much. That much, and

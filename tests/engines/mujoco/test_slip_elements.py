@@ -1,4 +1,4 @@
-"""What SDF's slip1 and slip2 make of wheels."""
+"""Effects of SDF's slip1 and slip2 on wheels."""
 
 import warnings
 

@@ -1,4 +1,4 @@
-"""What friction holds stays where it is: in a grip, on a slope, in a stack, parked."""
+"""Bodies held by friction stay in place: in a grip, on a slope, in a stack, parked."""
 
 import math
 from dataclasses import replace

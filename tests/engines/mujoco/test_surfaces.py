@@ -1,4 +1,4 @@
-"""What a surface's words do: friction by direction and about the normal, softness, thresholds."""
+"""Terms of a surface: friction by direction and about the normal, softness, thresholds."""
 
 import math
 import warnings

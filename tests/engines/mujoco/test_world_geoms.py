@@ -1,4 +1,4 @@
-"""What never moves comes into the model by thousands, and is the same as one by one."""
+"""Thousands of static shapes in one model behave like shapes added one by one."""
 
 import time
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""How bodies move, and that they never overlap."""
+"""Motion of bodies, which never overlap."""
 
 import math
 

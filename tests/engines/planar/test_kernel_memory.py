@@ -1,4 +1,4 @@
-"""What kernels remember of bodies saves time and changes no bit."""
+"""Caches of kernels save time and change no bit."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What beams meet, against exact geometry."""
+"""Ranges of beams against exact geometry."""
 
 import math
 

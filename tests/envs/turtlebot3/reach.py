@@ -1,4 +1,4 @@
-"""Which goals a robot can reach in time among walls and moving obstacles: a search, layer by layer.
+"""Goals that a robot can reach in time among walls and moving obstacles: a search by layers.
 
 The robot is the published one: every two control steps it chooses one of five arcs at 0.15 m/s,
 so it waits by going in circles. A layer holds one robot for each cell of place and heading that

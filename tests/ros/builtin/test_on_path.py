@@ -1,4 +1,4 @@
-"""What a script starts finds ROS's commands, and its Python finds ROS's modules."""
+"""ROS's commands and modules in programs that scripts start."""
 
 from __future__ import annotations
 

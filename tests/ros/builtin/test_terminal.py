@@ -1,4 +1,4 @@
-"""What is to run in a terminal runs without one where there is no display."""
+"""Programs for a terminal run without one where there is no display."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the modules behind ROS's tools raise while a master answers: the real ones' classes."""
+"""Exceptions of the modules behind ROS's tools while a master answers: the real ones' classes."""
 
 from __future__ import annotations
 

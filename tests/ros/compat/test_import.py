@@ -1,4 +1,4 @@
-"""What `install` makes importable, and that it leaves no trace."""
+"""Modules that `install` makes importable, without a trace afterwards."""
 
 import importlib
 import sys

@@ -1,4 +1,4 @@
-"""What programs ask rospkg and rosgraph."""
+"""Interfaces of rospkg and rosgraph that programs use."""
 
 import importlib
 import os

@@ -1,4 +1,4 @@
-"""What ``rospy.on_shutdown`` runs may sleep, publish and call, as with the real rospy."""
+"""Hooks of ``rospy.on_shutdown`` may sleep, publish and call, as with the real rospy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What asks a master that is not there raises what programs for ROS catch: the real ones' classes."""
+"""Exceptions without a master are those that programs for ROS catch: the real ones' classes."""
 
 from __future__ import annotations
 

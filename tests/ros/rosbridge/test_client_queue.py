@@ -1,4 +1,4 @@
-"""What a client gets, when, and what it never gets."""
+"""Delivery of messages to a client: content, time and limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tools say about small mistakes, and what they make of them."""
+"""Hints of the tools at small mistakes."""
 
 from __future__ import annotations
 

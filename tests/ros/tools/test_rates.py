@@ -1,4 +1,4 @@
-"""What is measured of topics."""
+"""Measurements of topics."""
 
 from __future__ import annotations
 

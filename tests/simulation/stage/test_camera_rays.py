@@ -1,4 +1,4 @@
-"""What cameras of Stage's robots see, against exact rays through the middles of pixels."""
+"""Images of Stage's cameras against exact rays through the centres of pixels."""
 
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What cameras of Stage's robots see, by the geometry of a pinhole."""
+"""Images of Stage's cameras by the geometry of a pinhole."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Where Stage's robots believe they are."""
+"""Odometry of Stage's robots."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What Stage 4.3 itself said of a few worlds, and what Gazelle says of them.
+"""Results of Stage 4.3 itself for a few worlds, against Gazelle's.
 
 ``tools/stage_answers.py`` ran them; ``tools/stage_second_opinion.py`` compares more.
 """

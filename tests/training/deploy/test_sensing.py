@@ -1,4 +1,4 @@
-"""What a robot's sensors say becomes what the policy was trained on."""
+"""Readings of a robot's sensors become the observations that the policy was trained on."""
 
 from __future__ import annotations
 

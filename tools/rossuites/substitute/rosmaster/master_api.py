@@ -1,3 +1,3 @@
-"""What roslaunch asks of this module."""
+"""Attributes that roslaunch reads from this module."""
 
 NUM_WORKERS = 3
