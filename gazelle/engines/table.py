@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, Generic, TypeVar, overload
+from typing import Any, Generic, TypeVar, cast, overload
 
 Row_co = TypeVar("Row_co", covariant=True)
 Rows_co = TypeVar("Rows_co", covariant=True)
+Layout = TypeVar("Layout")
+Places = TypeVar("Places")
 
 _MOST = 4096  # rows that are kept
 
@@ -57,3 +59,23 @@ class Table(Generic[Row_co, Rows_co]):
             self._known[names] = known
         found: Row_co | Rows_co = known
         return found
+
+
+class Lookup(Generic[Layout, Places]):
+    """Places of rows in an engine's arrays, looked up once for each layout.
+
+    Args:
+        find: Looks them up in a layout.
+    """
+
+    def __init__(self, find: Callable[[Layout], Places]) -> None:
+        self._find = find
+        self._layout: Layout | None = None
+        self._places: Places | None = None
+
+    def within(self, layout: Layout) -> Places:
+        """Return the places in a layout; another object is another layout."""
+        if layout is not self._layout:
+            self._places = self._find(layout)
+            self._layout = layout
+        return cast("Places", self._places)

@@ -10,6 +10,7 @@ from gazelle.engines.planar.build import PlanarLayout
 from gazelle.engines.planar.refusals import refuse
 from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.engines.reactions import Wrench
+from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
 from gazelle.native.joint_system import JointSystem
 
@@ -71,27 +72,24 @@ class PlanarJointRows:
 
     def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
         self._run, self._names = run, names
-        self._found: tuple[PlanarLayout, Indices] | None = None
-
-    def _columns(self) -> Indices:
-        layout, found = self._run.layout, self._found
-        if found is None or found[0] is not layout:
-            columns = [self._run.axes(name).start for name in self._names]
-            found = self._found = layout, np.array(columns, np.intp)
-        return found[1]
+        self._columns = Lookup[PlanarLayout, Indices](
+            lambda _: np.array([run.axes(name).start for name in names], np.intp)
+        )
 
     def position(self, worlds: Worlds | None = None) -> Floats:
         """Return positions [m or rad], shape (n, joints)."""
-        return self._run.angles[rows_of(worlds)].take(self._columns(), axis=1)
+        return self._run.angles[rows_of(worlds)].take(
+            self._columns.within(self._run.layout), axis=1
+        )
 
     def velocity(self, worlds: Worlds | None = None) -> Floats:
         """Return velocities [m/s or rad/s], shape (n, joints)."""
-        return self._run.rates[rows_of(worlds)].take(self._columns(), axis=1)
+        return self._run.rates[rows_of(worlds)].take(self._columns.within(self._run.layout), axis=1)
 
     def place(self, position: Floats, velocity: Floats, chosen: Bools) -> None:
         """Set positions and velocities [m or rad, m/s or rad/s], shape (nworld, joints)."""
         worlds, joints = np.nonzero(chosen)
-        columns = self._columns()[joints]
+        columns = self._columns.within(self._run.layout)[joints]
         self._run.angles[worlds, columns] = position[chosen]
         self._run.rates[worlds, columns] = velocity[chosen]
 
@@ -115,7 +113,9 @@ class PlanarJointRows:
         worlds, joints = np.nonzero(system.driven_out)
         for name in {self._names[joint] for joint in joints.tolist()}:
             motor_column(self._run, name)
-        self._run.targets[worlds, self._columns()[joints]] = system.speed_out[worlds, joints]
+        self._run.targets[worlds, self._columns.within(self._run.layout)[joints]] = (
+            system.speed_out[worlds, joints]
+        )
         system.driven_out[:] = 0
 
     def set_motor_velocity(self, velocity: ArrayLike, chosen: Bools | None = None) -> None:
@@ -128,7 +128,7 @@ class PlanarJointRows:
         """Return the velocities that motors hold, to be written, and the joints' columns."""
         for name in self._names:
             motor_column(self._run, name)
-        return self._run.targets, self._columns()
+        return self._run.targets, self._columns.within(self._run.layout)
 
 
 def motor_column(run: RunningPlane, joint: str) -> int:

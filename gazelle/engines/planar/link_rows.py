@@ -18,6 +18,7 @@ from gazelle.engines.planar.model_rows import PlanarModelRow
 from gazelle.engines.planar.rays import Caster
 from gazelle.engines.planar.refusals import refuse
 from gazelle.engines.planar.running import RunningPlane, rows_of
+from gazelle.engines.table import Lookup
 from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, unit
 
 
@@ -190,13 +191,7 @@ class PlanarLinkRows:
 
     def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
         self._run, self._names = run, names
-        self._found: tuple[PlanarLayout, _LinkColumns] | None = None
-
-    def _columns(self) -> _LinkColumns:
-        layout, found = self._run.layout, self._found
-        if found is None or found[0] is not layout:
-            found = self._found = layout, _LinkColumns.find(self._run, self._names)
-        return found[1]
+        self._columns = Lookup[PlanarLayout, _LinkColumns](lambda _: _LinkColumns.find(run, names))
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the poses, shapes (n, links, 3) and (n, links, 4)."""
@@ -210,7 +205,7 @@ class PlanarLinkRows:
         """Return the velocities, shape (n, links, 3)."""
         base, inner, twist = self._base(worlds), self._in_model(worlds), self._twist(worlds)
         linear = twist.linear + cross(twist.angular, rotate(base.quaternion, inner.position))
-        for number, owner, name in self._columns().hinged:
+        for number, owner, name in self._columns.within(self._run.layout).hinged:
             skeleton, turn = self._run.model(owner).skeleton, base.quaternion[:, number]
             swing = skeleton.motion(name, *self._run.own(owner, worlds))
             linear[:, number] += rotate(turn, swing[0])
@@ -224,7 +219,7 @@ class PlanarLinkRows:
 
     def _base(self, worlds: Worlds | None) -> Placement:
         """Return the poses of the models' frames, shapes (n, links, 3) and (n, links, 4)."""
-        columns, fleet = self._columns(), self._run.fleet
+        columns, fleet = self._columns.within(self._run.layout), self._run.fleet
         bodies = fleet.body_rows[rows_of(worlds)][:, columns.body]
         at = np.repeat(columns.base.position[None], len(bodies), axis=0)
         turned = np.repeat(columns.base.quaternion[None], len(bodies), axis=0)
@@ -234,7 +229,11 @@ class PlanarLinkRows:
 
     def _twist(self, worlds: Worlds | None) -> Motion:
         """Return the velocities of the models' frames in the world, shape (n, links, 3)."""
-        columns, fleet, rows = self._columns(), self._run.fleet, rows_of(worlds)
+        columns, fleet, rows = (
+            self._columns.within(self._run.layout),
+            self._run.fleet,
+            rows_of(worlds),
+        )
         shape = (fleet.nworld, fleet.nbody)
         v = fleet.velocity.reshape(*shape, 3)[rows][:, columns.body]
         resting = fleet.stalled.reshape(shape)[rows][:, columns.body] | ~columns.loose
@@ -248,7 +247,7 @@ class PlanarLinkRows:
 
     def _in_model(self, worlds: Worlds | None) -> Placement:
         """Return the poses in the models' frames."""
-        columns, angles = self._columns(), self._run.angles[rows_of(worlds)]
+        columns, angles = self._columns.within(self._run.layout), self._run.angles[rows_of(worlds)]
         at = np.repeat(columns.rest.position[None], len(angles), axis=0)
         turned = np.repeat(columns.rest.quaternion[None], len(angles), axis=0)
         for number, owner, name in columns.hinged:

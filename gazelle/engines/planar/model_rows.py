@@ -16,6 +16,7 @@ from gazelle.engines.planar.build import PlanarLayout
 from gazelle.engines.planar.paths import PathFollower
 from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.engines.planar.twist_commands import TwistCommands
+from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
 from gazelle.native.paths import ModelPath
 from gazelle.native.system import System
@@ -197,17 +198,13 @@ class PlanarModelRows:
 
     def __init__(self, run: RunningPlane, names: tuple[str, ...]) -> None:
         self._run, self._names = run, names
-        self._found: tuple[PlanarLayout, _ModelColumns] | None = None
-
-    def _columns(self) -> _ModelColumns:
-        layout, found = self._run.layout, self._found
-        if found is None or found[0] is not layout:
-            found = self._found = layout, _ModelColumns.find(self._run, self._names)
-        return found[1]
+        self._columns = Lookup[PlanarLayout, _ModelColumns](
+            lambda _: _ModelColumns.find(run, names)
+        )
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the poses of the models' frames, shapes (n, models, 3) and (n, models, 4)."""
-        columns = self._columns()
+        columns = self._columns.within(self._run.layout)
         rows, which = self._run.fleet.body_rows[rows_of(worlds)], np.flatnonzero(columns.body >= 0)
         at = np.repeat(columns.at[None], len(rows), axis=0)
         turned = np.repeat(columns.turned[None], len(rows), axis=0)
@@ -218,7 +215,7 @@ class PlanarModelRows:
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
         """Give the models velocities along and across their headings, which they keep."""
-        columns, fleet = self._columns(), self._run.fleet
+        columns, fleet = self._columns.within(self._run.layout), self._run.fleet
         shape = (fleet.nworld if worlds is None else len(worlds), len(self._names), 3)
         given, which = np.broadcast_to(twist, shape), np.flatnonzero(columns.loose)
         rows = np.arange(fleet.nworld) if worlds is None else worlds
@@ -232,7 +229,7 @@ class PlanarModelRows:
 
     def twist(self, linear: Floats, angular: Floats) -> System:
         """Return what gives the models their velocities."""
-        columns, law = self._columns(), TwistCommands(linear, angular)
+        columns, law = self._columns.within(self._run.layout), TwistCommands(linear, angular)
         bodies = np.where(columns.loose, columns.body, -1)
         law.carry(self._run.fleet.bodies, bodies, self._run.rates, columns.first, columns.width)
         return law

@@ -14,6 +14,7 @@ from gazelle.engines.mujoco.quaternions import joint_from_mujoco, joint_to_mujoc
 from gazelle.engines.mujoco.state import rows_of
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.reactions import Wrench
+from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
 from gazelle.native.joint_system import JointSystem
 
@@ -142,29 +143,23 @@ class MujocoJointRows:
         self, run: RunningWorlds, names: tuple[str, ...], in_step: Callable[[], bool]
     ) -> None:
         self._run, self._names, self._in_step = run, names, in_step
-        self._found: tuple[MujocoLayout, JointColumns] | None = None
-        self._motors: tuple[MujocoLayout, Indices] | None = None
+        self._columns = Lookup[MujocoLayout, JointColumns](lambda at: JointColumns.find(at, names))
+        self._motors = Lookup[MujocoLayout, Indices](self._find_motors)
         self._limits: tuple[tuple[int, int], Floats, Floats] | None = None
-
-    def _columns(self, layout: MujocoLayout) -> JointColumns:
-        found = self._found
-        if found is None or found[0] is not layout:
-            found = self._found = layout, JointColumns.find(layout, self._names)
-        return found[1]
 
     def position(self, worlds: Worlds | None = None) -> Floats:
         """Return positions [m or rad], shape (n, joints)."""
         qpos = self._run.state.qpos[rows_of(worlds)]
-        return qpos.take(self._columns(self._run.known()).places, axis=1)
+        return qpos.take(self._columns.within(self._run.known()).places, axis=1)
 
     def velocity(self, worlds: Worlds | None = None) -> Floats:
         """Return velocities [m/s or rad/s], shape (n, joints)."""
         qvel = self._run.state.qvel[rows_of(worlds)]
-        return qvel.take(self._columns(self._run.known()).dofs, axis=1)
+        return qvel.take(self._columns.within(self._run.known()).dofs, axis=1)
 
     def place(self, position: Floats, velocity: Floats, chosen: Bools) -> None:
         """Set positions and velocities of joints with one axis, to their limits at most."""
-        columns = self._columns(self._run.now())
+        columns = self._columns.within(self._run.now())
         within = np.clip(position, *self._bounds())
         qpos, qvel = self._run.state.qpos, self._run.state.qvel
         if chosen.all():
@@ -198,7 +193,7 @@ class MujocoJointRows:
         if in_step and not recipe.hooks:
             self._run.change(replace(recipe, hooks=self._run.hooks.address))
         layout = self._run.now()
-        columns = self._columns(layout)
+        columns = self._columns.within(layout)
         largest = [layout.limits.effort.get(name, (np.inf,))[0] for name in self._names]
         driven = self._run.recipe.motors
         motors = [layout.motor(n).targets.start if n in driven else -1 for n in self._names]
@@ -226,11 +221,11 @@ class MujocoJointRows:
 
     def motor_targets(self) -> tuple[Floats, Indices]:
         """Return the velocities that motors hold, to be written, and the joints' columns."""
-        layout, found = self._run.now(), self._motors
-        if found is None or found[0] is not layout:
-            starts = [layout.motor(name).targets.start for name in self._names]
-            found = self._motors = layout, np.array(starts, np.intp)
-        return self._run.state.userdata, found[1]
+        columns = self._motors.within(self._run.now())
+        return self._run.state.userdata, columns
+
+    def _find_motors(self, layout: MujocoLayout) -> Indices:
+        return np.array([layout.motor(name).targets.start for name in self._names], np.intp)
 
 
 def _read(array: Floats, columns: list[slice], worlds: Worlds | None) -> Floats:

@@ -18,6 +18,7 @@ from gazelle.engines.mujoco.tables.link_columns import LinkColumns, find_links
 from gazelle.engines.mujoco.tables.root_poses import put_root
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.state import LinkRow
+from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
 from gazelle.rotations import conjugate, cross, multiply, rotate, unit
 
@@ -40,22 +41,18 @@ class MujocoLinkRows:
         *,
         single: bool = False,
     ) -> None:
-        self._run, self._steps, self._names, self._single = run, steps, names, single
-        self._found: tuple[MujocoLayout, LinkColumns] | None = None
-
-    def _columns(self) -> LinkColumns:
-        layout, found = self._run.known(), self._found
-        if found is None or found[0] is not layout:
-            found = self._found = layout, find_links(layout, self._names, single=self._single)
-        return found[1]
+        self._run, self._steps, self._names = run, steps, names
+        self._columns = Lookup[MujocoLayout, LinkColumns](
+            lambda layout: find_links(layout, names, single=single)
+        )
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the poses of the links."""
-        return self._columns().placement(self._run, worlds)
+        return self._columns.within(self._run.known()).placement(self._run, worlds)
 
     def motion(self, worlds: Worlds | None = None) -> Motion:
         """Return the velocities of the links."""
-        return self._columns().motion(self._run, worlds)
+        return self._columns.within(self._run.known()).motion(self._run, worlds)
 
     def acceleration(self, worlds: Worlds | None = None) -> Motion:
         """Return by how much the velocities change in the next physics step [m/s², rad/s²]."""

@@ -17,7 +17,7 @@ from gazelle.engines.mujoco.tables.planar_velocity import LevelMotion
 from gazelle.engines.mujoco.tables.root_poses import put_root
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.engines.state import LinkRow, LinkRows
-from gazelle.engines.table import Table
+from gazelle.engines.table import Lookup, Table
 from gazelle.errors import EngineError
 from gazelle.native.paths import ModelPath, PosePath
 from gazelle.native.system import System
@@ -247,18 +247,12 @@ class MujocoModelRows:
         self, run: RunningWorlds, names: tuple[str, ...], links: Table[LinkRow, LinkRows]
     ) -> None:
         self._run, self._names, self._links = run, names, links
-        self._found: tuple[MujocoLayout, _Frames, _Roots] | None = None
-
-    def _columns(self, layout: MujocoLayout) -> tuple[_Frames, _Roots]:
-        found = self._found
-        if found is None or found[0] is not layout:
-            frames, roots = _Frames.find(layout, self._names), _Roots.find(layout, self._names)
-            found = self._found = layout, frames, roots
-        return found[1:]
+        self._frames = Lookup[MujocoLayout, _Frames](lambda at: _Frames.find(at, names))
+        self._roots = Lookup[MujocoLayout, _Roots](lambda at: _Roots.find(at, names))
 
     def placement(self, worlds: Worlds | None = None) -> Placement:
         """Return the poses of the models' frames, shapes (n, models, 3) and (n, models, 4)."""
-        frames, _ = self._columns(self._run.known())
+        frames = self._frames.within(self._run.known())
         place = self._links[frames.links].placement(worlds)
         if not len(frames.moved):
             return place
@@ -270,7 +264,7 @@ class MujocoModelRows:
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
         """Give the models level velocities along and across their headings, joints at rest."""
-        _, roots = self._columns(self._run.now())
+        roots = self._roots.within(self._run.now())
         origin = self.placement(worlds)
         wanted = np.broadcast_to(np.asarray(twist, np.float64), origin.position.shape)
         heading = from_yaw(yaw_of(origin.quaternion))
