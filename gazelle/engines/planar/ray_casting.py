@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.fans import Scanner
-from gazelle.engines.planar.rays import Caster, KeptCaster, RayFan, caster_of, fan_of
+from gazelle.engines.planar.rays import Caster, KeptCaster, RayFan, caster_of, check_level, fan_of
 from gazelle.engines.planar.running import RunningPlane
 from gazelle.engines.range_rays import RangeRays
 from gazelle.errors import EngineError
@@ -89,6 +89,7 @@ class PlanarRays:
         turned = multiply(tilt[None], turned)
         start = rotate(tilt, at)[0] + rotate(turned, origins)
         along = rotate(turned, directions)
+        check_level(start, along)  # before the world is cut at their height
         body = self._run.layout.bodies[model]
         self._run.cut_at(float(self._run.fleet.rows[body, c.Z] + start[0, 2]))
         grid = self._run.fleet.scene.grid

@@ -87,6 +87,19 @@ class RayFan:
     begin: float
 
 
+def check_level(origins: Floats, directions: Floats) -> None:
+    """Check that rays lie in one level plane, shapes (rays, 3).
+
+    Raises:
+        EngineError: They do not.
+    """
+    if np.abs(directions[:, 2]).max(initial=0.0) > _LEVEL or np.ptp(origins[:, 2]) > _LEVEL:
+        raise EngineError(
+            "the planar engine casts rays in one level plane only",
+            hint="use the engine mujoco for scanners with several rows, or ones that lean",
+        )
+
+
 def fan_of(body: int, origins: Floats, directions: Floats, reach: float) -> RayFan:
     """The fan that rays are.
 
@@ -95,17 +108,8 @@ def fan_of(body: int, origins: Floats, directions: Floats, reach: float) -> RayF
         origins: In the body's frame [m], shape (rays, 3).
         directions: Unit vectors in the body's frame, shape (rays, 3).
         reach: How far they go [m].
-
-    Raises:
-        EngineError: The rays do not lie in one level plane.
     """
-    heights = origins[:, 2]
-    if np.abs(directions[:, 2]).max(initial=0.0) > _LEVEL or np.ptp(heights) > _LEVEL:
-        raise EngineError(
-            "the planar engine casts rays in one level plane only",
-            hint="use the engine mujoco for scanners with several rows, or ones that lean",
-        )
-    z = float(heights[0])
+    z = float(origins[0, 2])
     angles = np.arctan2(directions[:, 1], directions[:, 0])
     centre, begin = _centre_of(origins[:, :2], directions[:, :2])
     steps = np.diff(angles) % (2.0 * math.pi)

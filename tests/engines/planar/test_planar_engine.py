@@ -99,10 +99,22 @@ def test_rays_that_begin_inside_something_say_so():
     assert a.distance == pytest.approx(b.distance, abs=1e-3)
 
 
-def test_rays_that_lean_are_refused():
+@pytest.mark.parametrize(
+    ("origins", "along"),
+    [
+        (np.zeros((1, 3)), np.array([[0.6, 0.0, 0.8]])),
+        (np.array([[0.0, 0.0, 0.4]]), np.array([[0.0, 0.0, -1.0]])),
+        (np.array([[0.0, 0.0, 0.2], [0.0, 0.0, 0.3]]), np.array([[1.0, 0.0, 0.0]] * 2)),
+    ],
+    ids=["leaning", "down", "two heights"],
+)
+def test_rays_that_are_not_level_are_refused_and_change_nothing(origins, along):
     engine = make_engine("planar", scenes.world(scanner_model()))
+    fleet, revision = engine.fleet, engine.revision
     with pytest.raises(EngineError, match="level plane"):
-        engine.links["scanner::base"].cast_rays(np.zeros((1, 3)), np.array([[0.6, 0.0, 0.8]]))
+        engine.links["scanner::base"].cast_rays(origins, along)
+    assert engine.fleet is fleet
+    assert engine.revision == revision
 
 
 def drive(engine, world, command, pose=None, seconds=5.0):
