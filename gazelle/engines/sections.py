@@ -14,26 +14,34 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Ints32
 from gazelle.description import (
     Box,
+    Capsule,
     Collision,
+    Cone,
     Cylinder,
+    Ellipsoid,
     Empty,
+    Geometry,
     Heightmap,
     Image,
+    Mesh,
     Plane,
     Polyline,
     Pose,
     Sphere,
 )
-from gazelle.engines.triangle_solids import Solid, cut, solid_of
 from gazelle.errors import EngineWarning
+from gazelle.geometry import triangles
 from gazelle.geometry.planar_part import PlanarPart
 from gazelle.geometry.polygons import Point, convex_polygons, planar_hull
 
 LEVEL = 1e-3  # how far a ray may be off the height of a cut [m]
 _UPRIGHT = 1e-9
+_SIDES = 64  # of what is round and leans
+
+Solid = tuple[Floats, Ints32]
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,3 +179,62 @@ def _lines(lines: Floats, low: float, high: float, glow: float, *, solid: bool) 
         PlanarPart(((a, b), (c, d)), 0.0, closed=False, low=low, high=high, glow=glow, solid=solid)
         for a, b, c, d in lines.tolist()
     ]
+
+
+def solid_of(shape: Geometry, pose: Pose) -> Solid | None:
+    """Return vertices (n, 3) at a pose and faces (m, 3), counter-clockwise from outside; or None.
+
+    Raises:
+        FormatError: A mesh cannot be read.
+    """
+    vertices, faces = _triangles_of(shape)
+    if not len(faces):
+        return None
+    matrix = pose.matrix()
+    return vertices @ matrix[:3, :3].T + matrix[:3, 3], faces
+
+
+def cut(solid: Solid, height: float) -> Floats:
+    """Return segments where a solid meets a level plane, solid on their left, shape (n, 4)."""
+    vertices, faces = solid
+    corners = vertices[faces]
+    above = corners[:, :, 2] > height
+    # The corner that is alone on its side comes first.
+    count = above.sum(axis=1)
+    cut_ones = np.flatnonzero((count == 1) | (count == 2))
+    alone = np.where(count[cut_ones] == 1, above[cut_ones].argmax(1), above[cut_ones].argmin(1))
+    turned = (alone[:, None] + np.arange(3)) % 3
+    a, b, c = np.moveaxis(np.take_along_axis(corners[cut_ones], turned[:, :, None], axis=1), 1, 0)
+    start, end = _between(a, b, height), _between(a, c, height)
+    # Seen from outside, the edge to the next corner is on the left of a corner above the plane.
+    flip = count[cut_ones] == 1
+    first, last = np.where(flip[:, None], start, end), np.where(flip[:, None], end, start)
+    lines = np.hstack((first, last))
+    long = np.abs(lines[:, :2] - lines[:, 2:]).max(axis=1) > 0.0
+    return np.asarray(lines[long])
+
+
+def _between(a: Floats, b: Floats, height: float) -> Floats:
+    share = (height - a[:, 2]) / (b[:, 2] - a[:, 2])
+    return np.asarray(a[:, :2] + share[:, None] * (b[:, :2] - a[:, :2]))
+
+
+def _triangles_of(shape: Geometry) -> Solid:
+    """Return vertices and faces in the shape's frame; none of a shape without a volume."""
+    if isinstance(shape, Mesh) and shape.path is not None:
+        from gazelle.formats.mesh import load_mesh
+
+        data = load_mesh(shape)
+        return data.vertices, data.faces
+    if isinstance(shape, Box):
+        made = triangles.box(shape.size)
+    elif isinstance(shape, Capsule):
+        made = triangles.capsule(shape.radius, shape.length, _SIDES)
+    elif isinstance(shape, Cone | Cylinder):
+        top = shape.radius if isinstance(shape, Cylinder) else 0.0
+        made = triangles.frustum(shape.radius, top, shape.length, _SIDES)
+    elif isinstance(shape, Ellipsoid):
+        made = triangles.ellipsoid(shape.radii, _SIDES)
+    else:
+        made = triangles.joined([])
+    return made.vertices, made.faces

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.description import Color, Empty, Material, Pose, Scene, Visual, World
+from gazelle.geometry.triangles import TriangleMesh
 from gazelle.rendering.surface_looks import SurfaceLook
-from gazelle.rendering.tessellation import TriangleMesh
 from gazelle.rendering.visible import GatheredShapes, VisiblePart, VisibleWorld, rows_of
 
 _BLACK = (0.0, 0.0, 0.0)

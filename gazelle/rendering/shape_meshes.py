@@ -25,7 +25,9 @@ from gazelle.description import (
     Polyline,
     Sphere,
 )
-from gazelle.rendering import tessellation as t
+from gazelle.geometry import triangles
+from gazelle.geometry.triangles import TriangleMesh, joined
+from gazelle.rendering.tessellation import creased, polyline, terrain
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +41,7 @@ class ShapePiece:
         alpha: 0 for what cannot be seen to 1.
     """
 
-    mesh: t.TriangleMesh
+    mesh: TriangleMesh
     color: tuple[float, float, float] | None = None
     texture: Path | Bytes | None = None
     alpha: float = 1.0
@@ -62,12 +64,12 @@ def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
         texture: Path | Bytes | None = look.pixels
         if look.texture:
             texture = texture_file(shape.path, look.texture)
-        mesh = t.creased(part.vertices, np.ascontiguousarray(part.faces), look.uv)
+        mesh = creased(part.vertices, np.ascontiguousarray(part.faces), look.uv)
         pieces.append(ShapePiece(mesh, look.color, texture, look.alpha))
     return tuple(pieces)
 
 
-def triangles_of(shape: Geometry) -> t.TriangleMesh:
+def triangles_of(shape: Geometry) -> TriangleMesh:
     """Triangles with normals; none of a shape whose file is missing.
 
     Raises:
@@ -76,47 +78,47 @@ def triangles_of(shape: Geometry) -> t.TriangleMesh:
     return _READERS[type(shape)](shape)
 
 
-def _mesh(shape: Mesh) -> t.TriangleMesh:
-    return t.joined([piece.mesh for piece in pieces_of(shape)]) if shape.path else _nothing(shape)
+def _mesh(shape: Mesh) -> TriangleMesh:
+    return joined([piece.mesh for piece in pieces_of(shape)]) if shape.path else _nothing(shape)
 
 
-def _heightmap(shape: Heightmap) -> t.TriangleMesh:
+def _heightmap(shape: Heightmap) -> TriangleMesh:
     if shape.path is None:
         return _nothing(shape)
     from gazelle.formats.terrain import load_heights
 
-    flat = t.terrain(load_heights(shape), shape.size[:2])
-    return t.TriangleMesh(flat.vertices + shape.position, flat.normals, flat.faces)
+    flat = terrain(load_heights(shape), shape.size[:2])
+    return TriangleMesh(flat.vertices + shape.position, flat.normals, flat.faces)
 
 
-def _image(shape: Image) -> t.TriangleMesh:
+def _image(shape: Image) -> TriangleMesh:
     if shape.path is None:
         return _nothing(shape)
     from gazelle.formats.terrain import load_boxes
 
     pieces = []
     for x, y, width, depth in load_boxes(shape).tolist():
-        cube = t.box(Box((width, depth, shape.height)))
+        cube = triangles.box((width, depth, shape.height))
         middle = (x, y, shape.height / 2.0)
-        pieces.append(t.TriangleMesh(cube.vertices + middle, cube.normals, cube.faces))
-    return t.joined(pieces)
+        pieces.append(TriangleMesh(cube.vertices + middle, cube.normals, cube.faces))
+    return joined(pieces)
 
 
-def _nothing(_: Geometry) -> t.TriangleMesh:
-    return t.joined([])
+def _nothing(_: Geometry) -> TriangleMesh:
+    return joined([])
 
 
-_READERS: dict[type, Callable[[Any], t.TriangleMesh]] = {
-    Box: t.box,
-    Capsule: t.capsule,
-    Cone: t.cone,
-    Cylinder: t.cylinder,
-    Ellipsoid: t.ellipsoid,
+_READERS: dict[type, Callable[[Any], TriangleMesh]] = {
+    Box: lambda shape: triangles.box(shape.size),
+    Capsule: lambda shape: triangles.capsule(shape.radius, shape.length),
+    Cone: lambda shape: triangles.frustum(shape.radius, 0.0, shape.length),
+    Cylinder: lambda shape: triangles.frustum(shape.radius, shape.radius, shape.length),
+    Ellipsoid: lambda shape: triangles.ellipsoid(shape.radii),
     Empty: _nothing,
     Heightmap: _heightmap,
     Image: _image,
     Mesh: _mesh,
-    Plane: t.plane,
-    Polyline: t.polyline,
-    Sphere: t.sphere,
+    Plane: lambda shape: triangles.rectangle(shape.size, shape.normal),
+    Polyline: polyline,
+    Sphere: lambda shape: triangles.ellipsoid((shape.radius,) * 3),
 }

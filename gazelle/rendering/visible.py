@@ -9,11 +9,11 @@ import numpy as np
 
 from gazelle.array_types import Floats, Ints64
 from gazelle.description import Geometry, Pose, Visual, World
+from gazelle.geometry.triangles import TriangleMesh, joined
 from gazelle.rendering import columns as c
 from gazelle.rendering.rasterizer import DrawnShapes
 from gazelle.rendering.shape_meshes import ShapePiece, pieces_of
 from gazelle.rendering.surface_looks import SurfaceLook, surface_look
-from gazelle.rendering.tessellation import TriangleMesh, joined
 from gazelle.rendering.textures import TextureTable
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from gazelle.geometry.triangles import quadrangles
 from gazelle.rendering import (
     PaintedPart,
     PinholeLens,
@@ -10,7 +11,6 @@ from gazelle.rendering import (
     painted_world,
     plain_surroundings,
 )
-from gazelle.rendering.tessellation import quadrangles
 
 AHEAD = np.array([[0.0, 0.0, 0.0, 1.0]])
 WALL = quadrangles(

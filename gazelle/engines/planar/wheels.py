@@ -19,7 +19,7 @@ from gazelle.description import (
     Pose,
     Sphere,
 )
-from gazelle.engines.triangle_solids import solid_of
+from gazelle.engines.sections import solid_of
 
 _SIDEWAYS = 0.5  # how much a wheel that would slip sideways counts against one that rolls
 

@@ -22,8 +22,8 @@ from gazelle.description import (
 )
 from gazelle.engines.stage_shapes import bitmap_lines, blocks_of
 from gazelle.formats.terrain import rectangles
+from gazelle.geometry.triangles import TriangleMesh, quadrangles
 from gazelle.rendering.painted import PaintedPart, painted_world
-from gazelle.rendering.tessellation import TriangleMesh, quadrangles
 from gazelle.rendering.visible import VisibleWorld
 from gazelle.simulation.stage.faces import NO_FACES, in_tiles, plates, prism, walls_between
 
