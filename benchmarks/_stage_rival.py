@@ -19,7 +19,7 @@ from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar.roaming import Roaming
 from gazelle.engines.planar.stage_layout import layout_of
 from gazelle.native.system import System
-from gazelle.simulation.stage import FleetController, StageSimulation, register_controller
+from gazelle.stage import FleetController, StageSimulation, register_controller
 
 ABSENT = """
 Stage not found: its figures here are those of docs/benchmarks.md, measured once on a machine of

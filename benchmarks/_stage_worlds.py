@@ -21,7 +21,7 @@ from _stage_office import places
 from PIL import Image
 
 from gazelle import assets, formats
-from gazelle.simulation.stage import StageSimulation
+from gazelle.stage import StageSimulation
 
 HERE = Path(__file__).resolve().parent
 FLEET = 72

@@ -150,7 +150,7 @@ def hall(robots: int, width: int, height: int) -> str:
 
 def stage(robots: int, width: int, height: int, seconds: float) -> float:
     """Frames a core-second of Stage's cameras: colour with a fourth byte, and depth."""
-    from gazelle.simulation.stage import StageSimulation
+    from gazelle.stage import StageSimulation
 
     with TemporaryDirectory() as folder:
         file = Path(folder) / "hall.world"

@@ -28,6 +28,7 @@ ORDER = (
     "control",
     "simulation",
     "plugins",
+    "stage",
     "planning",
     "navigation",
     "ros",
@@ -49,6 +50,7 @@ SIMULATION = {
     "control",
     "simulation",
     "plugins",
+    "stage",
     "planning",
     "navigation",
 }

@@ -13,7 +13,7 @@ from _stage_itself import Stage
 from numpy.typing import NDArray
 from PIL import Image
 
-from gazelle.simulation.stage import Blob, StageSimulation
+from gazelle.stage import Blob, StageSimulation
 
 Floats = NDArray[np.float64]
 STEPS = 60

@@ -116,7 +116,7 @@ def run(args: argparse.Namespace) -> int:
     sys.path[:0] = args.plugins
     world = formats.open_world(args.file, ground=args.ground)
     if args.wander:
-        from gazelle.simulation.stage import with_wander
+        from gazelle.stage import with_wander
 
         world = with_wander(world)
     _take_from_file(args, world.stage)
@@ -152,7 +152,7 @@ def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:
 
 def _undriven(sim: Simulation, args: argparse.Namespace) -> str:
     """Return a line that says how to move the robots of a Stage file if nothing does, else ""."""
-    from gazelle.simulation.stage import StageFleet
+    from gazelle.stage import StageFleet
 
     fleet = sim.extension(StageFleet)
     if fleet is None or args.ros or not fleet.robots or fleet.controllers:
@@ -239,7 +239,7 @@ def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
     """Be a ROS node until Ctrl-C, the end of the time, or the master's word."""
     from gazelle.bridges import serve_ros
     from gazelle.bridges.stage import serve_stage
-    from gazelle.simulation.stage import StageFleet
+    from gazelle.stage import StageFleet
 
     if args.paused:
         sim.pause()

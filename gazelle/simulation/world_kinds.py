@@ -14,7 +14,7 @@ from gazelle.description import Model, Plugin, Sensor
 from gazelle.sensors import SensorModel
 from gazelle.simulation.robot import Robot, RobotHost
 
-_KINDS = {"stage": "gazelle.simulation.stage.kind:run_stage"}
+_KINDS = {"stage": "gazelle.stage.kind:run_stage"}
 
 
 class WorldKind(Protocol):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from gazelle.engines.planar import Fan, Fleet, Mount, PlanarEngine, Scanner
 from gazelle.sensors import LidarModel
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import StageFleet
+from gazelle.stage import StageFleet
 
 
 def scanners_of(simulation: Simulation, fleet: Fleet) -> list[Scanner]:

@@ -14,7 +14,7 @@ from gazelle.navigation import Limits
 from gazelle.ros import Master, Node
 from gazelle.ros.messages import UnknownTypeError, register
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 WORLD = """
 interval_sim 100

@@ -82,7 +82,7 @@ def robot(path: Path) -> None:
 
 def stage(path: Path) -> None:
     """Run a step of Stage's world."""
-    from gazelle.simulation.stage import StageSimulation
+    from gazelle.stage import StageSimulation
 
     formats.check(path)
     with StageSimulation(path) as sim:

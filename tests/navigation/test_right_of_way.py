@@ -12,7 +12,7 @@ from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import Error
 from gazelle.navigation.refuges import RefugeMap, RobotDisc
 from gazelle.navigation.right_of_way import RightOfWay, RightOfWaySettings
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 ROOM = """
 interval_sim 100

@@ -9,7 +9,7 @@ import gazelle
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import SimulationError
 from gazelle.navigation.outline import outline_of
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 ROOM = """
 interval_sim 100

@@ -15,7 +15,7 @@ from gazelle.engines.laws import with_profile
 from gazelle.engines.mujoco import to_mjcf
 from gazelle.engines.planar import Body, Fan, Fleet, Mount, RangeNoise
 from gazelle.errors import EngineError, Error, SimulationError
-from gazelle.simulation.stage import StageSimulation
+from gazelle.stage import StageSimulation
 from gazelle.streams import Stream
 
 NAN, INF = math.nan, math.inf

@@ -10,7 +10,7 @@ import gazelle
 from gazelle import assets
 from gazelle.errors import Error, MissingExtraError
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 from gazelle.viewer import TopView, film_plan, take_picture, take_plan
 
 ROOM = """

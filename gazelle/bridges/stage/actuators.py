@@ -11,7 +11,7 @@ import numpy as np
 from gazelle.array_types import Worlds
 from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import load_message
-from gazelle.simulation.stage import Actuator
+from gazelle.stage import Actuator
 
 
 class ActuatorTopics:

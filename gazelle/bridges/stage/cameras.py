@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Publisher, Time, load_message
-from gazelle.simulation.stage import MountedCamera, cameras_of
+from gazelle.stage import MountedCamera, cameras_of
 
 _MILLIMETRES = 1000.0
 

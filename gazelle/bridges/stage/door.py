@@ -18,7 +18,7 @@ from gazelle.ros import Node, Time, load_message
 from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Simulation
 from gazelle.simulation.clock import Schedule
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 _SLICE = 0.005  # wall time between two looks at a pause [s]
 _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]

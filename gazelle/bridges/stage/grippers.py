@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Time, load_message
-from gazelle.simulation.stage import COMMANDS
+from gazelle.stage import COMMANDS
 
 
 class GripperTopics:

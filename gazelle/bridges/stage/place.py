@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, Publisher, Subscriber
-from gazelle.simulation.stage import StageFleet, StageRobot
+from gazelle.stage import StageFleet, StageRobot
 
 _QUEUE = 10
 

@@ -9,7 +9,7 @@ from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, load_service
 from gazelle.ros.messages import InvalidDefinitionError
 from gazelle.ros.messages.registry import package_names
-from gazelle.simulation.stage import StageFleet, StageRobot
+from gazelle.stage import StageFleet, StageRobot
 
 USUAL_TYPE = "sim_agv/AgvPose"
 """Its response is float64 x, y [m] and angle [degrees]; the request is empty."""

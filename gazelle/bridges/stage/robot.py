@@ -15,7 +15,7 @@ from gazelle.bridges.stage.finders import FinderTopics
 from gazelle.bridges.stage.grippers import GripperTopics
 from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Publisher, Time, load_message
-from gazelle.simulation.stage import Ranger, StageFleet
+from gazelle.stage import Ranger, StageFleet
 
 Values = list[float]
 

@@ -10,7 +10,7 @@ from gazelle.bridges.stage.door import StageDoor
 from gazelle.interrupts import stopping
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -13,7 +13,7 @@ from gazelle.bridges.stage.robot import heading_of
 from gazelle.errors import SimulationError
 from gazelle.ros import Node, Time, load_service
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 Answer = dict[str, Any]
 

@@ -7,7 +7,7 @@ from gazelle.bridges.stage.door import StageDoor
 from gazelle.closing import Closeable
 from gazelle.ros import Master, Node
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 
 class StageServer(Closeable):

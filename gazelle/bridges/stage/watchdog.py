@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.simulation.stage import StageFleet
+from gazelle.stage import StageFleet
 
 
 class Watchdog:

@@ -21,7 +21,7 @@ from gazelle.envs.options import TaskOptions, TaskSettings, check_name, check_wh
 from gazelle.envs.polar import heading_to
 from gazelle.errors import TaskError
 from gazelle.simulation import Simulation
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 from gazelle.streams import Stream
 
 PERIOD = 0.2

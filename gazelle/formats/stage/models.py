@@ -24,7 +24,7 @@ from gazelle.formats.stage.properties import Properties
 from gazelle.formats.stage.reader import Context
 
 known_controllers = {"lasernoise", "wander"}
-"""Those that are started here; others may join (``simulation.stage.register_controller``)."""
+"""Those that are started here; others may join (``stage.register_controller``)."""
 """Controllers that come with Gazelle."""
 
 _GONE = {

@@ -20,7 +20,7 @@ from gazelle.navigation.move_base import navigation_stack
 from gazelle.navigation.true_map import true_map
 from gazelle.ros import Master
 from gazelle.ros.launch import load_launch
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 PACKAGE = assets.root() / "fleet_stage"
 DEPOT = PACKAGE / "launch" / "depot.launch"

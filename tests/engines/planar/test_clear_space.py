@@ -15,7 +15,7 @@ from gazelle.engines.planar.clear_space import measure_clear
 from gazelle.engines.planar.clearing import clearing_of
 from gazelle.engines.planar.shapes import PrimitiveTable
 from gazelle.engines.planar.stage_walls import table_of
-from gazelle.simulation.stage.outlines import distances, outlines_of
+from gazelle.stage.outlines import distances, outlines_of
 
 REACH = 6.0
 SEEDS = st.integers(0, 2**32 - 1)

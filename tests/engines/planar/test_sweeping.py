@@ -15,7 +15,7 @@ from gazelle.description import Box
 from gazelle.engines.planar.fleet import Body, Drive, Fleet
 from gazelle.engines.planar.shapes import slimness
 from gazelle.geometry.planar_part import PlanarPart
-from gazelle.simulation.stage import StageSimulation
+from gazelle.stage import StageSimulation
 
 HALF = 2.0  # of the room's side [m]
 BODIES = {

@@ -18,7 +18,7 @@ from amcl_drives import DRIVES, WORLD, command, hall, save_hall, seen_hall
 import gazelle
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
-from gazelle.simulation.stage import stage_of
+from gazelle.stage import stage_of
 
 COMMON = {
     "min_particles": 500, "max_particles": 5000, "kld_err": 0.05, "laser_max_beams": 30, "laser_z_hit": 0.5,

@@ -97,7 +97,7 @@ def world(rate: float) -> Iterator[str]:
     from gazelle.bridges.stage import serve_stage
     from gazelle.ros import Master
     from gazelle.simulation import Simulation
-    from gazelle.simulation.stage import stage_of
+    from gazelle.stage import stage_of
 
     with Master(port=0) as master, Simulation(assets.world("fleet"), "planar") as simulation:
         stalls: set[int] = set()

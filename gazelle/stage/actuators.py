@@ -1,0 +1,122 @@
+"""Actuators: what is on them is moved along or about an axis."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.engines.stage_robots import Rider, StageRobot
+from gazelle.errors import SimulationError
+from gazelle.simulation.inputs import chosen
+from gazelle.stage.stage_bodies import StageBodies
+
+
+class Actuator:
+    """An actuator of a robot, in all worlds.
+
+    Its laws are those of Stage: at a wanted speed it goes until the end of its range; towards a
+    wanted position its speed is the way that is left, a second; never faster than it can.
+    (Stage 4.3 has these laws, but its actuators do not move.)
+
+    Args:
+        simulation: Runs.
+        robot: That carries it.
+        rider: What it moves.
+
+    Attributes:
+        position: [m or rad], shape (nworld,); to be read.
+    """
+
+    def __init__(self, simulation: StageBodies, robot: StageRobot, rider: Rider) -> None:
+        self._simulation, self._robot, self._rider = simulation, robot, rider
+        self._device = rider.device
+        count = simulation.nworld
+        self.position = np.full(count, rider.device.start)
+        self._goal, self._towards = np.zeros(count), np.zeros(count, np.bool_)
+
+    def set_speed(self, speed: float, worlds: Worlds | None = None) -> None:
+        """Let it go at a speed [m/s or rad/s].
+
+        Raises:
+            SimulationError: It is not finite.
+        """
+        self._want(speed, worlds, towards=False)
+
+    def go_to(self, position: float, worlds: Worlds | None = None) -> None:
+        """Let it go to a position [m or rad], or to the end of its range towards that.
+
+        Raises:
+            SimulationError: It is not finite.
+        """
+        low, high = self._device.range
+        self._want(min(max(position, low), high), worlds, towards=True)
+
+    def _want(self, goal: float, worlds: Worlds | None, *, towards: bool) -> None:
+        if not math.isfinite(goal):
+            raise SimulationError(f"an actuator cannot be told {goal}")
+        some = chosen(worlds, len(self._goal))
+        which = slice(None) if some is None else some
+        self._goal[which], self._towards[which] = goal, towards
+
+    def update(self, dt: float) -> None:
+        """Move by a step of ``dt`` [s], and with the robot."""
+        (low, high), most = self._device.range, self._device.max_speed
+        way = np.where(self._towards, self._goal - self.position, self._goal)
+        moved = self.position + dt * np.clip(way, -most, most)
+        # one that starts outside of its range may only come back
+        least, greatest = np.minimum(self.position, low), np.maximum(self.position, high)
+        self.position = np.clip(moved, least, greatest)
+        self.follow()
+
+    def follow(self) -> None:
+        """Be where the robot is."""
+        fleet, base = self._simulation.fleet, self._rider.base
+        pose = fleet.pose[:, self._robot.index]
+        along, aside, z, yaw = self._offsets()
+        turn = math.cos(base.yaw), math.sin(base.yaw)
+        x = base.x + turn[0] * along - turn[1] * aside
+        y = base.y + turn[1] * along + turn[0] * aside
+        cos, sin = np.cos(pose[:, 2]), np.sin(pose[:, 2])
+        where = np.stack(
+            (
+                pose[:, 0] + cos * x - sin * y,
+                pose[:, 1] + sin * x + cos * y,
+                pose[:, 2] + base.yaw + yaw,
+            ),
+            axis=1,
+        )
+        height = fleet.heights[:, self._robot.index] + base.z + z
+        self._simulation.engine.place_body(self._rider.body, where, height=height)
+
+    def _offsets(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """From its place at position zero, in the frame of that."""
+        none = np.zeros_like(self.position)
+        if self._device.type == "rotational":
+            return none, none, none, self.position
+        length = math.hypot(*self._device.axis)
+        x, y, z = (self.position * (part / length if length else 0.0) for part in self._device.axis)
+        return x, y, z, none
+
+    def reset(self, worlds: Worlds | None = None) -> None:
+        """As at the start."""
+        which = slice(None) if worlds is None else worlds
+        self.position[which] = self._device.start
+        self._goal[which], self._towards[which] = 0.0, False
+        self.follow()
+
+    def arrays(self) -> dict[str, NDArray[Any]]:
+        """Everything that changes, to be read or written, each of shape (nworld,)."""
+        return {"position": self.position, "goal": self._goal, "towards": self._towards}
+
+
+def actuators_of(simulation: StageBodies) -> dict[int, list[Actuator]]:
+    """The actuators of each robot that has some, by its index."""
+    return {
+        robot.index: [Actuator(simulation, robot, rider) for rider in robot.riders]
+        for robot in simulation.robots
+        if robot.riders
+    }

@@ -1,0 +1,401 @@
+"""All robots of Stage files in a simulation, as arrays."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gazelle.array_types import Floats, Worlds
+from gazelle.description import StageModel, StagePose, StageWorld
+from gazelle.engines.planar import Fan, Fleet, Mount, PlanarEngine
+from gazelle.engines.stage_robots import StageRobot, without_actuators
+from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
+from gazelle.native.system import System
+from gazelle.simulation.clock import Clock
+from gazelle.simulation.inputs import chosen, one_world
+from gazelle.simulation.state_lock import StateLock
+from gazelle.stage.devices import Devices
+from gazelle.stage.drive_state import DriveState
+from gazelle.stage.fleet_controller import FleetController
+from gazelle.stage.rangers import Rangers
+from gazelle.stage.scans import StageRangeNoise
+from gazelle.stage.senses import Senses
+
+
+class StageFleet(Senses):
+    """Commands, poses, odometry and scans of all robots of Stage files: ``Simulation.extension(StageFleet)``.
+
+    All arrays have the axes (nworld, nrobot, ...); robots are in the order of the world's models.
+    They are views of what runs: other threads than the one that steps hold ``Simulation.lock``.
+
+    Args:
+        engine: Moves them.
+        clock: Of the simulation.
+        lock: Of the simulation.
+        seed: The run's seed.
+        make_controllers: Makes those that the robots name, at the start and for other robots.
+
+    Attributes:
+        clock: Simulated time.
+        lock: Of the simulation.
+        seed: The run's seed.
+        nworld: Copies of the world.
+        controllers: Those that the file names.
+    """
+
+    def __init__(
+        self,
+        engine: PlanarEngine,
+        clock: Clock,
+        lock: StateLock,
+        seed: int,
+        make_controllers: Callable[[StageFleet], list[FleetController]],
+    ) -> None:
+        self.engine, self.clock, self.lock, self.seed = engine, clock, lock, seed
+        self.nworld, self._make_controllers = engine.nworld, make_controllers
+        self.controllers: list[FleetController] = []
+        self._revision = -1
+        self._bind()
+        _warn_of_riders(self._robots)
+        self.controllers = self._make_controllers(self)
+
+    # -- what there is -----------------------------------------------------------------
+
+    def refresh(self) -> None:
+        """Follow models that came or went."""
+        if self._revision != self.engine.revision:
+            before = self._robots, self._rangers, self._motion, self._devices, self._things
+            self._bind()
+            robots, rangers, motion, devices, things = before
+            pairs = _pairs([r.name for r in robots], [r.name for r in self._robots])
+            self._rangers.take_over(rangers)
+            self._motion.take_over(motion, pairs)
+            kept = dict(_pairs([t.name for t in things], [t.name for t in self._things]))
+            self._devices.take_over(devices, pairs, kept)
+            if [r.name for r in robots] == [r.name for r in self._robots]:
+                for controller in self.controllers:
+                    controller.rebind()
+            else:
+                self.controllers = self._make_controllers(self)
+
+    def _bind(self) -> None:
+        """Look at the models that the engine has now."""
+        self._revision = self.engine.revision
+        layout, fleet = self.engine.layout.stage, self.engine.fleet
+        self._fleet = fleet
+        self._robots, self._things = tuple(layout.robots), tuple(layout.things)
+        self._still, self._placed = layout.still, layout.placed
+        self._named = {robot.name: robot for robot in self._robots}
+        own = slice(0, len(self._robots))
+        self._commands, self._poses = fleet.command[:, own], fleet.pose[:, own]
+        self._driven, self._stalled = fleet.velocity[:, own], fleet.stalled[:, own]
+        self._rangers = Rangers(fleet, layout.fans, layout.mounts, layout.noises, self.seed)
+        self._motion = DriveState(self._robots, fleet, self.seed)
+        self._devices = Devices(self)
+        self.forget_views()
+
+    @property
+    def description(self) -> StageWorld:
+        """What the file says of the world."""
+        return self.engine.world.stage or StageWorld()
+
+    @property
+    def fleet(self) -> Fleet:
+        """The bodies in the plane; another one when models came or went."""
+        self.refresh()
+        return self._fleet
+
+    @property
+    def robots(self) -> tuple[StageRobot, ...]:
+        """The models that drive, in the order of the world's models."""
+        self.refresh()
+        return self._robots
+
+    @property
+    def things(self) -> tuple[StageModel, ...]:
+        """Models that grippers can take, in file order; none without grippers."""
+        self.refresh()
+        return self._things
+
+    @property
+    def still(self) -> Sequence[StageModel]:
+        """Models that never move."""
+        self.refresh()
+        return self._still
+
+    @property
+    def placed(self) -> Sequence[StageModel]:
+        """Models that are moved only when told to."""
+        self.refresh()
+        return self._placed
+
+    @property
+    def devices(self) -> Devices:
+        """Grippers and actuators."""
+        self.refresh()
+        return self._devices
+
+    @property
+    def named(self) -> Mapping[str, StageRobot]:
+        """The robots by name."""
+        self.refresh()
+        return self._named
+
+    def robot(self, name: str) -> StageRobot:
+        """A robot by its name.
+
+        Raises:
+            SimulationError: There is none.
+        """
+        found = self.named.get(name)
+        if found is None:
+            raise SimulationError(
+                f"there is no robot '{name}'", hint=did_you_mean(name, self._named)
+            )
+        return found
+
+    # -- time --------------------------------------------------------------------------
+
+    @property
+    def time_step(self) -> float:
+        """Of a step [s]: the world's ``interval_sim``."""
+        return self.engine.time_step
+
+    @property
+    def time(self) -> float:
+        """Simulated time [s]."""
+        return self.clock.now
+
+    @property
+    def steps(self) -> int:
+        """Number of steps since the start."""
+        return self.clock.now_ns // self.clock.step_ns
+
+    # -- motion ------------------------------------------------------------------------
+
+    @property
+    def thing_poses(self) -> Floats:
+        """x, y [m] and heading [rad] of the things, shape (nworld, nthing, 3); to be read."""
+        poses, first = self.fleet.pose, len(self._robots)
+        return poses[:, first : first + len(self._things)]
+
+    @property
+    def commands(self) -> Floats:
+        """Wanted velocities x, y [m/s] and yaw [rad/s], to be written, shape (nworld, nrobot, 3).
+
+        Those of a car are its speed, nothing, and its steering angle [rad].
+        """
+        self.refresh()
+        return self._commands
+
+    @property
+    def poses(self) -> Floats:
+        """True x, y [m] and heading [rad], shape (nworld, nrobot, 3); to be read."""
+        self.refresh()
+        return self._poses
+
+    @property
+    def velocities(self) -> Floats:
+        """Of the drives in the robots' frames: x, y [m/s], yaw [rad/s]; also while stalled."""
+        self.refresh()
+        return self._motion.steering.velocities(self._driven)
+
+    @property
+    def true_velocities(self) -> Floats:
+        """How the poses changed in the last step, in the world's axes [m/s, rad/s]."""
+        change = np.subtract(self.poses, self._motion.before)
+        change[..., 2] = np.arctan2(np.sin(change[..., 2]), np.cos(change[..., 2]))
+        rate: Floats = change / self.time_step
+        return rate
+
+    @property
+    def odometry(self) -> Floats:
+        """Where the robots believe they are, by their ``localization``; as ``poses``."""
+        poses, odometry = self.poses, self._motion.odometry
+        if not odometry.needed:
+            return poses
+        found: Floats = np.where(odometry.used[None, :, None], odometry.pose, poses)
+        return found
+
+    @property
+    def stalled(self) -> NDArray[np.bool_]:
+        """Whether a robot's last move was not made, as it would have hit something."""
+        self.refresh()
+        return self._stalled
+
+    @property
+    def bumped(self) -> NDArray[np.bool_]:
+        """Whether a move was not made since this was last cleared; to be written, as ``stalled``.
+
+        It is kept from when it is first asked for.
+        """
+        self.refresh()
+        return self._motion.watch()
+
+    # -- rangers -----------------------------------------------------------------------
+
+    @property
+    def rangers(self) -> Rangers:
+        """All rangers, by scanner: a group of sensors with the same beams."""
+        self.refresh()
+        return self._rangers
+
+    @property
+    def scanners(self) -> int:
+        """Number of scanners: groups of sensors with the same beams."""
+        return len(self.rangers.fans)
+
+    @property
+    def fans(self) -> list[Fan]:
+        """Beams of each scanner."""
+        return self.rangers.fans
+
+    @property
+    def mounts(self) -> list[list[Mount]]:
+        """Where its sensors are."""
+        return self.rangers.mounts
+
+    @property
+    def noise(self) -> list[StageRangeNoise]:
+        """Of the sensors of each scanner."""
+        return self.rangers.noise
+
+    def scan(self, scanner: int = 0) -> Floats:
+        """What all sensors of a scanner measure now [m], shape (nworld, sensors, samples).
+
+        ``Ranger.places`` says which scanner and which row are a sensor's. Each is measured
+        once a step, however often it is asked for.
+
+        Args:
+            scanner: Its index.
+
+        Raises:
+            SimulationError: There is no such scanner.
+        """
+        return self.rangers.scan(scanner)
+
+    def scan_system(self, scanner: int) -> tuple[System, Floats] | None:
+        """What scans in native code, and where it writes, a row a sensor; None if that is not all.
+
+        Raises:
+            SimulationError: There is no such scanner.
+        """
+        return self.rangers.system(scanner)
+
+    def scan_of(self, name: str, ranger: int = 0, sensor: int = 0, world: int = 0) -> Floats:
+        """What one sensor of a robot measures now [m], shape (samples,).
+
+        Raises:
+            SimulationError: There is no such robot, ranger or sensor.
+        """
+        robot = self.robot(name)
+        try:
+            scanner, place = robot.rangers[ranger].places[sensor]
+        except IndexError:
+            raise SimulationError(
+                f"'{name}' has no ranger {ranger} with a sensor {sensor}"
+            ) from None
+        found: Floats = self.scan(scanner)[one_world(world, self.nworld), place].copy()
+        return found
+
+    def returns(self, scanner: int, place: int, world: int = 0) -> Floats:
+        """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing."""
+        return self.rangers.returns(scanner, place, one_world(world, self.nworld))
+
+    # -- changes -----------------------------------------------------------------------
+
+    def set_pose(self, name: str, pose: ArrayLike, worlds: Worlds | None = None) -> None:
+        """Put a robot somewhere, whatever is there; its odometry does not notice.
+
+        It keeps its command, unlike with ``Robot.set_pose``.
+
+        Args:
+            name: Of the robot.
+            pose: x, y [m] and heading [rad], shape (3,) or (n, 3).
+            worlds: Which worlds; all if None.
+
+        Raises:
+            SimulationError: There is no such robot, or a value is not finite.
+        """
+        self.set_pose_of(self.robot(name).index, pose, worlds)
+
+    def set_pose_of(self, index: int, pose: ArrayLike, worlds: Worlds | None = None) -> None:
+        """The same for a robot by its index.
+
+        Raises:
+            SimulationError: A value is not finite.
+        """
+        values = np.asarray(pose, np.float64)
+        if not np.isfinite(values).all():
+            name = self.robots[index].name
+            raise SimulationError(f"the pose of '{name}' is not finite: {values}")
+        self.refresh()
+        some = chosen(worlds, self.nworld)
+        self.engine.place_body(index, values, some)
+        rows = slice(None) if some is None else some
+        self._motion.before[rows, index] = self.poses[rows, index]
+        self._devices.follow(index)
+
+    def place(self, rows: Worlds, poses: ArrayLike) -> None:
+        """Put many robots somewhere, at rest, whatever is there.
+
+        Args:
+            rows: Which, as world * nrobot + robot, shape (n,).
+            poses: x, y [m] and heading [rad], shape (n, 3).
+
+        Raises:
+            SimulationError: A value is not finite.
+        """
+        values, count = np.asarray(poses, np.float64), len(self.robots)
+        if not np.isfinite(values).all():
+            raise SimulationError("the poses of robots are not finite")
+        worlds, robots = np.divmod(np.asarray(rows, np.intp), max(count, 1))
+        self.engine.place_bodies(worlds * self._fleet.nbody + robots, values)
+        self._motion.before[worlds, robots] = self.poses[worlds, robots]
+        for robot in np.unique(robots).tolist() if self._devices else ():
+            self._devices.follow(robot)
+
+    def reset_positions(self, worlds: Worlds | None = None) -> None:
+        """Put all robots back to where they were at first, standing, their odometry at zero."""
+        self.refresh()
+        self.engine.reset(worlds)
+        self.start_over(worlds)
+
+    def start_over(self, worlds: Worlds | None = None) -> None:
+        """After the engine's reset: odometry at zero, what is on robots as at the start."""
+        self._motion.reset(worlds)
+        self._devices.reset(worlds)
+
+    # -- for the simulation ------------------------------------------------------------
+
+    @property
+    def motion(self) -> DriveState:
+        """Odometry, and where bodies were before the step."""
+        self.refresh()
+        return self._motion
+
+
+def _pairs(old: Sequence[str], new: Sequence[str]) -> list[tuple[int, int]]:
+    """Where names were, and where they are."""
+    places = {name: index for index, name in enumerate(new)}
+    return [(index, places[name]) for index, name in enumerate(old) if name in places]
+
+
+def _warn_of_riders(robots: Sequence[StageRobot]) -> None:
+    known = set()
+    for robot in robots:
+        if (kind := id(robot.model.children)) in known:
+            continue
+        known.add(kind)
+        own = replace(without_actuators(robot.model), pose=StagePose()).walk()
+        for placed in list(own)[1:]:
+            if placed.model.position is not None:
+                warnings.warn(
+                    f"'{placed.name}' is mounted on a robot, and does not drive by itself",
+                    SimulationWarning,
+                    stacklevel=2,
+                )

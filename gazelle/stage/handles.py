@@ -1,0 +1,104 @@
+"""Sensors, inputs and outputs of one of Stage's robots: rows of what a fleet has."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.description import Model, Sensor, StagePlugin
+from gazelle.rotations import from_yaw
+from gazelle.sensors import LaserScan, SensorModel
+from gazelle.simulation.ports import TwistInput
+from gazelle.simulation.robot import Robot
+from gazelle.simulation.sensors import SensorOutput
+from gazelle.simulation.topics import absolute
+from gazelle.simulation.values import Odometry
+from gazelle.stage.camera_model import StageCameraModel
+from gazelle.stage.cameras import cameras_of
+from gazelle.stage.drive_input import DriveInput
+from gazelle.stage.fleet import StageFleet
+from gazelle.stage.ranger_model import RangerModel
+from gazelle.stage.step_output import StepOutput
+
+
+def sensor_models(fleet: StageFleet, model: Model) -> list[tuple[Sensor, SensorModel]]:
+    """Return the models that measure with a model's rangers and cameras, and their descriptions."""
+    robot = fleet.named.get(model.name)
+    if robot is None:
+        return []
+    known = {sensor.name: sensor for link in model.links for sensor in link.sensors}
+    rangers: list[tuple[Sensor, SensorModel]] = [
+        (known[name], _ranger_model(fleet, robot.name, which, number))
+        for which, ranger in enumerate(robot.rangers)
+        for number in range(len(ranger.sensors))
+        if (name := ranger.sensor_name(number)) in known
+    ]
+    return rangers + [
+        (known[camera.path], _camera_model(fleet, robot.name, which, known[camera.path]))
+        for which, camera in enumerate(cameras_of(robot))
+        if camera.path in known
+    ]
+
+
+def inputs_of(fleet: StageFleet, name: str) -> dict[str, TwistInput]:
+    """The inputs of a model: ``cmd_vel`` of a robot."""
+    robot = fleet.named.get(name)
+    if robot is None:
+        return {}
+
+    def commands() -> Floats:  # other models may have come or gone
+        own: Floats = fleet.commands[:, fleet.robot(name).index]
+        return own
+
+    steers = robot.position.drive == "car"
+    return {"cmd_vel": DriveInput(fleet.nworld, commands, steers=steers)}
+
+
+def open_outputs(fleet: StageFleet, robot: Robot) -> None:
+    """Give a robot ``odom``, and the scans that its file has published, under stage_ros's names."""
+    for unit in robot.sensors.values():
+        for plugin in unit.description.plugins:
+            if isinstance(plugin, StagePlugin):
+                given = plugin.parameters
+                topic, own = given.get("topicName", "base_scan"), given.get("robotNamespace", "")
+                frame = given.get("frameName", "base_laser_link")
+                robot.outputs[topic] = SensorOutput(
+                    unit, absolute(own, topic), LaserScan, frame=frame, namespace=own
+                )
+    for plugin in robot.description.plugins:
+        if isinstance(plugin, StagePlugin) and robot.name in fleet.named:
+            given = plugin.parameters
+            own = given.get("robotNamespace", "")
+            frames = given.get("odometryFrame", "odom"), given.get("robotBaseFrame", "base_link")
+            measure = partial(_odometry, fleet, robot.name, frames)
+            robot.outputs["odom"] = StepOutput(robot, absolute(own, "odom"), Odometry, measure, own)
+
+
+def _odometry(fleet: StageFleet, name: str, frames: tuple[str, str]) -> Odometry:
+    """Return the odometry of a robot."""
+    nworld, robot = fleet.nworld, fleet.robot(name)
+    pose, driven = fleet.odometry[:, robot.index], fleet.velocities[:, robot.index]
+    position, linear, angular = (np.zeros((nworld, 3)) for _ in range(3))
+    position[:, :2], position[:, 2] = pose[:, :2], robot.model.pose.z
+    linear[:, :2], angular[:, 2] = driven[:, :2], driven[:, 2]
+    none: Any = (0.0,) * 6
+    now = fleet.clock.now_ns
+    turned = from_yaw(pose[:, 2])
+    return Odometry(now, *frames, position, turned, linear, angular, none, none)
+
+
+def _camera_model(fleet: StageFleet, name: str, which: int, sensor: Sensor) -> SensorModel:
+    (camera,) = sensor.cameras
+    return StageCameraModel(camera, lambda worlds: fleet.pictures([name], which, worlds))
+
+
+def _ranger_model(fleet: StageFleet, name: str, which: int, number: int) -> RangerModel:
+    def ranges() -> Floats:  # other models may have come or gone
+        scanner, place = fleet.robot(name).rangers[which].places[number]
+        seen: Floats = fleet.scan(scanner)[:, place]
+        return seen
+
+    return RangerModel(fleet.robot(name).rangers[which].sensors[number], ranges)
