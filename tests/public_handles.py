@@ -26,6 +26,7 @@ from gazelle.simulation import (
     WorldParameters,
 )
 from gazelle.simulation.parameters import InitialPoses, Parameter, SensorNoise
+from gazelle.stage import StageFleet
 
 # What is no reading: it changes something, or the thing's owner calls it.
 CHANGING = {
@@ -59,7 +60,7 @@ CHANGING = {
         *("set_properties", "set_velocity"),
     },
     SensorUnit: {
-        *("join", "kind", "leave", "reseed", "reset", "restore", "slow_to", "subscribe"),
+        *("join", "leave", "reseed", "reset", "restore", "slow_to", "subscribe", "system"),
         "update",
     },
     TwistInput: {"bind", "clear", "keep_in", "send"},
@@ -148,6 +149,7 @@ class Everything:
         """Ways to call a member; a method that needs arguments must be known here."""
         known = {
             (Simulation, "render"): [(View(look_at((2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), 4, 4),)],
+            (Simulation, "extension"): [(StageFleet,)],
             (WorldParameters, "stream"): [("test",)],
             (Robot, "frame"): [(self.link,)],
             (Robot, "joint_description"): [(self.joint,)],

@@ -28,14 +28,13 @@ class ImuArray:
         self._groups: list[tuple[Indices, float, ImuGroup]] = []
         self._alone = list(enumerate(zip(models, periods, strict=True)))
 
-        def kind(column: int) -> Hashable | None:
-            its = models[column].kind()
-            return None if its is None else (its, periods[column])
+        def system(column: int) -> Hashable:
+            return models[column].system(), periods[column]
 
-        for columns in of_one_kind(range(len(models)), kind):
+        for columns in of_one_kind(range(len(models)), system):
             if len(columns) == 1:
                 continue  # a single one is measured faster by itself
-            group = ImuModel.together([models[i] for i in columns])
+            group = ImuGroup([models[i] for i in columns])
             self._groups.append((np.array(columns, np.intp), periods[columns[0]], group))
             self._alone = [each for each in self._alone if each[0] not in columns]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.engines import Contacts, ContactTable, Engine
-from gazelle.sensors.model import FromPython, NoisySensor
+from gazelle.sensors.model import FromPython, NoisySensor, SystemOf
 
 # Values of one contact: two names, position, normal, depth, force, torque.
 _WIDTH = 15
@@ -65,14 +65,9 @@ class ContactModel(NoisySensor):
         """
         return self._alone.measure_all(interval, worlds)[:, 0]
 
-    def kind(self) -> Hashable | None:
-        """Equal for those with room for as much."""
-        return self._most
-
-    @classmethod
-    def together(cls, models: Sequence[ContactModel]) -> ContactGroup:
-        """Return a group that measures the contacts of many sensors at once."""
-        return ContactGroup(models)
+    def system(self) -> SystemOf:
+        """Return what measures it with others that have room for as many contacts."""
+        return SystemOf(ContactGroup, self._most)
 
     @property
     def engine(self) -> Engine:

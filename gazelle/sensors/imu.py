@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Imu, Pose
 from gazelle.engines import Engine, Motion, Placement
 from gazelle.rotations import conjugate, cross, multiply, rotate
-from gazelle.sensors.model import FromPython, NoisySensor
+from gazelle.sensors.model import FromPython, NoisySensor, SystemOf
 from gazelle.sensors.noise import JoinedNoise
 
 
@@ -83,14 +83,9 @@ class ImuModel(NoisySensor):
         )
         return np.concatenate((orientation, self.noisy(felt, interval, worlds)), axis=1)
 
-    def kind(self) -> Hashable | None:
-        """Equal for those whose files say the same of their noise."""
-        return tuple(noise.description for noise in self.noises)
-
-    @classmethod
-    def together(cls, models: Sequence[ImuModel]) -> ImuGroup:
-        """Return a group that measures IMUs of one kind; their noise is in its tables from then on."""
-        return ImuGroup(models)
+    def system(self) -> SystemOf:
+        """Return what measures it with others whose files say the same of their noise."""
+        return SystemOf(ImuGroup, tuple(noise.description for noise in self.noises))
 
     @property
     def engine(self) -> Engine:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,7 @@ from gazelle.description import Lidar, Pose, Scan
 from gazelle.engines import Engine, RangeRays
 from gazelle.sensors.lidar_group import LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
+from gazelle.sensors.model import SystemOf
 from gazelle.sensors.noise import NoiseModel
 
 _NEAR = 1e-3  # rays are no shorter [m]
@@ -115,13 +116,13 @@ class LidarModel:
         """True where a system of the engine measures it; else Python does."""
         return self._own().kernel is not None
 
-    def kind(self) -> Hashable | None:
-        """Equal for lidars that ``together`` measures; None where none can."""
+    def system(self) -> SystemOf | None:
+        """Return what measures it with others of the same rays and law; None where none can."""
         if self._noise.drifts:
             return None
         rays, law = self.engine.range_kind(self.rays), self.law
         reported = law.low, law.high, law.quantum, law.mean, law.precision
-        return None if rays is None else (rays, reported, self._noise.biased)
+        return None if rays is None else SystemOf(_group_of, (rays, reported, self._noise.biased))
 
     def _own(self) -> LidarGroup:
         """Return the group of this lidar alone."""
@@ -131,29 +132,6 @@ class LidarModel:
             self._alone = LidarGroup(self.engine, rays, self.law, begin, noise)
             self._revision = self.engine.revision  # which making the table may change
         return self._alone
-
-    @classmethod
-    def together(cls, models: Sequence[LidarModel]) -> LidarGroup:
-        """Return a group that measures lidars of one kind; their noise is in its tables from then on."""
-        first = models[0]
-        noise = LidarNoise(*cls._noise_together(models))
-        rays = [each.rays for each in models]
-        return LidarGroup(first.engine, rays, first.law, first.lidar.range_min, noise)
-
-    @classmethod
-    def _noise_together(
-        cls, models: Sequence[LidarModel]
-    ) -> tuple[Floats, UInts64, UInts64, Floats]:
-        """Return the noise tables for native code, a row for each world and lidar."""
-        first = models[0]
-        biased = first.noise.biased
-        shape = first.engine.nworld, len(models)
-        stddev, bias = np.zeros(shape), np.zeros((*shape, first.samples if biased else 0))
-        keys, counters = np.zeros(shape, np.uint64), np.zeros(shape, np.uint64)
-        for i, each in enumerate(models):
-            each.move_noise(stddev[:, i : i + 1], keys[:, i], counters[:, i], bias[:, i])
-        biases = bias.reshape(stddev.size, -1) if biased else np.zeros((0, 0))
-        return stddev.reshape(-1), keys.reshape(-1), counters.reshape(-1), biases
 
     def move_noise(self, stddev: Floats, keys: UInts64, counters: UInts64, bias: Floats) -> None:
         """Keep what the noise has in other arrays from now on; see ``NoiseModel.move``."""
@@ -224,3 +202,23 @@ def directions_of(horizontal: Floats, vertical: Floats) -> Floats:
         (np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)), axis=-1
     )
     return directions.reshape(-1, 3)
+
+
+def _group_of(models: Sequence[LidarModel]) -> LidarGroup:
+    """Return what measures lidars at once; their noise is in its tables from then on."""
+    first, rays = models[0], [each.rays for each in models]
+    noise = LidarNoise(*_joined_noise(models))
+    return LidarGroup(first.engine, rays, first.law, first.lidar.range_min, noise)
+
+
+def _joined_noise(models: Sequence[LidarModel]) -> tuple[Floats, UInts64, UInts64, Floats]:
+    """Return what native code draws the noise of lidars with, a row for each world and lidar."""
+    first = models[0]
+    biased = first.noise.biased
+    shape = first.engine.nworld, len(models)
+    stddev, bias = np.zeros(shape), np.zeros((*shape, first.samples if biased else 0))
+    keys, counters = np.zeros(shape, np.uint64), np.zeros(shape, np.uint64)
+    for i, each in enumerate(models):
+        each.move_noise(stddev[:, i : i + 1], keys[:, i], counters[:, i], bias[:, i])
+    biases = bias.reshape(stddev.size, -1) if biased else np.zeros((0, 0))
+    return stddev.reshape(-1), keys.reshape(-1), counters.reshape(-1), biases

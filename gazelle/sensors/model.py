@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -55,8 +56,8 @@ class ScanningModel(SensorModel, Protocol):
         """Rays a measurement has, all rows together."""
 
 
-class MeasuredTogether(Protocol):
-    """Some sensors of one kind in every world."""
+class SensorSystem(Protocol):
+    """Sensors that are measured at once, in every world."""
 
     @property
     def kernel(self) -> System | None:
@@ -74,20 +75,29 @@ class MeasuredTogether(Protocol):
         """
 
 
+@dataclass(frozen=True, slots=True)
+class SystemOf:
+    """Maker of a system, equal for the sensors that share one.
+
+    Attributes:
+        make: Makes the system of models, which share its tables from then on.
+        like: Value that is the same for all of them; it decides the shape of the tables.
+    """
+
+    make: Callable[[Sequence[Any]], SensorSystem]
+    like: Hashable
+
+
 @runtime_checkable
 class GroupedModel(SensorModel, Protocol):
-    """A sensor that can be measured with others of its kind."""
+    """A sensor that can be measured with others in one system."""
 
     @property
     def by_system(self) -> bool:
         """True where what measures many has a kernel, which the engine updates in its steps."""
 
-    def kind(self) -> Hashable | None:
-        """Equal for those that ``together`` takes now; None for one that is measured alone."""
-
-    @classmethod
-    def together(cls, models: Sequence[Any]) -> MeasuredTogether:
-        """Return a group that measures some of one kind; they share its tables from then on."""
+    def system(self) -> SystemOf | None:
+        """Return what makes its system now; None for one that is measured alone."""
 
 
 class FromPython:

@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.sensors.model import MeasuredTogether
+from gazelle.sensors.model import SensorSystem
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.grouping import of_one_kind, with_replacements
 
@@ -30,8 +30,8 @@ class GroupedUnit(Protocol):
     def period(self) -> float:
         """Time between two measurements in turn [s]."""
 
-    def kind(self) -> Hashable | None:
-        """Equal for those that are measured together now; None for none."""
+    def system(self) -> Hashable | None:
+        """Return what is equal for those in one system now; None for one by itself."""
 
     def join(self, group: SensorGroup, part: int) -> None:
         """Be measured by a group."""
@@ -54,7 +54,7 @@ class SensorGroup:
     place of its sensors among those that ``update_sensors`` measures.
 
     Args:
-        units: They are awake, due at one time and of one ``SensorUnit.kind``.
+        units: They are awake, due at one time and of one ``SensorUnit.system``.
         native: Whether the engine may update a kernel.
 
     Attributes:
@@ -72,7 +72,7 @@ class SensorGroup:
         for part, unit in enumerate(units):
             unit.join(self, part)
         models = [unit.model for unit in units]
-        self._measured: MeasuredTogether = type(models[0]).together(models)
+        self._measured: SensorSystem = models[0].system().make(models)
         self._heard = [unit for unit in units if unit.heard]
         self._interval = units[0].period
         self._values: NDArray[Any] = np.zeros(0)
@@ -133,5 +133,5 @@ def group_sensors(
 
 def _measured_with(unit: GroupedUnit) -> Hashable | None:
     """Return what is equal for sensors that are measured together; None for one by itself."""
-    kind = unit.kind()
-    return None if kind is None else (kind, unit.heard and bool(unit.model.by_system))
+    system = unit.system()
+    return None if system is None else (system, unit.heard and bool(unit.model.by_system))

@@ -195,14 +195,12 @@ class SampledSensor:
 
     # -- measuring together ------------------------------------------------------------
 
-    def kind(self) -> Hashable | None:
-        """Equal for those that a ``SensorGroup`` measures together now; None for none."""
+    def system(self) -> Hashable | None:
+        """Return what is equal for those that a ``SensorGroup`` measures now; None for none."""
         if self._values is None or not isinstance(self._model, GroupedModel):
             return None
-        kind = self._model.kind()
-        if kind is None:
-            return None
-        return type(self._model), kind, self.schedule.rate, self.schedule.due_ns
+        system = self._model.system()
+        return None if system is None else (system, self.schedule.rate, self.schedule.due_ns)
 
     @property
     def heard(self) -> bool:
