@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import importlib
-import math
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from compat.cart_graph import cart_graph
 from graph import until
-from hypothesis import given
-from hypothesis import strategies as st
 
 import gazelle.ros as ros
 from gazelle.clients import Controllers
-from gazelle.compat.openai_ros.task_envs import geometry
-from gazelle.compat.openai_ros.task_envs.moving_cube.one_disk_walk import MovingCubeOneDiskWalkEnv
 from gazelle.compat.openai_ros.task_envs.task_envs_list import MODULES, WITHOUT_ROBOT
 from gazelle.compat.shared import background
 from gazelle.errors import TaskError
@@ -287,48 +282,3 @@ def test_parameters_of_a_file_are_set(cart, tmp_path, monkeypatch):
     commons = importlib.import_module("openai_ros.task_envs.task_commons")
     commons.LoadYamlFileParamsTest("pkg", "cfg", "a.yaml")
     assert cart.node.get_param("/robot") == {"speed": 2.0, "arms": [1, 2]}
-
-
-# -- the rules of the tasks, without a graph -------------------------------------------------------
-
-
-@given(st.integers(1, 2000), st.integers(1, 200))
-def test_samples_are_as_many_as_the_step_gives(count, parts):
-    step = geometry.step_between(count, parts)
-    taken = geometry.samples([1.5] * count, step, nearest=0, farthest=6, convert=int)
-    assert taken == [1] * math.ceil(count / step)
-    assert step == max(1, round(count / parts))
-
-
-def test_samples_cut_metres_and_stand_for_what_is_no_number():
-    ranges = [0.9, 9.0, math.inf, 9.0, math.nan, 9.0, 3.99, 9.0]
-    taken = geometry.samples(ranges, 2, nearest=0, farthest=6, convert=int)
-    assert taken == [0, 6, 0, 3]
-    assert not geometry.too_near(ranges, 2, 0.9)
-    assert geometry.too_near(ranges, 2, 0.91)
-    assert not geometry.too_near([0.0, math.nan, math.inf], 1, 5.0)
-
-
-@pytest.mark.parametrize(
-    ("x", "there"), [(0.94, False), (0.95, False), (0.951, True), (1.05, True), (1.051, False)]
-)
-def test_a_goal_is_a_square_with_its_upper_edges(x, there):
-    goal = SimpleNamespace(x=1.0, y=0.0)
-    assert geometry.is_at(SimpleNamespace(x=x, y=0.0), goal) == there
-
-
-def test_the_cube_is_rewarded_for_falling_as_openai_ros_has_it():
-    cube = object.__new__(MovingCubeOneDiskWalkEnv)
-    cube.end_episode_points, cube.cumulated_reward, cube.cumulated_steps = -10.0, 0.0, 0
-    assert cube._compute_reward([0.0] * 6, True) == 10.0
-    cube.current_y_distance = 0.1
-    cube.move_distance_reward_weight = cube.y_linear_speed_reward_weight = 100.0
-    cube.y_axis_angle_reward_weight = 100.0
-    seen = [50.0, 0.4, 0.0, 0.0, 0.2, 0.1]
-    # 30 for the way, 20 for the speed, 10 less for yaw: sin 0.1 is 0.0998.
-    assert cube._compute_reward(seen, False) == 40.0
-    assert cube._compute_reward(seen, False) == 10.0
-    cube.max_pitch_angle = cube.max_yaw_angle = 0.3
-    assert not cube._is_done([0, 0, 2.0, 0.3, 0, -0.3])
-    assert cube._is_done([0, 0, 0, -0.4, 0, 0])
-    assert cube._is_done([0, 0, 0, 0, 0, 0.4])

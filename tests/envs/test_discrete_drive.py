@@ -18,7 +18,7 @@ from gazelle.envs.discrete_drive.rules import (
     WALL,
     DriveRules,
 )
-from gazelle.envs.discrete_drive.scoring import ends_of, reward_of
+from gazelle.envs.discrete_drive.scoring import ends_of, has_crashed, reward_of
 from gazelle.envs.discrete_drive.task import DriveSettings, DriveTask
 
 NAMES = ("TurtleBot2Maze", "TurtleBot2Wall", "TurtleBot3World", "Husarion", "SummitXLRoom")
@@ -158,7 +158,7 @@ def test_starts_in_free_space_are_clear_and_others_when_held_out(name):
         scenario = task.scenario(np.arange(40))
         np.testing.assert_allclose(task.robot.planar_pose(None), scenario, atol=1e-6)
         nearest = task.robot.sensors[task.lidar.sensor].measure(None).min(axis=1)
-        assert (nearest > RULES[name].crash_range).all()
+        assert (nearest > (RULES[name].crash_range or RULES[name].least)).all()
         places[kind] = {tuple(row) for row in scenario[:, :2].round(6).tolist()}
     assert not places["training"] & places["held-out"]
 
@@ -181,16 +181,16 @@ def test_a_reward_has_one_reason():
         crash_range=0.5,
         velocities=(),
         goal=(0.0, 0.0),
-        closer_reward=10.0,
-        turn_reward=1.0,
-        forward_reward=1.0,
+        rewards=((1.0, 11.0), (1.0, 11.0)),
     )
     place = np.array([[0.05, -0.04], [-0.05, 0.0], [1.0, 1.0]])
-    ends = ends_of(rules, np.array([0.4, 1.0, 1.0]), place, rules.goal)
+    ranges = np.array([[0.4], [1.0], [1.0]])
+    ends = ends_of(rules, has_crashed(rules, ranges, ranges), place)
     assert ends.reached.tolist() == [True, False, False]  # the lower bound does not count
     assert ends.crashed.tolist() == [True, False, False]
     forward, closer = np.array([True, True, False]), np.array([True, True, False])
-    assert reward_of(rules, ends, forward=forward, closer=closer).tolist() == [200.0, 11.0, 1.0]
+    reward = reward_of(rules, over=ends.over, reached=ends.reached, forward=forward, closer=closer)
+    assert reward.tolist() == [200.0, 11.0, 1.0]
 
 
 def test_worlds_do_not_know_of_others_and_states_go_on():

@@ -8,12 +8,14 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from gazelle import assets, formats
+from gazelle.envs.goal_rules import distance_to
 from gazelle.envs.parrot_drone.places import squares
-from gazelle.envs.parrot_drone.rules import distance_of, ends_of, reward_of
+from gazelle.envs.parrot_drone.rules import FlightRules, ends_of, reward_of
 from gazelle.envs.parrot_drone.task import ParrotDroneSettings, ParrotDroneTask
 from gazelle.errors import TaskError
 
 ID = "gazelle/ParrotDroneGoto-v0"
+RULES = FlightRules()
 COARSE = {"time_step": 0.02}  # enough where only rules are looked at
 
 
@@ -70,10 +72,12 @@ def test_the_drone_weighs_and_turns_as_published():
     ],
 )
 def test_ends_are_the_published_ones(observed, over, success, crashed):
-    ends = ends_of(observed)
+    ends = ends_of(RULES, observed)
     assert (ends.over[0], ends.succeeded[0], ends.crashed[0]) == (over, success, crashed)
     for closer in (False, True):
-        reward = reward_of(ends, np.array([closer]))[0]
+        reward = reward_of(
+            RULES, over=ends.over, succeeded=ends.succeeded, closer=np.array([closer])
+        )[0]
         assert reward == (200.0 if success else -200.0 if over else 10.0 * closer)
 
 
@@ -82,7 +86,7 @@ def test_the_first_distance_is_the_true_one_and_the_others_are_as_observed():
     assert task.memory["distance"][0] == pytest.approx(np.linalg.norm([9, 4, 2 - 0.85]))
     step = task.advance(np.array([1]))
     assert step.reward[0] == 0.0
-    assert task.memory["distance"][0] == pytest.approx(distance_of(np.zeros((1, 3)))[0])
+    assert task.memory["distance"][0] == pytest.approx(distance_to(np.zeros((1, 3)), RULES.goal)[0])
 
 
 def test_actions_are_velocities_along_the_axes():
@@ -104,7 +108,9 @@ def test_it_hovers_at_the_origin_when_an_episode_begins():
     assert observation[0, :6].tolist() == [0.0] * 6
     # The cone of 15 degrees meets the ground.
     assert observation[0, 6] == pytest.approx(1.15 / np.sin(np.arctan(1.33974596 / 5.0)), abs=0.06)
-    assert info["distance"][0] == pytest.approx(distance_of(np.array([[0, 0, 0.85]]))[0])
+    assert info["distance"][0] == pytest.approx(
+        distance_to(np.array([[0, 0, 0.85]]), RULES.goal)[0]
+    )
 
 
 def test_starts_of_training_and_evaluation_are_apart_and_free():

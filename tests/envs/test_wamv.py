@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import gymnasium as gym
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
-from hypothesis import given
 from hypothesis import strategies as st
 
 from gazelle import assets, formats
-from gazelle.clients.descriptions import find_file
-from gazelle.compat.openai_ros.task_envs.wamv import wamv_nav_twosets_buoys
-from gazelle.envs.wamv.rules import distance_of, outside, reached, reward_of
+from gazelle.envs.wamv.rules import ChannelRules, outside, reached, reward_of
 from gazelle.envs.wamv.task import WamvSettings, WamvTask, squares
 from gazelle.errors import TaskError
-from gazelle.ros.launch.values import load_yaml
 
 ID = "gazelle/WamvBuoys-v0"
+RULES = ChannelRules()
 COARSE = {"time_step": 0.04}  # enough where only rules are looked at
 tenths = st.integers(-100, 360).map(lambda each: each / 10)
 
@@ -60,10 +55,12 @@ def test_the_vessel_weighs_and_turns_as_published():
 )
 def test_ends_are_the_published_ones(x, y, over, success):
     place = np.array([[x, y]])
-    assert (reached(place) | outside(place))[0] == over
-    assert reached(place)[0] == success
+    assert (reached(RULES, place) | outside(RULES, place))[0] == over
+    assert reached(RULES, place)[0] == success
     for closer in (False, True):
-        reward = reward_of(np.array([over]), np.array([success]), np.array([closer]))[0]
+        reward = reward_of(
+            RULES, over=np.array([over]), success=np.array([success]), closer=np.array([closer])
+        )[0]
         wanted = (1000.0 if success else -1000.0) if over else (100.0 if closer else -100.0)
         assert reward == wanted
 
@@ -109,48 +106,3 @@ def test_equal_seeds_give_equal_ways_whoever_else_goes():
     first = gone(3)
     np.testing.assert_array_equal(first, gone(3))
     np.testing.assert_array_equal(first, gone(2))
-
-
-# -- on a graph ------------------------------------------------------------------------------------
-
-
-def parameter(name):
-    folder = "src/openai_ros/task_envs/wamv/config"
-    path = find_file(f"{folder}/wamv_nav_twosets_buoys.yaml", "openai_ros")
-    value = load_yaml(path.read_text(encoding="utf-8"))
-    for part in name.strip("/").split("/"):
-        value = value[part]
-    return value
-
-
-@pytest.fixture(scope="module")
-def env():
-    """The task with its parameters, and no graph; it notes what it commands."""
-    made = object.__new__(wamv_nav_twosets_buoys.WamvNavTwoSetsBuoysEnv)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(wamv_nav_twosets_buoys, "rospy", SimpleNamespace(get_param=parameter))
-        made._read_parameters()
-    made.cumulated_reward = made.cumulated_steps = 0.0
-    made.commands = []
-    made.set_propellers_speed = lambda right, left, time_sleep: made.commands.append(
-        (right, left, time_sleep)
-    )
-    return made
-
-
-@given(tenths, tenths, st.booleans())
-def test_rewards_and_ends_on_a_graph_are_those_of_the_native_task(env, x, y, closer):
-    place = np.array([[x, y]])
-    success = reached(place)
-    over = success | outside(place)
-    env.previous_distance_from_des_point = distance_of(place)[0] + (0.1 if closer else -0.1)
-    seen = [x, y, *[0.0] * 7]
-    assert env._is_done(seen) == over[0]
-    wanted = reward_of(over, success, np.array([closer]))[0]
-    assert env._compute_reward(seen, bool(over[0])) == wanted
-
-
-def test_actions_on_a_graph_are_those_of_the_native_task(env):
-    for action in range(4):
-        env._set_action(action)
-    assert env.commands == [(1, 1, 1), (-1, -1, 1), (1, -1, 1), (-1, 1, 1)]

@@ -46,8 +46,8 @@ class CartPoleStayUpEnv(SettingsEnv):
 
     ## End
 
-    Terminated when the cart is more than 1.0 m from the middle or the pole leans by more than
-    0.7 rad. Truncated after 1,000 steps (40 s), which is a success (``info["is_success"]``).
+    Terminated when the cart is 1.0 m or more from the middle or the pole leans by 0.7 rad or
+    more. Truncated after 1,000 steps (40 s), which is a success (``info["is_success"]``).
 
     ## Options
 

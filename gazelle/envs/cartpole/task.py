@@ -9,14 +9,13 @@ from numpy.typing import NDArray
 from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import World
+from gazelle.envs.cartpole.rules import ANGLES, has_fallen
 from gazelle.envs.options import DynamicsSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.sensors import View, look_at
 
 RUNNING_STEP = 0.04  # [s]
 POSITION_STEP = 1.0  # that an action adds to the commanded velocity [m/s]
-FARTHEST = 1.0  # of the cart from the middle [m]
-STEEPEST = 0.7  # of the pole [rad]
 START = 0.05  # largest angle of the pole at the start [rad]
 _TIME_STEP = 0.002
 _MOTOR = 100.0  # [N], as the robot's file says
@@ -39,7 +38,7 @@ class CartPoleTask(SimulationTask):
         robot = world.spawn(assets.robot("cartpole"), name="cartpole")
         self._foot, self._pole = robot.joints["foot_joint"], robot.joints["pole_joint"]
         self._foot.add_motor(_MOTOR)
-        most = np.array([5.0, np.inf, 2.0 * STEEPEST, np.inf], np.float32)
+        most = np.array([5.0, np.inf, 2.0 * ANGLES[1], np.inf], np.float32)
         self.observation_space = gym.spaces.Box(-most, most, dtype=np.float32)
         self.action_space = gym.spaces.Discrete(2)
         super().__init__(
@@ -75,6 +74,5 @@ class CartPoleTask(SimulationTask):
 
     def outcome(self, observation: Floats32) -> StepOutcome:
         """One for every step."""
-        fallen = np.abs(observation[:, 2]) > STEEPEST
-        fallen |= np.abs(observation[:, 0]) > FARTHEST
+        fallen = has_fallen(observation)
         return StepOutcome(np.ones(self.nworld), fallen, {"is_success": self.lasting & ~fallen})

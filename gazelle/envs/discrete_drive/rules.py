@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 Place = tuple[float, float]
+StepRewards = tuple[tuple[float, float], tuple[float, float]]
 CONTROL_PERIOD = 0.2
 """Of all of them [s]: how long openai_ros sleeps after each command to a TurtleBot."""
 
@@ -27,25 +28,23 @@ class DriveRules:
     start_margin: float = 0.85
     """Distance of other starts from all obstacles [m]: enough to turn round from there."""
     every: int
-    """It sees ray 0 of its laser and every so manieth after that."""
+    """Stride of the observed rays: 0, n, 2n, ..."""
     decimals: int | None = None
     """Ranges are rounded to so many decimals; None: cut to whole metres."""
     far: float = 6.0
-    """Stands for nothing in range, and is the bound of the space [m]."""
+    """Observed where nothing is in range, and upper bound of the space [m]."""
     least: float = 0.0
-    """Lower bound of ranges [m]; they are raised to it."""
-    crash_range: float
-    """A shorter range is a crash [m]."""
+    """Observed where a range is not a number, and lower bound of the space [m]."""
+    clamped: bool = False
+    """Whether ranges are kept within these two."""
+    crash_range: float | None = None
+    """A shorter range is a crash [m]; None: a range that is observed as the least is one."""
     velocities: tuple[Place, ...]
     """Forward speed [m/s] and yaw rate [rad/s] of each action."""
-    forward_reward: float = 0.0
-    """Of a step with action 0."""
-    turn_reward: float = 0.0
-    """Of a step with another one."""
-    closer_reward: float = 0.0
-    """Added where it came nearer to the goal."""
+    rewards: StepRewards
+    """Reward of a step with action 0, and with another one; each not nearer to the goal, and nearer."""
     end_reward: float = 200.0
-    """Of the last step: at the goal, and less than nothing elsewhere."""
+    """Reward of the last step at the goal; minus that elsewhere."""
     goal: Place | None = None
     """Goal position [m]; None if it should just not crash."""
     tolerance: float = 0.05
@@ -57,7 +56,7 @@ class DriveRules:
     sees_yaw: bool = False
     """True if yaw is observed after x and y."""
     sees_goal: bool = False
-    """True if the goal is observed after those."""
+    """Whether the goal is seen behind those; it counts as it is seen."""
 
 
 def _turns(turning: float, rate: float) -> tuple[Place, ...]:
@@ -71,8 +70,7 @@ MAZE = DriveRules(
     decimals=1,
     crash_range=0.5,
     velocities=_turns(0.1, 0.3),
-    forward_reward=5.0,
-    turn_reward=1.0,
+    rewards=((5.0, 5.0), (1.0, 1.0)),
 )
 WALL = DriveRules(
     world="turtlebot2_wall",
@@ -80,9 +78,7 @@ WALL = DriveRules(
     every=144,
     crash_range=0.5,
     velocities=_turns(0.05, 0.3),
-    forward_reward=5.0,
-    turn_reward=1.0,
-    closer_reward=5.0,
+    rewards=((5.0, 10.0), (1.0, 6.0)),
     goal=(5.0, 0.0),
     bounds=(-1.0, 6.0, -3.0, 3.0),
 )
@@ -95,8 +91,7 @@ TURTLEBOT3_WORLD = DriveRules(
     every=3,
     crash_range=0.2,
     velocities=_turns(0.05, 0.3),
-    forward_reward=5.0,
-    turn_reward=1.0,
+    rewards=((5.0, 5.0), (1.0, 1.0)),
 )
 HUSARION = DriveRules(
     world="rosbot_playground",
@@ -106,10 +101,10 @@ HUSARION = DriveRules(
     every=18,
     decimals=1,
     least=0.3,
-    crash_range=0.35,  # what is rounded to the least range is a crash
+    clamped=True,
     velocities=((0.5, 0.0), (0.0, 1.5), (0.0, -1.5), (0.5, 0.0)),
-    closer_reward=10.0,
-    goal=(-2.9, 3.9),  # as seen: the parameter is (-2.94, 3.92)
+    rewards=((0.0, 10.0), (0.0, 10.0)),
+    goal=(-2.94, 3.92),
     tolerance=0.1,
     bounds=(-7.0, 3.0, -5.0, 3.0),
     place_decimals=1,
@@ -123,9 +118,7 @@ SUMMIT_XL = DriveRules(
     every=144,
     crash_range=0.5,
     velocities=_turns(0.05, 0.3),
-    forward_reward=1.0,
-    turn_reward=1.0,
-    closer_reward=9.0,
+    rewards=((1.0, 10.0), (1.0, 10.0)),
     goal=(-2.94, 3.92),
     bounds=(-4.005, 4.0, -4.005, 4.0),  # -4.00 itself, as seen, is within
     sees_yaw=True,

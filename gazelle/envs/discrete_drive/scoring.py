@@ -1,18 +1,22 @@
-"""Rewards and ends of openai_ros' driving tasks."""
+"""Observed ranges, rewards and ends of openai_ros' driving tasks."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats
-from gazelle.envs.discrete_drive.rules import DriveRules, Place
+from gazelle.envs.decimals import rounded
+from gazelle.envs.discrete_drive.rules import DriveRules
+from gazelle.envs.goal_rules import goal_reward, is_at, is_inside
 
 
 @dataclass(frozen=True, slots=True)
 class DriveEnds:
-    """Why episodes end, each of shape (n,).
+    """Reasons for which episodes end, each of shape (n,).
 
     Attributes:
         crashed: Something is too near.
@@ -30,39 +34,49 @@ class DriveEnds:
         return self.crashed | self.outside | self.reached
 
 
-def ends_of(rules: DriveRules, nearest: Floats, place: Floats, goal: Place | None) -> DriveEnds:
-    """Why episodes end.
+def observed(rules: DriveRules, ranges: NDArray[Any]) -> Floats:
+    """Return ranges as they are observed [m], same shape.
 
     Args:
-        rules: Of the task.
-        nearest: The shortest range [m], shape (n,).
-        place: x and y as observed [m], shape (n, 2).
-        goal: Where to go [m], if anywhere.
+        rules: Parameters of the task.
+        ranges: Measured ranges [m]; infinite (of either sign) where nothing is in range.
     """
-    crashed = nearest < rules.crash_range
-    outside: Bools = np.zeros(len(place), np.bool_)
-    reached: Bools = np.zeros(len(place), np.bool_)
-    if goal is not None:
-        low, high = np.array(goal) - rules.tolerance, np.array(goal) + rules.tolerance
-        reached = np.all((place > low) & (place <= high), axis=1)
+    nothing, unknown = np.isinf(ranges), np.isnan(ranges)
+    known = np.where(nothing | unknown, 0.0, ranges)
+    if rules.clamped:
+        known = np.clip(known, rules.least, rules.far)
+    known = np.trunc(known) if rules.decimals is None else rounded(known, rules.decimals)
+    return np.where(nothing, rules.far, np.where(unknown, rules.least, known))
+
+
+def has_crashed(rules: DriveRules, ranges: NDArray[Any], seen: NDArray[Any]) -> Bools:
+    """Return whether something is too near, shape (n,).
+
+    Args:
+        rules: Parameters of the task.
+        ranges: Measured ranges [m], shape (n, k); 0 and less is no measurement.
+        seen: The same as observed [m].
+    """
+    if rules.crash_range is None:
+        return np.asarray(np.any(seen == rules.least, axis=1), np.bool_)
+    near = (ranges > 0.0) & (ranges < rules.crash_range)
+    return np.asarray(np.any(near, axis=1), np.bool_)
+
+
+def ends_of(rules: DriveRules, crashed: Bools, place: Floats) -> DriveEnds:
+    """Return why episodes end: crashed, shape (n,), or by x and y as observed [m], shape (n, 2)."""
+    outside, reached = np.zeros((2, len(crashed)), np.bool_)
+    if rules.goal is not None:
+        reached = is_at(place, rules.goal, rules.tolerance)
     if rules.bounds is not None:
         x0, x1, y0, y1 = rules.bounds
-        inside = (place > (x0, y0)) & (place <= (x1, y1))
-        outside = ~np.all(inside, axis=1)
+        outside = ~is_inside(place, (x0, y0), (x1, y1))
     return DriveEnds(crashed, outside, reached)
 
 
-def reward_of(rules: DriveRules, ends: DriveEnds, *, forward: Bools, closer: Bools) -> Floats:
-    """Return the reward of a step, shape (n,).
-
-    Args:
-        rules: Of the task.
-        ends: Why episodes end.
-        forward: Whether the action was the first one.
-        closer: Whether the base came nearer to the goal, as observed.
-    """
-    on_the_way = np.where(forward, rules.forward_reward, rules.turn_reward)
-    on_the_way = on_the_way + rules.closer_reward * closer
-    last = np.where(ends.reached, rules.end_reward, -rules.end_reward)
-    reward: Floats = np.where(ends.over, last, on_the_way)
-    return reward
+def reward_of(
+    rules: DriveRules, *, over: Bools, reached: Bools, forward: Bools, closer: Bools
+) -> Floats:
+    """Return the reward of a step, shape (n,); ``forward``: the action was the first one."""
+    step = np.array(rules.rewards)[np.where(forward, 0, 1), np.where(closer, 1, 0)]
+    return goal_reward(over, reached, rules.end_reward, step)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,8 +20,9 @@ from gazelle.envs.course import CourseTask
 from gazelle.envs.decimals import rounded
 from gazelle.envs.destination_task import DestinationTask
 from gazelle.envs.discrete_drive.rules import CONTROL_PERIOD, DriveRules
-from gazelle.envs.discrete_drive.scoring import ends_of, reward_of
+from gazelle.envs.discrete_drive.scoring import ends_of, has_crashed, observed, reward_of
 from gazelle.envs.free_space import FreeSpace, floor_plan_of
+from gazelle.envs.goal_rules import distance_to
 from gazelle.envs.lidars import FittedLidar, every_nth_ray
 from gazelle.envs.options import SPLITS, TaskSettings, check_name
 from gazelle.envs.simulation_task import StepOutcome
@@ -84,6 +86,9 @@ class DriveTask(DestinationTask):
         nworld: Number of worlds.
         settings: What the user asks for.
 
+    Attributes:
+        scan: Ranges at the last observation [m], shape (n, rays).
+
     Raises:
         TaskError: A goal is given to a task without one, or no place is free to start from.
     """
@@ -94,8 +99,11 @@ class DriveTask(DestinationTask):
     def __init__(self, rules: DriveRules, nworld: int, settings: DriveSettings) -> None:
         if settings.goal is not None and rules.goal is None:
             raise TaskError("this task has no goal", hint="leave out the option goal")
-        self.rules = rules
-        self._goal = settings.goal or rules.goal
+        goal = settings.goal or rules.goal
+        if goal is not None and rules.sees_goal:
+            goal = (round(goal[0], rules.place_decimals), round(goal[1], rules.place_decimals))
+        self.rules = rules = dataclasses.replace(rules, goal=goal)
+        self._goal = goal
         model = formats.load_model(assets.robot(rules.robot), xacro_args=rules.robot_args)
         self._lidar = every_nth_ray(model, rules.every)
         simulation, self.robot = self._scene(settings, settings.engine, nworld)
@@ -124,7 +132,7 @@ class DriveTask(DestinationTask):
             self.robot.set_pose(place, yaw=start[worlds, 2], worlds=worlds)
         if self._goal is not None:
             place = self.robot.planar_pose(worlds)[:, :2]
-            self.memory["distance"][worlds] = np.hypot(*(place - self._goal).T)
+            self.memory["distance"][worlds] = distance_to(place, self._goal)
 
     def scenario(self, worlds: Worlds) -> Floats:
         """x, y [m] and heading [rad] at the start, shape (n, 3)."""
@@ -134,13 +142,14 @@ class DriveTask(DestinationTask):
     def observe(self, worlds: Worlds | None) -> Floats:
         """Ranges, and in tasks with a goal x and y, and yaw and the goal if the rules say so."""
         rules = self.rules
-        seen = [self._ranges(worlds)]
+        # Noise is drawn with each measurement, so the outcome goes by the one that was observed.
+        self.scan = ranges = self._ranges(worlds)
+        seen = [observed(rules, ranges)]
         if self._goal is not None:
             pose = self.robot.planar_pose(worlds)
             seen.append(rounded(pose[:, : 3 if rules.sees_yaw else 2], rules.place_decimals))
             if rules.sees_goal:
-                goal = np.array([round(side, rules.place_decimals) for side in self._goal])
-                seen.append(np.tile(goal, (len(pose), 1)))
+                seen.append(np.tile(self._goal, (len(pose), 1)))
         return np.hstack(seen)
 
     def act(self, actions: NDArray[np.int64]) -> None:
@@ -150,10 +159,17 @@ class DriveTask(DestinationTask):
 
     def outcome(self, observation: Floats32) -> StepOutcome:
         """Reward and end of openai_ros' task, see `scoring`."""
-        place, distance = self._place(observation)
-        ends = ends_of(self.rules, self._nearest(), place, self._goal)
-        closer = self.comes_closer(distance)
-        reward = reward_of(self.rules, ends, forward=self._forward, closer=closer)
+        rules, rays = self.rules, self._lidar.lidar.horizontal.samples
+        # A base without a goal is nowhere, and never nearer to it.
+        place, closer = np.zeros((self.nworld, 2)), np.zeros(self.nworld, np.bool_)
+        if self._goal is not None:
+            place = rounded(observation[:, rays : rays + 2], rules.place_decimals)
+            closer = self.comes_closer(distance_to(place, self._goal))
+        crashed = has_crashed(rules, self.scan, observation[:, :rays])
+        ends = ends_of(rules, crashed, place)
+        reward = reward_of(
+            rules, over=ends.over, reached=ends.reached, forward=self._forward, closer=closer
+        )
         success = ends.reached if self._goal is not None else self.lasting & ~ends.crashed
         info = {"is_success": success, "is_collision": ends.crashed & ~ends.reached}
         return StepOutcome(reward, ends.over, {**info, **self.whereabouts(None)})
@@ -164,32 +180,15 @@ class DriveTask(DestinationTask):
         if self._goal is None:
             return {"position": place}
         goal = np.tile(self._goal, (len(place), 1))
-        return {"position": place, "goal": goal, "distance": np.hypot(*(place - goal).T)}
+        return {"position": place, "goal": goal, "distance": distance_to(place, self._goal)}
 
-    def _place(self, observation: Floats32) -> tuple[Floats, Floats]:
-        """Return the observed base position [m], shape (nworld, 2), and distance from the goal."""
-        if self._goal is None:
-            return np.zeros((self.nworld, 2)), np.zeros(self.nworld)
-        first = self._lidar.lidar.horizontal.samples
-        place = rounded(observation[:, first : first + 2], self.rules.place_decimals)
-        return place, np.hypot(*(place - self._goal).T)
+    def _ranges(self, worlds: Worlds | None) -> NDArray[Any]:
+        """Return ranges [m]; what is too near to measure is next to nothing.
 
-    def _measured(self, worlds: Worlds | None) -> NDArray[Any]:
-        return self.robot.sensors[self._lidar.sensor].measure(worlds)
-
-    def _nearest(self) -> Floats:
-        """The shortest range [m], shape (nworld,); what is too near to measure is at 0."""
-        ranges = self._measured(None)
-        # A range of 0 or none at all is a failed ray, and no obstacle.
-        ranges = np.where((ranges == 0.0) | np.isnan(ranges), np.inf, ranges)
-        nearest: Floats = np.maximum(ranges, 0.0).min(axis=1)
-        return nearest
-
-    def _ranges(self, worlds: Worlds | None) -> Floats:
-        rules, ranges = self.rules, self._measured(worlds)
-        known = np.where(np.isposinf(ranges), rules.far, np.nan_to_num(ranges, neginf=0.0))
-        known = np.clip(known, rules.least, rules.far)
-        return np.trunc(known) if rules.decimals is None else rounded(known, rules.decimals)
+        openai_ros takes that (-inf) for nothing in range, so a base that touches a wall would go on.
+        """
+        ranges = self.robot.sensors[self._lidar.sensor].measure(worlds)
+        return np.where(np.isneginf(ranges), np.finfo(np.float32).tiny, ranges)
 
     def _space(self) -> gym.spaces.Box:
         rules, rays = self.rules, self._lidar.lidar.horizontal.samples

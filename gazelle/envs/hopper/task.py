@@ -11,6 +11,8 @@ from gazelle import assets
 from gazelle.array_types import Floats, Floats32, Worlds
 from gazelle.description import Pose
 from gazelle.envs.decimals import rounded
+from gazelle.envs.goal_rules import distance_to
+from gazelle.envs.hopper.rules import StandRules, has_height, is_upright, reward_of
 from gazelle.envs.options import DynamicsSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.rotations import roll_pitch_yaw
@@ -20,17 +22,12 @@ CONTROL_PERIOD = 0.05  # [s]: openai_ros looks at the joints 20 times a second u
 STEP = 0.05  # of one joint [rad]
 START = 0.03  # largest roll and pitch at the start [rad]
 HEIGHT = 1.0  # of the base when the leg is straight [m]
-DESIRED = (0.0, 0.0, 1.0)  # where the base should be [m]
-FORCE = 7.08  # that the foot should feel [N]
-ALIVE = 100.0  # reward of a step
-LOWEST, HIGHEST = 0.5, 3.0  # of the base [m]
-STEEPEST = 1.57  # roll and pitch [rad]
 JOINTS = ("haa_joint", "hfe_joint", "kfe_joint")
 LOWER, UPPER = (-1.6, -1.6, -1.6), (1.6, 1.6, 0.0)  # of the joints [rad]
 _MOTOR = 10.0  # [N m], as the robot's file says
 _TIME_STEP = 0.002
-_LEAST = (0.0, -STEEPEST, -STEEPEST, -3.15, 0.0, *LOWER, -3.0, -3.0, 0.0)
-_MOST = (3.0, STEEPEST, STEEPEST, 3.15, 14.16, *UPPER, 3.0, 3.0, HIGHEST)
+_LEAST = (0.0, -1.57, -1.57, -3.15, 0.0, *LOWER, -3.0, -3.0, 0.0)
+_MOST = (3.0, 1.57, 1.57, 3.15, 14.16, *UPPER, 3.0, 3.0, 3.0)
 
 
 class HopperTask(SimulationTask):
@@ -45,6 +42,7 @@ class HopperTask(SimulationTask):
     view = View(look_at((2.4, -1.6, 1.2), (0.0, 0.0, 0.6)), width=480, height=400, samples=1)
 
     def __init__(self, nworld: int, settings: DynamicsSettings) -> None:
+        self.rules = StandRules()
         simulation = simulation_of(
             gazelle.load(assets.world("empty")), nworld, settings, _TIME_STEP
         )
@@ -111,14 +109,11 @@ class HopperTask(SimulationTask):
     def outcome(self, observation: Floats32) -> StepOutcome:
         """Less than 100 by joints, turns, force and way from where the base should be."""
         seen = rounded(observation, 1)
-        turned, angles, place = seen[:, 1:4], seen[:, 5:8], seen[:, 8:11]
-        away = np.linalg.norm(place - DESIRED, axis=1)
-        reward = ALIVE - np.abs(angles).sum(axis=1) - np.abs(seen[:, 4] - FORCE)
-        reward -= np.abs(turned).sum(axis=1) + away
-        upright = (np.abs(self._exactly_turned()) < STEEPEST).all(axis=1)
-        fallen = ~(upright & (place[:, 2] >= LOWEST) & (place[:, 2] < HIGHEST))
+        upright = is_upright(self.rules, self._exactly_turned())
+        fallen = ~(upright & has_height(self.rules, seen[:, 10]))
+        away = distance_to(seen[:, 8:11], self.rules.desired)
         info = {"is_success": self.lasting & ~fallen, "distance": away}
-        return StepOutcome(reward, fallen, info)
+        return StepOutcome(reward_of(self.rules, seen), fallen, info)
 
     def _exactly_turned(self) -> Floats:
         """Roll and pitch [rad], which the end is not judged by as rounded, shape (nworld, 2)."""

@@ -14,6 +14,7 @@ from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import Pose
 from gazelle.envs.batched_task import Info
 from gazelle.envs.decimals import rounded
+from gazelle.envs.moving_cube.rules import WalkRules, has_failed, reward_of, wheel_speeds
 from gazelle.envs.options import DynamicsSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.errors import TaskError
@@ -21,17 +22,13 @@ from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
 
 CONTROL_PERIOD = 0.04  # [s]; openai_ros waits until the wheel has its speed, some hundredths
-SPEED = 50.0  # of the wheel, that an action asks for [rad/s]
-SPEED_STEP = 10.0  # that the last two actions add or take [rad/s]
 FIRST_SPEED = 10.0  # of the wheel when an episode begins [rad/s]
-TILTED = 0.3  # largest pitch and yaw [rad]
-WEIGHT = 100.0  # of each part of the reward
 START_YAW = 0.05  # largest at the start [rad]
 WALKED = 1.0  # farther along y is a success [m]
 HALF_SIDE = 0.1  # of the cube [m]
 _TIME_STEP = 0.002
 _MOTOR = 200.0  # [N m], as the robot's file says
-_MOST = (SPEED, 10.0, 2.0 * np.pi, TILTED, 100.0, 100.0)  # bounds of what is seen, as published
+_MOST = (50.0, 10.0, 2.0 * np.pi, 0.3, 100.0, 100.0)  # bounds of what is seen, as published
 _ACTIONS = (3, 5)
 LONGEST_HOLD = 25  # up to which steps with one command are counted
 
@@ -86,7 +83,7 @@ class MovingCubeTask(SimulationTask):
             least.astype(np.float32), most.astype(np.float32), dtype=np.float32
         )
         self.action_space = gym.spaces.Discrete(settings.n_actions)
-        self._failure = settings.failure_reward
+        self.rules = WalkRules(failure_reward=settings.failure_reward)
         self._shows_hold = settings.shows_hold
         super().__init__(
             simulation,
@@ -128,26 +125,17 @@ class MovingCubeTask(SimulationTask):
     def act(self, actions: NDArray[np.int64]) -> None:
         """Set the wheel's speed, or change it by a step."""
         speed, held = self.memory["speed"], self.memory["held"]
-        asked = (
-            np.full(self.nworld, SPEED),
-            np.full(self.nworld, -SPEED),
-            np.zeros(self.nworld),
-            speed + SPEED_STEP,
-            speed - SPEED_STEP,
-        )
-        now = np.clip(np.choose(actions, asked), -SPEED, SPEED)
+        now = wheel_speeds(self.rules, speed, actions)
         held[:] = np.where(now == speed, np.minimum(held + 1.0, LONGEST_HOLD), 0.0)
         speed[:] = now
         self._wheel.drive(speed)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
         """Way and speed along y, less for yaw; another reward where it tilts too far."""
-        _, y, _, pitch, speed, yaw = rounded(observation[:, : len(_MOST)], 1).T
-        failed = (np.abs(pitch) > TILTED) | (np.abs(yaw) > TILTED)
-        way = rounded(WEIGHT * (y - self.memory["place"]), 0)
-        turned = rounded(-WEIGHT * np.abs(np.sin(yaw)), 0)
+        seen = rounded(observation[:, : len(_MOST)], 1)
+        failed, y = has_failed(self.rules, seen), seen[:, 1]
+        reward = reward_of(self.rules, seen, self.memory["place"], failed)
         self.memory["place"][:] = y
-        reward = np.where(failed, self._failure, way + rounded(WEIGHT * speed, 0) + turned)
         success = self.lasting & ~failed & (y >= WALKED)
         return StepOutcome(reward, failed, self._info(success, y))
 

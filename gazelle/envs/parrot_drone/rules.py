@@ -7,29 +7,47 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Bools, Floats
+from gazelle.envs.goal_rules import goal_reward, is_at, is_inside
 
-GOAL = (9.0, 4.0, 2.0)
-"""Goal position [m]; its height does not matter for the end."""
-LOW, HIGH = (-1.0, -1.0, -1.0), (10.0, 5.0, 3.0)
-"""Edges of the work space along x, y and z [m], as published."""
-STEEPEST = 1.57
-"""Largest roll and pitch [rad]."""
-NEAREST, FARTHEST = 0.5, 5.0
-"""Shortest distance measured by the sonar without an end, and its range [m]."""
-CLOSER, END = 10.0, 200.0
-"""Reward of a step that came nearer to the goal, and of an end."""
-_AROUND, _AT = 1.0, 0.5
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlightRules:
+    """Parameters of the task; the defaults are the published ones.
+
+    Attributes:
+        goal: Where to fly [m]; ends do not depend on its height.
+        low: Lower edges of the work space along x, y and z [m].
+        high: Upper edges, which belong to it [m].
+        steepest: Largest roll and pitch [rad].
+        nearest: Smallest range of the sonar without an end [m].
+        end_tolerance: Distance from the goal along x and y that ends an episode [m].
+        success_tolerance: Distance from it at an end that is a success [m].
+        closer_reward: Reward of a step that comes nearer to the goal.
+        end_reward: Reward of a success; other ends get minus that.
+    """
+
+    goal: Point = (9.0, 4.0, 2.0)
+    low: Point = (-1.0, -1.0, -1.0)
+    high: Point = (10.0, 5.0, 3.0)
+    steepest: tuple[float, float] = (1.57, 1.57)
+    nearest: float = 0.5
+    end_tolerance: float = 1.0
+    success_tolerance: float = 0.5
+    closer_reward: float = 10.0
+    end_reward: float = 200.0
 
 
 @dataclass(frozen=True, slots=True)
 class FlightEnds:
-    """Why episodes end, each of shape (n,).
+    """Reasons for which episodes end, each of shape (n,).
 
     Attributes:
         outside: The drone left its work space.
         crashed: The sonar sees something too near, or the drone has flipped.
-        arrived: It is within 1 m of the goal along x and along y.
-        succeeded: It is within 0.5 m of it so, which is what the reward goes by.
+        arrived: It is so near to the goal that the episode ends.
+        succeeded: It is so near that this is a success.
     """
 
     outside: Bools
@@ -43,39 +61,23 @@ class FlightEnds:
         return self.outside | self.crashed | self.arrived
 
 
-def ends_of(seen: Floats) -> FlightEnds:
-    """Why episodes end.
-
-    Args:
-        seen: Observations, shape (n, 7): x, y, z, roll, pitch, yaw, sonar.
-    """
-    place, tilt, sonar = seen[:, :3], seen[:, 3:5], seen[:, 6]
-    inside = np.all((place > LOW) & (place <= HIGH), axis=1)
-    flipped = ~np.all((tilt > -STEEPEST) & (tilt <= STEEPEST), axis=1)
+def ends_of(rules: FlightRules, seen: Floats) -> FlightEnds:
+    """Return why episodes end, of observations, shape (n, 7): x, y, z, roll, pitch, yaw, sonar."""
+    place = seen[:, :3]
     return FlightEnds(
-        ~inside, flipped | (sonar < NEAREST), _within(place, _AROUND), _within(place, _AT)
+        ~is_inside(place, rules.low, rules.high),
+        has_flipped(rules, seen[:, 3:5]) | (seen[:, 6] < rules.nearest),
+        is_at(place, rules.goal, rules.end_tolerance),
+        is_at(place, rules.goal, rules.success_tolerance),
     )
 
 
-def reward_of(ends: FlightEnds, closer: Bools) -> Floats:
-    """Return the reward of a step, shape (n,).
-
-    Args:
-        ends: Why episodes end.
-        closer: Whether the drone came nearer to the goal, as observed.
-    """
-    last = np.where(ends.succeeded, END, -END)
-    reward: Floats = np.where(ends.over, last, CLOSER * closer)
-    return reward
+def has_flipped(rules: FlightRules, tilt: Floats) -> Bools:
+    """Return whether roll and pitch [rad], shape (n, 2), are too large."""
+    return ~is_inside(tilt, -np.array(rules.steepest), rules.steepest)
 
 
-def distance_of(place: Floats) -> Floats:
-    """Return the distances of positions, shape (n, 3), from the goal [m], shape (n,)."""
-    return np.asarray(np.linalg.norm(place - GOAL, axis=1), np.float64)
-
-
-def _within(place: Floats, tolerance: float) -> Bools:
-    goal = np.array(GOAL[:2])
-    level = place[:, :2]
-    inside: Bools = np.all((level > goal - tolerance) & (level <= goal + tolerance), axis=1)
-    return inside
+def reward_of(rules: FlightRules, *, over: Bools, succeeded: Bools, closer: Bools) -> Floats:
+    """Return the reward of a step, shape (n,), by whether it came closer to the goal as observed."""
+    step = np.where(closer, rules.closer_reward, 0.0)
+    return goal_reward(over, succeeded, rules.end_reward, step)

@@ -15,17 +15,10 @@ from gazelle.description import Pose
 from gazelle.envs.batched_task import Info
 from gazelle.envs.decimals import rounded
 from gazelle.envs.destination_task import DestinationTask
+from gazelle.envs.goal_rules import distance_to
 from gazelle.envs.options import StartSettings
 from gazelle.envs.parrot_drone.places import JITTER, squares
-from gazelle.envs.parrot_drone.rules import (
-    FARTHEST,
-    GOAL,
-    HIGH,
-    LOW,
-    distance_of,
-    ends_of,
-    reward_of,
-)
+from gazelle.envs.parrot_drone.rules import FlightRules, ends_of, reward_of
 from gazelle.envs.simulation_task import StepOutcome, simulation_of
 from gazelle.plugins.drone import Drone
 from gazelle.rotations import roll_pitch_yaw
@@ -35,6 +28,7 @@ CONTROL_PERIOD = 1.0  # [s]: openai_ros sleeps so long after each command
 SPEED = 0.5  # of an action [m/s]
 HEIGHT = 0.85  # that a take-off ends at [m]
 _TIME_STEP = 0.004
+_FARTHEST = 5.0  # range of the sonar [m]
 _TURN = 3.15
 _UP = 1.6
 _DIRECTIONS = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
@@ -57,6 +51,7 @@ class ParrotDroneTask(DestinationTask):
     view = View(look_at((-3.0, -5.0, 5.0), (4.5, 2.0, 0.5)), width=480, height=320, samples=1)
 
     def __init__(self, nworld: int, settings: ParrotDroneSettings) -> None:
+        self.rules = FlightRules()
         simulation = simulation_of(
             gazelle.load(assets.world("drone_field")), nworld, settings, _TIME_STEP
         )
@@ -68,11 +63,11 @@ class ParrotDroneTask(DestinationTask):
         if settings.starts != "published":
             self._places = squares(held_out=settings.starts == "held-out")
         # Where an episode ends the drone can be a step beyond the work space.
-        low, high = np.array(LOW) - 1.0, np.array(HIGH) + 1.0
+        low, high = np.array(self.rules.low) - 1.0, np.array(self.rules.high) + 1.0
         tilt = np.array((_TURN, _UP, _TURN))
         self.observation_space = gym.spaces.Box(
             np.hstack((low, -tilt, 0.0)).astype(np.float32),
-            np.hstack((high, tilt, FARTHEST)).astype(np.float32),
+            np.hstack((high, tilt, _FARTHEST)).astype(np.float32),
             dtype=np.float32,
         )
         self.action_space = gym.spaces.Discrete(len(_DIRECTIONS))
@@ -96,7 +91,7 @@ class ParrotDroneTask(DestinationTask):
         self.robot.set_pose(place, worlds=worlds)
         self.drone.fly(worlds)
         self.robot.inputs["cmd_vel"].send(np.zeros((len(worlds), 3)), 0.0, worlds)
-        self.memory["distance"][worlds] = distance_of(place)
+        self.memory["distance"][worlds] = distance_to(place, self.rules.goal)
 
     def scenario(self, worlds: Worlds) -> Floats:
         """Return the start positions x and y [m], shape (n, 2)."""
@@ -116,14 +111,15 @@ class ParrotDroneTask(DestinationTask):
     def outcome(self, observation: Floats32) -> StepOutcome:
         """Reward and end of openai_ros' task, see `rules`."""
         seen = rounded(observation, 1)
-        ends = ends_of(seen)
-        distance = distance_of(seen[:, :3])
+        ends = ends_of(self.rules, seen)
+        distance = distance_to(seen[:, :3], self.rules.goal)
         closer = self.comes_closer(distance)
+        reward = reward_of(self.rules, over=ends.over, succeeded=ends.succeeded, closer=closer)
         info = {"is_success": ends.succeeded, "is_collision": ends.crashed & ~ends.succeeded}
-        return StepOutcome(reward_of(ends, closer), ends.over, {**info, **self.whereabouts(None)})
+        return StepOutcome(reward, ends.over, {**info, **self.whereabouts(None)})
 
     def whereabouts(self, worlds: Worlds | None) -> Info:
         """See `DestinationTask`."""
         place = self.robot.placement(worlds).position
-        goal = np.tile(GOAL, (len(place), 1))
-        return {"position": place, "goal": goal, "distance": distance_of(place)}
+        goal = np.tile(self.rules.goal, (len(place), 1))
+        return {"position": place, "goal": goal, "distance": distance_to(place, self.rules.goal)}

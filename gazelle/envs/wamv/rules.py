@@ -2,46 +2,46 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from gazelle.array_types import Bools, Floats
-
-GOAL = (30.0, 0.0, 1.0)
-"""Goal position [m]; distances count its height, ends do not."""
-TOLERANCE = 0.5
-"""Tolerance along x and along y [m]."""
-LOW, HIGH = (-1.0, -5.0), (30.0, 5.0)
-"""Edges of the work space along x and y [m]."""
-CLOSER, DONE = 100.0, 1000.0
-"""Reward of a step that came nearer to the goal (else less by that), and of an end."""
+from gazelle.envs.goal_rules import goal_reward, is_at, is_inside
 
 
-def reached(place: Floats) -> Bools:
-    """Return whether positions (x, y), shape (n, 2), are at the goal."""
-    goal = np.array(GOAL[:2])
-    return np.asarray(
-        np.all((place > goal - TOLERANCE) & (place <= goal + TOLERANCE), axis=1), np.bool_
-    )
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChannelRules:
+    """Parameters of the task; the defaults are the published ones.
 
-
-def outside(place: Floats) -> Bools:
-    """Return whether positions (x, y), shape (n, 2), are out of the work space."""
-    return np.asarray(~np.all((place > LOW) & (place <= HIGH), axis=1), np.bool_)
-
-
-def distance_of(place: Floats) -> Floats:
-    """From places on the water, shape (n, 2), to the goal [m], shape (n,)."""
-    left = ((place - GOAL[:2]) ** 2).sum(axis=1) + GOAL[2] ** 2
-    return np.asarray(np.sqrt(left), np.float64)
-
-
-def reward_of(over: Bools, success: Bools, closer: Bools) -> Floats:
-    """Return the reward of a step, shape (n,).
-
-    Args:
-        over: Whether the episode ends.
-        success: Whether it is at the goal.
-        closer: Whether it came nearer to the goal, as observed.
+    Attributes:
+        goal: Where to go [m]; its height counts for distances, not for ends.
+        tolerance: How far a place may be off the goal along x and along y [m].
+        low: Lower edges of the work space along x and y [m].
+        high: Upper edges, which belong to it [m].
+        closer_reward: Reward of a step that comes nearer to the goal; others get minus that.
+        end_reward: Reward of an end at the goal; other ends get minus that.
     """
-    last = np.where(success, DONE, -DONE)
-    return np.asarray(np.where(over, last, np.where(closer, CLOSER, -CLOSER)), np.float64)
+
+    goal: tuple[float, float, float] = (30.0, 0.0, 1.0)
+    tolerance: float = 0.5
+    low: tuple[float, float] = (-1.0, -5.0)
+    high: tuple[float, float] = (30.0, 5.0)
+    closer_reward: float = 100.0
+    end_reward: float = 1000.0
+
+
+def reached(rules: ChannelRules, place: Floats) -> Bools:
+    """Return whether places (x, y), shape (n, 2), are the goal."""
+    return is_at(place, rules.goal, rules.tolerance)
+
+
+def outside(rules: ChannelRules, place: Floats) -> Bools:
+    """Return whether places (x, y), shape (n, 2), are out of the work space."""
+    return ~is_inside(place, rules.low, rules.high)
+
+
+def reward_of(rules: ChannelRules, *, over: Bools, success: Bools, closer: Bools) -> Floats:
+    """Return the reward of a step, shape (n,), by whether it came closer to the goal as observed."""
+    step = np.where(closer, rules.closer_reward, -rules.closer_reward)
+    return goal_reward(over, success, rules.end_reward, step)

@@ -15,10 +15,11 @@ from gazelle.description import Pose
 from gazelle.envs.batched_task import Info
 from gazelle.envs.decimals import rounded
 from gazelle.envs.destination_task import DestinationTask
+from gazelle.envs.goal_rules import distance_to
 from gazelle.envs.options import StartSettings
 from gazelle.envs.simulation_task import StepOutcome, simulation_of
 from gazelle.envs.starts import chessboard
-from gazelle.envs.wamv.rules import GOAL, distance_of, outside, reached, reward_of
+from gazelle.envs.wamv.rules import ChannelRules, outside, reached, reward_of
 from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
 from gazelle.simulation.values import DriveCommand
@@ -50,6 +51,7 @@ class WamvTask(DestinationTask):
     view = View(look_at((-10.0, -12.0, 9.0), (12.0, 0.0, 0.0)), width=480, height=320, samples=1)
 
     def __init__(self, nworld: int, settings: WamvSettings) -> None:
+        self.rules = ChannelRules()
         simulation = simulation_of(
             gazelle.load(assets.world("wamv_channel")), nworld, settings, _TIME_STEP
         )
@@ -81,7 +83,7 @@ class WamvTask(DestinationTask):
             start[worlds, 2] = _YAW * (2.0 * share[:, 3] - 1.0)
         place = np.column_stack((start[worlds, :2], np.full(len(worlds), DRAUGHT)))
         self.robot.set_pose(place, yaw=start[worlds, 2], worlds=worlds)
-        self.memory["distance"][worlds] = distance_of(place[:, :2])
+        self.memory["distance"][worlds] = distance_to(place[:, :2], self.rules.goal)
 
     def scenario(self, worlds: Worlds) -> Floats:
         """Return the initial pose: x, y [m] and yaw [rad], shape (n, 3)."""
@@ -91,7 +93,7 @@ class WamvTask(DestinationTask):
     def observe(self, worlds: Worlds | None) -> Floats:
         """Place, angles, velocities and distance, rounded as published."""
         place, motion = self.robot.placement(worlds), self.robot.motion(worlds)
-        left = np.linalg.norm(place.position - GOAL, axis=1)
+        left = distance_to(place.position, self.rules.goal)
         seen = (
             place.position[:, :2],
             roll_pitch_yaw(place.quaternion),
@@ -108,19 +110,18 @@ class WamvTask(DestinationTask):
     def outcome(self, observation: Floats32) -> StepOutcome:
         """Reward and end of openai_ros' task, see `rules`."""
         place = rounded(observation[:, :2], 1)
-        success = reached(place)
-        over = success | outside(place)
-        distance = distance_of(place)
+        success = reached(self.rules, place)
+        over = success | outside(self.rules, place)
+        distance = distance_to(place, self.rules.goal)
         closer = self.comes_closer(distance)
         info = {"is_success": success, "is_collision": np.zeros(self.nworld, np.bool_)}
-        return StepOutcome(
-            reward_of(over, success, closer), over, {**info, **self.whereabouts(None)}
-        )
+        reward = reward_of(self.rules, over=over, success=success, closer=closer)
+        return StepOutcome(reward, over, {**info, **self.whereabouts(None)})
 
     def whereabouts(self, worlds: Worlds | None) -> Info:
         """See `DestinationTask`."""
         place = self.robot.placement(worlds).position[:, :2]
-        goal = np.tile(GOAL[:2], (len(place), 1))
+        goal = np.tile(self.rules.goal[:2], (len(place), 1))
         return {"position": place, "goal": goal, "distance": np.hypot(*(place - goal).T)}
 
 

@@ -4,57 +4,45 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.compat.openai_ros.task_envs.geometry import distance, euler_of, is_at, point
-from gazelle.compat.openai_ros.task_envs.steering import SteeringTask
+from gazelle.array_types import Bools, Floats
+from gazelle.compat.openai_ros.task_envs.geometry import coordinates, euler_of, one
+from gazelle.compat.openai_ros.task_envs.graph_task import GraphTask
+from gazelle.envs.goal_rules import distance_to, is_at
 
 
-class DesiredPoint:
-    """Common base of tasks with a position to reach.
+class DesiredPoint(GraphTask):
+    """Part of a task: a place to reach.
 
     Attributes:
         desired_point: The goal, a ``geometry_msgs/Point`` [m].
-        previous_distance_from_des_point: How far it was in the step before [m].
+        previous_distance_from_des_point: Distance from it after the step before [m].
     """
 
     desired_point: Any
     previous_distance_from_des_point: float = 0.0
 
-    def _comes_nearer(self, place: Any) -> bool:
-        """Return whether a position is nearer to the goal than the last; store the distance."""
-        left = self.get_distance_from_desired_point(place)
-        nearer = left < self.previous_distance_from_des_point
-        self.previous_distance_from_des_point = left
+    def _comes_nearer(self, distance: float) -> Bools:
+        """Return whether a distance from the goal [m] is less than the last one, and keep it."""
+        nearer = one(distance < self.previous_distance_from_des_point)
+        self.previous_distance_from_des_point = distance
         return nearer
 
+    def _edges(self, axis: str) -> tuple[float, float]:
+        """Return the least and the largest place along an axis in the work space [m]."""
+        return self.number(f"work_space/{axis}_min"), self.number(f"work_space/{axis}_max")
+
+    def _goal(self) -> Floats:
+        """Return x, y and z of the goal [m], shape (3,)."""
+        return coordinates(self.desired_point).reshape(-1)
+
     def is_in_desired_position(self, current_position: Any, epsilon: float = 0.05) -> bool:
-        """Return whether a position is the goal; heights do not count."""
-        return is_at(current_position, self.desired_point, epsilon)
+        """Return whether a place is the goal; heights do not count."""
+        return bool(is_at(coordinates(current_position), self._goal(), epsilon)[0])
 
     def get_distance_from_desired_point(self, current_position: Any) -> float:
-        """From a place to the goal [m]."""
-        return distance(current_position, self.desired_point)
+        """Return how far a place is from the goal [m]."""
+        return float(distance_to(coordinates(current_position), self._goal())[0])
 
     def get_orientation_euler(self, quaternion_vector: Any) -> tuple[float, float, float]:
-        """Roll, pitch and yaw [rad]."""
+        """Return roll, pitch and yaw [rad]."""
         return euler_of(quaternion_vector)
-
-
-class PlaceTask(DesiredPoint, SteeringTask):
-    """The parameter ``desired_pose`` says where to go.
-
-    Attributes:
-        odom: The robot's last ``nav_msgs/Odometry``, of its robot environment.
-    """
-
-    odom: Any
-
-    def _read_place(self) -> None:
-        """Take the goal from the parameters; after `_read_steering`."""
-        self.desired_point = point(*(self.parameter(f"desired_pose/{axis}") for axis in "xyz"))
-        self.previous_distance_from_des_point = 0.0
-
-    def _init_env_variables(self) -> None:
-        super()._init_env_variables()
-        self.previous_distance_from_des_point = self.get_distance_from_desired_point(
-            self.odom.pose.pose.position
-        )

@@ -1,86 +1,128 @@
-"""Tasks in which a robot goes forward or turns."""
+"""Tasks in which a robot goes forward or turns, by the rules of `gazelle.envs.discrete_drive`."""
 
 from __future__ import annotations
 
-from typing import Any
+import dataclasses
+from collections.abc import Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
-from gazelle.compat.gym.spaces import Discrete
+from gazelle.array_types import Floats
+from gazelle.compat.gym.spaces import Box
 from gazelle.compat.openai_ros.robot_envs.wheeled_robot_env import WheeledRobotEnv
-from gazelle.compat.openai_ros.task_envs.geometry import samples, step_between, too_near
+from gazelle.compat.openai_ros.task_envs.geometry import coordinates, one, point
+from gazelle.compat.openai_ros.task_envs.places import DesiredPoint
+from gazelle.envs.discrete_drive.rules import DriveRules, StepRewards
+from gazelle.envs.discrete_drive.scoring import ends_of, has_crashed, observed, reward_of
+from gazelle.envs.goal_rules import distance_to
 from gazelle.ros.compat import rospy
 
 FORWARDS, TURN_LEFT, TURN_RIGHT = "FORWARDS", "TURN_LEFT", "TURN_RIGHT"
 
 
-class SteeringTask(WheeledRobotEnv):
+class SteeringTask(DesiredPoint, WheeledRobotEnv):
     """Action 0 goes forward, 1 turns to the left, 2 to the right.
 
     Attributes:
+        published: The task's rules, whose figures the parameters replace.
+        place_at: Where x and y are in an observation; None in a task without a goal.
+        goal_axes: Axes that the parameter ``desired_pose`` has.
         last_action: ``FORWARDS``, ``TURN_LEFT`` or ``TURN_RIGHT``.
-        cumulated_reward: Of the episode.
-        cumulated_steps: Of all episodes.
     """
 
-    def _read_steering(self, space: str) -> None:
-        """Take the parameters of a namespace."""
-        self._parameters = space
-        self.action_space = Discrete(int(self.parameter("n_actions")))
-        self.reward_range = (-np.inf, np.inf)
-        self.linear_forward_speed = float(self.parameter("linear_forward_speed"))
-        self.linear_turn_speed = float(self.parameter("linear_turn_speed"))
-        self.angular_speed = float(self.parameter("angular_speed"))
-        self.init_linear_forward_speed = float(self.parameter("init_linear_forward_speed"))
-        self.init_linear_turn_speed = float(self.parameter("init_linear_turn_speed"))
-        self.last_action = FORWARDS
-        self.cumulated_reward = 0.0
-        self.cumulated_steps = 0.0
-        self._episode_done = False
+    published: ClassVar[DriveRules]
+    place_at: ClassVar[slice | None] = None
+    goal_axes: ClassVar[str] = "xyz"
+    odom: Any
+    laser_scan: Any
+    min_range: float | None = None
 
-    def _read_laser(self) -> None:
-        """Take what bounds ranges from the parameters [m]."""
-        self.min_range = float(self.parameter("min_range"))
+    def _read_steering(self) -> None:
+        """Take the parameters that all of these tasks have, and the goal if there is one."""
+        self.linear_forward_speed = self.number("linear_forward_speed")
+        self.linear_turn_speed = self.number("linear_turn_speed")
+        self.angular_speed = self.number("angular_speed")
+        self.init_linear_forward_speed = self.number("init_linear_forward_speed")
+        self.init_linear_turn_speed = self.number("init_linear_turn_speed")
         self.max_laser_value = self.parameter("max_laser_value")
         self.min_laser_value = self.parameter("min_laser_value")
+        if self.published.crash_range is not None:
+            self.min_range = self.number("min_range")
+        self.end_episode_points = self.number("end_episode_points")
+        if self.place_at is not None:
+            self.desired_point = point(
+                *(self.number(f"desired_pose/{axis}") for axis in self.goal_axes)
+            )
+        self.last_action = FORWARDS
+        self._episode_done = False
 
-    def _metres_seen(self, scan: Any, count: int) -> list[float]:
-        """About so many ranges of a ``sensor_msgs/LaserScan``, cut to whole metres.
+    def _read_way_rewards(self) -> None:
+        """Take what a step forward is worth, and a turn."""
+        self.forwards_reward = self.number("forwards_reward")
+        self.turn_reward = self.number("turn_reward")
 
-        One below ``min_range`` ends the episode.
-        """
-        step = step_between(len(scan.ranges), count)
-        self._episode_done = too_near(scan.ranges, step, self.min_range)
-        return samples(
-            scan.ranges,
-            step,
-            nearest=self.min_laser_value,
-            farthest=self.max_laser_value,
-            convert=int,
+    # -- the rules -----------------------------------------------------------------------------
+
+    def _rules(self, goal: Floats | None = None) -> DriveRules:
+        """Return the task's rules with its parameters, and a goal [m], shape (3,)."""
+        return dataclasses.replace(
+            self.published,
+            far=self.max_laser_value,
+            least=self.min_laser_value,
+            crash_range=self.min_range,
+            rewards=self._step_rewards(),
+            end_reward=self.end_episode_points,
+            goal=None if goal is None else (goal[0], goal[1]),
         )
 
-    def parameter(self, name: str) -> Any:
-        """A parameter of the task.
+    def _step_rewards(self) -> StepRewards:
+        """Return the rewards of steps."""
+        forward, turn = self.forwards_reward, self.turn_reward
+        return ((forward, forward), (turn, turn))
 
-        Raises:
-            KeyError: It is not set.
-        """
-        return rospy.get_param(f"/{self._parameters}/{name}")
+    def _way(self, observations: Any) -> tuple[Floats, Floats | None]:
+        """Return where the robot is as observed, shape (1, 2), and its goal, shape (3,) [m]."""
+        if self.place_at is None:
+            return np.zeros((1, 2)), None
+        return one(observations[self.place_at]), self._goal()
+
+    def _is_done(self, observations: Any) -> bool:
+        if self._episode_done:
+            rospy.logwarn("the robot is too near to something")
+        place, goal = self._way(observations)
+        ends = ends_of(self._rules(goal), one(self._episode_done), place)
+        self._episode_done = bool(ends.over[0])
+        return self._episode_done
+
+    def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
+        place, goal = self._way(observations)
+        rules, closer = self._rules(goal), one(False)
+        if goal is not None:
+            closer = self._comes_nearer(float(distance_to(place, goal)[0]))
+        reward = reward_of(
+            rules,
+            over=one(done),
+            reached=ends_of(rules, one(done), place).reached,
+            forward=one(self.last_action == FORWARDS),
+            closer=closer,
+        )
+        return self._count(reward)
+
+    # -- what a robot does and observes --------------------------------------------------------
 
     def _set_init_pose(self) -> bool:
         """Command the velocity of the beginning."""
-        self.move_base(
-            self.init_linear_forward_speed,
-            self.init_linear_turn_speed,
-            epsilon=0.05,
-            update_rate=10,
-        )
+        self._drive(self.init_linear_forward_speed, self.init_linear_turn_speed)
         return True
 
     def _init_env_variables(self) -> None:
-        """Begin an episode's reward."""
+        """Begin an episode's reward and its way to the goal."""
         self.cumulated_reward = 0.0
         self._episode_done = False
+        if self.place_at is not None:
+            place = coordinates(self.odom.pose.pose.position)
+            self.previous_distance_from_des_point = float(distance_to(place, self._goal())[0])
 
     def _set_action(self, action: Any) -> None:
         """Go, or turn; other actions repeat the last command's name and go forward."""
@@ -95,15 +137,22 @@ class SteeringTask(WheeledRobotEnv):
     def _drive(self, linear: float, angular: float) -> None:
         self.move_base(linear, angular, epsilon=0.05, update_rate=10)
 
-    def _count(self, reward: float) -> float:
-        """Add a reward to those of the episode; returns it."""
-        self.cumulated_reward += reward
-        self.cumulated_steps += 1
-        return reward
+    def _observe(self, rules: DriveRules, ranges: Sequence[float], step: int) -> list[float]:
+        """Return ranges 0, ``step``, ... as observed [m]; one that is too near ends the episode."""
+        taken = one(ranges[::step]).astype(np.float64)
+        seen = observed(rules, taken)
+        self._episode_done = bool(has_crashed(rules, taken, seen)[0])
+        # Whole metres are ints: scripts make the keys of their tables of what they print as.
+        whole = rules.decimals is None
+        return [int(each) if whole and each.is_integer() else each for each in seen[0].tolist()]
 
-    def _way_reward(self, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
-        """Return the reward of going forward, of turning, or of the end."""
-        if done:
-            return -float(self.parameter("end_episode_points"))
-        name = "forwards_reward" if self.last_action == FORWARDS else "turn_reward"
-        return float(self.parameter(name))
+    def discretize_scan_observation(self, data: Any, new_ranges: int) -> list[float]:
+        """Return about ``new_ranges`` ranges of a ``sensor_msgs/LaserScan`` [m]; see `_observe`."""
+        # As Python 2 divides ints, for which openai_ros was written.
+        return self._observe(self._rules(), data.ranges, max(1, len(data.ranges) // new_ranges))
+
+    def _space(self, scan: Sequence[float], *rest: tuple[float, float]) -> Box:
+        """Return the space of observations: those of a scan, then numbers by their bounds."""
+        bounds = [(self.min_laser_value, self.max_laser_value)] * len(scan) + list(rest)
+        low, high = zip(*bounds, strict=True)
+        return Box(np.array(low, np.float32), np.array(high, np.float32))

@@ -31,19 +31,16 @@ def LoadYamlFileParamsTest(  # noqa: N802  # openai_ros' name
         rospy.set_param(f"/{name}", value)
 
 
-def begin_task(
-    space: str, folder: str, yaml_file: str, package: str, launch_file: str
-) -> str | None:
+def begin_task(space: str, file: str, package: str, launch_file: str) -> str | None:
     """Start a task's world unless a simulator runs, and set its parameters that are not set yet.
 
     openai_ros overwrites what launch files have set; here that stays.
 
     Args:
         space: Namespace of its parameters.
-        folder: Where its parameters are, below ``task_envs``.
-        yaml_file: With its parameters.
-        package: With its world.
-        launch_file: Starts its world.
+        file: YAML file with its parameters: folder below ``task_envs`` and name, without an ending.
+        package: Package with its world.
+        launch_file: Launch file that starts its world.
 
     Returns:
         The parameter ``ros_ws_abspath``, a workspace to find packages in; None if it is not set.
@@ -51,8 +48,10 @@ def begin_task(
     workspace = rospy.get_param(f"/{space}/ros_ws_abspath", None)
     if not simulator_runs():
         ROSLauncher(package, launch_file, workspace)
-    for name, value in _read("openai_ros", _CONFIGURATION.format(folder), yaml_file).items():
-        _complete(f"/{name}", value)
+    folder, _, name = file.partition("/")
+    values = _read("openai_ros", _CONFIGURATION.format(folder), f"{name}.yaml")
+    for key, value in values.items():
+        _complete(f"/{key}", value)
     return None if workspace is None else str(workspace)
 
 

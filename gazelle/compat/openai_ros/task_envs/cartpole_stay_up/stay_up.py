@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from gazelle.compat.gym.spaces import Box, Discrete
 from gazelle.compat.openai_ros.robot_envs.cartpole_env import CartPoleEnv
-from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
+from gazelle.compat.openai_ros.task_envs.geometry import one
+from gazelle.compat.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
+from gazelle.envs.cartpole.rules import has_fallen
 from gazelle.ros.compat import rospy
 
 register_task("CartPoleStayUp-v0")
 
-_SPACE = "/cartpole_v0"
 _RAIL = 5.0  # how far the observation reaches [m]
 _FAST = 10.0  # how much more than an ordinary step actions 2 and 3 are
 
 
-class CartPoleStayUpEnv(CartPoleEnv):
+class CartPoleStayUpEnv(GraphTask, CartPoleEnv):
     """Move the cart to and fro; parameters under ``/cartpole_v0``.
 
     Observation: place [m] and velocity [m/s] of the cart, angle [rad] and velocity [rad/s] of the pole,
@@ -29,14 +30,10 @@ class CartPoleStayUpEnv(CartPoleEnv):
     ``min_pole_angle`` and ``max_pole_angle``. A step lasts ``running_step`` of simulated time.
     """
 
+    space: ClassVar[str] = "cartpole_v0"
+
     def __init__(self) -> None:
-        workspace = begin_task(
-            "cartpole_v0",
-            "cartpole_stay_up",
-            "stay_up.yaml",
-            "cartpole_description",
-            "start_world.launch",
-        )
+        workspace = self._begin("cartpole_stay_up/stay_up", "cartpole_description")
         self.get_params()
         self.action_space = Discrete(self.n_actions)
         most = np.array(
@@ -49,15 +46,10 @@ class CartPoleStayUpEnv(CartPoleEnv):
 
     def get_params(self) -> None:
         """Take the parameters."""
-
-        def number(name: str) -> float:
-            return float(rospy.get_param(f"{_SPACE}/{name}"))
-
+        number = self.number
         self.n_actions = int(number("n_actions"))
-        self.min_pole_angle, self.max_pole_angle = (
-            number("min_pole_angle"),
-            number("max_pole_angle"),
-        )
+        self.min_pole_angle = number("min_pole_angle")
+        self.max_pole_angle = number("max_pole_angle")
         self.max_base_velocity = number("max_base_velocity")
         self.min_base_pose_x = number("min_base_pose_x")
         self.max_base_pose_x = number("max_base_pose_x")
@@ -65,7 +57,7 @@ class CartPoleStayUpEnv(CartPoleEnv):
         self.running_step = number("running_step")
         self.init_pos = number("init_pos")
         self.wait_time = number("wait_time")
-        self.control_type = str(rospy.get_param(f"{_SPACE}/control_type"))
+        self.control_type = str(self.parameter("control_type"))
 
     def _set_init_pose(self) -> None:
         self.check_publishers_connection()
@@ -85,11 +77,9 @@ class CartPoleStayUpEnv(CartPoleEnv):
         return np.array([*self.joint("foot_joint"), *self.joint("pole_joint")])
 
     def _is_done(self, observations: Any) -> bool:
-        place, angle = observations[0], observations[2]
-        return not (
-            self.min_base_pose_x < place < self.max_base_pose_x
-            and self.min_pole_angle < angle < self.max_pole_angle
-        )
+        places = (self.min_base_pose_x, self.max_base_pose_x)
+        angles = (self.min_pole_angle, self.max_pole_angle)
+        return bool(has_fallen(one(observations), places, angles)[0])
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
         del observations

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from gazelle.compat.gym.spaces import Box, Discrete
+from gazelle.compat.gym.spaces import Box
 from gazelle.compat.openai_ros.robot_envs.hopper_env import HopperEnv
-from gazelle.compat.openai_ros.task_envs.geometry import distance, euler_of, magnitude, point
-from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
+from gazelle.compat.openai_ros.task_envs.geometry import coordinates, euler_of, one, point
+from gazelle.compat.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
+from gazelle.envs.goal_rules import distance_to
+from gazelle.envs.hopper.rules import StandRules, has_height, is_upright, reward_of
 from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
 
 register_task("HopperStayUp-v0")
 
-_SPACE = "/monoped"
 _HALF_TURN = 3.14
-_WEIGHTS = ("joint_position", "contact_force", "orientation", "distance_from_des_point")
 
 
-class HopperStayUpEnv(HopperEnv):
+class HopperStayUpEnv(GraphTask, HopperEnv):
     """Do not fall; parameters under ``/monoped``.
 
     Observation, rounded to ``number_decimals_precision_obs``: distance of the base from ``desired_point``
@@ -31,28 +31,20 @@ class HopperStayUpEnv(HopperEnv):
     the orientation and of the distance, also at the end. End: z outside ``min_height`` and ``max_height``,
     roll or pitch beyond ``max_incl``.
 
-    In openai_ros the first number is the desired point's distance from itself, zero, and the contact
-    force is zero too, for what is measured goes elsewhere; here both are measured.
+    The first number is the desired point's distance from itself, 0, as in openai_ros; the contact force
+    is 0 as well, because openai_ros keeps what it measures in ``contact_force`` and returns another vector.
     """
 
+    space: ClassVar[str] = "monoped"
+
     def __init__(self) -> None:
-        workspace = begin_task(
-            "monoped",
-            "hopper",
-            "hopper_stay_up.yaml",
-            "legged_robots_sims",
-            "start_world.launch",
-        )
-        self.action_space = Discrete(int(rospy.get_param(f"{_SPACE}/n_actions")))
-        self.reward_range = (-np.inf, np.inf)
+        workspace = self._begin("hopper/hopper_stay_up", "legged_robots_sims")
         self._read_parameters()
         self.observation_space = self._bounds()
         super().__init__(workspace)
 
     def _read_parameters(self) -> None:
-        def number(name: str) -> float:
-            return float(rospy.get_param(f"{_SPACE}/{name}"))
-
+        number = self.number
         joints = [number(f"init_joint_states/{name}_joint") for name in ("haa", "hfe", "kfe")]
         self.init_joint_states = point(*joints)
         self.desired_point = point(*(number(f"desired_point/{axis}") for axis in "xyz"))
@@ -65,41 +57,49 @@ class HopperStayUpEnv(HopperEnv):
         self.max_contact_force = number("max_contact_force")
         self.min_height, self.max_height = number("min_height"), number("max_height")
         self.max_incl_roll = self.max_incl_pitch = number("max_incl")
-        self.weights = {name: number(f"rewards_weight/weight_{name}") for name in _WEIGHTS}
+        self.weight_joint_position = number("rewards_weight/weight_joint_position")
+        self.weight_contact_force = number("rewards_weight/weight_contact_force")
+        self.weight_orientation = number("rewards_weight/weight_orientation")
+        self.weight_distance_from_des_point = number(
+            "rewards_weight/weight_distance_from_des_point"
+        )
         self.alive_reward, self.done_reward = number("alive_reward"), number("done_reward")
-        self.init_move_time = float(rospy.get_param(f"{_SPACE}/init_move_time", 1.0))
-        self.move_time = float(rospy.get_param(f"{_SPACE}/move_time", 0.05))
-        self.check_position = bool(rospy.get_param(f"{_SPACE}/check_position", True))
-        self._limits = {
-            name: number(name)
-            for name in (
-                "distance_from_desired_point_max",
-                "maximum_haa_joint",
-                "maximum_hfe_joint",
-                "maximum_kfe_joint",
-                "min_kfe_joint",
-                "max_x_pos",
-                "max_y_pos",
-            )
-        }
+        self.init_move_time = float(rospy.get_param(f"/{self.space}/init_move_time", 1.0))
+        self.move_time = float(rospy.get_param(f"/{self.space}/move_time", 0.05))
+        self.check_position = bool(rospy.get_param(f"/{self.space}/check_position", True))
 
     def _bounds(self) -> Box:
-        bound, lean = self._limits, self.max_incl_roll
-        haa, hfe = bound["maximum_haa_joint"], bound["maximum_hfe_joint"]
-        x, y = bound["max_x_pos"], bound["max_y_pos"]
-        high = [bound["distance_from_desired_point_max"], lean, lean, _HALF_TURN]
-        high += [
-            self.max_contact_force,
-            haa,
-            hfe,
-            bound["maximum_kfe_joint"],
-            x,
-            y,
-            self.max_height,
-        ]
-        low = [0.0, -lean, -lean, -_HALF_TURN]
-        low += [0.0, -haa, -hfe, bound["min_kfe_joint"], -x, -y, self.min_height]
-        return Box(np.array(low, np.float32), np.array(high, np.float32))
+        number, lean, force = self.number, self.max_incl_roll, self.max_contact_force
+        haa, hfe, kfe = (number(f"maximum_{name}_joint") for name in ("haa", "hfe", "kfe"))
+        far, x, y = (
+            number("distance_from_desired_point_max"),
+            number("max_x_pos"),
+            number("max_y_pos"),
+        )
+        low = [0.0, -lean, -lean, -_HALF_TURN, 0.0, -haa, -hfe, number("min_kfe_joint"), -x, -y]
+        high = [far, lean, lean, _HALF_TURN, force, haa, hfe, kfe, x, y]
+        return Box(
+            np.array([*low, self.min_height], np.float32),
+            np.array([*high, self.max_height], np.float32),
+        )
+
+    def _rules(self) -> StandRules:
+        desired = self.desired_point
+        return StandRules(
+            desired=(desired.x, desired.y, desired.z),
+            desired_yaw=self.desired_yaw,
+            desired_force=self.desired_force,
+            lowest=self.min_height,
+            highest=self.max_height,
+            steepest=(self.max_incl_roll, self.max_incl_pitch),
+            alive_reward=self.alive_reward,
+            weights=(
+                self.weight_joint_position,
+                self.weight_contact_force,
+                self.weight_orientation,
+                self.weight_distance_from_des_point,
+            ),
+        )
 
     def _set_init_pose(self) -> bool:
         begin = self.init_joint_states
@@ -131,7 +131,7 @@ class HopperStayUpEnv(HopperEnv):
         place = self.odom.pose.pose.position
         rpy = self.get_base_rpy()
         values = (
-            self.get_distance_from_desired_point(place),
+            self.get_distance_from_desired_point(self.desired_point),
             *(rpy.x, rpy.y, rpy.z),
             self.get_contact_force_magnitude(),
             *self.joint_states.position[:3],
@@ -144,20 +144,12 @@ class HopperStayUpEnv(HopperEnv):
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
         del done
-        roll, pitch, yaw = observations[1:4]
-        missing = {
-            "joint_position": sum(abs(each) for each in observations[5:8]),
-            "contact_force": abs(observations[4] - self.desired_force),
-            "orientation": abs(roll) + abs(pitch) + abs(yaw - self.desired_yaw),
-            "distance_from_des_point": distance(point(*observations[8:]), self.desired_point),
-        }
-        reward = self.alive_reward - sum(self.weights[name] * missing[name] for name in _WEIGHTS)
-        self.cumulated_reward += reward
-        return float(reward)
+        return self._count(reward_of(self._rules(), one(observations)))
 
     def get_distance_from_desired_point(self, current_position: Any) -> float:
         """From a place to where the base shall be [m]."""
-        return distance(current_position, self.desired_point)
+        place = coordinates(current_position)
+        return float(distance_to(place, self._rules().desired)[0])
 
     def get_base_rpy(self) -> Any:
         """Roll, pitch and yaw of the base as x, y and z of a ``geometry_msgs/Vector3`` [rad]."""
@@ -165,17 +157,16 @@ class HopperStayUpEnv(HopperEnv):
         return vector(*euler_of(self.imu.orientation))
 
     def get_contact_force_magnitude(self) -> float:
-        """The force on the foot, of all contacts together [N]."""
-        states = self.lowerleg_contactsensor_state.states
-        forces = [state.total_wrench.force for state in states]
-        total = np.array([[force.x, force.y, force.z] for force in forces]).reshape(-1, 3)
-        return magnitude(point(*total.sum(axis=0)))
+        """Return 0, as openai_ros does [N]; the foot's last contact is kept in ``contact_force``."""
+        for state in self.lowerleg_contactsensor_state.states:
+            self.contact_force = state.total_wrench.force
+        return 0.0
 
     def monoped_height_ok(self, height_base: float) -> bool:
-        """Return whether the height of the base [m] is within its limits."""
-        return self.min_height <= height_base < self.max_height
+        """Return whether the base is as high as it may be [m]."""
+        return bool(has_height(self._rules(), one(height_base))[0])
 
     def monoped_orientation_ok(self) -> bool:
         """Return whether the base does not lean too much."""
         rpy = self.get_base_rpy()
-        return bool(abs(rpy.x) < self.max_incl_roll and abs(rpy.y) < self.max_incl_pitch)
+        return bool(is_upright(self._rules(), one((rpy.x, rpy.y)))[0])

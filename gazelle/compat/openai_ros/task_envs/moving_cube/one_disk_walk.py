@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from gazelle.compat.gym.spaces import Box, Discrete
+from gazelle.compat.gym.spaces import Box
 from gazelle.compat.openai_ros.robot_envs.cube_single_disk_env import CubeSingleDiskEnv
-from gazelle.compat.openai_ros.task_envs.geometry import distance, euler_of, point
-from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
+from gazelle.compat.openai_ros.task_envs.geometry import coordinates, euler_of, one, point
+from gazelle.compat.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
-from gazelle.ros.compat import rospy
+from gazelle.envs.goal_rules import distance_to
+from gazelle.envs.moving_cube.rules import WalkRules, has_failed, reward_of, wheel_speeds
 
 register_task("MovingCubeOneDiskWalk-v0")
 
-_SPACE = "/moving_cube"
 
-
-class MovingCubeOneDiskWalkEnv(CubeSingleDiskEnv):
+class MovingCubeOneDiskWalkEnv(GraphTask, CubeSingleDiskEnv):
     """Walk along y; parameters under ``/moving_cube``.
 
     Observation: speed of the wheel [rad/s] without decimals; way along y [m], roll, pitch [rad], velocity
@@ -30,44 +29,23 @@ class MovingCubeOneDiskWalkEnv(CubeSingleDiskEnv):
     or yaw beyond 0.3 rad.
     """
 
+    space: ClassVar[str] = "moving_cube"
+
     def __init__(self) -> None:
-        workspace = begin_task(
-            "moving_cube",
-            "moving_cube",
-            "one_disk_walk.yaml",
-            "moving_cube_description",
-            "start_world.launch",
-        )
+        workspace = self._begin("moving_cube/one_disk_walk", "moving_cube_description")
         self._read_parameters()
-        self.action_space = Discrete(int(rospy.get_param(f"{_SPACE}/n_actions")))
-        self.reward_range = (-np.inf, np.inf)
-        most = np.array(
-            [
-                self.roll_speed_fixed_value,
-                self.max_distance,
-                math.pi,
-                self.max_pitch_angle,
-                self.max_y_linear_speed,
-                self.max_yaw_angle,
-            ],
-            np.float32,
-        )
-        self.observation_space = Box(-most, most)
-        self.cumulated_steps = 0.0
-        self.cumulated_reward = 0.0
+        most = [self.roll_speed_fixed_value, self.max_distance, math.pi]
+        most += [self.max_pitch_angle, self.max_y_linear_speed, self.max_yaw_angle]
+        self.observation_space = Box(-np.array(most, np.float32), np.array(most, np.float32))
         super().__init__(workspace)
 
     def _read_parameters(self) -> None:
-        def number(name: str) -> float:
-            return float(rospy.get_param(f"{_SPACE}/{name}"))
-
+        number = self.number
         self.roll_speed_fixed_value = number("roll_speed_fixed_value")
         self.roll_speed_increment_value = number("roll_speed_increment_value")
         self.max_distance = number("max_distance")
-        self.max_pitch_angle, self.max_yaw_angle = (
-            number("max_pitch_angle"),
-            number("max_yaw_angle"),
-        )
+        self.max_pitch_angle = number("max_pitch_angle")
+        self.max_yaw_angle = number("max_yaw_angle")
         self.max_y_linear_speed = number("max_y_linear_speed")
         self.init_roll_vel = number("init_roll_vel")
         self.start_point = point(*(number(f"init_cube_pose/{axis}") for axis in "xyz"))
@@ -75,6 +53,18 @@ class MovingCubeOneDiskWalkEnv(CubeSingleDiskEnv):
         self.y_linear_speed_reward_weight = number("y_linear_speed_reward_weight")
         self.y_axis_angle_reward_weight = number("y_axis_angle_reward_weight")
         self.end_episode_points = number("end_episode_points")
+
+    def _rules(self) -> WalkRules:
+        return WalkRules(
+            speed=self.roll_speed_fixed_value,
+            speed_step=self.roll_speed_increment_value,
+            largest_pitch=self.max_pitch_angle,
+            largest_yaw=self.max_yaw_angle,
+            way_weight=self.move_distance_reward_weight,
+            speed_weight=self.y_linear_speed_reward_weight,
+            yaw_weight=self.y_axis_angle_reward_weight,
+            failure_reward=-self.end_episode_points,
+        )
 
     def _set_init_pose(self) -> bool:
         self.move_joints(self.init_roll_vel)
@@ -86,10 +76,8 @@ class MovingCubeOneDiskWalkEnv(CubeSingleDiskEnv):
         self.cumulated_reward = 0.0
 
     def _set_action(self, action: Any) -> None:
-        most, more = self.roll_speed_fixed_value, self.roll_speed_increment_value
-        now = self.roll_turn_speed
-        speeds = (most, -most, 0.0, now + more, now - more)
-        self.roll_turn_speed = float(np.clip(speeds[int(action)], -most, most))
+        speeds = wheel_speeds(self._rules(), one(self.roll_turn_speed), one(int(action)))
+        self.roll_turn_speed = float(speeds[0])
         self.move_joints(self.roll_turn_speed)
 
     def _get_obs(self) -> list[float]:
@@ -104,25 +92,13 @@ class MovingCubeOneDiskWalkEnv(CubeSingleDiskEnv):
         ]
 
     def _is_done(self, observations: Any) -> bool:
-        return bool(
-            abs(observations[3]) > self.max_pitch_angle or abs(observations[5]) > self.max_yaw_angle
-        )
+        return bool(has_failed(self._rules(), one(observations))[0])
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
-        if done:
-            reward = -self.end_episode_points
-        else:
-            way, speed, yaw = observations[1], observations[4], observations[5]
-            parts = (
-                (way - self.current_y_distance) * self.move_distance_reward_weight,
-                speed * self.y_linear_speed_reward_weight,
-                -abs(math.sin(yaw)) * self.y_axis_angle_reward_weight,
-            )
-            reward = float(sum(round(part, 0) for part in parts))
-            self.current_y_distance = way
-        self.cumulated_reward += reward
-        self.cumulated_steps += 1
-        return reward
+        before = one(self.current_y_distance)
+        if not done:
+            self.current_y_distance = observations[1]
+        return self._count(reward_of(self._rules(), one(observations), before, one(done)))
 
     def get_y_dir_distance_from_start_point(self, start_point: Any) -> float:
         """Along y from where it began [m]."""
@@ -130,7 +106,8 @@ class MovingCubeOneDiskWalkEnv(CubeSingleDiskEnv):
 
     def get_distance_from_start_point(self, start_point: Any) -> float:
         """From where it began [m]."""
-        return distance(start_point, self.odom.pose.pose.position)
+        place = coordinates(self.odom.pose.pose.position)
+        return float(distance_to(place, coordinates(start_point).reshape(-1))[0])
 
     def get_orientation_euler(self) -> tuple[float, float, float]:
         """Roll, pitch and yaw [rad]."""

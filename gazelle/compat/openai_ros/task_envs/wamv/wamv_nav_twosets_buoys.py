@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from gazelle.compat.gym.spaces import Box, Discrete
+from gazelle.compat.gym.spaces import Box
 from gazelle.compat.openai_ros.robot_envs.wamv_env import WamvEnv
-from gazelle.compat.openai_ros.task_envs.geometry import euler_of, point
+from gazelle.compat.openai_ros.task_envs.geometry import coordinates, euler_of, one, point
 from gazelle.compat.openai_ros.task_envs.places import DesiredPoint
-from gazelle.compat.openai_ros.task_envs.task_commons import begin_task
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
-from gazelle.ros.compat import rospy
+from gazelle.envs.wamv.rules import ChannelRules, outside, reached, reward_of
 
 register_task("WamvNavTwoSetsBuoys-v0")
 
-_SPACE = "/wamv"
-_EDGES = ("x_min", "x_max", "y_min", "y_max")
 # Right and left propeller of each action, as shares of ``propeller_high_speed``.
 _ACTIONS = ((1.0, 1.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0))
 
@@ -32,50 +29,44 @@ class WamvNavTwoSetsBuoysEnv(DesiredPoint, WamvEnv):
     ``desired_point_epsilon`` of the goal along x and y.
     """
 
+    space: ClassVar[str] = "wamv"
+
     def __init__(self) -> None:
-        workspace = begin_task(
-            "wamv", "wamv", "wamv_nav_twosets_buoys.yaml", "robotx_gazebo", "start_world.launch"
-        )
-        self.action_space = Discrete(int(rospy.get_param(f"{_SPACE}/n_actions")))
-        self.reward_range = (-np.inf, np.inf)
+        workspace = self._begin("wamv/wamv_nav_twosets_buoys", "robotx_gazebo")
         self._read_parameters()
         fast, turning = self.propeller_high_speed, self.max_angular_speed
         most = [1.57, 1.57, 3.14, fast, fast, turning]
-        low = [self.work_space_x_min, self.work_space_y_min, *(-each for each in most), 0.0]
-        high = [self.work_space_x_max, self.work_space_y_max, *most]
+        rules = self._rules()
         self.observation_space = Box(
-            np.array(low, np.float32),
-            np.array([*high, self.max_distance_from_des_point], np.float32),
+            np.array([*rules.low, *(-each for each in most), 0.0], np.float32),
+            np.array([*rules.high, *most, self.max_distance_from_des_point], np.float32),
         )
-        self.cumulated_reward = self.cumulated_steps = 0.0
         super().__init__(workspace)
 
     def _read_parameters(self) -> None:
-        def number(name: str) -> float:
-            return float(rospy.get_param(f"{_SPACE}/{name}"))
-
-        for name in (
-            *("propeller_high_speed", "propeller_low_speed", "max_angular_speed"),
-            *("max_distance_from_des_point", "desired_point_epsilon"),
-            *("done_reward", "closer_to_point_reward"),
-        ):
-            setattr(self, name, number(name))
-        for edge in _EDGES:
-            setattr(self, f"work_space_{edge}", number(f"work_space/{edge}"))
+        number = self.number
+        self.propeller_high_speed = number("propeller_high_speed")
+        self.propeller_low_speed = number("propeller_low_speed")
+        self.max_angular_speed = number("max_angular_speed")
+        self.max_distance_from_des_point = number("max_distance_from_des_point")
+        self.desired_point_epsilon = number("desired_point_epsilon")
+        self.done_reward = number("done_reward")
+        self.closer_to_point_reward = number("closer_to_point_reward")
+        self.work_space_x_min, self.work_space_x_max = self._edges("x")
+        self.work_space_y_min, self.work_space_y_max = self._edges("y")
         self.dec_obs = int(number("number_decimals_precision_obs"))
         self.desired_point = point(*(number(f"desired_point/{axis}") for axis in "xyz"))
 
-    propeller_high_speed: float
-    propeller_low_speed: float
-    max_angular_speed: float
-    max_distance_from_des_point: float
-    desired_point_epsilon: float
-    done_reward: float
-    closer_to_point_reward: float
-    work_space_x_min: float
-    work_space_x_max: float
-    work_space_y_min: float
-    work_space_y_max: float
+    def _rules(self) -> ChannelRules:
+        x, y, z = self._goal()
+        return ChannelRules(
+            goal=(x, y, z),
+            tolerance=self.desired_point_epsilon,
+            low=(self.work_space_x_min, self.work_space_y_min),
+            high=(self.work_space_x_max, self.work_space_y_max),
+            closer_reward=self.closer_to_point_reward,
+            end_reward=self.done_reward,
+        )
 
     def _set_init_pose(self) -> bool:
         self.set_propellers_speed(0.0, 0.0, time_sleep=1.0)
@@ -108,26 +99,15 @@ class WamvNavTwoSetsBuoysEnv(DesiredPoint, WamvEnv):
         return [round(each, self.dec_obs) for each in seen]
 
     def _is_done(self, observations: Any) -> bool:
-        place = point(*observations[:2])
-        return not self.is_inside_workspace(place) or self.is_in_desired_position(
-            place, self.desired_point_epsilon
-        )
+        rules, place = self._rules(), one(observations[:2])
+        return bool((outside(rules, place) | reached(rules, place))[0])
 
     def _compute_reward(self, observations: Any, done: bool) -> float:  # noqa: FBT001  # openai_ros' interface
-        place = point(*observations[:2])
-        nearer = self._comes_nearer(place)
-        if done:
-            good = self.is_in_desired_position(place, self.desired_point_epsilon)
-            reward = self.done_reward if good else -self.done_reward
-        else:
-            reward = self.closer_to_point_reward if nearer else -self.closer_to_point_reward
-        self.cumulated_reward += reward
-        self.cumulated_steps += 1
-        return reward
+        rules, place = self._rules(), one(observations[:2])
+        distance = self.get_distance_from_desired_point(point(*observations[:2]))
+        closer, success = self._comes_nearer(distance), reached(rules, place)
+        return self._count(reward_of(rules, over=one(done), success=success, closer=closer))
 
     def is_inside_workspace(self, current_position: Any) -> bool:
-        """Return whether a position is in the work space; its upper edges belong to it."""
-        return bool(
-            self.work_space_x_min < current_position.x <= self.work_space_x_max
-            and self.work_space_y_min < current_position.y <= self.work_space_y_max
-        )
+        """Return whether a place is in the work space; its upper edges belong to it."""
+        return not outside(self._rules(), coordinates(current_position)[:, :2])[0]
