@@ -9,10 +9,11 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from gazelle.bridges.moveit.client.move_group_interface import MoveGroupInterface
-from gazelle.bridges.moveit.client.session import session, unpacked
-from gazelle.bridges.moveit.frames import pose_message
-from gazelle.description import Pose
+from gazelle.bridges.moveit.client.session import session
+from gazelle.bridges.moveit.modules.moveit_commander import (
+    MoveGroupCommander,
+    MoveItCommanderException,
+)
 from gazelle.errors import PlanningError
 from gazelle.planning import PlanOutcome
 from gazelle.ros.builtin.arguments import parse_arguments, spin
@@ -48,7 +49,7 @@ class ArmServices:
     def __init__(self, node: Node) -> None:
         self._whole = bool(node.get_param("~use_orientation", False))
         group = str(node.get_param("~group", _GROUP))
-        self._group = MoveGroupInterface(group, wait_for_servers=0.0)
+        self._group = MoveGroupCommander(group, wait_for_servers=0.0)
         self._group.set_max_velocity_scaling_factor(_factor(node, "velocity"))
         self._group.set_max_acceleration_scaling_factor(_factor(node, "acceleration"))
         self._one = threading.Lock()
@@ -75,24 +76,24 @@ class ArmServices:
             text = f"{len(values)} positions are given to {len(names)} joints: {', '.join(names)}"
             return {"success": False, "message": text}
         with self._one:
-            if not self._group.set_joint_value_target(values):
+            try:
+                self._group.set_joint_value_target(values)
+            except MoveItCommanderException:
                 return {"success": False, "message": "positions are beyond the joints' limits"}
             return self._go()
 
     def _go(self) -> dict[str, Any]:
         """Plan and go; how that went."""
-        code, trajectory, _ = self._group.plan()
-        outcome = unpacked("moveit_msgs/MoveItErrorCodes", code).val
-        if outcome != PlanOutcome.SUCCESS:
-            return {"success": False, "message": f"there is no plan: {_words(outcome)}"}
+        success, trajectory, _, error = self._group.plan()
+        if not success:
+            return {"success": False, "message": f"there is no plan: {_words(error.val)}"}
         if not self._group.execute(trajectory):
             return {"success": False, "message": "the plan was not carried out to its end"}
         return {"success": True, "message": _GOOD}
 
     def _pose(self, _request: Any) -> dict[str, Any]:
         self._needs_state()
-        values = self._group.get_current_pose()
-        return {"pose": pose_message(Pose.from_quaternion(values[:3], values[3:]))}
+        return {"pose": self._group.get_current_pose().pose}
 
     def _rpy(self, _request: Any) -> dict[str, Any]:
         """Roll, pitch and yaw; the original gives pitch as ``y`` and yaw as ``p``, and tasks know it so."""

@@ -24,9 +24,9 @@ class DriveRules:
     space_step: float = 0.004
     """Physics step in three dimensions [s]; at longer ones a light base's wheels slip."""
     start: Place = (0.0, 0.0)
-    """Start position, facing along x [m]."""
+    """Place of the published start, looking along x [m]."""
     start_margin: float = 0.85
-    """Distance of other starts from all obstacles [m]: enough to turn round from there."""
+    """Distance of other starts from all that stands [m]: enough to turn round from there."""
     every: int
     """Stride of the observed rays: 0, n, 2n, ..."""
     decimals: int | None = None
@@ -36,7 +36,7 @@ class DriveRules:
     least: float = 0.0
     """Observed where a range is not a number, and lower bound of the space [m]."""
     clamped: bool = False
-    """Whether ranges are kept within these two."""
+    """True: ranges are kept within these two."""
     crash_range: float | None = None
     """A shorter range is a crash [m]; None: a range that is observed as the least is one."""
     velocities: tuple[Place, ...]
@@ -46,17 +46,17 @@ class DriveRules:
     end_reward: float = 200.0
     """Reward of the last step at the goal; minus that elsewhere."""
     goal: Place | None = None
-    """Goal position [m]; None if it should just not crash."""
+    """Place to reach [m]; None if it should just not crash."""
     tolerance: float = 0.05
-    """Tolerance along x and along y [m]."""
+    """Largest distance from the goal along x and along y [m]."""
     bounds: tuple[float, float, float, float] | None = None
     """x and y that it must stay within: lowest x, highest x, lowest y, highest y [m]."""
     place_decimals: int = 2
     """Of x, y and yaw."""
     sees_yaw: bool = False
-    """True if yaw is observed after x and y."""
+    """True: yaw is observed behind x and y."""
     sees_goal: bool = False
-    """Whether the goal is seen behind those; it counts as it is seen."""
+    """True: the goal is observed behind those, and counts as observed."""
 
 
 def _turns(turning: float, rate: float) -> tuple[Place, ...]:

@@ -86,7 +86,7 @@ def test_names_of_the_robot(robot):
     assert robot.get_active_joint_names("arm") == [*ARM]
     assert robot.get_joint_names("arm")[-1] == "gripper_axis"  # fixed, and there all the same
     assert robot.get_link_names("arm")[-1] == TIP
-    assert robot.get_joint_names()[0] == robot._r._names.root_joint
+    assert robot.get_joint_names()[0] == robot._names.root_joint
     assert robot.get_default_owner_group("elbow_flex_joint") == "arm"
     assert robot.get_default_owner_group("no_joint") is None
     assert robot.has_group("arm")

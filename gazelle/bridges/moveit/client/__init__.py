@@ -1,6 +1,6 @@
-"""The other side of ``move_group``: what MoveIt's Python clients stand on, which there is C++.
+"""Parts of ``moveit_commander``: the node, the robot's names and states, requests and actions.
 
-The classes have the names, arguments and values of ``moveit_ros_planning_interface``; messages cross
-as bytes, as there, so that programs written for those modules run unchanged. They plan nothing
-themselves: whatever ``move_group`` is on the graph, Gazelle's or MoveIt's, does the work.
+They plan nothing themselves: whatever ``move_group`` is on the graph, Gazelle's or MoveIt's, does the
+work. ``moveit_ros_planning_interface``, which is C++ in MoveIt and takes messages as bytes, stands on
+``moveit_commander`` here, by `byte_interface`; there it is the other way round.
 """

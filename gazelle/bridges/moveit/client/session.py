@@ -82,3 +82,8 @@ def unpacked(kind: str, data: bytes) -> Any:
         DeserializationError: They are no such message.
     """
     return load_message(kind)().deserialize(data)
+
+
+def copied(kind: str, message: Message | None) -> Any:
+    """Return a message's copy with the values that it has on the wire; an empty one of None."""
+    return load_message(kind)() if message is None else unpacked(kind, packed(message))

@@ -97,8 +97,8 @@ def current(group: MoveGroupCommander) -> Answer:
 
 
 def group_state(group: MoveGroupCommander) -> Answer:
-    """Return the present joint values as SRDF."""
-    variables = group._g.get_variables()  # noqa: SLF001  # of the same package
+    """Where joints are, as an SRDF says it."""
+    variables = group.get_variables()
     values = zip(variables, group.get_current_joint_values(), strict=True)
     lines = [
         f'    <group_state name="custom_state" group="{group.get_name()}">',

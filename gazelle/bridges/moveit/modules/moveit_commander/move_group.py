@@ -5,22 +5,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from gazelle.bridges.moveit.client.move_group_interface import MoveGroupInterface
-from gazelle.bridges.moveit.client.session import packed, unpacked
-from gazelle.bridges.moveit.modules.moveit_commander import conversions
-from gazelle.bridges.moveit.modules.moveit_commander.commander_settings import CommanderSettings
+from gazelle.bridges.moveit.client.pose_targets import pose_of_list, stamped
+from gazelle.bridges.moveit.client.retiming import retimed
+from gazelle.bridges.moveit.client.session import LOG, copied
+from gazelle.bridges.moveit.frames import pose_message
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
-from gazelle.description import Pose
+from gazelle.bridges.moveit.modules.moveit_commander.group_settings import GroupSettings
+from gazelle.bridges.moveit.modules.moveit_commander.group_targets import listed
 from gazelle.planning import PlanOutcome
+from gazelle.ros.errors import RosError
 from gazelle.ros.messages import load_message
+from gazelle.ros.time import Time
 
 __all__ = ["MoveGroupCommander"]
 
-_BOUNDS = "these joint values are no goal: a joint is unknown, or beyond its limits"
-_TURNS, _AXES = 3, 6
+_REMOVE = 1
 
 
-class MoveGroupCommander(CommanderSettings):
+class MoveGroupCommander(GroupSettings):
     """Simple commands for a group.
 
     Args:
@@ -32,201 +34,6 @@ class MoveGroupCommander(CommanderSettings):
     Raises:
         RuntimeError: There is no robot, no such group, or no ``move_group``.
     """
-
-    def __init__(
-        self,
-        name: str,
-        robot_description: str = "robot_description",
-        ns: str = "",
-        wait_for_servers: float = 5.0,
-    ) -> None:
-        self._g = MoveGroupInterface(name, robot_description, ns, wait_for_servers)
-
-    # -- where it is ---------------------------------------------------------------------
-
-    def get_current_pose(self, end_effector_link: str = "") -> Any:
-        """A ``PoseStamped``: where a link is now, the end effector's by default."""
-        self._needs_link(
-            end_effector_link, "the group has no end effector whose pose this could be"
-        )
-        return self._stamped(self._g.get_current_pose(end_effector_link))
-
-    def get_random_pose(self, end_effector_link: str = "") -> Any:
-        """A ``PoseStamped`` that the group can reach."""
-        self._needs_link(
-            end_effector_link, "the group has no end effector whose pose this could be"
-        )
-        return self._stamped(self._g.get_random_pose(end_effector_link))
-
-    def get_current_rpy(self, end_effector_link: str = "") -> list[float]:
-        """``[roll, pitch, yaw]`` of a link now [rad]."""
-        self._needs_link(
-            end_effector_link, "the group has no end effector whose angles these could be"
-        )
-        return self._g.get_current_rpy(end_effector_link)
-
-    def get_current_state(self) -> Any:
-        """A ``RobotState`` of the whole robot now."""
-        return unpacked("moveit_msgs/RobotState", self._g.get_current_state())
-
-    def get_current_state_bounded(self) -> Any:
-        """A ``RobotState`` of now, joints within their limits."""
-        made: Any = load_message("moveit_msgs/RobotState")()
-        positions = self._g.get_current_state_bounded()
-        made.joint_state.header.frame_id = self.get_planning_frame()
-        made.joint_state.name, made.joint_state.position = [*positions], [*positions.values()]
-        return made
-
-    def enforce_bounds(self, robot_state_msg: Any) -> Any:
-        """A ``RobotState`` with joints moved to their limits.
-
-        Raises:
-            DeserializationError: It names no joints.
-        """
-        bounded = self._g.enforce_bounds(packed(robot_state_msg))
-        return unpacked("moveit_msgs/RobotState", bounded)
-
-    def _stamped(self, pose: Sequence[float]) -> Any:
-        return conversions.list_to_pose_stamped(pose, self.get_planning_frame())
-
-    def _needs_link(self, link: str, words: str) -> None:
-        if not link and not self.has_end_effector_link():
-            raise MoveItCommanderException(words)
-
-    # -- goals ---------------------------------------------------------------------------
-
-    def set_joint_value_target(self, arg1: Any, arg2: Any = None, arg3: Any = None) -> None:
-        """Set where joints shall be.
-
-        Args:
-            arg1: A ``JointState``, a mapping, values of all variables, the name of a joint, or a
-                ``Pose`` or ``PoseStamped`` that one solution of inverse kinematics is set for.
-            arg2: The value of a joint that is named; for a pose the link, or whether less will do.
-            arg3: For a pose, the other one of these.
-
-        Raises:
-            MoveItCommanderException: It cannot be, or an argument is wrong.
-        """
-        kind = getattr(arg1, "_type", "")
-        if kind in ("geometry_msgs/Pose", "geometry_msgs/PoseStamped"):
-            self._set_by_pose(arg1, arg2, arg3)
-            return
-        if arg3 is not None or (arg2 is not None and not isinstance(arg1, str)):
-            raise MoveItCommanderException("expected a joint and its value, or one argument alone")
-        if isinstance(arg1, str):
-            if arg2 is None:
-                raise MoveItCommanderException(f"which value for the joint '{arg1}'?")
-            done = self._g.set_joint_value_target(arg1, arg2)
-        elif kind == "sensor_msgs/JointState":
-            done = self._g.set_joint_value_target_from_joint_state_message(packed(arg1))
-        elif hasattr(arg1, "__iter__"):
-            done = self._g.set_joint_value_target(arg1)
-        else:
-            raise MoveItCommanderException(
-                f"expected joint values, a JointState, a Pose or a joint, not {type(arg1).__name__}"
-            )
-        if not done:
-            raise MoveItCommanderException(_BOUNDS)
-
-    def _set_by_pose(self, pose: Any, *more: Any) -> None:
-        link, approximate = "", False
-        for each in more:
-            if isinstance(each, bool):
-                approximate = each
-            elif isinstance(each, str):
-                link = each
-            elif each is not None:
-                raise MoveItCommanderException(
-                    f"expected a link or whether to approximate, not {type(each).__name__}"
-                )
-        named = hasattr(pose, "header")
-        setter = (
-            self._g.set_joint_value_target_from_pose_stamped
-            if named
-            else self._g.set_joint_value_target_from_pose
-        )
-        if not setter(packed(pose), link, approximate):
-            raise MoveItCommanderException(
-                "inverse kinematics finds no joint values near that pose"
-                if approximate
-                else "inverse kinematics finds no joint values for that pose"
-            )
-
-    def set_named_target(self, name: str) -> None:
-        """Set a remembered posture, or one of the SRDF.
-
-        Raises:
-            MoveItCommanderException: There is none of that name, or it is beyond limits.
-        """
-        if not self._g.set_named_target(name):
-            raise MoveItCommanderException(
-                f"no posture '{name}' is known, or it is beyond the limits of a joint"
-            )
-
-    def set_pose_target(self, pose: Any, end_effector_link: str = "") -> None:
-        """Set a ``Pose``, a ``PoseStamped``, or a list of six or seven numbers for a link.
-
-        Raises:
-            MoveItCommanderException: There is no link, or the pose is none.
-        """
-        self._needs_link(end_effector_link, "which link? The group has no end effector")
-        frame = getattr(getattr(pose, "header", None), "frame_id", None)
-        if not self._in_frame(
-            frame, lambda: self._g.set_pose_target(_listed(pose), end_effector_link)
-        ):
-            raise MoveItCommanderException("that pose is no goal: is there a link to bring to it?")
-
-    def set_pose_targets(self, poses: Sequence[Any], end_effector_link: str = "") -> None:
-        """Set several poses, any of which will do."""
-        self._needs_link(end_effector_link, "which link? The group has no end effector")
-        if not self._g.set_pose_targets([_listed(pose) for pose in poses], end_effector_link):
-            raise MoveItCommanderException(
-                "these poses are no goal: is there a link to bring to one?"
-            )
-
-    def set_position_target(self, xyz: Sequence[float], end_effector_link: str = "") -> None:
-        """Set a position of a link; any orientation will do."""
-        self._needs_link(end_effector_link, "which link? The group has no end effector")
-        if not self._g.set_position_target(xyz[0], xyz[1], xyz[2], end_effector_link):
-            raise MoveItCommanderException(
-                "that position is no goal: is there a link to bring to it?"
-            )
-
-    def set_rpy_target(self, rpy: Sequence[float], end_effector_link: str = "") -> None:
-        """Set ``[roll, pitch, yaw]`` of a link [rad]; any position will do."""
-        self._set_turn(self._g.set_rpy_target, rpy, "[roll, pitch, yaw]", end_effector_link)
-
-    def set_orientation_target(self, q: Sequence[float], end_effector_link: str = "") -> None:
-        """Set the quaternion ``[qx, qy, qz, qw]`` of a link; any position will do."""
-        self._set_turn(self._g.set_orientation_target, q, "[qx, qy, qz, qw]", end_effector_link)
-
-    def _set_turn(self, setter: Any, values: Sequence[float], form: str, link: str) -> None:
-        self._needs_link(link, "which link? The group has no end effector")
-        if len(values) != len(form.split(",")):
-            raise MoveItCommanderException(f"expected {form}, not {list(values)}")
-        if not setter(*values, link):
-            raise MoveItCommanderException(
-                "that orientation is no goal: is there a link to turn to it?"
-            )
-
-    def shift_pose_target(self, axis: int, value: float, end_effector_link: str = "") -> None:
-        """Set where a link is now but for one axis: 0 to 5 for x, y, z, roll, pitch, yaw.
-
-        Args:
-            axis: Its number.
-            value: How far from there [m or rad].
-            end_effector_link: The link.
-        """
-        self._needs_link(end_effector_link, "which link? The group has no end effector")
-        if not 0 <= axis < _AXES:
-            raise MoveItCommanderException(
-                f"axes are numbered from 0 to 5; there is no axis {axis}"
-            )
-        pose = self._g.get_current_pose(end_effector_link)
-        if axis >= _TURNS:
-            pose[3:] = Pose.from_quaternion(pose[:3], pose[3:]).rpy
-        pose[axis] += value
-        self.set_pose_target(pose, end_effector_link)
 
     # -- motions -------------------------------------------------------------------------
 
@@ -241,7 +48,7 @@ class MoveGroupCommander(CommanderSettings):
         if isinstance(joints, bool):
             joints, wait = None, joints
         self._set_any(joints)
-        return self._g.move() if wait else self._g.async_move()
+        return self.move() if wait else self.async_move()
 
     def plan(self, joints: Any = None) -> tuple[bool, Any, float, Any]:
         """Plan, as for `go`.
@@ -251,18 +58,16 @@ class MoveGroupCommander(CommanderSettings):
             ``MoveItErrorCodes``.
         """
         self._set_any(joints)
-        code, trajectory, seconds = self._g.plan()
-        error = unpacked("moveit_msgs/MoveItErrorCodes", code)
-        found = unpacked("moveit_msgs/RobotTrajectory", trajectory)
-        return error.val == PlanOutcome.SUCCESS, found, seconds, error
+        error, trajectory, seconds = self._plan()
+        return error.val == PlanOutcome.SUCCESS, trajectory, seconds, error
 
     def _set_any(self, target: Any) -> None:
         if target is None:
             return
         if getattr(target, "_type", "") == "geometry_msgs/Pose":
             self.set_pose_target(target)
-        elif isinstance(target, str) and target in self._g.get_remembered_joint_values():
-            self.set_joint_value_target(self._g.get_remembered_joint_values()[target])
+        elif isinstance(target, str) and target in self._remembered:
+            self.set_joint_value_target(self._remembered[target])
         else:
             self.set_joint_value_target(target)
 
@@ -271,7 +76,7 @@ class MoveGroupCommander(CommanderSettings):
         found = plan_msg[1] if isinstance(plan_msg, tuple) else plan_msg
         if not hasattr(found, "joint_trajectory"):
             found = load_message("moveit_msgs/RobotTrajectory")(joint_trajectory=found)
-        return self._g.execute(packed(found)) if wait else self._g.async_execute(packed(found))
+        return self._execute(found) if wait else self._async_execute(found)
 
     def compute_cartesian_path(
         self,
@@ -281,17 +86,17 @@ class MoveGroupCommander(CommanderSettings):
         avoid_collisions: Any = True,  # noqa: FBT002
         path_constraints: Any = None,
     ) -> tuple[Any, float]:
-        """A ``RobotTrajectory`` along straight ways of the end effector.
+        """Return a ``RobotTrajectory`` along straight ways of the end effector.
 
         Args:
-            waypoints: ``Pose`` messages.
+            waypoints: ``Pose`` messages, or lists of six or seven numbers.
             eef_step: Longest step [m].
             jump_threshold: Not read, as in MoveIt since 1.1.15; a bool stands for the next one.
             avoid_collisions: Whether to end where it would collide.
             path_constraints: ``Constraints`` that hold all along.
 
         Returns:
-            The trajectory, and how much of the way that is, from 0 to 1.
+            The trajectory, and how much of the way that is, from 0 to 1; -1 if it cannot begin.
         """
         if isinstance(jump_threshold, bool):
             if not isinstance(avoid_collisions, bool):
@@ -301,14 +106,30 @@ class MoveGroupCommander(CommanderSettings):
             raise MoveItCommanderException(
                 f"expected moveit_msgs/Constraints, not {type(path_constraints).__name__}"
             )
-        path, fraction = self._g.compute_cartesian_path(
-            [_listed(pose) for pose in waypoints],
-            eef_step,
-            jump_threshold,
-            avoid_collisions,
-            packed(path_constraints) if path_constraints else None,
-        )
-        return unpacked("moveit_msgs/RobotTrajectory", path), fraction
+        poses = [made for each in waypoints if (made := pose_of_list(listed(each))) is not None]
+        fields: dict[str, Any] = {
+            "start_state": self._settings.start,
+            "group_name": self._name,
+            "link_name": self._poses.link,
+            "waypoints": [pose_message(pose) for pose in poses],
+            "max_step": float(eef_step),
+            "jump_threshold": float(jump_threshold),
+            "avoid_collisions": bool(avoid_collisions),
+            "cartesian_speed_limited_link": self._settings.fastest[0],
+            "max_cartesian_speed": self._settings.fastest[1],
+            "header": stamped(None, self._poses.frame).header,
+        }
+        if path_constraints:
+            fields["path_constraints"] = path_constraints
+        nothing = load_message("moveit_msgs/RobotTrajectory")()
+        try:
+            answer = self._actions.ask("compute_cartesian_path", "GetCartesianPath", **fields)
+        except RosError as error:
+            LOG.error("compute_cartesian_path: %s", error)
+            return nothing, -1.0
+        if answer.error_code.val != PlanOutcome.SUCCESS:
+            return nothing, -1.0
+        return answer.solution, float(answer.fraction)
 
     def retime_trajectory(
         self,
@@ -318,55 +139,180 @@ class MoveGroupCommander(CommanderSettings):
         acceleration_scaling_factor: float = 1.0,
         algorithm: str = "iterative_time_parameterization",
     ) -> Any:
-        """A ``RobotTrajectory`` along the same path with other times."""
-        made = self._g.retime_trajectory(
-            packed(ref_state_in),
-            packed(traj_in),
+        """Return a ``RobotTrajectory`` along the same path with other times.
+
+        Args:
+            ref_state_in: A ``RobotState``: where joints are that the trajectory does not move.
+            traj_in: A ``RobotTrajectory``.
+            velocity_scaling_factor: Factor of the limits.
+            acceleration_scaling_factor: Likewise.
+            algorithm: As MoveIt names it; for another one the trajectory is empty.
+
+        Raises:
+            DeserializationError: The state names no joints.
+        """
+        self._read(ref_state_in)
+        return retimed(
+            self._access.robot,
+            traj_in,
             velocity_scaling_factor,
             acceleration_scaling_factor,
             algorithm,
         )
-        return unpacked("moveit_msgs/RobotTrajectory", made)
+
+    def construct_motion_plan_request(self) -> Any:
+        """Return a ``MotionPlanRequest`` of all that is set."""
+        return copied("moveit_msgs/MotionPlanRequest", self._settings.request(self._goals()))
+
+    def move(self) -> bool:
+        """Plan and go there; whether it arrived."""
+        return _good(self._actions.run("move_group", self._goal(plan_only=False)))
+
+    def async_move(self) -> bool:
+        """Have it plan and go there, without a wait."""
+        self._actions.send("move_group", self._goal(plan_only=False))
+        return True
+
+    def stop(self) -> None:
+        """Stop what is moving."""
+        self._actions.stop()
 
     # -- objects -------------------------------------------------------------------------
 
     def attach_object(
         self, object_name: str, link_name: str = "", touch_links: Sequence[str] = ()
     ) -> bool:
-        """Have a link hold a thing of the scene, the end effector's by default."""
-        return self._g.attach_object(object_name, link_name, touch_links)
+        """Have a link hold a thing of the scene; the end effector's, or the group's first one."""
+        links = self._access.names.group_links(self._name)
+        holder = link_name or self._poses.link or (links[0] if links else "")
+        if not holder:
+            LOG.error("No known link to attach object '%s' to", object_name)
+            return False
+        message: Any = load_message("moveit_msgs/AttachedCollisionObject")(
+            link_name=holder, touch_links=list(touch_links) or [holder]
+        )
+        message.object.id = object_name
+        self._actions.attach(message)
+        return True
+
+    def detach_object(self, name: str = "") -> bool:
+        """Leave a thing, all that a link holds, or all that the group does."""
+        links = self._access.names.group_links(self._name)
+        kind = load_message("moveit_msgs/AttachedCollisionObject")
+        chosen = [("", name)] if name and name not in links else [
+            (link, "") for link in ([name] if name else links)
+        ]  # fmt: skip
+        for link, thing in chosen:
+            message: Any = kind(link_name=link)
+            message.object.id, message.object.operation = thing, _REMOVE
+            self._actions.attach(message)
+        return True
 
     def pick(self, object_name: str, grasp: Any = (), plan_only: bool = False) -> int:  # noqa: FBT001, FBT002
-        """Pick a thing up with one of some ``Grasp`` messages; the error code."""
+        """Pick a thing up with one of some ``Grasp`` messages; the error code.
+
+        A bool in place of the grasps is ``plan_only``.
+        """
+        if isinstance(grasp, bool):
+            grasp, plan_only = (), grasp
         given = [grasp] if isinstance(grasp, load_message("moveit_msgs/Grasp")) else list(grasp)
-        return self._g.pick(object_name, [packed(each) for each in given], plan_only)
+        goal: Any = load_message("moveit_msgs/PickupGoal")(
+            target_name=object_name, end_effector=self._end_effector(), possible_grasps=given
+        )
+        return int(self._handle("pickup", goal, plan_only=plan_only).error_code.val)
 
     def place(self, object_name: str, location: Any = None, plan_only: bool = False) -> bool:  # noqa: FBT001, FBT002
         """Place what is held at a ``Pose``, ``PoseStamped`` or ``PlaceLocation``, or anywhere.
 
+        A list may hold several of the latter two, or the numbers of a pose; a bool in place of the
+        location is ``plan_only``.
+
         Raises:
             MoveItCommanderException: The location is none of these.
         """
+        if isinstance(location, bool):
+            location, plan_only = None, location
+        goal: Any = load_message("moveit_msgs/PlaceGoal")(
+            attached_object_name=object_name, place_locations=self._locations(location)
+        )
+        return _good(self._handle("place", goal, plan_only=plan_only))
+
+    def _locations(self, location: Any) -> list[Any]:
+        """Return ``PlaceLocation`` messages; none for anywhere."""
         if not location:
-            return self._g.place(object_name, plan_only)
+            return []
         given = location if isinstance(location, list) else [location]
-        kinds = {getattr(each, "_type", "") for each in given}
+        kinds = {getattr(each, "_type", type(each)) for each in given}
         if kinds == {"moveit_msgs/PlaceLocation"}:
-            return self._g.place_locations_list(
-                object_name, [packed(each) for each in given], plan_only
-            )
+            return given
         if kinds == {"geometry_msgs/PoseStamped"}:
-            return self._g.place_poses_list(
-                object_name, [packed(each) for each in given], plan_only
-            )
-        if kinds == {"geometry_msgs/Pose"} and not isinstance(location, list):
-            return self._g.place(object_name, _listed(location), plan_only)
+            return [self._location(each) for each in given]
+        numbers = kinds <= {int, float}
+        if numbers or (kinds == {"geometry_msgs/Pose"} and given is not location):
+            pose = pose_of_list(location if numbers else listed(location))
+            if pose is not None:
+                return [self._location(stamped(pose_message(pose), self._poses.frame))]
         raise MoveItCommanderException(
             "expected a Pose or PoseStamped to place at, a PlaceLocation, or a list of the latter two"
         )
 
+    def _handle(self, action: str, goal: Any, *, plan_only: bool) -> Any:
+        """Send a goal of ``pickup`` or ``place`` with what is set."""
+        settings = self._settings
+        goal.group_name, goal.planner_id = self._name, settings.planner
+        goal.support_surface_name = settings.support
+        goal.allow_gripper_support_collision = bool(settings.support)
+        goal.allowed_planning_time = settings.time
+        if settings.path is not None:
+            goal.path_constraints = settings.path
+        goal.planning_options = settings.options(plan_only=plan_only)
+        return self._actions.run(action, goal)
 
-def _listed(pose: Any) -> Any:
-    """The numbers of a ``Pose`` or ``PoseStamped``; a list as it is."""
-    found = getattr(pose, "pose", pose)
-    return conversions.pose_to_list(found) if hasattr(found, "orientation") else list(found)
+    def _end_effector(self) -> str:
+        """Return the end effector that holds the link which poses are of."""
+        for each in self._joints.group.effectors:
+            links = self._access.names.group_links(each.group)
+            if self._poses.link == each.parent_link or self._poses.link in links:
+                return each.name
+        return ""
+
+    def _location(self, target: Any) -> Any:
+        """Return a ``PlaceLocation``: from above, and away along the end effector, as MoveIt fills it."""
+        made: Any = load_message("moveit_msgs/PlaceLocation")(place_pose=target)
+        down, away = made.pre_place_approach, made.post_place_retreat
+        down.direction.header.frame_id = self.get_planning_frame()
+        down.direction.vector.z, down.min_distance, down.desired_distance = -1.0, 0.1, 0.2
+        away.direction.header.frame_id = self._poses.link
+        away.direction.vector.x, away.desired_distance = -1.0, 0.2
+        down.direction.header.stamp = away.direction.header.stamp = Time()
+        return made
+
+    # -- what MoveIt's C++ class does ------------------------------------------------------
+
+    def _goal(self, *, plan_only: bool) -> Any:
+        made: Any = load_message("moveit_msgs/MoveGroupGoal")()
+        made.request = self._settings.request(self._goals())
+        made.planning_options = self._settings.options(plan_only=plan_only)
+        return made
+
+    def _plan(self) -> tuple[Any, Any, float]:
+        """Plan; a ``MoveItErrorCodes``, a ``RobotTrajectory``, and how long it took [s]."""
+        result = self._actions.run("move_group", self._goal(plan_only=True))
+        return result.error_code, result.planned_trajectory, result.planning_time
+
+    def _execute(self, trajectory: Any) -> bool:
+        """Go along a ``RobotTrajectory``; whether it arrived."""
+        return _good(self._actions.run("execute_trajectory", _to_execute(trajectory)))
+
+    def _async_execute(self, trajectory: Any) -> bool:
+        """Have it go along a ``RobotTrajectory``, without a wait."""
+        self._actions.send("execute_trajectory", _to_execute(trajectory))
+        return True
+
+
+def _good(result: Any) -> bool:
+    return bool(result.error_code.val == PlanOutcome.SUCCESS)
+
+
+def _to_execute(trajectory: Any) -> Any:
+    return load_message("moveit_msgs/ExecuteTrajectoryGoal")(trajectory=trajectory)

@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-from gazelle.bridges.moveit.client.scene_client import PlanningSceneClient
-from gazelle.bridges.moveit.client.session import packed, unpacked
+from gazelle.bridges.moveit.client.session import LOG, session
+from gazelle.bridges.moveit.frames import pose_of_message
 from gazelle.bridges.moveit.modules.moveit_commander import allowed_collisions
-from gazelle.bridges.moveit.modules.moveit_commander.delegation import PassedOn
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.bridges.moveit.object_messages import mesh_message
+from gazelle.bridges.moveit.scene_messages import ATTACHED, GEOMETRY, NAMES
 from gazelle.description import Mesh
 from gazelle.errors import Error
 from gazelle.formats import load_mesh
 from gazelle.ros import names
 from gazelle.ros.compat.rospy.topics import Publisher
-from gazelle.ros.messages import load_message
+from gazelle.ros.errors import RosError, RosTimeoutError
+from gazelle.ros.messages import load_message, load_service
 
 __all__ = ["PlanningSceneInterface"]
 
 _BOX, _SPHERE, _CYLINDER, _CONE = 1, 2, 3, 4
 _REMOVE = 1
-_same = partial(PassedOn, "_psi", PlanningSceneClient)
+_LOOK_S = 5.0
 
 allowed_collisions.extend_messages()
 
@@ -37,12 +37,10 @@ class PlanningSceneInterface:
         synchronous: Whether to wait until a change is made; else changes are published.
     """
 
-    clear = _same()
-    get_known_object_names = _same()
-    get_known_object_names_in_roi = _same()
-
     def __init__(self, ns: str = "", synchronous: bool = True) -> None:  # noqa: FBT001, FBT002  # MoveIt's interface
-        self._psi = PlanningSceneClient(ns)
+        self._node = session.node()
+        self._get = self._client(ns, "get_planning_scene", "GetPlanningScene")
+        self._apply = self._client(ns, "apply_planning_scene", "ApplyPlanningScene")
         self._synchronous = synchronous
         if not synchronous:
             thing, held = "collision_object", "attached_collision_object"
@@ -173,52 +171,121 @@ class PlanningSceneInterface:
 
     # -- what is there -------------------------------------------------------------------
 
+    def get_known_object_names(self, with_type: bool = False) -> list[str]:  # noqa: FBT001, FBT002  # MoveIt's interface
+        """Return names of the things, or of those alone whose type is known."""
+        things = self._scene(NAMES).world.collision_objects
+        return [each.id for each in things if each.type.key or not with_type]
+
+    def get_known_object_names_in_roi(
+        self,
+        minx: float, miny: float, minz: float,
+        maxx: float, maxy: float, maxz: float,
+        with_type: bool = False,  # noqa: FBT001, FBT002
+    ) -> list[str]:  # fmt: skip
+        """Return names of the things all of whose shapes have their origins within a box [m]."""
+        low, high = (minx, miny, minz), (maxx, maxy, maxz)
+        found = []
+        for each in self._scene(GEOMETRY).world.collision_objects:
+            places = [*each.mesh_poses, *each.primitive_poses]
+            if not places or (with_type and not each.type.key):
+                continue
+            base = pose_of_message(each.pose)
+            origins = [(base * pose_of_message(place)).position for place in places]
+            if all(
+                a <= value <= b
+                for origin in origins
+                for a, value, b in zip(low, origin, high, strict=True)
+            ):
+                found.append(each.id)
+        return found
+
     def get_object_poses(self, object_ids: Sequence[str]) -> dict[str, Any]:
-        """``Pose`` by name of the things that are named."""
-        return _unpacked("geometry_msgs/Pose", self._psi.get_object_poses(object_ids))
+        """``geometry_msgs/Pose`` by name, of the things that are named."""
+        things = self._scene(GEOMETRY).world.collision_objects
+        return {each.id: each.pose for each in things if each.id in object_ids}
 
     def get_objects(self, object_ids: Sequence[str] = ()) -> dict[str, Any]:
-        """``CollisionObject`` by name of the things that are named, or of all."""
-        return _unpacked("moveit_msgs/CollisionObject", self._psi.get_objects(object_ids))
+        """``CollisionObject`` by name, of the things that are named, or of all if none are."""
+        things = self._scene(GEOMETRY).world.collision_objects
+        return {each.id: each for each in things if not object_ids or each.id in object_ids}
 
     def get_attached_objects(self, object_ids: Sequence[str] = ()) -> dict[str, Any]:
-        """``AttachedCollisionObject`` by name of what is named, or of all that links hold."""
-        found = self._psi.get_attached_objects(object_ids)
-        return _unpacked("moveit_msgs/AttachedCollisionObject", found)
+        """``AttachedCollisionObject`` by name, of the things that are named, or of all."""
+        held = self._scene(ATTACHED).robot_state.attached_collision_objects
+        return {
+            each.object.id: each for each in held if not object_ids or each.object.id in object_ids
+        }
+
+    # -- whole scenes --------------------------------------------------------------------
 
     def get_planning_scene(self, components: int) -> Any:
-        """The parts of a ``PlanningScene`` that a sum of ``PlanningSceneComponents`` names."""
-        return unpacked("moveit_msgs/PlanningScene", self._psi.get_planning_scene(components))
+        """Return the parts of a ``PlanningScene`` that a sum of ``PlanningSceneComponents`` names."""
+        return self._scene(int(components))
 
     def apply_planning_scene(self, planning_scene_message: Any) -> bool:
         """Apply a ``PlanningScene``; whether all of it could be done."""
-        return self._psi.apply_planning_scene(packed(planning_scene_message))
+        kind = load_service("moveit_msgs/ApplyPlanningScene")
+        try:
+            answer = self._apply.call(kind._request_class(scene=planning_scene_message))
+        except RosError as error:
+            LOG.warning("Failed to call ApplyPlanningScene service: %s", error)
+            return False
+        return bool(answer.success)
+
+    def clear(self) -> bool:
+        """Remove all things, also those that links hold."""
+        message, thing = _change(), _existing("")
+        thing.operation = _REMOVE
+        held: Any = load_message("moveit_msgs/AttachedCollisionObject")(object=thing)
+        message.robot_state.attached_collision_objects = [held]
+        message.world.collision_objects = [thing]
+        return self.apply_planning_scene(message)
+
+    def _scene(self, components: int) -> Any:
+        """Return a ``PlanningScene``; an empty one, with a word in the log, if there is no answer."""
+        request: Any = load_service("moveit_msgs/GetPlanningScene")._request_class()
+        request.components.components = components
+        try:
+            return self._get.call(request).scene
+        except RosError as error:
+            LOG.warning("Could not call planning scene service: %s", error)
+            return load_message("moveit_msgs/PlanningScene")()
+
+    def _client(self, namespace: str, name: str, kind: str) -> Any:
+        full = names.join(namespace, name)
+        while True:
+            try:
+                self._node.wait_for_service(full, timeout=_LOOK_S)
+                break
+            except RosTimeoutError:
+                LOG.warning("service '%s' not advertised yet. Continue waiting...", full)
+        return self._node.client(full, load_service(f"moveit_msgs/{kind}"))
 
     # -- messages ------------------------------------------------------------------------
 
     @staticmethod
     def make_box(name: str, pose: Any, size: Sequence[float]) -> Any:
-        """A ``CollisionObject``: a box at a ``PoseStamped``."""
+        """Return a ``CollisionObject``: a box at a ``PoseStamped``."""
         return _primitive(name, pose, _BOX, size)
 
     @staticmethod
     def make_sphere(name: str, pose: Any, radius: float) -> Any:
-        """A ``CollisionObject``: a sphere."""
+        """Return a ``CollisionObject``: a sphere."""
         return _primitive(name, pose, _SPHERE, [radius])
 
     @staticmethod
     def make_cylinder(name: str, pose: Any, height: float, radius: float) -> Any:
-        """A ``CollisionObject``: a cylinder."""
+        """Return a ``CollisionObject``: a cylinder."""
         return _primitive(name, pose, _CYLINDER, [height, radius])
 
     @staticmethod
     def make_cone(name: str, pose: Any, height: float, radius: float) -> Any:
-        """A ``CollisionObject``: a cone."""
+        """Return a ``CollisionObject``: a cone."""
         return _primitive(name, pose, _CONE, [height, radius])
 
     @staticmethod
     def make_mesh(name: str, pose: Any, filename: str, scale: Sequence[float] = (1, 1, 1)) -> Any:
-        """A ``CollisionObject``: the mesh of a file.
+        """Return a ``CollisionObject``: the mesh of a file.
 
         Raises:
             MoveItCommanderException: It cannot be read.
@@ -236,7 +303,7 @@ class PlanningSceneInterface:
     def make_plane(
         name: str, pose: Any, normal: Sequence[float] = (0, 0, 1), offset: float = 0
     ) -> Any:
-        """A ``CollisionObject``: a plane."""
+        """Return a ``CollisionObject``: a plane."""
         made: Any = load_message("moveit_msgs/CollisionObject")(id=name, header=pose.header)
         coefficients = [*map(float, normal), float(offset)]
         made.planes = [load_message("shape_msgs/Plane")(coef=coefficients)]
@@ -261,11 +328,7 @@ def _existing(name: str) -> Any:
 
 
 def _change() -> Any:
-    """A ``PlanningScene`` that changes nothing yet."""
+    """Return a ``PlanningScene`` that changes nothing yet."""
     made: Any = load_message("moveit_msgs/PlanningScene")(is_diff=True)
     made.robot_state.is_diff = True
     return made
-
-
-def _unpacked(kind: str, found: dict[str, bytes]) -> dict[str, Any]:
-    return {name: unpacked(kind, data) for name, data in found.items()}

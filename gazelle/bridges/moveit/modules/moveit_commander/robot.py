@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from functools import partial
+import math
+from collections.abc import Mapping
 from typing import Any
 
-from gazelle.bridges.moveit.client.robot_interface import RobotInterface
-from gazelle.bridges.moveit.client.session import packed, unpacked
+from gazelle.array_types import Floats
+from gazelle.bridges.moveit.client.link_markers import link_markers
+from gazelle.bridges.moveit.client.robot_access import shared_robot
 from gazelle.bridges.moveit.modules.moveit_commander import conversions
-from gazelle.bridges.moveit.modules.moveit_commander.delegation import PassedOn
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.bridges.moveit.modules.moveit_commander.move_group import MoveGroupCommander
 from gazelle.errors import did_you_mean
 
 __all__ = ["RobotCommander"]
-
-_same = partial(PassedOn, "_r", RobotInterface)
 
 
 class CommanderJoint:
@@ -29,7 +28,7 @@ class CommanderJoint:
         return self._name
 
     def _limits(self) -> list[list[float]]:
-        return self._robot._r.get_joint_limits(self._name)  # noqa: SLF001  # of the same package
+        return self._robot.get_joint_limits(self._name)
 
     def variable_count(self) -> int:
         """Return the number of its variables."""
@@ -40,16 +39,16 @@ class CommanderJoint:
         return _one(self._limits())
 
     def min_bound(self) -> Any:
-        """The lower limit, or a list of them."""
+        """Return the lower limit, or a list of them."""
         return _one([low for low, _ in self._limits()])
 
     def max_bound(self) -> Any:
-        """The upper limit, or a list of them."""
+        """Return the upper limit, or a list of them."""
         return _one([high for _, high in self._limits()])
 
     def value(self) -> Any:
-        """Return its present position, or a list of positions."""
-        return _one(self._robot._r.get_current_joint_values(self._name))  # noqa: SLF001
+        """Where it is now, or a list of that."""
+        return _one(self._robot.get_current_joint_values(self._name))
 
     def move(self, position: Any, wait: bool = True) -> bool:  # noqa: FBT001, FBT002  # MoveIt's interface
         """Move this joint alone; whether it arrived.
@@ -79,8 +78,8 @@ class CommanderLink:
         return self._name
 
     def pose(self) -> Any:
-        """A ``PoseStamped``: where it is now."""
-        found = self._robot._r.get_link_pose(self._name)  # noqa: SLF001  # of the same package
+        """Return a ``PoseStamped``: where it is now."""
+        found = self._robot.get_link_pose(self._name)
         return conversions.list_to_pose_stamped(found, self._robot.get_planning_frame())
 
 
@@ -98,70 +97,111 @@ class RobotCommander:
     Joint = CommanderJoint
     Link = CommanderLink
 
-    get_planning_frame = _same()
-    get_root_link = _same("get_robot_root_link")
-    get_group_names = _same()
-    get_current_variable_values = _same()
-    has_group = _same()
-
     def __init__(self, robot_description: str = "robot_description", ns: str = "") -> None:
         self._robot_description, self._ns = robot_description, ns
-        self._r = RobotInterface(robot_description, ns)
+        self._access = shared_robot(robot_description, ns)
+        self._robot, self._names = self._access.robot, self._access.names
         self._groups: dict[str, MoveGroupCommander] = {}
 
     # -- names ---------------------------------------------------------------------------
 
+    def get_robot_name(self) -> str:
+        """Return the name of the robot."""
+        return self._names.robot
+
+    def get_robot_root_link(self) -> str:
+        """Return the link on which all others hang."""
+        return self._names.root
+
+    get_root_link = get_robot_root_link
+
+    def get_planning_frame(self) -> str:
+        """Return the frame that is planned in."""
+        return self._robot.frame
+
+    def get_group_names(self) -> list[str]:
+        """Return all groups."""
+        return list(self._names.groups)
+
+    def has_group(self, group: str) -> bool:
+        """Whether there is a group of a name."""
+        return group in self._names.groups
+
+    def get_group_joint_names(self, group: str) -> list[str]:
+        """Return joints of a group; none if there is no such group."""
+        return [joint.name for joint in self._names.group_joints(group)]
+
+    def get_group_active_joint_names(self, group: str) -> list[str]:
+        """Return joints of a group that can be moved by themselves."""
+        return self._names.group_active(group)
+
+    def get_group_link_names(self, group: str) -> list[str]:
+        """Return links of a group."""
+        return self._names.group_links(group)
+
+    def get_group_joint_tips(self, group: str) -> list[str]:
+        """Return links of a group that end effectors are mounted on."""
+        return self._names.effector_tips(group)
+
+    def get_group_default_states(self, group: str) -> list[str]:
+        """Return names of a group's states in the SRDF."""
+        return self._names.states(group)
+
+    def get_parent_group(self, group: str) -> tuple[str, str]:
+        """Return the group that an end effector's group is mounted on, and the link there."""
+        return self._names.effector_parent(group)
+
     def get_joint_names(self, group: str | None = None) -> list[str]:
-        """All joints, of the robot or of a group, fixed ones too.
+        """Return all joints, of the robot or of a group, fixed ones too.
 
         Raises:
             MoveItCommanderException: There is no such group.
         """
         if group is None:
-            return self._r.get_joint_names()
-        return self._r.get_group_joint_names(self._known(group))
+            return self._names.joint_names()
+        return self.get_group_joint_names(self._known(group))
 
     def get_active_joint_names(self, group: str | None = None) -> list[str]:
-        """Joints that can be moved by themselves; see `get_joint_names`."""
+        """Return joints that can be moved by themselves; see `get_joint_names`."""
         if group is None:
-            return self._r.get_active_joint_names()
-        return self._r.get_group_active_joint_names(self._known(group))
+            return self._names.active_joint_names()
+        return self.get_group_active_joint_names(self._known(group))
 
     def get_link_names(self, group: str | None = None) -> list[str]:
-        """All links; see `get_joint_names`."""
+        """Return all links; see `get_joint_names`."""
         if group is None:
-            return self._r.get_link_names()
-        return self._r.get_group_link_names(self._known(group))
+            return list(self._names.links)
+        return self.get_group_link_names(self._known(group))
 
     def _known(self, group: str) -> str:
-        if not self._r.has_group(group):
+        if not self.has_group(group):
             raise MoveItCommanderException(f"no group is called '{group}'")
         return group
 
     # -- parts ---------------------------------------------------------------------------
 
     def get_joint(self, name: str) -> CommanderJoint:
-        """A joint.
+        """Return a joint.
 
         Raises:
             MoveItCommanderException: There is none of that name.
         """
-        if name not in self._r.get_joint_names():
+        if name not in self.get_joint_names():
             raise MoveItCommanderException(f"no joint is called '{name}'")
         return CommanderJoint(self, name)
 
     def get_link(self, name: str) -> CommanderLink:
-        """A link.
+        """Return a link.
 
         Raises:
             MoveItCommanderException: There is none of that name.
         """
-        if name not in self._r.get_link_names():
+        if name not in self.get_link_names():
             raise MoveItCommanderException(f"no link is called '{name}'")
         return CommanderLink(self, name)
 
     def get_group(self, name: str) -> MoveGroupCommander:
-        """The commander of a group, the same one each time.
+        """Return the commander of a group, the same one each time.
 
         Raises:
             MoveItCommanderException: There is none of that name.
@@ -172,59 +212,111 @@ class RobotCommander:
         return self._groups[name]
 
     def get_default_owner_group(self, joint_name: str) -> str | None:
-        """The group with the fewest links that a joint is in; None if it is in none."""
+        """Return the group with the fewest links that a joint is in; None if it is in none."""
         owners = [
             group
-            for group in self._r.get_group_names()
-            if joint_name in self._r.get_group_joint_names(group)
+            for group in self.get_group_names()
+            if joint_name in self.get_group_joint_names(group)
         ]
-        return min(owners, key=lambda group: len(self._r.get_group_link_names(group)), default=None)
+        return min(owners, key=lambda group: len(self.get_group_link_names(group)), default=None)
 
     # -- states --------------------------------------------------------------------------
 
-    def get_current_state(self) -> Any:
-        """A ``RobotState`` of now."""
-        return unpacked("moveit_msgs/RobotState", self._r.get_current_state())
+    def get_joint_limits(self, joint: str) -> list[list[float]]:
+        """Return lower and upper limit of each variable of a joint [m or rad]."""
+        found = [each for each in self._robot.variables if each.joint == joint]
+        limits = []
+        for each in found:
+            low, high = each.bounds.lower, each.bounds.upper
+            limits.append([-math.pi, math.pi] if each.endless else [low, high])
+        return limits
 
-    def get_robot_markers(self, *args: Any) -> Any:
-        """A ``MarkerArray`` of the robot's links.
+    def get_joint_values(self, group: str, named_state: str) -> dict[str, float]:
+        """Return values by variable of a group's state in the SRDF; empty if there is none."""
+        if not self.has_group(group):
+            return {}
+        return dict(self._robot.group(group).states.get(named_state, {}))
+
+    def get_current_joint_values(self, joint: str) -> list[float]:
+        """Return positions of a joint's variables now."""
+        state = self._access.known()
+        return [
+            float(state[column])
+            for column, each in enumerate(self._robot.variables)
+            if each.joint == joint
+        ]
+
+    def get_current_variable_values(self) -> dict[str, float]:
+        """Return positions of all variables now, by name."""
+        return dict(zip(self._robot.names, self._access.known().tolist(), strict=True))
+
+    def get_current_state(self) -> Any:
+        """Return a ``RobotState`` of now."""
+        return self._access.message(self._access.known())
+
+    def get_link_pose(self, link: str) -> list[float]:
+        """Where a link is now: x, y, z, qx, qy, qz, qw; empty if there is no such link."""
+        if link not in self._robot.links:
+            return []
+        pose = self._robot.pose(self._access.known(), link)
+        return [*pose.position, *pose.quaternion]
+
+    # -- markers -------------------------------------------------------------------------
+
+    def get_robot_markers(self, state: Any = None, links: Any = None) -> Any:
+        """Return a ``MarkerArray`` of links.
 
         Args:
-            args: Nothing for now; a ``RobotState``; positions by joint, and perhaps links; or the name
-                of a group, and perhaps positions by joint.
+            state: A ``RobotState``, or positions by joint; now if None. A list is one of links, and a
+                name that of a group, whose positions by joint may follow.
+            links: Names of links; all if None.
 
         Raises:
             MoveItCommanderException: It is something else.
         """
-        if not args:
-            made = self._r.get_robot_markers()
-        elif getattr(args[0], "_type", "") == "moveit_msgs/RobotState":
-            made = self._r.get_robot_markers(packed(args[0]))
-        elif isinstance(args[0], dict):
-            made = self._r.get_robot_markers(*args)
-        elif isinstance(args[0], str):
-            made = self._r.get_group_markers(*args)
-        else:
+        if isinstance(state, str):
+            return self.get_group_markers(state, links)
+        if isinstance(state, list | tuple):
+            state, links = None, state
+        here = self._access.known()
+        if getattr(state, "_type", "") == "moveit_msgs/RobotState":
+            found = self._access.with_message(state, self._access.default())
+            here = here if found is None else found
+        elif isinstance(state, Mapping):
+            here = self._with(here, state)
+        elif state is not None:
             raise MoveItCommanderException(
-                f"expected a RobotState, joint values or a group, not {type(args[0]).__name__}"
+                f"expected a RobotState, joint values or a group, not {type(state).__name__}"
             )
-        return unpacked("visualization_msgs/MarkerArray", made)
+        chosen = self._names.links if links is None else links
+        return link_markers(self._robot, here, chosen, self._access.node.clock.now())
+
+    def get_group_markers(self, group: str, values: Mapping[str, float] | None = None) -> Any:
+        """Return a ``MarkerArray`` of a group's links, now or with positions by joint."""
+        return self.get_robot_markers(values or {}, self._names.group_links(group))
+
+    def _with(self, state: Floats, values: Mapping[str, float]) -> Floats:
+        made = state.copy()
+        for name, value in values.items():
+            if name in self._robot.names:
+                made[self._robot.column(name)] = value
+        return self._robot.complete(made)
 
     def __getattr__(self, name: str) -> Any:
-        """A group, joint or link of that name.
+        """Return a group, joint or link of that name.
 
         Raises:
             AttributeError: There is none.
         """
         if name.startswith("_"):
             raise AttributeError(name)
-        if self._r.has_group(name):
+        if self.has_group(name):
             return self.get_group(name)
-        if name in self._r.get_joint_names():
+        if name in self.get_joint_names():
             return CommanderJoint(self, name)
-        if name in self._r.get_link_names():
+        if name in self.get_link_names():
             return CommanderLink(self, name)
-        known = [*self._r.get_group_names(), *self._r.get_joint_names(), *self._r.get_link_names()]
+        known = [*self.get_group_names(), *self.get_joint_names(), *self.get_link_names()]
         raise AttributeError(
             f"RobotCommander has no attribute, group, joint or link '{name}'; "
             f"{did_you_mean(name, known)}"

@@ -1,7 +1,17 @@
-"""The module that ``moveit_commander.planning_scene_interface`` stands on."""
+"""The module that ``moveit_commander.planning_scene_interface`` stands on in MoveIt."""
 
-from gazelle.bridges.moveit.client.scene_client import (
-    PlanningSceneClient as PlanningSceneInterface,
-)
+from __future__ import annotations
+
+from typing import Any, ClassVar
+
+from gazelle.bridges.moveit.client import byte_interface
+from gazelle.bridges.moveit.modules.moveit_commander import planning_scene_interface
 
 __all__ = ["PlanningSceneInterface"]
+
+
+class PlanningSceneInterface(byte_interface.ByteInterface):
+    """The planning scene of ``move_group``."""
+
+    client: ClassVar[type[Any]] = planning_scene_interface.PlanningSceneInterface
+    takes: ClassVar = {"apply_planning_scene": ("moveit_msgs/PlanningScene",)}

@@ -1,4 +1,4 @@
-"""Names, states and limits of a group, as in ``MoveGroupInterface``."""
+"""The part of ``MoveGroupCommander`` that says what a group is and where: names, states, limits."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from gazelle.bridges.moveit.client.move_actions import MoveActions
 from gazelle.bridges.moveit.client.pose_targets import PoseTargets
 from gazelle.bridges.moveit.client.request_settings import RequestSettings
 from gazelle.bridges.moveit.client.robot_access import shared_robot
-from gazelle.bridges.moveit.client.session import LOG, packed, session, unpacked
+from gazelle.bridges.moveit.client.session import LOG, session
+from gazelle.bridges.moveit.modules.moveit_commander import conversions
+from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.description import Pose
-from gazelle.ros.messages import load_message
+from gazelle.ros.messages import DeserializationError, load_message
 
 
-class GroupBase:
+class GroupState:
     """A group, and what is known of it without a plan.
 
     Args:
@@ -55,23 +57,23 @@ class GroupBase:
     # -- names ---------------------------------------------------------------------------
 
     def get_name(self) -> str:
-        """Name of the group."""
+        """Return the name of the group."""
         return self._name
 
     def get_planning_frame(self) -> str:
-        """The frame that is planned in."""
+        """Return the frame that is planned in."""
         return self._access.robot.frame
 
     def get_joints(self) -> list[str]:
-        """Joints of the group, fixed ones and those that follow others too."""
+        """Return joints of the group, fixed ones and those that follow others too."""
         return [joint.name for joint in self._access.names.group_joints(self._name)]
 
     def get_active_joints(self) -> list[str]:
-        """Joints of the group that can be moved by themselves."""
+        """Return joints of the group that can be moved by themselves."""
         return self._access.names.group_active(self._name)
 
     def get_variables(self) -> list[str]:
-        """Names of the group's variables."""
+        """Return names of the group's variables."""
         return list(self._joints.variables)
 
     def get_variable_count(self) -> int:
@@ -79,38 +81,35 @@ class GroupBase:
         return len(self._joints.variables)
 
     def get_end_effector_link(self) -> str:
-        """The link that poses are of; empty if there is none."""
+        """Return the link that poses are of; empty if there is none."""
         return self._poses.link
 
-    def set_end_effector_link(self, link_name: str) -> bool:
-        """Set the link that poses are of; False if the group has none."""
-        if not self._poses.link or not link_name:
-            return False
-        self._poses.link = link_name
-        return True
+    def has_end_effector_link(self) -> bool:
+        """Return whether there is a link that poses are of."""
+        return bool(self._poses.link)
 
     def get_pose_reference_frame(self) -> str:
-        """The frame of poses that name none."""
+        """Return the frame of poses that name none."""
         return self._poses.frame
 
     def set_pose_reference_frame(self, frame: str) -> None:
         """Set the frame of poses that name none."""
         self._poses.frame = frame
 
-    def get_interface_description(self) -> bytes:
-        """A ``PlannerInterfaceDescription``: which planners there are."""
+    def get_interface_description(self) -> Any:
+        """Return a ``PlannerInterfaceDescription``: which planners there are."""
         answer = self._actions.ask("query_planner_interface", "QueryPlannerInterfaces")
         kind = load_message("moveit_msgs/PlannerInterfaceDescription")
-        return packed(answer.planner_interfaces[0] if answer.planner_interfaces else kind())
+        return answer.planner_interfaces[0] if answer.planner_interfaces else kind()
 
     # -- named and remembered postures ---------------------------------------------------
 
     def get_named_targets(self) -> list[str]:
-        """Names of the group's states in the SRDF."""
+        """Return names of the group's states in the SRDF."""
         return self._access.names.states(self._name)
 
     def get_named_target_values(self, name: str) -> dict[str, float]:
-        """Values by variable of a remembered or named state; empty if there is none."""
+        """Return values by variable of a remembered or named state; empty if there is none."""
         if name in self._remembered:
             return dict(zip(self._joints.variables, self._remembered[name], strict=False))
         return dict(self._joints.group.states.get(name, {}))
@@ -121,7 +120,7 @@ class GroupBase:
         self._remembered[name] = [float(value) for value in given]
 
     def get_remembered_joint_values(self) -> dict[str, list[float]]:
-        """All remembered values by name."""
+        """Return all remembered values by name."""
         return {name: list(values) for name, values in self._remembered.items()}
 
     def forget_joint_values(self, name: str) -> None:
@@ -136,7 +135,7 @@ class GroupBase:
         return True
 
     def get_current_joint_values(self) -> list[float]:
-        """Positions of the group's variables now; empty if nobody says them."""
+        """Return positions of the group's variables now; empty if nobody says them."""
         state = self._access.current()
         if state is None:
             return []
@@ -144,50 +143,52 @@ class GroupBase:
         return values
 
     def get_random_joint_values(self) -> list[float]:
-        """Positions of the group's variables drawn between their limits."""
+        """Return positions of the group's variables drawn between their limits."""
         return self._joints.random()
 
-    def get_current_pose(self, end_effector_link: str = "") -> list[float]:
-        """Return the present pose of a link: x, y, z, qx, qy, qz, qw."""
-        return self._pose_list(self._access.current(), end_effector_link)
+    def get_current_pose(self, end_effector_link: str = "") -> Any:
+        """Return a ``PoseStamped``: where a link is now, the end effector's by default."""
+        self._needs_link(
+            end_effector_link, "the group has no end effector whose pose this could be"
+        )
+        return self._stamped(self._current_pose(end_effector_link))
 
-    def get_random_pose(self, end_effector_link: str = "") -> list[float]:
-        """Return the pose of a link with random joint positions."""
-        state = self._access.current()
-        if state is not None:
-            state[self._columns()] = self._joints.random()
-            state = self._access.robot.complete(state)
-        return self._pose_list(state, end_effector_link)
+    def get_random_pose(self, end_effector_link: str = "") -> Any:
+        """Return a ``PoseStamped`` that the group can reach."""
+        self._needs_link(
+            end_effector_link, "the group has no end effector whose pose this could be"
+        )
+        return self._stamped(self._random_pose(end_effector_link))
 
     def get_current_rpy(self, end_effector_link: str = "") -> list[float]:
-        """Return the present rotation of a link: roll, pitch, yaw [rad]; empty if unknown."""
-        state, link = self._access.current(), end_effector_link or self._poses.link
-        if state is None or link not in self._access.robot.links:
-            return []
-        return list(self._access.robot.pose(state, link).rpy)
+        """Return ``[roll, pitch, yaw]`` of a link now [rad]; empty if that is not known."""
+        self._needs_link(
+            end_effector_link, "the group has no end effector whose angles these could be"
+        )
+        return self._current_rpy(end_effector_link)
 
-    def get_current_state(self) -> bytes:
-        """A ``RobotState`` of the whole robot now; without joints if nobody says where they are."""
+    def get_current_state(self) -> Any:
+        """Return a ``RobotState`` of the whole robot now; without joints if that is not known."""
         state = self._access.current()
         if state is None:
-            return packed(load_message("moveit_msgs/RobotState")())
-        return packed(self._access.message(state))
+            return load_message("moveit_msgs/RobotState")()
+        return self._access.message(state)
 
-    def get_current_state_bounded(self) -> dict[str, float]:
-        """Positions of the whole robot by joint, within their limits."""
-        state = self._access.current()
-        if state is None:
-            return {}
-        made = self._access.message(self._access.bounded(state)).joint_state
-        return dict(zip(made.name, made.position, strict=True))
+    def get_current_state_bounded(self) -> Any:
+        """Return a ``RobotState`` of now, joints within their limits."""
+        made: Any = load_message("moveit_msgs/RobotState")()
+        positions = self._bounded_positions()
+        made.joint_state.header.frame_id = self.get_planning_frame()
+        made.joint_state.name, made.joint_state.position = [*positions], [*positions.values()]
+        return made
 
-    def enforce_bounds(self, state: bytes) -> bytes:
-        """A ``RobotState`` with joints moved to their limits; no bytes if it names none."""
-        message = unpacked("moveit_msgs/RobotState", state)
-        read = self._access.with_message(message, self._access.default())
-        if read is None:
-            return b""
-        return packed(self._access.message(self._access.bounded(read)))
+    def enforce_bounds(self, robot_state_msg: Any) -> Any:
+        """Return a ``RobotState`` with joints moved to their limits.
+
+        Raises:
+            DeserializationError: It names no joints.
+        """
+        return self._access.message(self._access.bounded(self._read(robot_state_msg)))
 
     def get_jacobian_matrix(
         self, joint_values: Sequence[float], reference_point: Sequence[float] | None = None
@@ -220,8 +221,55 @@ class GroupBase:
     def _columns(self) -> Any:
         return self._access.robot.columns(self._joints.variables)
 
+    def _needs_link(self, link: str, words: str) -> None:
+        if not link and not self.has_end_effector_link():
+            raise MoveItCommanderException(words)
+
+    def _stamped(self, pose: Sequence[float]) -> Any:
+        return conversions.list_to_pose_stamped(pose, self.get_planning_frame())
+
+    # -- what MoveIt's C++ class gives -----------------------------------------------------
+
+    def _current_pose(self, end_effector_link: str = "") -> list[float]:
+        """Return where a link is now: x, y, z, qx, qy, qz, qw."""
+        return self._pose_list(self._access.current(), end_effector_link)
+
+    def _random_pose(self, end_effector_link: str = "") -> list[float]:
+        """Return where a link would be with drawn positions."""
+        state = self._access.current()
+        if state is not None:
+            state[self._columns()] = self._joints.random()
+            state = self._access.robot.complete(state)
+        return self._pose_list(state, end_effector_link)
+
+    def _current_rpy(self, end_effector_link: str = "") -> list[float]:
+        """Return roll, pitch and yaw of a link [rad]; empty if that is not known."""
+        state, link = self._access.current(), end_effector_link or self._poses.link
+        if state is None or link not in self._access.robot.links:
+            return []
+        return list(self._access.robot.pose(state, link).rpy)
+
+    def _bounded_positions(self) -> dict[str, float]:
+        """Return positions of the whole robot by joint, within their limits."""
+        state = self._access.current()
+        if state is None:
+            return {}
+        made = self._access.message(self._access.bounded(state)).joint_state
+        return dict(zip(made.name, made.position, strict=True))
+
+    def _read(self, message: Any) -> Floats:
+        """Return the state that a ``RobotState`` says.
+
+        Raises:
+            DeserializationError: It names no joints.
+        """
+        read = self._access.with_message(message, self._access.default())
+        if read is None:
+            raise DeserializationError("the state names no joints")
+        return read
+
     def _pose_list(self, state: Floats | None, link: str) -> list[float]:
-        """The pose of a link; the origin, as in MoveIt, where it is not known."""
+        """Return the pose of a link; the origin, as in MoveIt, where it is not known."""
         name = link or self._poses.link
         if not name:
             LOG.error("No end-effector specified")
