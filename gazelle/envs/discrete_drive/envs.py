@@ -247,7 +247,8 @@ class HusarionEnv(DriveEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md), ``starts``, and ``goal``, another place (x, y) [m].
+    Those that every task takes (docs/gymnasium.md), ``starts``, and ``goal``, another place (x, y) [m], which
+    counts as it is seen, rounded to 0.1.
 
     ## Versions
 
