@@ -49,6 +49,8 @@ BYTES = 2 * 2**30
 POLL_S = 0.02
 SLOW_SEED_S = 2.0
 """A seed that takes longer than this, unbroken, is left out: its broken copies would take the time of others."""
+LEAST_WEIGHT = 6.0
+"""Of a reader of few files, of which one is as likely to be wrong."""
 SHOWN = 300
 MOST_BESIDE = 2**21
 """Of what is beside a file, so much is copied with it [bytes]."""
@@ -269,7 +271,7 @@ def laid_out(seed: Seed, folder: Path) -> Path:
 def chosen(by_reader: dict[str, list[Seed]], chance: random.Random) -> Seed:
     """Choose a reader, those of many files more often, and one of its files."""
     readers = sorted(by_reader)
-    weights = [len(by_reader[each]) ** 0.5 for each in readers]
+    weights = [max(LEAST_WEIGHT, len(by_reader[each]) ** 0.5) for each in readers]
     return chance.choice(by_reader[chance.choices(readers, weights)[0]])
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from gazelle.errors import ControlError, did_you_mean
+from gazelle.real_numbers import real
 
 
 class ControllerParameters(Mapping[str, Any]):
@@ -51,9 +52,10 @@ class ControllerParameters(Mapping[str, Any]):
             ControlError: It is something else, or missing without a default.
         """
         found = self._find(path, default)
-        if isinstance(found, bool) or not isinstance(found, int | float):
+        number = real(found)
+        if number is None:
             raise self.wrong(path, "a number", found)
-        return float(found)
+        return number
 
     def flag(self, path: str, *, default: bool | None = None) -> bool:
         """A bool.

@@ -12,6 +12,7 @@ from gazelle.description import Model, World
 from gazelle.engines import engine_names
 from gazelle.envs.limits import MAX_LIDAR_SAMPLES, MAX_STEPS
 from gazelle.errors import TaskError, did_you_mean
+from gazelle.real_numbers import real
 
 RENDER_MODES = ("rgb_array",)
 SPLITS = ("published", "training", "held-out")
@@ -217,9 +218,9 @@ def checked_mapping(name: str, value: object) -> Mapping[str, Any]:
 
 def check_up_to(name: str, value: object, most: float, unit: str) -> None:
     """Raise TaskError unless the value is a number from 0 on and not too large."""
-    good = isinstance(value, int | float) and not isinstance(value, bool)
-    if not good or not 0.0 <= float(value) <= most:  # type: ignore[arg-type]  # it is a number
-        raise TaskError(f"{name} must be from 0 to {most} {unit}, not {value!r}")
+    number = real(value)
+    if number is None or not 0.0 <= number <= most:
+        raise TaskError(f"{name} must be from 0 to {most} {unit}, not {value!r:.60}")
 
 
 def _check_time_step(value: object) -> None:

@@ -12,7 +12,7 @@ import io
 import os
 import threading
 import xml.dom.minidom as dom
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import MappingProxyType, TracebackType
 from typing import Any
@@ -205,18 +205,33 @@ def _patched(reading: Reading) -> Iterator[io.StringIO]:
     said = io.StringIO()
     symbols = engine._global_symbols  # noqa: SLF001  # the package has no other way
     bounded: dict[str, Any] = {"range": expressions.bounded_range}
+    inner = symbols["xacro"]
     with contextlib.ExitStack() as stack:
         for names, values in (
             (vars(engine), {"parse": parse, "open": guarded_open, "eval_text": _eval_text}),
             (vars(engine), {"safe_eval": expressions.evaluate}),
             (vars(substitution_args), {"eval": expressions.evaluate_plain}),
-            (symbols, bounded),
+            (symbols, bounded | {"load_yaml": _once(symbols["load_yaml"])}),
+            (inner, {"load_yaml": _once(inner["load_yaml"])}),
             (symbols["python"], bounded | {"vars": expressions.no_vars}),
         ):
             stack.enter_context(xacro_engine.replaced(names, values))
         stack.enter_context(xacro_engine.adapted(find, _reporter(reading)))
         stack.enter_context(contextlib.redirect_stderr(said))
         yield said
+
+
+def _once(load: Callable[[str], Any]) -> Callable[[str], Any]:
+    """Return a function that loads a YAML file once, however many macros ask for it."""
+    loaded: dict[str, Any] = {}
+
+    def load_once(filename: str) -> Any:
+        path = engine.abs_filename_spec(filename)
+        if path not in loaded:
+            loaded[path] = load(filename)
+        return loaded[path]
+
+    return load_once
 
 
 def _reporter(reading: Reading) -> xacro_engine.Report:

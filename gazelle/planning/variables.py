@@ -9,6 +9,7 @@ from typing import Any
 
 from gazelle.description import Joint
 from gazelle.errors import PlanningError, did_you_mean
+from gazelle.real_numbers import real
 
 _PARAMETERS = (
     "has_position_limits",
@@ -125,6 +126,7 @@ def bounds_of(joint: Joint) -> JointBounds:
 
 def _number(given: Mapping[str, Any], name: str, default: float, joint: str) -> float:
     value = given.get(name, default)
-    if isinstance(value, bool) or not isinstance(value, int | float) or math.isnan(value):
-        raise PlanningError(f"'{name}' of joint '{joint}' is a number, not {value!r}")
-    return float(value)
+    number = real(value)
+    if number is None or math.isnan(number):
+        raise PlanningError(f"'{name}' of joint '{joint}' is a number, not {value!r:.60}")
+    return number

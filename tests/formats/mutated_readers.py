@@ -5,6 +5,7 @@ Readers return nothing; they raise what Gazelle raises.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import json
 import re
@@ -12,6 +13,8 @@ import shutil
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+
+import numpy as np
 
 import gazelle
 from gazelle import formats
@@ -147,11 +150,30 @@ def semantics(path: Path) -> None:
 
 def launch(path: Path) -> None:
     """A launch file; nothing is started."""
-    from gazelle.ros.launch import describing, load_launch
+    from gazelle.ros.launch import Packages, describing, load_launch
 
+    packages = Packages()
     plan = load_launch(path)
     describing.summary(plan)
     describing.arguments(plan)
+    describing.parameters(plan, packages)
+    for node in plan.nodes:
+        with contextlib.suppress(gazelle.Error):  # most packages are not there
+            describing.command(node, packages, "http://localhost:1")
+
+
+def manifest(path: Path) -> None:
+    """A package's manifest, as all of its readers read it."""
+    from gazelle.formats.packages import exported_model_paths
+    from gazelle.package_folders import package_name
+    from gazelle.ros.compat.rospkg import InvalidManifest
+    from gazelle.ros.compat.rospkg.manifest import parse_manifest_file
+
+    package_name(path.parent)
+    list(exported_model_paths(path.parent))
+    formats.Resolver([path.parent]).find("model://no_such")
+    with contextlib.suppress(InvalidManifest):  # rospkg's own
+        parse_manifest_file(str(path.parent)).get_export("gazebo_ros", "plugin_path")
 
 
 @functools.cache
@@ -225,8 +247,6 @@ def recording(path: Path) -> None:
 
 def policy(path: Path) -> None:
     """A policy and its contract."""
-    import numpy as np
-
     from gazelle.training.actor import load_actor
     from gazelle.training.policy_files import load_policy
 
@@ -265,7 +285,7 @@ READERS: dict[str, Callable[[Path], None]] = {
     for each in (
         *(description, robot, stage, stage_part, occupancy, map_picture, mesh, texture, material),
         *(model_folder, semantics, launch, rosparam, controllers, joint_limits, navigation, bag),
-        *(recording, policy, run, checkpoint, sweep),
+        *(manifest, recording, policy, run, checkpoint, sweep),
     )
 }
 
@@ -283,6 +303,7 @@ _BY_SUFFIX = {
     ".material": ("words", "material"),
     **dict.fromkeys((".png", ".jpg", ".tga", ".bmp"), ("bytes", "texture")),
 }
+_BY_NAME = {"model.config": "model_folder", "package.xml": "manifest"}
 _YAML = {
     "joint_limits": "joint_limits",
     "control": "controllers",
@@ -306,8 +327,8 @@ def seeds(folder: Path) -> Iterator[Seed]:
 
 def _kind(file: Path) -> tuple[str, str] | None:
     suffix = file.suffix.lower()
-    if file.name == "model.config":
-        return "xml", "model_folder"
+    if file.name in _BY_NAME:
+        return "xml", _BY_NAME[file.name]
     if suffix == ".world" and is_stage(file.read_bytes(), suffix):
         return "words", "stage"
     if file.name.endswith(".launch.xml"):
@@ -330,7 +351,9 @@ def make_seeds(folder: Path) -> Iterator[Seed]:
         (small / name).write_bytes(mutations.as_bytes(content))
     yield from seeds(small)
     yield Seed(_bag(folder / "bag"), "bytes", "bag")
-    yield Seed(_recording(folder / "recording"), "json", "recording")
+    for engine in ("mujoco", "planar"):
+        yield Seed(_recording(folder / engine, engine), "json", "recording")
+    yield from _map_pictures(folder / "pictures")
     yield from _run(folder / "run")
     plan = folder / "sweep" / "sweep.yaml"
     plan.parent.mkdir()
@@ -353,18 +376,35 @@ def _bag(folder: Path) -> Path:
     return folder / "a.bag"
 
 
-def _recording(folder: Path) -> Path:
+def _recording(folder: Path, engine: str) -> Path:
     folder.mkdir()
     file = folder / "run.jsonl"
-    with gazelle.Simulation("turtlebot3_burger", nworld=2) as sim, sim.record(file):
+    burger = formats.load_model("turtlebot3_burger")
+    with gazelle.Simulation(burger, engine, nworld=2) as sim, sim.record(file):
         robot = sim.robots["turtlebot3_burger"]
         robot.inputs["cmd_vel"].send(linear=0.2, angular=0.1)
         sim.step(20)
         robot.set_pose((0.0, 1.0, 0.1))
+        sim.spawn(burger, name="other", pose=gazelle.Pose(2.0, 0.0, 0.1))
         sim.step(3)
+        next(iter(robot.links.values())).set_twist((0.1, 0.0, 0.0), (0.0, 0.0, 0.1), worlds=np.array([1]))
+        sim.delete("other")
         sim.reset([0])
         sim.step(3)
     return file
+
+
+def _map_pictures(folder: Path) -> Iterator[Seed]:
+    """Write the picture of a map in each format that maps have."""
+    from PIL import Image
+
+    folder.mkdir()
+    rows = np.full((12, 16), 254, np.uint8)
+    rows[:, 0], rows[3, 4:9] = 0, 205
+    for suffix in ("png", "bmp", "jpg", "gif", "tif", "pgm"):
+        file = folder / f"map.{suffix}"
+        Image.fromarray(rows).save(file)
+        yield Seed(file, "bytes", "map_picture")
 
 
 def _run(folder: Path) -> Iterator[Seed]:

@@ -3,7 +3,7 @@
 import pytest
 from xml_samples import INERTIAL
 
-from gazelle import FormatError, formats
+from gazelle import FormatError, bounded_yaml, formats
 from gazelle.errors import FormatWarning
 
 NAMESPACE = "xmlns:xacro='http://www.ros.org/wiki/xacro'"
@@ -224,3 +224,23 @@ def test_tags_without_prefix_are_expanded_as_in_melodic(tmp_path, text, tag):
 def test_elements_with_the_name_of_a_macro_stay_themselves(text):
     model = formats.load_model_string(f"<robot name='r' {NAMESPACE}>{text}</robot>")
     assert [link.name for link in model.links] == ["base"]
+
+
+def test_macros_share_what_they_load(tmp_path, monkeypatch):
+    (tmp_path / "sizes.yaml").write_text("small: {x: 0.5}\n")
+    file = tmp_path / "many.xacro"
+    file.write_text(
+        f"<robot name='r' {NAMESPACE}><xacro:macro name='part' params='n'>"
+        "<xacro:property name='all' value=\"${xacro.load_yaml('sizes.yaml')}\"/>"
+        "<visual name='part_${n}'><geometry>"
+        "<sphere radius=\"${n * all['small']['x']}\"/></geometry></visual></xacro:macro>"
+        f"<link name='base'>{INERTIAL}"
+        + "".join(f"<xacro:part n='{number}'/>" for number in range(1, 21))
+        + "</link></robot>"
+    )
+    parsed = []
+    compose = bounded_yaml.compose
+    monkeypatch.setattr(bounded_yaml, "compose", lambda text: parsed.append(1) or compose(text))
+    (link,) = formats.load(file).models[0].links
+    assert [visual.geometry.radius for visual in link.visuals] == [n / 2 for n in range(1, 21)]
+    assert len(parsed) == 1

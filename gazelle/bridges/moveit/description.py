@@ -9,6 +9,7 @@ from typing import Any
 from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.formats import load_model_string, load_srdf_string
 from gazelle.planning import JointBounds, RobotModel
+from gazelle.real_numbers import real
 from gazelle.ros.node import Node
 
 DESCRIPTION = "robot_description"
@@ -67,9 +68,10 @@ def margins_of_parameters(
 
 
 def _number(value: Any, name: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise PlanningError(f"the parameter '{name}' is a number, not {value!r}")
-    return float(value)
+    number = real(value)
+    if number is None:
+        raise PlanningError(f"the parameter '{name}' is a number, not {value!r:.60}")
+    return number
 
 
 def find_parameter(node: Node, name: str, default: Any) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.planning.planner_names import BOUND, planner_of
 from gazelle.planning.state_validity import LONGEST_SEGMENT
+from gazelle.real_numbers import real
 from gazelle.ros.node import Node
 
 PIPELINE = "ompl"
@@ -55,7 +56,8 @@ class PlannerSettings:
     def segment(self, group: str) -> float:
         """Distance of checked states, as a fraction of the extent."""
         value = self._group(group).get("longest_valid_segment_fraction", LONGEST_SEGMENT)
-        return float(value) if isinstance(value, int | float) and value > 0.0 else LONGEST_SEGMENT
+        number = real(value)
+        return number if number is not None and number > 0.0 else LONGEST_SEGMENT
 
     def parameters(self, config: str, group: str) -> dict[str, str]:
         """Return the parameters of a planner's configuration and its group; empty without any."""

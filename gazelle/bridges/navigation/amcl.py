@@ -27,6 +27,7 @@ from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
 from gazelle.navigation.localization.odometry_models import MODELS
 from gazelle.navigation.localization.settings import LASER_MODELS
 from gazelle.navigation.planners.planar import between, composed
+from gazelle.real_numbers import finite
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.ros.messages import load_message, load_service
@@ -143,8 +144,8 @@ class AmclNode:
 
         def number(name: str, default: float) -> float:
             value = node.get_param(f"~{name}", default)
-            good = isinstance(value, int | float) and math.isfinite(value)
-            return float(value) if good else default
+            number = finite(value)
+            return default if number is None else number
 
         pose = tuple(number(f"initial_pose_{axis}", 0.0) for axis in "xya")
         spread = [

@@ -14,6 +14,7 @@ from gazelle.navigation.costmap.inflation_layer import InflationLayer
 from gazelle.navigation.costmap.obstacle_layer import ObservationSource, ObstacleLayer
 from gazelle.navigation.costmap.static_layer import StaticLayer
 from gazelle.navigation.costmap.voxel_layer import VoxelLayer
+from gazelle.real_numbers import real
 
 Values = Mapping[str, Any]
 
@@ -76,13 +77,14 @@ def value_of(values: Values, name: str, default: Any) -> Any:
     """
     found = values.get(name, default)
     kind = type(default)
-    if kind is float and isinstance(found, int | float) and not isinstance(found, bool):
-        return float(found)
-    if kind is int and isinstance(found, float) and found == int(found):
+    number = real(found)
+    if kind is float and number is not None:
+        return number
+    if kind is int and isinstance(found, float) and found.is_integer():
         return int(found)
     if isinstance(found, kind) and not (kind is int and isinstance(found, bool)):
         return found
-    raise Error(f"the parameter '{name}' is a {kind.__name__}, not {found!r}")
+    raise Error(f"the parameter '{name}' is a {kind.__name__}, not {found!r:.60}")
 
 
 def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:

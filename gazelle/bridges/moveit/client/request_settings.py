@@ -6,6 +6,7 @@ from typing import Any
 
 from gazelle.bridges.moveit.client.session import LOG
 from gazelle.bridges.moveit.description import DESCRIPTION, find_parameter
+from gazelle.real_numbers import real
 from gazelle.ros import names
 from gazelle.ros.messages import load_message
 from gazelle.ros.node import Node
@@ -61,8 +62,8 @@ class RequestSettings:
     def _number(self, name: str, default: float) -> float:
         full = names.join(self._namespace, f"{self._description}{name}")
         found = find_parameter(self._node, full, default)
-        numeric = isinstance(found, int | float) and not isinstance(found, bool)
-        return float(found) if numeric else default
+        number = real(found)
+        return default if number is None else number
 
     def set_factor(self, kind: str, value: float) -> None:
         """Set a factor: at most 1, and the default where it is not above zero."""
