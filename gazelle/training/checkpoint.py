@@ -13,10 +13,12 @@ without the break, as long as the environment can save its state.
 
 from __future__ import annotations
 
+import contextlib
 import io
 import pickle
 import random
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -86,7 +88,7 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
     """
     state = portable.load(folder / "state")
     _set_torch_state(learner, folder / "learner.pt")
-    try:
+    with usable(folder):
         for name, value in state["counters"].items():
             setattr(learner, name, value)
         if "recurrent" in state:
@@ -98,13 +100,24 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
             learner.replay_buffer.set_state(state["memory"])
         _restore_environment(learner, state)
         _set_generators(learner, state["generators"])
+        extra: dict[str, Any] = state["extra"]
+    return extra
+
+
+@contextlib.contextmanager
+def usable(folder: Path) -> Iterator[None]:
+    """Refuse a checkpoint whose state does not fit what it is given to in the block.
+
+    Raises:
+        FormatError: It does not.
+    """
+    try:
+        yield
     except (ArithmeticError, AttributeError, LookupError, ValueError, TypeError) as error:
         hint = "it is damaged, or was written by another version"
         raise FormatError(
             f"cannot use the checkpoint: {error}", file=str(folder), hint=hint
         ) from error
-    extra: dict[str, Any] = state["extra"]
-    return extra
 
 
 def _plain(part: tuple[torch.Tensor, ...]) -> list[Any]:

@@ -34,6 +34,8 @@ def check_numbers(values: Any) -> None:
             _check_whole(each.name, value, _MOST)
         elif kind == "float":
             _check_real(each.name, value)
+        elif kind == "str" and not isinstance(value, str):
+            raise TaskError(f"{each.name} must be text, not {value!r:.60}")
         elif kind == "bool" and not isinstance(value, bool):
             raise TaskError(f"{each.name} must be true or false, not {value!r}")
         elif kind == "tuple[int, ...]":

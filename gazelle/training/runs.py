@@ -118,7 +118,7 @@ class Run:
             raise FormatError("no run here: there is no config.json", file=str(folder), hint=hint)
         try:
             return Run(folder, _config_from_dict(json.loads(file.read_text(encoding="utf-8"))))
-        except (ValueError, KeyError, TypeError, TaskError) as error:
+        except (ArithmeticError, LookupError, TypeError, ValueError, TaskError) as error:
             raise FormatError(f"not a run's configuration: {error}", file=str(file)) from error
 
     def checkpoints(self) -> list[Path]:
@@ -230,7 +230,7 @@ def _config_from_dict(values: dict[str, Any]) -> RunConfig:
         checkpoint_every=int(values["checkpoint_every"]),
         eval_every=int(values.get("eval_every", 0)),
         eval_episodes=int(values.get("eval_episodes", 100)),
-        callbacks=tuple(values.get("callbacks", ())),
+        callbacks=tuple(map(str, values.get("callbacks", ()))),
         imports=modules_from_list(values.get("imports", [])),
         sharded=bool(values.get("sharded", False)),
     )

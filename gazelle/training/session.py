@@ -15,7 +15,7 @@ import torch
 from gazelle.errors import TaskError, TaskWarning
 from gazelle.interrupts import stopping
 from gazelle.training.callback import StopRequested, TrainingCallback
-from gazelle.training.checkpoint import read_checkpoint
+from gazelle.training.checkpoint import read_checkpoint, usable
 from gazelle.training.contracts import contract_of, save_contract
 from gazelle.training.demonstrations import with_demonstrator_found
 from gazelle.training.importing import TaskModule, load_all
@@ -251,7 +251,8 @@ class _Session:
             callback = TrainingCallback(run, self.total, self.episodes, self.progress, stop)
             if checkpoint is not None:
                 extra = read_checkpoint(checkpoint, self.learner)
-                callback.set_state(extra, self.learner.num_timesteps)
+                with usable(checkpoint):
+                    callback.set_state(extra, self.learner.num_timesteps)
             before = self.learner.num_timesteps
             callback.attach(self.learner)
             self.callbacks = [callback, *make_callbacks(run.config.callbacks)]

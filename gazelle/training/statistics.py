@@ -202,4 +202,5 @@ class EpisodeLog:
 
     def set_state(self, state: dict[str, Any]) -> None:
         """Continue an account that `get_state` returned."""
-        self._rows, self.total = np.array(state["rows"]), int(state["total"])
+        rows = np.array(state["rows"], np.float64)
+        self._rows, self.total = rows.reshape(-1, len(_COLUMNS)), int(state["total"])

@@ -387,7 +387,9 @@ def _recording(folder: Path, engine: str) -> Path:
         robot.set_pose((0.0, 1.0, 0.1))
         sim.spawn(burger, name="other", pose=gazelle.Pose(2.0, 0.0, 0.1))
         sim.step(3)
-        next(iter(robot.links.values())).set_twist((0.1, 0.0, 0.0), (0.0, 0.0, 0.1), worlds=np.array([1]))
+        next(iter(robot.links.values())).set_twist(
+            (0.1, 0.0, 0.0), (0.0, 0.0, 0.1), worlds=np.array([1])
+        )
         sim.delete("other")
         sim.reset([0])
         sim.step(3)

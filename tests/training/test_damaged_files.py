@@ -13,7 +13,8 @@ from gazelle.bounded_npz import MAX_BYTES
 from gazelle.errors import Error, FormatError
 from gazelle.training import portable
 from gazelle.training.actor import Actor, load_actor
-from gazelle.training.checkpoint import _set_torch_state
+from gazelle.training.checkpoint import _set_torch_state, usable
+from gazelle.training.statistics import EpisodeLog
 
 
 def policy(tmp_path):
@@ -130,3 +131,11 @@ def test_a_state_with_bytes_changed_is_read_or_refused(tmp_path, seed):
     file.write_bytes(data)
     with contextlib.suppress(Error):
         portable.load(tmp_path / "state")
+
+
+@pytest.mark.parametrize("rows", [[1.0, 2.0], 3.0, "a", [[1.0]], [[1.0] * 7], None])
+def test_an_account_of_another_shape_is_refused(tmp_path, rows):
+    with pytest.raises(FormatError, match="cannot use the checkpoint"), usable(tmp_path):
+        EpisodeLog().set_state({"rows": rows, "total": 1})
+    with pytest.raises(FormatError, match="cannot use the checkpoint"), usable(tmp_path):
+        EpisodeLog().set_state({"rows": np.zeros((0, 6)), "total": float("inf")})

@@ -98,9 +98,13 @@ class Costmap:
         self.set_footprint(footprint)
         if not resolution > 0.0:
             raise Error(f"the resolution of a costmap must be positive, not {resolution:g}")
+        if not all(map(math.isfinite, (width, height, *origin))):
+            raise Error(
+                f"a costmap has a finite size and origin, not {width:g} m x {height:g} m at "
+                f"({origin[0]:g}, {origin[1]:g})"
+            )
         columns, rows = (
-            math.floor(width / resolution + 1e-6),
-            math.floor(height / resolution + 1e-6),
+            math.floor(min(side / resolution + 1e-6, _MOST_CELLS + 1.0)) for side in (width, height)
         )
         self.resize(rows, columns, resolution, origin)
         for layer in layers:

@@ -401,3 +401,20 @@ def test_wrong_parameters_are_named(wrong, match):
 def test_costs_are_shown_as_ros_shows_them():
     costs = np.array([[0, 1, 127, 252, 253, 254, 255]], np.uint8)
     assert shown(costs).tolist() == [[0, 1, 49, 98, 99, 100, -1]]
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"width": math.nan},
+        {"height": math.inf},
+        {"width": 1e308, "resolution": 1e-3},
+        {"resolution": 1e-320},
+        {"resolution": math.nan},
+        {"width": 10**400},
+        {"origin_x": math.nan},
+    ],
+)
+def test_sizes_that_no_map_has_are_refused(values):
+    with pytest.raises(Error):
+        costmap_of(values)
