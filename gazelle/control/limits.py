@@ -10,9 +10,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
-from gazelle.array_types import Floats
 from gazelle.control.limit_law import LimitLaw
 from gazelle.control.parameters import ControllerParameters
 from gazelle.description import Joint, SafetyController
@@ -134,79 +131,3 @@ def limit_law(limits: Sequence[JointLimits]) -> LimitLaw:
         ],
     }
     return LimitLaw(columns)
-
-
-class PositionLimiter:
-    """Holds position commands within limits, from the command before: it does not look at the joint.
-
-    Args:
-        limits: Of the joints, shape (n,).
-        nworld: Number of worlds.
-
-    Attributes:
-        previous: The last commands [m or rad], shape (nworld, n); NaN before the first.
-    """
-
-    def __init__(self, limits: Sequence[JointLimits], nworld: int) -> None:
-        self._law = limit_law(limits)
-        self.previous: Floats = np.full((nworld, len(limits)), math.nan)
-
-    def enforce(self, command: Floats, position: Floats, dt: float) -> Floats:
-        """Return the limited command, shape (nworld, n).
-
-        Args:
-            command: What is wanted [m or rad], likewise.
-            position: Where the joints are [m or rad], likewise.
-            dt: Since the last time [s].
-        """
-        self.previous = self._law.hold_positions(command, position, self.previous, dt)
-        return self.previous
-
-
-class VelocityLimiter:
-    """Holds velocity commands within limits.
-
-    Args:
-        limits: Of the joints, shape (n,).
-        nworld: Number of worlds.
-
-    Attributes:
-        previous: The last commands [m/s or rad/s], shape (nworld, n).
-    """
-
-    def __init__(self, limits: Sequence[JointLimits], nworld: int) -> None:
-        self._law = limit_law(limits)
-        self.previous: Floats = np.zeros((nworld, len(limits)))
-
-    def enforce(self, command: Floats, position: Floats, velocity: Floats, dt: float) -> Floats:
-        """Return the limited command, shape (nworld, n).
-
-        Args:
-            command: What is wanted [m/s or rad/s], likewise.
-            position: Where the joints are [m or rad], likewise.
-            velocity: How fast they are [m/s or rad/s], likewise.
-            dt: Since the last time [s].
-        """
-        self.previous = self._law.hold_velocities(command, position, velocity, self.previous, dt)
-        return self.previous
-
-
-class EffortLimiter:
-    """Holds efforts within limits; beyond a limit of position or velocity only what leads back is let by.
-
-    Args:
-        limits: Of the joints, shape (n,).
-    """
-
-    def __init__(self, limits: Sequence[JointLimits]) -> None:
-        self._law = limit_law(limits)
-
-    def enforce(self, command: Floats, position: Floats, velocity: Floats) -> Floats:
-        """Return the limited command, shape (nworld, n).
-
-        Args:
-            command: What is wanted [N or N m], likewise.
-            position: Where the joints are [m or rad], likewise.
-            velocity: How fast they are [m/s or rad/s], likewise.
-        """
-        return self._law.hold_efforts(command, position, velocity)

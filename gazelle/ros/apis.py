@@ -98,11 +98,6 @@ def _call(name: str, method: Method, caller: str, arguments: list[Any]) -> Tripl
         return 0, f"Internal failure: {error}", method.failure
 
 
-def anything(_label: str, value: Any, _caller: str) -> Any:
-    """Any value."""
-    return value
-
-
 def text(label: str, value: Any, _caller: str) -> str:
     """A string, empty or not."""
     if not isinstance(value, str):

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gazelle.control.angles import distance, normalized, shortest
-from gazelle.control.limits import EffortLimiter, JointLimits, PositionLimiter, VelocityLimiter
+from gazelle.control.limits import JointLimits, limit_law
 from gazelle.description import Joint, JointAxis, SafetyController
 from gazelle.errors import ControlError
 
@@ -24,19 +24,21 @@ ONE = np.ones((1, 1))
 
 
 def position(limits, wanted, *, at=0.0, dt=TICK, times=1):
-    limiter = PositionLimiter([limits], 1)
+    law, got = limit_law([limits]), math.nan * ONE
     for _ in range(times):
-        got = limiter.enforce(wanted * ONE, at * ONE, dt)
+        got = law.hold_positions(wanted * ONE, at * ONE, got, dt)
     return got[0, 0]
 
 
 def effort(limits, wanted, at=0.0, speed=0.0):
-    return EffortLimiter([limits]).enforce(wanted * ONE, at * ONE, speed * ONE)[0, 0]
+    return limit_law([limits]).hold_efforts(wanted * ONE, at * ONE, speed * ONE)[0, 0]
 
 
 def velocity(limits, *wanted, at=0.0, speed=0.0, dt=TICK):
-    limiter = VelocityLimiter([limits], 1)
-    return [limiter.enforce(each * ONE, at * ONE, speed * ONE, dt)[0, 0] for each in wanted]
+    law, got = limit_law([limits]), [0.0 * ONE]
+    for each in wanted:
+        got.append(law.hold_velocities(each * ONE, at * ONE, speed * ONE, got[-1], dt))
+    return [each[0, 0] for each in got[1:]]
 
 
 def test_positions_move_at_most_at_the_velocity_limit_from_the_command_before():
@@ -116,24 +118,25 @@ WIDE = st.floats(-1e6, 1e6)
 
 @given(LIMITS, st.lists(WIDE, min_size=1), st.floats(-0.4, 0.4), st.floats(-5.0, 5.0))
 def test_no_command_is_ever_beyond_its_limits(limits, wanted, at, speed):
-    positions, speeds = PositionLimiter([limits], 1), VelocityLimiter([limits], 1)
+    law, place, speeds = limit_law([limits]), math.nan * ONE, 0.0 * ONE
     before, step = at, limits.velocity * 0.01
     for each in wanted:
-        got = positions.enforce(each * ONE, at * ONE, 0.01)[0, 0]
+        place = law.hold_positions(each * ONE, at * ONE, place, 0.01)
+        got = place[0, 0]
         assert limits.lower <= got <= limits.upper
         assert abs(got - before) <= step + 1e-12
         before = got
         assert abs(effort(limits, each, at, speed)) <= limits.effort
-        got = speeds.enforce(each * ONE, at * ONE, 0.0 * ONE, 0.01)[0, 0]
-        assert abs(got) <= limits.velocity
+        speeds = law.hold_velocities(each * ONE, at * ONE, 0.0 * ONE, speeds, 0.01)
+        assert abs(speeds[0, 0]) <= limits.velocity
 
 
 @given(st.lists(LIMITS, min_size=1, max_size=4), st.lists(WIDE, min_size=8, max_size=8))
 def test_joints_and_worlds_do_not_depend_on_each_other(limits, values):
     wanted = np.array(values).reshape(2, 4)[:, : len(limits)]
     zero = np.zeros_like(wanted)
-    together = EffortLimiter(limits).enforce(wanted, zero, zero)
-    moved = PositionLimiter(limits, 2).enforce(wanted, zero, TICK)
+    together = limit_law(limits).hold_efforts(wanted, zero, zero)
+    moved = limit_law(limits).hold_positions(wanted, zero, zero + math.nan, TICK)
     for column, each in enumerate(limits):
         for world in range(2):
             assert together[world, column] == effort(each, wanted[world, column])

@@ -54,11 +54,6 @@ class InflationLayer(Layer):
         """Work the costs of distances out again."""
         self._prepare(costmap)
 
-    def set_inflation(self, radius: float, scaling: float, costmap: Costmap) -> None:
-        """Take other parameters."""
-        self.radius, self.scaling = radius, scaling
-        self._prepare(costmap)
-
     def cost_of(self, distance: float, costmap: Costmap) -> int:
         """The cost at a distance from an obstacle [m]."""
         if distance <= 0.0:

@@ -139,7 +139,6 @@ class MoveBase:
         self._oscillation_pose: Pose2 | None = None
         self._planned_at = -math.inf
         self._retries = 0
-        self._has_plan = False
 
     # A cycle ------------------------------------------------------------------------------
 
@@ -215,7 +214,7 @@ class MoveBase:
         self._planned_at = time
         plan = np.zeros((0, 3)) if goal is None else self.planner.make_plan(state.in_whole, goal)
         if len(plan):
-            self._last_plan, self._retries, self._has_plan = time, 0, True
+            self._last_plan, self._retries = time, 0
             if self._trigger is _Trigger.PLANNING:
                 self._recovery_index = 0
             if self.phase is Phase.PLANNING:

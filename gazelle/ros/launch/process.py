@@ -58,7 +58,6 @@ class NodeProcess:
         start: How it is started.
 
     Attributes:
-        started_at: When it was last started, on the monotonic clock.
         ended_at: When it was last seen to have ended; None while it runs.
         spawned: How often it was started.
     """
@@ -67,7 +66,6 @@ class NodeProcess:
         self.plan = plan
         self.name = name
         self.how = start
-        self.started_at = 0.0
         self.ended_at: float | None = None
         self.spawned = 0
         self._process: subprocess.Popen[bytes] | None = None
@@ -104,7 +102,6 @@ class NodeProcess:
         finally:
             if log is not None:
                 log.close()
-        self.started_at = time.monotonic()
         self.ended_at = None
         self.spawned += 1
 

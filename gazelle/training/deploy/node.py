@@ -97,11 +97,6 @@ class DeployNode(Closeable):
         self._watch = threading.Thread(target=self._watch_master, daemon=True)
         self._watch.start()
 
-    @property
-    def guard_pid(self) -> int:
-        """Of the guard's process."""
-        return self._guard.pid
-
     def arm(self) -> str | None:
         """Let the robot drive; returns why it may not, or None."""
         with self._lock:
