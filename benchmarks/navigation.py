@@ -29,7 +29,7 @@ from gazelle.navigation.planners import NavfnPlanner
 from gazelle.navigation.planners.rollout import TrajectoryRollout, steps_of
 from gazelle.navigation.planners.wavefront import grid_distances
 from gazelle.navigation.true_map import true_map
-from gazelle.simulation.navigation_control import NavigationTask
+from gazelle.simulation.navigation import NavigationTask
 
 ANGLES = np.radians(np.arange(0.0, 360.0, 2.0))
 BURGER = footprint_of([[-0.105, -0.105], [-0.105, 0.105], [0.041, 0.105], [0.041, -0.105]])

@@ -28,7 +28,7 @@ from gazelle.sensors import LaserScan
 from gazelle.simulation import ModelPlugin, Robot, SensorUnit
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.inputs import chosen, one_world
-from gazelle.simulation.navigation_control import NavigationPlan
+from gazelle.simulation.navigation import NavigationPlan
 
 _SOURCES = ("truth", "amcl", "slam")
 _LOST_SEED = 7

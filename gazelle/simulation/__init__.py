@@ -3,11 +3,10 @@
 from gazelle.engines import Placement
 from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.clock import Clock, Schedule, Stopwatch
-from gazelle.simulation.faults import Fault
+from gazelle.simulation.divergence import Fault
 from gazelle.simulation.joint_array import JointArray
 from gazelle.simulation.joint_motion import JointMotion
 from gazelle.simulation.joints import JointHandle
-from gazelle.simulation.known_plugins import KnownPlugin
 from gazelle.simulation.link_array import LinkArray
 from gazelle.simulation.links import LinkHandle
 from gazelle.simulation.parameters import WorldParameters
@@ -20,6 +19,7 @@ from gazelle.simulation.plugin import (
     WorldPlugin,
 )
 from gazelle.simulation.plugin_system import PluginSystem, PublisherSystem
+from gazelle.simulation.plugin_table import KnownPlugin
 from gazelle.simulation.ports import FramePrefix, Input, Output, Ports, Service, TwistInput
 from gazelle.simulation.recording import Recorder
 from gazelle.simulation.registry import register

@@ -9,8 +9,8 @@ from gazelle.array_types import Worlds
 from gazelle.description import Model
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.loading import adopt, is_plain
+from gazelle.simulation.mappings import MadeOnDemand
 from gazelle.simulation.robot import Robot, RobotHost, SensorUnit
-from gazelle.simulation.robots import MadeOnDemand
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.world_kinds import WorldKind, find_world_kind
 

@@ -9,7 +9,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.engines import Wrench
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, finite, numbers, size_of
-from gazelle.simulation.retuning import set_parameters
+from gazelle.simulation.parameter_changes import set_parameters
 from gazelle.simulation.running_state import RunningState
 from gazelle.simulation.state_lock import between_steps
 

@@ -14,7 +14,7 @@ from gazelle.engines import Motion, Placement
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.rotations import from_yaw
 from gazelle.simulation.inputs import chosen, finite, motion, numbers, placement, size_of
-from gazelle.simulation.retuning import set_parameters
+from gazelle.simulation.parameter_changes import set_parameters
 from gazelle.simulation.running_state import RunningState
 from gazelle.simulation.state_lock import between_steps
 

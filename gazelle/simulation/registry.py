@@ -16,7 +16,7 @@ from gazelle import description
 from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean, located
 from gazelle.simulation.base_plugin import BasePlugin
-from gazelle.simulation.known_plugins import known_plugins
+from gazelle.simulation.plugin_table import known_plugins
 
 P = TypeVar("P", bound=type[BasePlugin])
 

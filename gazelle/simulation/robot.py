@@ -20,19 +20,19 @@ from gazelle.simulation.events import Events
 from gazelle.simulation.inputs import chosen, finite, motion, placement, size_of
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.links import LinkHandle, orientation_of
+from gazelle.simulation.mappings import Named
 from gazelle.simulation.model_handles import joint_handles, link_handles, name_within
-from gazelle.simulation.models import mounts, sensor_model
-from gazelle.simulation.named import Named
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.ports import Ports
 from gazelle.simulation.running_state import RunningState, StepMaker
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
+from gazelle.simulation.sensor_models import mounts, sensor_model
 from gazelle.simulation.sensors import SampledSensor
 from gazelle.simulation.state_lock import between_steps
 
 if TYPE_CHECKING:
-    from gazelle.simulation.navigation_control import NavigationControl
+    from gazelle.simulation.navigation import NavigationControl
 
 
 class RobotHost(RunningState, Protocol):
@@ -186,7 +186,7 @@ class Robot(Ports):
         Raises:
             SimulationError: The robot has no drive or no laser.
         """
-        from gazelle.simulation.navigation_port import navigation_of  # it needs robots itself
+        from gazelle.simulation.navigation import navigation_of  # it needs robots itself
 
         return navigation_of(self)
 

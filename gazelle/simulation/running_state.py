@@ -7,8 +7,8 @@ from typing import Protocol
 
 from gazelle.description import World
 from gazelle.engines import Engine
+from gazelle.simulation.applied_wrenches import Loads
 from gazelle.simulation.clock import Clock
-from gazelle.simulation.loads import Loads
 from gazelle.simulation.state_lock import StateLock
 from gazelle.simulation.systems_in_step import SystemsInStep
 

@@ -22,15 +22,15 @@ from gazelle.errors import SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.sensors import View
 from gazelle.simulation import inputs, pacing, saving
+from gazelle.simulation.applied_wrenches import Loads
 from gazelle.simulation.clock import NANOSECONDS, Clock
+from gazelle.simulation.divergence import Fault, FaultLog
 from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.events import Events
-from gazelle.simulation.faults import Fault, FaultLog
 from gazelle.simulation.lights import with_light
 from gazelle.simulation.links import LinkHandle
 from gazelle.simulation.loading import load_world_plugin
-from gazelle.simulation.loads import Loads
-from gazelle.simulation.named import Named
+from gazelle.simulation.mappings import Named
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.ports import Ports
@@ -39,8 +39,8 @@ from gazelle.simulation.robot import Robot
 from gazelle.simulation.scene_renderer import SceneRenderer
 from gazelle.simulation.scheduled_plugin import ScheduledPlugin
 from gazelle.simulation.state_lock import StateLock
-from gazelle.simulation.stepping import indices_of
-from gazelle.simulation.walking import CLOSED, StepLoop
+from gazelle.simulation.step_loop import CLOSED, StepLoop
+from gazelle.simulation.step_plan import indices_of
 from gazelle.streams import seed_of
 
 T = TypeVar("T")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines.planar import AstrayScanner, Fan, Fleet, Mount, Scanner
+from gazelle.engines.planar import AngleNoiseScanner, Fan, Fleet, Mount, Scanner
 from gazelle.native.system import System
 from gazelle.streams import Stream
 
@@ -112,5 +112,5 @@ class RangerScanner:
     def _make(self, *, named: bool) -> Scanner:
         fleet, fan, mounts, angle = self._fleet, self.fan, self._mounts, self._noise.angle
         if angle.any():
-            return AstrayScanner(fleet, fan, mounts, angle, named=named, seed=self._seed)
+            return AngleNoiseScanner(fleet, fan, mounts, angle, named=named, seed=self._seed)
         return Scanner(fleet, fan, mounts, named=named)

@@ -9,7 +9,7 @@ import pytest
 import gazelle
 from gazelle.description import World
 from gazelle.native.fair_lock import Turn
-from gazelle.simulation import walking
+from gazelle.simulation import step_loop
 
 STEP_S = 0.0004  # what a step takes, by a clock of the test
 
@@ -19,7 +19,7 @@ def sim(monkeypatch):
     """A simulation, and how many steps it makes at once."""
     sim, clock = gazelle.Simulation(World("w")), SimpleNamespace(now=100.0)
     ticking = SimpleNamespace(perf_counter=lambda: clock.now, process_time=lambda: clock.now)
-    monkeypatch.setattr(walking, "time", ticking)
+    monkeypatch.setattr(step_loop, "time", ticking)
     before, pieces, asked = sim.engine.step, [], []
 
     def step(count=1, systems=(), now_ns=0):
@@ -55,6 +55,6 @@ def test_what_other_programs_take_makes_pieces_no_shorter(sim, monkeypatch):
     ticking = SimpleNamespace(
         perf_counter=lambda: 20.0 * sim.wall.now, process_time=lambda: sim.wall.now
     )
-    monkeypatch.setattr(walking, "time", ticking)
+    monkeypatch.setattr(step_loop, "time", ticking)
     sim.step(1000)
     assert max(sim.pieces) * STEP_S > 0.005

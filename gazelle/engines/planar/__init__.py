@@ -8,7 +8,7 @@ from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
 
-from gazelle.engines.planar.astray import AstrayScanner
+from gazelle.engines.planar.angle_noise import AngleNoiseScanner
 from gazelle.engines.planar.drive_velocities import DriveVelocities
 from gazelle.engines.planar.engine import PlanarEngine
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
@@ -18,7 +18,7 @@ from gazelle.engines.planar.shapes import PrimitiveTable
 from gazelle.geometry.planar_part import PlanarPart
 
 __all__ = [
-    "AstrayScanner",
+    "AngleNoiseScanner",
     "Body",
     "Drive",
     "DriveVelocities",

@@ -16,15 +16,15 @@ from gazelle.engines.history import Call
 from gazelle.engines.laws import with_profile
 from gazelle.engines.limits import check_world, physics_step, whole_number
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar import refusals
-from gazelle.engines.planar.build import FleetInput, PlanarLayout
+from gazelle.engines.planar import unsupported
 from gazelle.engines.planar.fleet import Fleet
-from gazelle.engines.planar.joint_rows import PlanarJointRow, PlanarJointRows
-from gazelle.engines.planar.link_rows import PlanarLinkRow, PlanarLinkRows
-from gazelle.engines.planar.model_rows import PlanarModelRow, PlanarModelRows
+from gazelle.engines.planar.kinematics import FROZEN
+from gazelle.engines.planar.layout import FleetInput, PlanarLayout
 from gazelle.engines.planar.ray_casting import PlanarRays
-from gazelle.engines.planar.running import RunningPlane, rows_of
-from gazelle.engines.planar.skeleton import FROZEN
+from gazelle.engines.planar.tables.joints import PlanarJointRow, PlanarJointRows
+from gazelle.engines.planar.tables.links import PlanarLinkRow, PlanarLinkRows
+from gazelle.engines.planar.tables.models import PlanarModelRow, PlanarModelRows
+from gazelle.engines.planar.worlds import RunningPlane, rows_of
 from gazelle.engines.table import Table
 from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.system import System
@@ -98,9 +98,9 @@ class PlanarEngine:
         hanging = HangingLinks(lambda: run.recipe.world, self.links, self.joints, FROZEN)
         self.caster = rays.caster
         self.range_kind, self.range_table = rays.range_kind, rays.range_table
-        self.contacts = refusals.contacts
-        self.attach, self.detach = refusals.attach, refusals.detach
-        self.set_parameter = refusals.set_parameter
+        self.contacts = unsupported.contacts
+        self.attach, self.detach = unsupported.attach, unsupported.detach
+        self.set_parameter = unsupported.set_parameter
 
     def _kinematic(self, model: str) -> None:
         """Make a model kinematic by the engine's own call, which a recorder listens to."""
@@ -307,7 +307,7 @@ class PlanarEngine:
     def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
         """Gravity, as the world has it, shape (n, 3); the plane knows no other parameter."""
         if kind != "gravity" or name:
-            raise refusals.refuse(f"the parameter {kind}")
+            raise unsupported.refuse(f"the parameter {kind}")
         count = self.nworld if worlds is None else len(worlds)
         return np.tile(self.world.gravity, (count, 1))
 

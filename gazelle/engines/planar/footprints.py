@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from gazelle.array_types import Floats
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.clearing import turned
+from gazelle.engines.planar.clear_space_grid import turned
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.shapes import PrimitiveTable
 

@@ -11,8 +11,15 @@ import numpy as np
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.fans import Scanner
-from gazelle.engines.planar.rays import Caster, KeptCaster, RayFan, caster_of, check_level, fan_of
-from gazelle.engines.planar.running import RunningPlane
+from gazelle.engines.planar.ray_fans import (
+    Caster,
+    KeptCaster,
+    RayFan,
+    caster_of,
+    check_level,
+    fan_of,
+)
+from gazelle.engines.planar.worlds import RunningPlane
 from gazelle.engines.range_rays import RangeRays
 from gazelle.errors import EngineError
 from gazelle.native.system import System

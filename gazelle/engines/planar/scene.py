@@ -10,7 +10,12 @@ import numpy as np
 
 from gazelle.array_types import Floats, Ints32
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.clearing import Clearing, clearing_of, corners_of, listed
+from gazelle.engines.planar.clear_space_grid import (
+    ClearSpaceGrid,
+    clear_space_grid_of,
+    corners_of,
+    listed,
+)
 from gazelle.engines.planar.shapes import PrimitiveTable, primitives_of
 from gazelle.geometry.planar_part import PlanarPart
 
@@ -44,14 +49,14 @@ class StaticScene:
     near_grid: Floats
     near_start: Ints32
     near_items: Ints32
-    _clearings: dict[bool, Clearing] = field(default_factory=dict, init=False)
+    _clearings: dict[bool, ClearSpaceGrid] = field(default_factory=dict, init=False)
 
     @property
     def cells(self) -> int:
         """Number of cells."""
         return len(self.start) - 1
 
-    def clearing(self, *, solid: bool) -> Clearing:
+    def clearing(self, *, solid: bool) -> ClearSpaceGrid:
         """Return the clear space that beams can skip; it is made on the first call.
 
         Args:
@@ -59,7 +64,7 @@ class StaticScene:
                 they start.
         """
         if solid not in self._clearings:
-            self._clearings[solid] = clearing_of(self.table, solid=solid)
+            self._clearings[solid] = clear_space_grid_of(self.table, solid=solid)
         return self._clearings[solid]
 
 

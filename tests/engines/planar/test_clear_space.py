@@ -12,7 +12,7 @@ from gazelle.description import PlacedStageModel, StageBitmap, StageModel, Stage
 from gazelle.engines.planar import Body, Fan, Fleet, Mount, PlanarPart, Scanner
 from gazelle.engines.planar import scan_columns as k
 from gazelle.engines.planar.clear_space import measure_clear
-from gazelle.engines.planar.clearing import clearing_of
+from gazelle.engines.planar.clear_space_grid import clear_space_grid_of
 from gazelle.engines.planar.shapes import PrimitiveTable
 from gazelle.engines.planar.stage_walls import table_of
 from gazelle.stage.outlines import distances, outlines_of
@@ -165,8 +165,8 @@ def test_a_picture_of_a_million_cells_is_left_out_where_much_more_is_around_it()
         np.zeros(len(table.rows) + 1, np.int64),
         table.raster,
     )
-    assert clearing_of(table, solid=True).fine[k.SOLID_NAME] == 1.0
-    assert clearing_of(far, solid=True).fine[k.SOLID_NAME] == 0.0
+    assert clear_space_grid_of(table, solid=True).fine[k.SOLID_NAME] == 1.0
+    assert clear_space_grid_of(far, solid=True).fine[k.SOLID_NAME] == 0.0
 
 
 def test_nothing_static_is_clear_all_over():

@@ -1,4 +1,4 @@
-"""Read and set joints of MuJoCo's worlds, and their motors."""
+"""Rows of joints in MuJoCo's arrays, with their motors."""
 
 from __future__ import annotations
 

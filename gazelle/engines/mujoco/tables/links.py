@@ -1,4 +1,4 @@
-"""Read links of MuJoCo's worlds, and move and push single ones."""
+"""Rows of links in MuJoCo's arrays."""
 
 from __future__ import annotations
 

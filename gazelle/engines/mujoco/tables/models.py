@@ -1,4 +1,4 @@
-"""Read and move models of MuJoCo's worlds."""
+"""Rows of models in MuJoCo's arrays."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Step the physics from one scheduled thing to the next."""
+"""Order of updates between physics steps, and the number of steps to the next one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Change several physical parameters of one thing, or none of them."""
+"""Changes of several physical parameters at once, or of none."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Make physics steps, and between them what is due and what others ask for."""
+"""Step loop: physics steps, with updates and requests between them."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ import numpy as np
 from gazelle.engines import DivergenceError, Engine
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
+from gazelle.simulation.applied_wrenches import Loads
 from gazelle.simulation.clock import Schedule
+from gazelle.simulation.divergence import FaultLog
 from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.falling import FallWatch
-from gazelle.simulation.faults import FaultLog
-from gazelle.simulation.loads import Loads
 from gazelle.simulation.robot import RobotHost
 from gazelle.simulation.scheduled_systems import ScheduledSystem
-from gazelle.simulation.stepping import (
+from gazelle.simulation.step_plan import (
     Scheduled,
     StepPlan,
     set_due,

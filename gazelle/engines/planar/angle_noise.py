@@ -1,4 +1,4 @@
-"""Scanners whose beams go astray."""
+"""Scanners with noise on the angles of their beams."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from gazelle.engines.planar.scan_columns import ASTRAY
 _SHARE = 1000  # beams that are worth a thread
 
 
-class AstrayScanner(Scanner):
+class AngleNoiseScanner(Scanner):
     """A scanner with normal noise on the angle of every beam, new in every scan.
 
     The numbers are hashes of the seed, the body, the scan and the beam, so they are the same at

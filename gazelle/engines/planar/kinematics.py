@@ -1,4 +1,4 @@
-"""A model's links and joints: where each link is in the model's frame."""
+"""Forward kinematics of a model: poses of links in the model's frame."""
 
 from __future__ import annotations
 

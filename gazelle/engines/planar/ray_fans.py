@@ -1,4 +1,4 @@
-"""Rays that sensors ask for, as fans of beams in the plane."""
+"""Rays of sensors as fans of beams in the plane."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Read and set joints of planar worlds, and their motors."""
+"""Rows of joints in the arrays of planar worlds, with their motors."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.array_types import Bools, Floats, Indices, Worlds
-from gazelle.engines.planar.build import PlanarLayout
-from gazelle.engines.planar.refusals import refuse
-from gazelle.engines.planar.running import RunningPlane, rows_of
+from gazelle.engines.planar.layout import PlanarLayout
+from gazelle.engines.planar.unsupported import refuse
+from gazelle.engines.planar.worlds import RunningPlane, rows_of
 from gazelle.engines.reactions import Wrench
 from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError

@@ -1,4 +1,4 @@
-"""The table of the plugin libraries that Gazelle knows: what a row says, and where the table is.
+"""Table of the plugin libraries that Gazelle knows.
 
 The rows are in a room above, ``gazelle.plugins.table``, which is imported by its name when a
 description first has a plugin: this room runs plugins and knows none.

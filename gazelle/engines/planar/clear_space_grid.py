@@ -23,7 +23,7 @@ _MOST_CELLS = 1 << 22
 
 
 @dataclass(frozen=True, slots=True)
-class Clearing:
+class ClearSpaceGrid:
     """A grid over statics alone, and how far around each cell there are none.
 
     Attributes:
@@ -40,7 +40,7 @@ class Clearing:
     clear: NDArray[np.int8]
 
 
-def clearing_of(table: PrimitiveTable, *, solid: bool) -> Clearing:
+def clear_space_grid_of(table: PrimitiveTable, *, solid: bool) -> ClearSpaceGrid:
     """A grid with the cells of the table's bitmap, or some for each of the primitives.
 
     Args:
@@ -63,7 +63,7 @@ def clearing_of(table: PrimitiveTable, *, solid: bool) -> Clearing:
     return _measured(fine, start, items, np.zeros(columns * rows, np.int8))
 
 
-def _of_raster(table: PrimitiveTable, raster: Raster) -> Clearing | None:
+def _of_raster(table: PrimitiveTable, raster: Raster) -> ClearSpaceGrid | None:
     """The cells of a bitmap, and more around them where there is more; None if too many."""
     (x, y, yaw), (wide, deep) = raster.pose, raster.cell
     if min(wide, deep) < _LEAST:
@@ -112,10 +112,12 @@ def turned(rows: Floats, cos: float, sin: float, x: float, y: float) -> None:
     rows[circle, c.X1] = radius
 
 
-def _measured(fine: Floats, start: Ints32, items: Ints32, solid: NDArray[np.int8]) -> Clearing:
+def _measured(
+    fine: Floats, start: Ints32, items: Ints32, solid: NDArray[np.int8]
+) -> ClearSpaceGrid:
     clear = np.zeros(5 * len(solid), np.int8)
     measure_clear(solid, start, int(fine[k.COLUMNS]), clear)
-    return Clearing(fine, start, items, clear)
+    return ClearSpaceGrid(fine, start, items, clear)
 
 
 def _bounds(rows: Floats) -> tuple[Floats, Floats]:

@@ -1,4 +1,4 @@
-"""The planar worlds that run: what they were made of, their state, and when they are made anew."""
+"""Planar worlds that run: their description, their state, and when they are made again."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import World
 from gazelle.engines.limits import physics_step
-from gazelle.engines.planar.anatomy import Anatomy
-from gazelle.engines.planar.build import FleetInput, PlanarLayout, build, rolling_bases
+from gazelle.engines.planar.body_conversion import ConvertedModel
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.layout import FleetInput, PlanarLayout, build, rolling_bases
 from gazelle.engines.planar.rolling import Joints
 from gazelle.engines.planar.system_steps import SystemSteps
 from gazelle.engines.sections import LEVEL
@@ -156,7 +156,7 @@ class RunningPlane:
         rows = rows_of(worlds)
         return self.angles[rows, columns], self.rates[rows, columns]
 
-    def model(self, name: str) -> Anatomy:
+    def model(self, name: str) -> ConvertedModel:
         """The model of a name."""
         return _look_up("model", name, self.layout.models)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from gazelle.description import Model, Pose
 from gazelle.engines.planar.fleet import Body, Drive
-from gazelle.engines.planar.skeleton import Skeleton, skeleton_of
+from gazelle.engines.planar.kinematics import Skeleton, skeleton_of
 from gazelle.engines.sections import Levels, parts_of
 from gazelle.geometry.planar_part import PlanarPart
 
@@ -19,7 +19,7 @@ _HEIGHTS = (STEP, 0.5)  # at which robots bump, if there are none yet [m]
 
 
 @dataclass(frozen=True, slots=True)
-class Anatomy:
+class ConvertedModel:
     """A model and how it is in the plane.
 
     Attributes:
@@ -46,7 +46,7 @@ class Anatomy:
         return abs(self.tilt.quaternion[3]) < 1.0 - 1e-15
 
 
-class Anatomies(Mapping[str, Anatomy]):
+class ConvertedModels(Mapping[str, ConvertedModel]):
     """The models of a world by name; each is looked at when it is first asked for.
 
     Args:
@@ -57,12 +57,12 @@ class Anatomies(Mapping[str, Anatomy]):
     def __init__(self, models: Iterable[Model], kinematic: Collection[str]) -> None:
         self._models = {model.name: model for model in models}
         self._kinematic = kinematic
-        self._known: dict[str, Anatomy] = {}
+        self._known: dict[str, ConvertedModel] = {}
 
-    def __getitem__(self, name: str) -> Anatomy:
+    def __getitem__(self, name: str) -> ConvertedModel:
         found = self._known.get(name)
         if found is None:
-            found = anatomy_of(self._models[name], kinematic=name in self._kinematic)
+            found = convert_model(self._models[name], kinematic=name in self._kinematic)
             self._known[name] = found
         return found
 
@@ -86,7 +86,7 @@ class Anatomies(Mapping[str, Anatomy]):
         return len(self._models)
 
 
-def anatomy_of(model: Model, *, kinematic: bool) -> Anatomy:
+def convert_model(model: Model, *, kinematic: bool) -> ConvertedModel:
     """Look at a model.
 
     Raises:
@@ -100,7 +100,7 @@ def anatomy_of(model: Model, *, kinematic: bool) -> Anatomy:
     skeleton = skeleton_of(model, tilt, kinematic=kinematic)
     loose = not (model.static or kinematic or skeleton.held)
     z = _grounded(model, skeleton, tilt) if loose else pose.z
-    return Anatomy(model, skeleton, yaw, z, tilt, model.static and not kinematic, loose)
+    return ConvertedModel(model, skeleton, yaw, z, tilt, model.static and not kinematic, loose)
 
 
 def _grounded(model: Model, skeleton: Skeleton, tilt: Pose) -> float:
@@ -122,7 +122,7 @@ def _child(skeleton: Skeleton, joint: str) -> str:
     )
 
 
-def levels_of(models: Iterable[Anatomy], more: Iterable[float]) -> Levels:
+def levels_of(models: Iterable[ConvertedModel], more: Iterable[float]) -> Levels:
     """The heights at which to cut: of all lidars and of all that drives, and ``more`` rays."""
     rays, lows, highs = set(more), [], []
     for each in models:
@@ -139,7 +139,7 @@ def levels_of(models: Iterable[Anatomy], more: Iterable[float]) -> Levels:
     return Levels(tuple(sorted(rays)), low, max(high, low + STEP))
 
 
-def statics_of(each: Anatomy, levels: Levels) -> list[PlanarPart]:
+def statics_of(each: ConvertedModel, levels: Levels) -> list[PlanarPart]:
     """The parts of a model that never moves, in the world."""
     return [
         part
@@ -151,7 +151,7 @@ def statics_of(each: Anatomy, levels: Levels) -> list[PlanarPart]:
     ]
 
 
-def body_of(each: Anatomy, levels: Levels) -> Body:
+def body_of(each: ConvertedModel, levels: Levels) -> Body:
     """A model that moves as a body of a fleet."""
     own = levels.lowered(each.z)
     parts = [

@@ -1,4 +1,4 @@
-"""Read and move models of planar worlds."""
+"""Rows of models in the arrays of planar worlds."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from gazelle.array_types import Bools, Floats, Indices, Worlds
 from gazelle.description import Pose
 from gazelle.engines.motion import Placement
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.build import PlanarLayout
+from gazelle.engines.planar.layout import PlanarLayout
 from gazelle.engines.planar.paths import PathFollower
-from gazelle.engines.planar.running import RunningPlane, rows_of
 from gazelle.engines.planar.twist_commands import TwistCommands
+from gazelle.engines.planar.worlds import RunningPlane, rows_of
 from gazelle.engines.table import Lookup
 from gazelle.errors import EngineError
 from gazelle.native.paths import ModelPath

@@ -1,4 +1,4 @@
-"""A fleet made of a description, and where its models and joints are in it."""
+"""Construction of a fleet from a description, and places of models and joints in it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import Model, World
-from gazelle.engines.planar.anatomy import Anatomies, body_of, levels_of, statics_of
+from gazelle.engines.planar.body_conversion import ConvertedModels, body_of, levels_of, statics_of
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.shapes import joined, primitives_of
 from gazelle.engines.planar.stage_layout import StageLayout, layout_of
@@ -67,7 +67,7 @@ class PlanarLayout:
         stage: Models of Stage files, which move and are seen as in Stage.
     """
 
-    models: Anatomies
+    models: ConvertedModels
     bodies: dict[str, int]
     owners: dict[str, str]
     joints: dict[str, tuple[int, int]]
@@ -90,11 +90,11 @@ def build(recipe: FleetInput, nworld: int, threads: int | None) -> tuple[Fleet, 
         FormatError: A mesh cannot be read.
     """
     of_stage, others = _parted(recipe.world.models)
-    anatomies = Anatomies(others, recipe.kinematic)
-    movers = [each for each in anatomies.values() if not each.still]
+    converted = ConvertedModels(others, recipe.kinematic)
+    movers = [each for each in converted.values() if not each.still]
     stage = layout_of(of_stage, kinematic=recipe.kinematic, others=len(movers))
-    levels = levels_of(anatomies.values(), recipe.rays | _heights_of(stage))
-    parts = [part for each in anatomies.values() if each.still for part in statics_of(each, levels)]
+    levels = levels_of(converted.values(), recipe.rays | _heights_of(stage))
+    parts = [part for each in converted.values() if each.still for part in statics_of(each, levels)]
     profile = recipe.world.profile
     fleet = Fleet(
         [*stage.bodies, *(body_of(each, levels) for each in movers), *stage.riders],
@@ -108,8 +108,8 @@ def build(recipe: FleetInput, nworld: int, threads: int | None) -> tuple[Fleet, 
     names = [*stage.names, *(each.model.name for each in movers)]
     robots = {robot.name for robot in stage.robots}
     kinematic = recipe.kinematic.union(name for name in stage.names if name not in robots)
-    models = Anatomies(recipe.world.models, kinematic)
-    return fleet, _layout_of(models, list(anatomies), names, levels, stage)
+    models = ConvertedModels(recipe.world.models, kinematic)
+    return fleet, _layout_of(models, list(converted), names, levels, stage)
 
 
 def _parted(models: Iterable[Model]) -> tuple[list[Model], list[Model]]:
@@ -148,7 +148,7 @@ def rolling_bases(layout: PlanarLayout, motors: Iterable[str]) -> list[RollingBa
 
 
 def _layout_of(
-    models: Anatomies,
+    models: ConvertedModels,
     jointed: Iterable[str],
     movers: list[str],
     levels: Levels,

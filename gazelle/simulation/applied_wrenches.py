@@ -1,4 +1,4 @@
-"""Forces with a beginning and an end: wrenches on links and efforts on joints.
+"""Applied wrenches on links and efforts on joints, with a beginning and an end.
 
 A load acts from its start for its duration, both on simulated time; the physics is stepped
 from one beginning or end to the next. Several on one link or joint add up.

@@ -1,4 +1,4 @@
-"""Read and move links of planar worlds."""
+"""Rows of links in the arrays of planar worlds."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from gazelle.description import Pose
 from gazelle.engines.hanging_links import HangingLinks
 from gazelle.engines.motion import Hits, Motion, Placement
 from gazelle.engines.planar import columns as c
-from gazelle.engines.planar.build import PlanarLayout
-from gazelle.engines.planar.model_rows import PlanarModelRow
-from gazelle.engines.planar.rays import Caster
-from gazelle.engines.planar.refusals import refuse
-from gazelle.engines.planar.running import RunningPlane, rows_of
+from gazelle.engines.planar.layout import PlanarLayout
+from gazelle.engines.planar.ray_fans import Caster
+from gazelle.engines.planar.tables.models import PlanarModelRow
+from gazelle.engines.planar.unsupported import refuse
+from gazelle.engines.planar.worlds import RunningPlane, rows_of
 from gazelle.engines.table import Lookup
 from gazelle.rotations import conjugate, cross, from_yaw, multiply, rotate, unit
 

@@ -1,0 +1,1 @@
+"""Rows of links, joints and models in the arrays of planar worlds."""
