@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
-    from gazelle.bridges.stage import StageServer
+    from gazelle.stage.bridge import StageServer
 
 _PORT = 9090
 

@@ -35,9 +35,9 @@ from gazelle.errors import SimulationError
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
-    from gazelle.bridges.stage import StageServer
     from gazelle.description.stage import StageWorld
     from gazelle.simulation import Simulation
+    from gazelle.stage.bridge import StageServer
 
 _STATUS_EVERY = 0.5
 _SLICE = 0.05
@@ -238,8 +238,8 @@ def _advance(sim: Simulation, seconds: float | None, status: _Status) -> None:
 def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
     """Be a ROS node until Ctrl-C, the end of the time, or the master's word."""
     from gazelle.bridges import serve_ros
-    from gazelle.bridges.stage import serve_stage
     from gazelle.stage import StageFleet
+    from gazelle.stage.bridge import serve_stage
 
     if args.paused:
         sim.pause()

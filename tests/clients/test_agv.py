@@ -6,7 +6,6 @@ import threading
 import numpy as np
 import pytest
 
-from gazelle.bridges.stage import serve_stage
 from gazelle.clients import AGV, AGVFleet, ClientError
 from gazelle.description import World
 from gazelle.formats import load
@@ -15,6 +14,7 @@ from gazelle.ros import Master, Node
 from gazelle.ros.messages import UnknownTypeError, register
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
+from gazelle.stage.bridge import serve_stage
 
 WORLD = """
 interval_sim 100

@@ -14,13 +14,13 @@ from ros.real import INSTALLED, RealNode, tool
 
 import gazelle
 from gazelle import assets
-from gazelle.bridges.stage.naming import Naming
 from gazelle.formats import load_map
 from gazelle.navigation.move_base import navigation_stack
 from gazelle.navigation.true_map import true_map
 from gazelle.ros import Master
 from gazelle.ros.launch import load_launch
 from gazelle.stage import stage_of
+from gazelle.stage.bridge.naming import Naming
 
 PACKAGE = assets.root() / "fleet_stage"
 DEPOT = PACKAGE / "launch" / "depot.launch"

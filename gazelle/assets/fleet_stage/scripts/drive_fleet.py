@@ -94,10 +94,10 @@ def ring(turn: int) -> np.ndarray:
 def world(rate: float) -> Iterator[str]:
     """The bundled world on a graph of its own, run by a thread; its master."""
     from gazelle import assets
-    from gazelle.bridges.stage import serve_stage
     from gazelle.ros import Master
     from gazelle.simulation import Simulation
     from gazelle.stage import stage_of
+    from gazelle.stage.bridge import serve_stage
 
     with Master(port=0) as master, Simulation(assets.world("fleet"), "planar") as simulation:
         stalls: set[int] = set()

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Worlds
-from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import load_message
 from gazelle.stage import Actuator
+from gazelle.stage.bridge.place import GraphRobot
 
 
 class ActuatorTopics:

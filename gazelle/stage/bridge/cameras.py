@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Publisher, Time, load_message
 from gazelle.stage import MountedCamera, cameras_of
+from gazelle.stage.bridge.place import GraphRobot
 
 _MILLIMETRES = 1000.0
 

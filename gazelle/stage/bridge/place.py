@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, Publisher, Subscriber
 from gazelle.stage import StageFleet, StageRobot
+from gazelle.stage.bridge.naming import Naming
 
 _QUEUE = 10
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from gazelle.bridges.stage.naming import Naming
 from gazelle.ros import Node, load_service
 from gazelle.ros.messages import InvalidDefinitionError
 from gazelle.ros.messages.registry import package_names
 from gazelle.stage import StageFleet, StageRobot
+from gazelle.stage.bridge.naming import Naming
 
 USUAL_TYPE = "sim_agv/AgvPose"
 """Its response is float64 x, y [m] and angle [degrees]; the request is empty."""

@@ -6,11 +6,11 @@ import argparse
 import threading
 from collections.abc import Sequence
 
-from gazelle.bridges.stage.door import StageDoor
 from gazelle.interrupts import stopping
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
+from gazelle.stage.bridge.door import StageDoor
 
 
 def main(arguments: Sequence[str]) -> int:

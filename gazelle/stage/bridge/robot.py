@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bridges.stage.actuators import ActuatorTopics
-from gazelle.bridges.stage.cameras import CameraTopics
-from gazelle.bridges.stage.finders import FinderTopics
-from gazelle.bridges.stage.grippers import GripperTopics
-from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Publisher, Time, load_message
 from gazelle.stage import Ranger, StageFleet
+from gazelle.stage.bridge.actuators import ActuatorTopics
+from gazelle.stage.bridge.cameras import CameraTopics
+from gazelle.stage.bridge.finders import FinderTopics
+from gazelle.stage.bridge.grippers import GripperTopics
+from gazelle.stage.bridge.place import GraphRobot
 
 Values = list[float]
 

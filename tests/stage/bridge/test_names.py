@@ -2,7 +2,7 @@
 
 import pytest
 
-from gazelle.bridges.stage.naming import Naming
+from gazelle.stage.bridge.naming import Naming
 
 ONE = 'robot ( name "r" )'
 TWO = 'robot ( name "a" ) robot ( pose [2 0 0 0] )'

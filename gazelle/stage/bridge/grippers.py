@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.bridges.stage.place import GraphRobot
 from gazelle.ros import Time, load_message
 from gazelle.stage import COMMANDS
+from gazelle.stage.bridge.place import GraphRobot
 
 
 class GripperTopics:

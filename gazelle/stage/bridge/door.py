@@ -6,19 +6,19 @@ import threading
 import time
 from typing import Any
 
-from gazelle.bridges.stage.naming import Naming
-from gazelle.bridges.stage.parameters import read_parameters
-from gazelle.bridges.stage.place import GraphRobot
-from gazelle.bridges.stage.poses import PoseServices
-from gazelle.bridges.stage.robot import Messages, RobotInputs, RobotTopics, facts_of
-from gazelle.bridges.stage.services import Services
-from gazelle.bridges.stage.watchdog import Watchdog
 from gazelle.closing import Closeable
 from gazelle.ros import Node, Time, load_message
 from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Simulation
 from gazelle.simulation.clock import Schedule
 from gazelle.stage import stage_of
+from gazelle.stage.bridge.naming import Naming
+from gazelle.stage.bridge.parameters import read_parameters
+from gazelle.stage.bridge.place import GraphRobot
+from gazelle.stage.bridge.poses import PoseServices
+from gazelle.stage.bridge.robot import Messages, RobotInputs, RobotTopics, facts_of
+from gazelle.stage.bridge.services import Services
+from gazelle.stage.bridge.watchdog import Watchdog
 
 _SLICE = 0.005  # wall time between two looks at a pause [s]
 _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.bridges.stage.place import GraphRobot
 from gazelle.description import StageBlobfinder, StageBumper, StageFiducial
 from gazelle.ros import Publisher, Time, load_message
+from gazelle.stage.bridge.place import GraphRobot
 
 
 @dataclass(frozen=True, slots=True)

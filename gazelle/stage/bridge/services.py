@@ -9,11 +9,11 @@ from typing import Any, Protocol
 import numpy as np
 
 from gazelle.bridges.pacing import ACCEPTED, read_factor
-from gazelle.bridges.stage.robot import heading_of
 from gazelle.errors import SimulationError
 from gazelle.ros import Node, Time, load_service
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
+from gazelle.stage.bridge.robot import heading_of
 
 Answer = dict[str, Any]
 

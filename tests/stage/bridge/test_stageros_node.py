@@ -14,7 +14,7 @@ from stage_samples import write
 from gazelle.ros import Master, Node, WallClock, load_message
 from gazelle.ros.builtin import registry
 
-START = "import sys; from gazelle.bridges.stage.server import main; sys.exit(main(sys.argv[1:]))"
+START = "import sys; from gazelle.stage.bridge.server import main; sys.exit(main(sys.argv[1:]))"
 TWO = 'position ( name "a" ) position ( name "b" pose [0 3 0 0] )\nspeedup 20\n'
 
 
@@ -65,7 +65,7 @@ def test_it_ends_at_the_files_quit_time(master, tmp_path):
 
 
 def test_launch_files_find_it():
-    assert registry.main_of("stage_ros", "stageros").__module__ == "gazelle.bridges.stage.server"
+    assert registry.main_of("stage_ros", "stageros").__module__ == "gazelle.stage.bridge.server"
 
 
 @pytest.mark.long
