@@ -11,7 +11,9 @@ from gazelle.engines.mujoco.layout import MujocoLayout
 from gazelle.engines.mujoco.state import StateViews
 
 
-def suspect(layout: MujocoLayout, views: StateViews, states: Floats, before: Floats) -> str:
+def divergence_report(
+    layout: MujocoLayout, views: StateViews, states: Floats, before: Floats
+) -> str:
     """Describe what of a world was not finite, or else moved fastest, before it diverged.
 
     Args:

@@ -4,7 +4,7 @@ A contact corrects its depth within some steps, however deep it is: a box that a
 1 m into the ground would leave it at 90 m/s. ODE limits the velocity of the correction. Here
 the surface of what overlaps starts as deep as it is and rises at that velocity: a contact
 margin below zero, that grows to zero. That holds for what a file, a spawn or the placing of a
-loose body at run time lets overlap; what strikes or pushes is left to the contact.
+free body at run time lets overlap; what strikes or pushes is left to the contact.
 
 The contacts of what overlaps each want to part at ``max_vel``. Where they face each other there
 is a motion that lets all of them part, but it is fast: out of a wedge of the half angle a at
@@ -75,7 +75,7 @@ class Overlaps:
         self._marked = np.zeros((nworld, model.ngeom), np.bool_)
         self._roots = model.body_rootid[model.geom_bodyid]
         self._moves = model.body_weldid[model.geom_bodyid] != 0
-        self._calming = Calming(model, self._speed)
+        self._speed_limit = RecoverySpeedLimit(model, self._speed)
         self._scratch = mujoco.MjData(model)  # to make one takes longer than all that it is for
         self.any = False
 
@@ -101,7 +101,7 @@ class Overlaps:
         self._show(batch)
 
     def drop(self, batch: Batch, placed: Mapping[int, NDArray[np.bool_]]) -> None:
-        """Take up what loose bodies were put into.
+        """Take up what free bodies were put into.
 
         Args:
             batch: The worlds.
@@ -162,15 +162,17 @@ class Overlaps:
             self._show(batch)
         return int(_PIECE - done.max())
 
-    def calmly(self, state: StateViews, count: int, advance: Callable[[int], set[int]]) -> set[int]:
+    def advance_bounded(
+        self, state: StateViews, count: int, advance: Callable[[int], set[int]]
+    ) -> set[int]:
         """Make steps in which what is let out gains no energy; returns the worlds that failed."""
-        if not (self.any and self._calming.concerns(self._marked)):
+        if not (self.any and self._speed_limit.concerns(self._marked)):
             return advance(count)
         failed: set[int] = set()
         for _ in range(count):
-            before = self._calming.before(state)
+            before = self._speed_limit.before(state)
             failed |= advance(1)
-            self._calming.after(state, self._marked, before)
+            self._speed_limit.after(state, self._marked, before)
         return failed
 
     def _mark(self, batch: Batch, worlds: Worlds) -> None:
@@ -280,8 +282,8 @@ def _contacts_of(compiled: Compiled) -> Iterator[tuple[int, Contact]]:
 _FASTER = 2.0
 
 
-class Calming:
-    """Bounds the speeds of loose bodies that are let out.
+class RecoverySpeedLimit:
+    """Bounds the speeds of free bodies that are let out.
 
     The speed of a body is that of its frame and what its spin is worth in energy.
 

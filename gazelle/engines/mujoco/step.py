@@ -9,7 +9,7 @@ import numpy as np
 
 from gazelle.array_types import Worlds
 from gazelle.engines.engine import DivergenceError
-from gazelle.engines.mujoco.divergence import suspect
+from gazelle.engines.mujoco.divergence import divergence_report
 from gazelle.engines.mujoco.step_forces import ForcedSteps
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.native.joint_system import JointSystem
@@ -107,7 +107,7 @@ class WorldSteps:
         if run.dropped:
             self.find_dropped()
         np.copyto(run.before, run.batch.state)
-        failed = self._let_out(count) if run.overlaps.any else self._stepper.advance(count)
+        failed = self._recover(count) if run.overlaps.any else self._stepper.advance(count)
         run.placed = False
         run.moved.fill(0.0)
         self._made += count
@@ -119,12 +119,12 @@ class WorldSteps:
             self._give_up(np.flatnonzero(bad), count)
 
     def find_dropped(self) -> None:
-        """Let out slowly, too, what loose bodies were put into since the last step."""
+        """Let out slowly, too, what free bodies were put into since the last step."""
         if self._run.dropped:
             self._run.overlaps.drop(self._run.batch, self._run.dropped)
             self._run.dropped = {}
 
-    def _let_out(self, count: int) -> set[int]:
+    def _recover(self, count: int) -> set[int]:
         """Make the steps with what overlaps rising; returns those in which MuJoCo gave up."""
         if self._run.placed or self._run.moved[0]:
             self._run.overlaps.clear(self._run.batch)
@@ -133,7 +133,9 @@ class WorldSteps:
             piece = count
             if self._run.overlaps.any:
                 piece = min(count, self._run.overlaps.rise(self._run.batch, self._run.time_step))
-            failed |= self._run.overlaps.calmly(self._run.state, piece, self._stepper.advance)
+            failed |= self._run.overlaps.advance_bounded(
+                self._run.state, piece, self._stepper.advance
+            )
             count -= piece
         return failed
 
@@ -144,7 +146,7 @@ class WorldSteps:
             DivergenceError: Always.
         """
         before = self._run.before[worlds].copy()
-        who = suspect(self._run.layout, self._run.state, self._run.batch.state, before[0])
+        who = divergence_report(self._run.layout, self._run.state, self._run.batch.state, before[0])
         self._run.batch.warning[worlds] = 0
         self._reset(worlds)
         raise DivergenceError(

@@ -23,7 +23,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import World
 from gazelle.engines.motion import Motion
 from gazelle.engines.mujoco.contact_laws import spun
-from gazelle.engines.mujoco.divergence import suspect
+from gazelle.engines.mujoco.divergence import divergence_report
 from gazelle.engines.mujoco.layout import MujocoLayout
 from gazelle.engines.mujoco.worlds import RunningWorlds
 from gazelle.errors import EngineWarning
@@ -90,7 +90,7 @@ class ForcedSteps:
         self._spun = True
         world = int(np.abs(self._run.state.qvel).max(axis=1).argmax())
         states = self._run.batch.state
-        who = suspect(self._run.layout, self._run.state, states, states[world])
+        who = divergence_report(self._run.layout, self._run.state, states, states[world])
         warnings.warn(
             EngineWarning(
                 f"something turns more than a quarter of a radian in a physics step of "

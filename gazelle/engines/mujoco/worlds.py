@@ -85,7 +85,7 @@ class RunningWorlds:
         placed: Whether something was put elsewhere since the last step.
         moved: 1 where a system put something elsewhere since the last step, and where one changed
             velocities, else 0, shape (2,).
-        dropped: MuJoCo's loose bodies that were put elsewhere since the last step, and in which worlds.
+        dropped: MuJoCo's free bodies that were put elsewhere since the last step, and in which worlds.
         revision: Counts compiled models; 0 before the first.
     """
 

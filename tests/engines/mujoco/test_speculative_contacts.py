@@ -29,7 +29,7 @@ def city(blocks, balls, radius=0.01):
     )
 
 
-def looks_ahead(world):
+def uses_speculative_contacts(world):
     return bool(make_engine("mujoco", world).running.compiled.model.opt.enableflags & AHEAD)
 
 
@@ -39,12 +39,12 @@ def few_pairs(monkeypatch):
 
 
 def test_small_balls_are_looked_for_on_their_way_where_there_are_few_pairs():
-    assert looks_ahead(city(10, 2))
+    assert uses_speculative_contacts(city(10, 2))
 
 
 def test_they_are_not_where_there_are_too_many_pairs_and_that_is_said():
     with pytest.warns(EngineWarning, match="has 7 shapes that stand still and 3 that move"):
-        assert not looks_ahead(city(7, 3))
+        assert not uses_speculative_contacts(city(7, 3))
 
 
 def test_they_are_wherever_the_world_asks_for_it():
@@ -52,10 +52,10 @@ def test_they_are_wherever_the_world_asks_for_it():
     world = with_profile(world, replace(world.profile, speculative_contacts=True))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert looks_ahead(world)
+        assert uses_speculative_contacts(world)
 
 
 def test_nothing_is_said_of_what_is_too_thick_to_pass():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert not looks_ahead(city(7, 3, radius=0.1))
+        assert not uses_speculative_contacts(city(7, 3, radius=0.1))

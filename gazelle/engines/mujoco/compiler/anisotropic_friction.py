@@ -11,7 +11,7 @@ import numpy as np
 
 from gazelle.description import Collision, Pose
 from gazelle.engines.mujoco.compiler.surfaces import friction_of, second_friction_of
-from gazelle.engines.mujoco.contact_laws.law_data import Rub
+from gazelle.engines.mujoco.contact_laws.law_data import DirectionalFriction
 from gazelle.rotations import rotate
 
 
@@ -26,7 +26,7 @@ def friction_between(first: Collision, second: Collision) -> tuple[float, float]
     return along, min(second_friction_of(first), second_friction_of(second))
 
 
-def rub_of(collision: Collision, placed: Pose) -> Rub | None:
+def directional_friction_of(collision: Collision, placed: Pose) -> DirectionalFriction | None:
     """The directions of a surface; None where it has none.
 
     Args:
@@ -37,5 +37,5 @@ def rub_of(collision: Collision, placed: Pose) -> Rub | None:
     size = np.linalg.norm(fdir1)
     if size > 0.0:
         x, y, z = rotate(np.array(placed.quaternion), fdir1 / size).tolist()
-        return Rub((x, y, z), friction_of(collision))
-    return Rub(None, friction_of(collision)) if is_directional(collision) else None
+        return DirectionalFriction((x, y, z), friction_of(collision))
+    return DirectionalFriction(None, friction_of(collision)) if is_directional(collision) else None

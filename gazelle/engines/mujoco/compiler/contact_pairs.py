@@ -23,9 +23,9 @@ import mujoco
 
 from gazelle.description import Capsule, Collision, Contact, Ellipsoid, Pose, Sphere, World
 from gazelle.engines.mujoco.compiler.anisotropic_friction import (
+    directional_friction_of,
     friction_between,
     is_directional,
-    rub_of,
 )
 from gazelle.engines.mujoco.compiler.surfaces import (
     TOUCHING,
@@ -35,7 +35,7 @@ from gazelle.engines.mujoco.compiler.surfaces import (
     rigid_terms,
     torsional_friction_of,
 )
-from gazelle.engines.mujoco.contact_laws.law_data import Rub
+from gazelle.engines.mujoco.contact_laws.law_data import DirectionalFriction
 from gazelle.errors import EngineWarning
 
 # Above this speed no file means its bounce threshold seriously [m/s]; SDF's default is 1e5.
@@ -117,7 +117,7 @@ class Pairs:
 
     springs: list[Spring]
     bounces: bool
-    rubs: Mapping[str, Rub]
+    rubs: Mapping[str, DirectionalFriction]
 
 
 def add_pairs(
@@ -159,7 +159,7 @@ def add_pairs(
             **_friction_terms(first, second),
             **terms,
         )
-    return Pairs(springs, bounces, _rubs_of(everything) if directional else {})
+    return Pairs(springs, bounces, _directional_frictions_of(everything) if directional else {})
 
 
 def ask_for_cone(solids: Iterable[ContactGeom]) -> bool:
@@ -175,7 +175,7 @@ def may_slide(solids: Iterable[ContactGeom]) -> bool:
     return any(friction_of(each.collision) and math.isfinite(each.mass) for each in solids)
 
 
-def exits_of(solids: Iterable[ContactGeom], world: World) -> dict[str, float]:
+def recovery_velocities_of(solids: Iterable[ContactGeom], world: World) -> dict[str, float]:
     """The velocities at which geoms leave what they overlap, by name [m/s]; none if none moves."""
     solids = list(solids)
     if not any(math.isfinite(each.mass) for each in solids):
@@ -184,8 +184,10 @@ def exits_of(solids: Iterable[ContactGeom], world: World) -> dict[str, float]:
     return {each.geom: min(each.collision.surface.contact.max_vel, most) for each in solids}
 
 
-def _rubs_of(solids: Iterable[ContactGeom]) -> dict[str, Rub]:
-    found = ((solid.geom, rub_of(solid.collision, solid.placed)) for solid in solids)
+def _directional_frictions_of(solids: Iterable[ContactGeom]) -> dict[str, DirectionalFriction]:
+    found = (
+        (solid.geom, directional_friction_of(solid.collision, solid.placed)) for solid in solids
+    )
     return {geom: rub for geom, rub in found if rub is not None}
 
 

@@ -10,14 +10,14 @@ import mujoco
 from gazelle.description import Box, Capsule, Cylinder, Ellipsoid, Model, Sphere, World
 from gazelle.errors import EngineWarning
 
-# From so many loose bodies on the time saved outweighs an ``MjData`` for every world.
+# From so many free bodies on the time saved outweighs an ``MjData`` for every world.
 _MANY = 16
 
 # Speed below which a body may go to sleep [m/s]. At MuJoCo's 1e-3 a pendulum that swings
 # by a hundredth of a radian would stop where it turns back.
 SLEEP_SPEED = 1e-4
 
-# Speed that a loose body may well have [m/s]: a ball thrown or shot.
+# Speed that a free body may well have [m/s]: a ball thrown or shot.
 _FAST = 20.0
 
 # Pairs of a shape that moves and one of the world from which on contacts are sought on the way of
@@ -26,7 +26,7 @@ _FAST = 20.0
 _MOST_PAIRS = 200_000
 
 
-def lets_sleep(world: World, kinematic: Collection[str] = ()) -> bool:
+def allows_sleep(world: World, kinematic: Collection[str] = ()) -> bool:
     """Return whether bodies at rest go to sleep: as the world says, else where many could.
 
     Args:
@@ -37,13 +37,15 @@ def lets_sleep(world: World, kinematic: Collection[str] = ()) -> bool:
     if wanted is not None:
         return wanted
     moving = _moving(world, kinematic)
-    return sum(_is_loose(model) and model.allow_auto_disable for model in moving) >= _MANY
+    return sum(_is_free(model) and model.allow_auto_disable for model in moving) >= _MANY
 
 
-def looks_ahead(world: World, time_step: float, kinematic: Collection[str] = ()) -> bool:
+def uses_speculative_contacts(
+    world: World, time_step: float, kinematic: Collection[str] = ()
+) -> bool:
     """Return whether contacts are predicted within a step: as the world says, else if need be.
 
-    There is need when a loose body is so small that, at ``_FAST``, it moves in one step by
+    There is need when a free body is so small that, at ``_FAST``, it moves in one step by
     more than half its thickness. Robots do not get that fast.
     """
     wanted = world.profile.speculative_contacts
@@ -51,10 +53,10 @@ def looks_ahead(world: World, time_step: float, kinematic: Collection[str] = ())
         return wanted
     reach = _FAST * time_step
     moving = _moving(world, kinematic)
-    return any(_is_loose(model) and _half_thickness(model) <= reach for model in moving)
+    return any(_is_free(model) and _half_thickness(model) <= reach for model in moving)
 
 
-def look_no_farther(model: mujoco.MjModel, world: World) -> None:
+def limit_speculative_contacts(model: mujoco.MjModel, world: World) -> None:
     """Seek no contacts on the way of a step where that takes longer than the step."""
     ahead = int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
     if world.profile.speculative_contacts is not None or not model.opt.enableflags & ahead:
@@ -75,14 +77,14 @@ def look_no_farther(model: mujoco.MjModel, world: World) -> None:
     )
 
 
-def has_loose(world: World, kinematic: Collection[str] = ()) -> bool:
+def has_free_bodies(world: World, kinematic: Collection[str] = ()) -> bool:
     """Return whether there is something that may be pushed, stacked or gripped.
 
     Args:
         world: The description.
         kinematic: Names of models that move only when told to; such a one is never loose.
     """
-    return any(_is_loose(model) and _collides(model) for model in _moving(world, kinematic))
+    return any(_is_free(model) and _collides(model) for model in _moving(world, kinematic))
 
 
 def _moving(world: World, kinematic: Collection[str]) -> list[Model]:
@@ -95,13 +97,13 @@ def _collides(model: Model) -> bool:
 
 
 def keep_awake(model: mujoco.MjModel, world: World) -> None:
-    """Let only loose bodies sleep that the description allows to.
+    """Let only free bodies sleep that the description allows to.
 
     Something with joints may stand still for a moment in the middle of a motion.
     """
     never = int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
     for each in world.models:
-        if each.static or (_is_loose(each) and each.allow_auto_disable):
+        if each.static or (_is_free(each) and each.allow_auto_disable):
             continue
         for placed in each.walk():
             for link in placed.model.links:
@@ -112,7 +114,7 @@ def keep_awake(model: mujoco.MjModel, world: World) -> None:
                     model.tree_sleep_policy[model.body_treeid[body]] = never
 
 
-def _is_loose(model: Model) -> bool:
+def _is_free(model: Model) -> bool:
     return not model.static and not any(placed.model.joints for placed in model.walk())
 
 

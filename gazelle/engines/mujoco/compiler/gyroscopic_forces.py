@@ -19,7 +19,7 @@ _TOLERANCE = 0.02
 
 
 def tumbling(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> list[str]:
-    """Loose links that turn about changing axes, to whose spin Euler's method would add.
+    """Free links that turn about changing axes, to whose spin Euler's method would add.
 
     Args:
         world: The description.
@@ -57,7 +57,7 @@ def unbalanced_dofs(model: mujoco.MjModel) -> tuple[list[int], list[int]]:
 
     A wheel may turn as fast as it likes: it is the same from all sides, and what it does to
     the body that carries it depends on how fast that turns. A tree of one axis has no such
-    forces at all, and a loose body of one link is looked after apart.
+    forces at all, and a free body of one link is looked after apart.
     """
     hinges: list[int] = []
     spins: list[int] = []

@@ -14,9 +14,9 @@ from gazelle.description import World
 from gazelle.engines.limits import MAX_ITERATIONS
 from gazelle.engines.mujoco.compiler.free_bodies import (
     SLEEP_SPEED,
-    has_loose,
-    lets_sleep,
-    looks_ahead,
+    allows_sleep,
+    has_free_bodies,
+    uses_speculative_contacts,
 )
 from gazelle.errors import EngineError, did_you_mean
 
@@ -65,9 +65,9 @@ def set_options(
     option.gravity = list(world.gravity)
     option.magnetic = list(world.magnetic_field)
     option.sleep_tolerance = SLEEP_SPEED
-    if lets_sleep(world, kinematic):
+    if allows_sleep(world, kinematic):
         option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-    if looks_ahead(world, time_step, kinematic):
+    if uses_speculative_contacts(world, time_step, kinematic):
         option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
     spec.compiler.autolimits = True
     spec.compiler.degree = False
@@ -91,7 +91,7 @@ def _cone(world: World, kinematic: Collection[str]) -> mujoco.mjtCone:
     elif friction_model is not None:
         cone = friction_model == "cone_model"
     else:
-        cone = has_loose(world, kinematic)
+        cone = has_free_bodies(world, kinematic)
     return mujoco.mjtCone.mjCONE_ELLIPTIC if cone else mujoco.mjtCone.mjCONE_PYRAMIDAL
 
 

@@ -17,13 +17,13 @@ from gazelle.engines.mujoco.compiler.contact_pairs import (
     Spring,
     add_pairs,
     ask_for_cone,
-    exits_of,
     may_slide,
+    recovery_velocities_of,
     tune_springs,
 )
 from gazelle.engines.mujoco.compiler.description_edits import with_frame_link
 from gazelle.engines.mujoco.compiler.equality_constraints import add_closure, add_couplings, at_rest
-from gazelle.engines.mujoco.compiler.free_bodies import look_no_farther
+from gazelle.engines.mujoco.compiler.free_bodies import limit_speculative_contacts
 from gazelle.engines.mujoco.compiler.gyroscopic_forces import swings, tumbling
 from gazelle.engines.mujoco.compiler.inertia import give_inertias, inertia_of, possible
 from gazelle.engines.mujoco.compiler.joint_limits import tune_stops
@@ -56,7 +56,7 @@ from gazelle.engines.mujoco.compiler.wheel_slip import (
     warn_of_losses,
 )
 from gazelle.engines.mujoco.compiler.world_geoms import WorldGeoms
-from gazelle.engines.mujoco.contact_laws import Extras, finish, prepare
+from gazelle.engines.mujoco.contact_laws import LawSelection, finish, prepare
 from gazelle.engines.tree import Closure, KinematicTree, TreeLink, tree_of
 from gazelle.errors import EngineError
 
@@ -131,7 +131,7 @@ class Draft:
     geoms: Mapping[str, list[str]]
     springs: list[Spring]
     closures: Sequence[Closure]
-    extras: Extras
+    extras: LawSelection
     slips: Mapping[str, Slip]
 
     def compile(self, *, as_written: bool = True) -> mujoco.MjModel:
@@ -178,7 +178,7 @@ def compile_world(recipe: CompilerInput) -> Compiled:
     springs = [spring.pair for spring in draft.springs]
     model = draft.compile()
     tighten_hierarchies(model)
-    look_no_farther(model, recipe.world)
+    limit_speculative_contacts(model, recipe.world)
     if not recipe.damped:
         skip_idle_forces(model)
     finish(model, draft.extras)
@@ -232,14 +232,14 @@ def draft_world(recipe: CompilerInput) -> Draft:
     damp_implicitly(spec)
     closures = [closure for tree in trees.values() for closure in tree.closures]
     slides = may_slide(builder.solids)
-    extras = Extras(
+    extras = LawSelection(
         bounces=pairs.bounces,
         rubs=pairs.rubs,
         tumbling=tumbling(recipe.world, bodies),
         motors=motor_count(recipe.motors),
         slides=slides,
         treads=possible_treads(bodies.values(), builder.geoms) if slides else {},
-        exits=exits_of(builder.solids, recipe.world),
+        exits=recovery_velocities_of(builder.solids, recipe.world),
         swings=swings(recipe.world, bodies),
         hooks=recipe.hooks,
     )

@@ -13,6 +13,6 @@ from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
 
-from gazelle.engines.mujoco.contact_laws.law_data import Extras, finish, prepare, spun
+from gazelle.engines.mujoco.contact_laws.law_data import LawSelection, finish, prepare, spun
 
-__all__ = ["Extras", "finish", "prepare", "spun"]
+__all__ = ["LawSelection", "finish", "prepare", "spun"]

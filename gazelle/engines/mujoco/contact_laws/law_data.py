@@ -38,7 +38,7 @@ _NAME = "gazelle_laws"
 
 
 @dataclass(frozen=True, slots=True)
-class Rub:
+class DirectionalFriction:
     """Friction of a geom that differs by direction.
 
     Attributes:
@@ -51,13 +51,13 @@ class Rub:
 
 
 @dataclass(frozen=True, slots=True)
-class Extras:
+class LawSelection:
     """Laws that a model needs beyond MuJoCo's.
 
     Attributes:
         bounces: Whether some contacts bounce.
         rubs: Geoms that rub by direction, by name.
-        tumbling: Names of loose bodies that tumble freely.
+        tumbling: Names of free bodies that tumble freely.
         motors: How many motors hold a velocity.
         slides: Whether something that moves rubs.
         treads: Joints of wheels by what may be their treads, a geom.
@@ -67,7 +67,7 @@ class Extras:
     """
 
     bounces: bool = False
-    rubs: Mapping[str, Rub] = field(default_factory=dict)
+    rubs: Mapping[str, DirectionalFriction] = field(default_factory=dict)
     tumbling: Sequence[str] = ()
     motors: int = 0
     slides: bool = False
@@ -92,7 +92,7 @@ class Extras:
         return bool(self.bounces or self.rubs or self.motors or self.hooks)
 
 
-def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
+def prepare(spec: mujoco.MjSpec, extras: LawSelection) -> None:
     """Make room in a model for what ``finish`` writes."""
     if not extras.any:
         return
@@ -104,7 +104,7 @@ def prepare(spec: mujoco.MjSpec, extras: Extras) -> None:
         spec.nuser_geom = GEOM_NUMBERS
 
 
-def finish(model: mujoco.MjModel, extras: Extras) -> None:
+def finish(model: mujoco.MjModel, extras: LawSelection) -> None:
     """Write the laws into a compiled model, and let MuJoCo follow them.
 
     Raises:
@@ -173,7 +173,7 @@ def _write_treads(model: mujoco.MjModel, treads: Mapping[str, str]) -> bool:
 
 
 def _alike(model: mujoco.MjModel) -> NDArray[np.bool_]:
-    """Return which geoms stand still or are of a loose body of one friction, shape (ngeom,).
+    """Return which geoms stand still or are of a free body of one friction, shape (ngeom,).
 
     A mesh of several pieces is hollow and may be caught, so that it is held by more than its weight.
     """

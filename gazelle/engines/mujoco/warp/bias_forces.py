@@ -1,4 +1,4 @@
-"""Forces of what turns, at the middle of a step: ``contact_laws.bias_forces`` and the tumbling of loose bodies.
+"""Forces of what turns, at the middle of a step: ``contact_laws.bias_forces`` and the tumbling of free bodies.
 
 Their sources are told there and in ``contact_laws.kernel``.
 """
@@ -82,7 +82,7 @@ def keep_turning(
     passive: wp.array2d[float],
     told: wp.array[int],
 ) -> None:
-    """Take the gyroscopic torque of loose bodies at the middle of the step, not its beginning."""
+    """Take the gyroscopic torque of free bodies at the middle of the step, not its beginning."""
     world, place = wp.tid()
     body = bodies[place][0]
     dof = bodies[place][1] + 3
