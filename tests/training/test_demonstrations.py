@@ -12,7 +12,8 @@ import torch
 from gazelle.errors import TaskError
 from gazelle.training import OffPolicySettings, Recipe, load_actor, resume, train
 from gazelle.training.demonstrations import find_demonstrator, with_demonstrator_found
-from gazelle.training.learners import _step_size, build_learner
+from gazelle.training.learners import build_learner
+from gazelle.training.learners.arguments import step_size
 from gazelle.training.vecenv import VectorEnvAdapter
 
 TEXT = """
@@ -211,11 +212,11 @@ def test_a_demonstrator_that_gives_something_else_is_told(env, shown, name):
         learnt(env, recipe(f"{shown}:{name}"), 8)
 
 
-def test_the_step_size_is_held_before_it_falls():
+def test_thestep_size_is_held_before_it_falls():
     held = Recipe(learning_rate=2e-3, learning_rate_hold=0.6)
-    sizes = [_step_size(held)(left) for left in (1.0, 0.7, 0.4, 0.2, 0.0)]
+    sizes = [step_size(held)(left) for left in (1.0, 0.7, 0.4, 0.2, 0.0)]
     assert sizes == pytest.approx([2e-3, 2e-3, 2e-3, 1e-3, 0.0])
-    assert _step_size(Recipe(learning_rate=2e-3))(0.5) == pytest.approx(1e-3)
-    assert _step_size(Recipe(learning_rate=2e-3, learning_rate_decay=False)) == 2e-3
+    assert step_size(Recipe(learning_rate=2e-3))(0.5) == pytest.approx(1e-3)
+    assert step_size(Recipe(learning_rate=2e-3, learning_rate_decay=False)) == 2e-3
     with pytest.raises(TaskError, match="learning_rate_hold"):
         Recipe(learning_rate_hold=1.0)

@@ -9,7 +9,7 @@ from corridor import MODES, Corridor
 from stable_baselines3.common.callbacks import BaseCallback
 
 from gazelle.training.learners import build_learner
-from gazelle.training.ppo_update import NAMES, Weights, loss_of
+from gazelle.training.learners.ppo_update import NAMES, Weights, loss_of
 from gazelle.training.recipes import PPOSettings, Recipe
 from gazelle.training.threads import limit_threads
 from gazelle.training.vecenv import VectorEnvAdapter

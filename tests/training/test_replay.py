@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 from corridor import Corridor
 
-from gazelle.training.replay import MaskedReplayBuffer
+from gazelle.training.learners.replay import MaskedReplayBuffer
 from gazelle.training.vecenv import VectorEnvAdapter
 
 

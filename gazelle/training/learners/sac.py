@@ -15,8 +15,11 @@ import torch
 from stable_baselines3 import SAC
 from torch import nn
 
-from gazelle.training.critic_update import CriticUpdate, follow, frozen
-from gazelle.training.ppo_update import HALF_LOG_2_PI
+from gazelle.training.learners.actor_critic import CriticUpdate, follow, frozen
+from gazelle.training.learners.arguments import Learner, off_policy_settings, replay_arguments
+from gazelle.training.learners.ppo_update import HALF_LOG_2_PI
+from gazelle.training.recipes import Recipe
+from gazelle.training.vecenv import VectorEnvAdapter
 
 _LOG_STD = -20.0, 2.0  # bounds of the logarithm of an action's deviation
 
@@ -97,3 +100,16 @@ class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
     def _follow(self) -> None:
         """Let the targets come nearer."""
         follow(self.critic_target, self.critic, self.tau)
+
+
+def build_sac(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    """Return a learner for an environment."""
+    settings = off_policy_settings(recipe)
+    learner = FastSAC(
+        "MlpPolicy",
+        env,
+        ent_coef=f"auto_{settings.initial_entropy_weight}",
+        **replay_arguments(recipe, env, settings, seed),
+    )
+    learner.ways = settings
+    return learner

@@ -17,7 +17,12 @@ import gymnasium as gym
 import torch
 from torch import nn
 
-from gazelle.training.ppo_update import HALF_LOG_2_PI, Transitions, Weights, learns_features
+from gazelle.training.learners.ppo_update import (
+    HALF_LOG_2_PI,
+    Transitions,
+    Weights,
+    learns_features,
+)
 
 _ADAM = {"weight_decay": 0, "amsgrad": False, "maximize": False, "capturable": False}
 

@@ -13,13 +13,12 @@ import torch
 from corridor import Corridor
 from stable_baselines3.common.callbacks import BaseCallback
 
-from gazelle.training import ppo
 from gazelle.training.actor import Actor
-from gazelle.training.dense_update import DenseUpdate
-from gazelle.training.learners import build_learner
+from gazelle.training.learners import build_learner, ppo
+from gazelle.training.learners.ppo_dense_update import DenseUpdate
+from gazelle.training.learners.ppo_overlapped_update import UpdateAhead
 from gazelle.training.recipes import PPOSettings, Recipe
 from gazelle.training.threads import limit_threads
-from gazelle.training.update_ahead import UpdateAhead
 from gazelle.training.vecenv import VectorEnvAdapter
 
 limit_threads(1)

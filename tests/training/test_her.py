@@ -26,7 +26,7 @@ from gazelle.training import (
     resume,
     train,
 )
-from gazelle.training.hindsight import HindsightReplayBuffer
+from gazelle.training.learners.her import HindsightReplayBuffer
 from gazelle.training.progress import NoProgress
 from gazelle.training.vecenv import VectorEnvAdapter
 

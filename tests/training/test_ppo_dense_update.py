@@ -8,10 +8,9 @@ import torch
 from corridor import Corridor
 from stable_baselines3.common.callbacks import BaseCallback
 
-from gazelle.training import ppo
-from gazelle.training.dense_update import DenseUpdate, fits_dense_update
-from gazelle.training.learners import build_learner
-from gazelle.training.ppo_update import NAMES, Weights
+from gazelle.training.learners import build_learner, ppo
+from gazelle.training.learners.ppo_dense_update import DenseUpdate, fits_dense_update
+from gazelle.training.learners.ppo_update import NAMES, Weights
 from gazelle.training.recipes import PPOSettings, Recipe
 from gazelle.training.threads import limit_threads
 from gazelle.training.vecenv import VectorEnvAdapter

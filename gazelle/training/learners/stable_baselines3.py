@@ -11,7 +11,7 @@ from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 
 from gazelle.errors import MissingExtraError, TaskError, did_you_mean
 from gazelle.training.heeded import unheeded_error
-from gazelle.training.memories import replay_options
+from gazelle.training.learners.arguments import replay_options
 from gazelle.training.overrides import algorithms_heeding
 from gazelle.training.recipes import LIBRARY_ALGORITHMS, LibrarySettings, Recipe
 from gazelle.training.vecenv import VectorEnvAdapter

@@ -15,10 +15,17 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 import torch
-from stable_baselines3 import DDPG, TD3
+from stable_baselines3 import TD3
 
-from gazelle.training.critic_update import CriticUpdate, follow, frozen
-from gazelle.training.demonstrations import Demonstrator, shown_actions
+from gazelle.training.demonstrations import Demonstrator, find_demonstrator, shown_actions
+from gazelle.training.learners.actor_critic import CriticUpdate, follow, frozen
+from gazelle.training.learners.arguments import (
+    Learner,
+    noisy_arguments,
+    off_policy_settings,
+)
+from gazelle.training.recipes import Recipe
+from gazelle.training.vecenv import VectorEnvAdapter
 
 _SHOWN = 4  # of a minibatch one in so many is what was shown, besides
 _STEADY = 0.5  # of the noise that a demonstrator's actions get
@@ -31,8 +38,8 @@ class _Imitated(NamedTuple):
     actions: torch.Tensor
 
 
-class _Deterministic(CriticUpdate, TD3):  # type: ignore[misc]  # untyped base
-    """Common base of `FastDDPG` and `FastTD3`.
+class DeterministicLearner(CriticUpdate, TD3):  # type: ignore[misc]  # untyped base
+    """Base of `FastDDPG` and `FastTD3`.
 
     Attributes:
         demonstrator: Acts before the first update, if set.
@@ -140,9 +147,20 @@ class _Deterministic(CriticUpdate, TD3):  # type: ignore[misc]  # untyped base
         return actions, kept
 
 
-class FastDDPG(_Deterministic, DDPG):  # type: ignore[misc]  # untyped base
-    """DDPG; see the module's text for what differs."""
+class FastTD3(DeterministicLearner):
+    """TD3; see the module's text for what differs."""
 
 
-class FastTD3(_Deterministic):
-    """TD3; likewise."""
+def build_td3(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    """Return a learner for an environment."""
+    return configured(FastTD3("MlpPolicy", env, **noisy_arguments(recipe, env, seed)), recipe)
+
+
+def configured(learner: DeterministicLearner, recipe: Recipe) -> Learner:
+    """Return a learner with the settings that Stable-Baselines3's own does not take."""
+    learner.ways = settings = off_policy_settings(recipe)
+    if settings.demonstrator is not None:
+        learner.demonstrator = find_demonstrator(settings.demonstrator)
+    if settings.policy_delay is not None:
+        learner.policy_delay = settings.policy_delay
+    return learner

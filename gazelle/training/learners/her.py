@@ -2,7 +2,7 @@
 
 M. Andrychowicz et al., "Hindsight Experience Replay" (NIPS 2017, arXiv 1707.01495), with goals
 from the future of the same episode. Why this is not Stable-Baselines3's class is told in
-docs/decisions/012-own-hindsight-replay.md.
+docs/decisions/012-own-learners.md.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gazelle.training.goal_replay import GoalReplay
-from gazelle.training.replay import MaskedReplayBuffer
+from gazelle.training.learners.replay import MaskedReplayBuffer
 
 _RUNNING = -1
 _ROUNDS = 2  # in which steps are drawn again

@@ -14,7 +14,7 @@ from typing import Any
 
 import torch
 
-from gazelle.training.dense_update import DenseUpdate
+from gazelle.training.learners.ppo_dense_update import DenseUpdate
 
 
 class UpdateAhead:

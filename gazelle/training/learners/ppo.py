@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -22,14 +23,23 @@ from stable_baselines3.common.buffers import RolloutBuffer
 from stable_baselines3.common.utils import explained_variance
 
 from gazelle.array_types import Floats32
+from gazelle.errors import TaskError
 from gazelle.training.actor import Actor
-from gazelle.training.dense_update import DenseUpdate, fits_dense_update
 from gazelle.training.export import export_actor
-from gazelle.training.ppo_update import NAMES, Transitions, Weights, learns_features, loss_of
+from gazelle.training.learners.arguments import Learner, common_arguments
+from gazelle.training.learners.ppo_dense_update import DenseUpdate, fits_dense_update
+from gazelle.training.learners.ppo_overlapped_update import UpdateAhead
+from gazelle.training.learners.ppo_update import (
+    NAMES,
+    Transitions,
+    Weights,
+    learns_features,
+    loss_of,
+)
+from gazelle.training.recipes import PPOSettings, Recipe
 from gazelle.training.rollout import CutOff, Rollout
 from gazelle.training.scaling import ObservationScale
 from gazelle.training.threads import multiplies_bfloat16, products, short_turns
-from gazelle.training.update_ahead import UpdateAhead
 from gazelle.training.vecenv import VectorEnvAdapter
 
 _MORE_NAMES = ("explained_variance", "clip_range")
@@ -258,3 +268,34 @@ def _log_probs(actor: Actor, outputs: Floats32, actions: npt.NDArray[Any]) -> Fl
     if actor.discrete:
         flat = flat[:, 0].astype(np.int64)
     return actor.log_prob(outputs.reshape(-1, width), flat).reshape(rows, copies)
+
+
+def build_ppo(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
+    """Return a learner for an environment.
+
+    Raises:
+        TaskError: The recipe has settings of another algorithm.
+    """
+    settings = recipe.settings
+    if not isinstance(settings, PPOSettings):
+        raise TaskError("a recipe for ppo needs PPOSettings")
+    common = common_arguments(recipe, env, seed)
+    # SB3's own epsilon for PPO; the fused kernel is one call instead of many.
+    common["policy_kwargs"]["optimizer_kwargs"] = {"eps": 1e-5, "fused": True}
+    common["policy_kwargs"]["log_std_init"] = math.log(settings.initial_std)
+    learner = FastPPO(
+        "MlpPolicy",
+        env,
+        n_steps=settings.n_steps,
+        batch_size=min(settings.batch_size, settings.n_steps * env.num_envs),
+        n_epochs=settings.n_epochs,
+        gae_lambda=settings.gae_lambda,
+        clip_range=settings.clip_range,
+        ent_coef=settings.ent_coef,
+        vf_coef=settings.vf_coef,
+        max_grad_norm=settings.max_grad_norm,
+        **common,
+    )
+    learner.bfloat16 = settings.bfloat16
+    learner.overlap = settings.overlap
+    return learner
