@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import logging
 import os
 import sys
@@ -21,6 +22,8 @@ from gazelle.ros.tool_names import process_name, translated
 from gazelle.writing import naming
 
 DONE, FAILED, WRONG_USAGE = 0, 1, 2
+_FULL = {errno.ENOSPC, errno.EFBIG, getattr(errno, "EDQUOT", errno.ENOSPC)}
+_NO_ROOM = "free some space, or name a place with more"
 _NO_MEMORY = (
     "cannot allocate memory",
     "can't allocate memory",
@@ -174,7 +177,7 @@ def _report(error: Exception) -> None:
         _complain(place, error.hint)
     elif isinstance(error, OSError):
         name = f"{error.filename}: " if error.filename else ""
-        _complain(f"{name}{error.strerror or error}", None)
+        _complain(f"{name}{error.strerror or error}", _NO_ROOM if error.errno in _FULL else None)
     elif _is_out_of_memory(error):
         text = str(error).partition("\n")[0]
         _complain(

@@ -12,9 +12,11 @@ and a launch file.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import re
 import sys
 from importlib import resources
+from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from gazelle.cli import showing
@@ -97,8 +99,17 @@ def write_task(name: str, folder: Path) -> list[Path]:
             raise TaskError(f"{file} is there already", hint=hint)
     folder.mkdir(parents=True, exist_ok=True)
     home = resources.files("gazelle.cli") / "templates"
+    with contextlib.ExitStack() as undo:
+        _write_all(wanted, home, name, stem, undo)
+        undo.pop_all()
+    return list(wanted)
+
+
+def _write_all(
+    wanted: dict[Path, str], home: Traversable, name: str, stem: str, undo: contextlib.ExitStack
+) -> None:
     for file, source in wanted.items():
+        undo.callback(file.unlink, missing_ok=True)
         text = (home / f"{source}.txt").read_text(encoding="utf-8")
         text = text.replace("TESTFILE", f"test_{stem}").replace("TASKFILE", stem)
         write_text(file, text.replace("NAME", name))
-    return list(wanted)

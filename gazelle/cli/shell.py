@@ -21,6 +21,7 @@ from pathlib import Path
 
 from gazelle.cli.completion import script_for
 from gazelle.errors import Error
+from gazelle.writing import write_text
 
 _RC = """{user}
 PATH={path}
@@ -77,4 +78,4 @@ def _interactive(shell: str, env: dict[str, str], folder: Path) -> list[str]:
 def _write(file: Path, name: str, user: str, env: Mapping[str, str]) -> None:
     path = f"{shlex.quote(env['PATH'].partition(os.pathsep)[0])}{os.pathsep}$PATH"
     text = _RC.format(user=user, path=path, completion=script_for(name))
-    file.write_text(text, encoding="utf-8")
+    write_text(file, text)

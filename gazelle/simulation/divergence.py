@@ -31,7 +31,7 @@ class Fault:
     Attributes:
         world: Its index.
         time: Simulated time of its last good state [s].
-        dump: A recording of the steps that broke it; None after the first ten.
+        dump: A recording of the steps that broke it; None after the first ten, and without room.
     """
 
     world: int
@@ -64,19 +64,22 @@ class FaultLog:
 
     def note(self, simulation: RunningState, error: DivergenceError, time_ns: int) -> str:
         """Dump and keep what happened; returns one line that says it."""
-        fresh = []
+        fresh, reason = [], ""
         for row, world in enumerate(error.worlds):
-            dump = self._dump(simulation, error, row, time_ns) if self._has_room() else None
+            dump = None
+            if self._dumps < _MOST_DUMPS:
+                try:
+                    dump = self._dump(simulation, error, row, time_ns)
+                except OSError as unwritten:  # the fault matters more than its recording
+                    reason = f"; its recording {unwritten.filename}: {unwritten.strerror}"
             fresh.append(Fault(int(world), time_ns / 1e9, dump))
         self.faults += fresh
         where = ", ".join(f"world {f.world}: {f.dump}" for f in fresh if f.dump is not None)
         text = f"at {time_ns / 1e9:g} s {error.message}"
         if not np.isfinite(error.before).all():
             text += "; a value that is not finite had been set before the step"
+        text += reason
         return f"{text}; last good states, for Replay: {where}" if where else text
-
-    def _has_room(self) -> bool:
-        return self._dumps < _MOST_DUMPS
 
     def _dump(
         self, simulation: RunningState, error: DivergenceError, row: int, time_ns: int

@@ -7,6 +7,7 @@ that were written since the call before. A line cut off by a crash is left out o
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 from collections.abc import Callable, Iterable, Sequence
@@ -26,6 +27,7 @@ from gazelle.path_texts import shortened
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.encoding import encode
 from gazelle.simulation.running_state import RunningState
+from gazelle.writing import write_text
 
 
 class StepCuts(Protocol):
@@ -89,21 +91,18 @@ class Recorder(Closeable):
         now_ns = simulation.clock.now_ns
         first = header(simulation, self._engine.history(), self._engine.snapshot(), now_ns)
         try:
-            self._file: IO[str] = self.path.open("w", encoding="utf-8")
+            write_text(self.path, _line(first))
+            self._file: IO[str] = self.path.open("a", encoding="utf-8")
         except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            name = shortened(str(path))
-            raise SimulationError(
-                f"the recording cannot be written: {reason}", file=name
-            ) from error
+            raise self._unwritten(error) from error
         self._depth = 0
         self._pending: dict[str, Any] = {}
         self._steps = 0
-        self._write(first)
         own = vars(self._engine)  # some engines keep methods of their parts there
         self._methods = {name: own[name] for name in CHANGES if name in own}
         self._seen = self._engine.peek().copy()
         self._step = self._engine.step
+        self._listens = True
         for name in CHANGES:
             method = getattr(self._engine, name)
             listener = self._stepped if name == "step" else partial(self._called, name, method)
@@ -117,15 +116,32 @@ class Recorder(Closeable):
             if self._file.closed:
                 return
             if not lock.closed:
-                for name in CHANGES:
-                    delattr(self._engine, name)
-                    if name in self._methods:
-                        setattr(self._engine, name, self._methods[name])
+                self._stop_listening()
                 self._note_writes()
             self._flush()
-            self._file.close()
+            self._end()
         finally:
             lock.release()
+
+    def _stop_listening(self) -> None:
+        self._listens = False
+        for name in CHANGES:
+            delattr(self._engine, name)
+            if name in self._methods:
+                setattr(self._engine, name, self._methods[name])
+
+    def _end(self) -> None:
+        """Close the file, which may have lines to write yet."""
+        try:
+            self._file.close()
+        except OSError as error:
+            raise self._unwritten(error) from error
+
+    def _unwritten(self, error: OSError | ValueError) -> SimulationError:
+        reason = getattr(error, "strerror", None) or str(error)
+        return SimulationError(
+            f"the recording cannot be written: {reason}", file=shortened(str(self.path))
+        )
 
     def _stepped(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
         """Make steps, and update systems between them."""
@@ -219,4 +235,18 @@ class Recorder(Closeable):
             self._pending = {}
 
     def _write(self, line: dict[str, Any]) -> None:
-        self._file.write(json.dumps(line, separators=(",", ":")) + "\n")
+        """Write a line; if there is no room the recording ends, and the simulation may go on."""
+        if self._file.closed:
+            return
+        try:
+            self._file.write(_line(line))
+        except OSError as error:
+            if self._listens:
+                self._stop_listening()
+            with contextlib.suppress(OSError):
+                self._file.close()
+            raise self._unwritten(error) from error
+
+
+def _line(entry: dict[str, Any]) -> str:
+    return json.dumps(entry, separators=(",", ":")) + "\n"

@@ -20,7 +20,7 @@ from gazelle.training.progress import Progress
 from gazelle.training.runs import Run
 from gazelle.training.statistics import EpisodeLog
 from gazelle.training.tables import rows_until
-from gazelle.writing import naming
+from gazelle.writing import naming, replacing
 
 _COLUMNS = (
     "time/steps",
@@ -65,10 +65,12 @@ class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
     def __init__(self, file: Path, steps: int) -> None:
         rows = rows_until(file, "time/steps", steps)
         self._path = file
-        self._file = file.open("w", newline="", encoding="utf-8")
+        with replacing(file) as draft, draft.open("w", newline="", encoding="utf-8") as table:
+            writer = csv.DictWriter(table, _COLUMNS, restval="", extrasaction="ignore")
+            writer.writeheader()
+            writer.writerows(rows)
+        self._file = file.open("a", newline="", encoding="utf-8")
         self._writer = csv.DictWriter(self._file, _COLUMNS, restval="", extrasaction="ignore")
-        self._writer.writeheader()
-        self._writer.writerows(rows)
 
     def write(
         self, key_values: dict[str, Any], key_excluded: dict[str, Any], step: int = 0

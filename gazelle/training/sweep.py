@@ -21,6 +21,7 @@ from gazelle.training.recipes import task_name
 from gazelle.training.sweep_plan import SweepPlan
 from gazelle.training.trials import TrialHost, TrialJob, TrialOutcome, TrialValues
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
+from gazelle.writing import naming
 
 try:
     import optuna
@@ -147,7 +148,8 @@ def _work(job: TrialJob, study: optuna.Study, *, workers: int | None, ray: str |
         if outcome is None:
             outcome = TrialOutcome(error=f"its worker was lost {TRIES} times")
         if outcome.score is None:
-            with (job.folder / "errors.log").open("a", encoding="utf-8") as log:
+            errors = job.folder / "errors.log"
+            with naming(errors), errors.open("a", encoding="utf-8") as log:
                 log.write(f"trial {given.number}, {given.values}: {outcome.error}\n")
             study.tell(trial, state=TrialState.FAIL)
             return

@@ -31,9 +31,10 @@ from gazelle.ros.bags.errors import BagError
 from gazelle.ros.bags.opening import Streamed, ensure_index, header_of, raw_header
 from gazelle.ros.bags.reader import BagFile, BagReader, RawBagMessage, messages_of
 from gazelle.ros.bags.records import BagIndex, Connection
-from gazelle.ros.bags.writer import CHUNK_BYTES, BagWriter, open_for_appending
+from gazelle.ros.bags.writer import CHUNK_BYTES, BagWriter, open_for_appending, open_new
 from gazelle.ros.time import Time
 from gazelle.ros.typed import class_for
+from gazelle.writing import naming
 
 ConnectionFilter = Callable[[str, str, str, str, Mapping[str, str]], bool]
 """Takes topic, type, checksum, definition and header of a connection."""
@@ -115,8 +116,7 @@ class Bag(Closeable):
                 ensure_index(path)
             self._stream, self._writer = open_for_appending(path, **options)
         else:
-            self._stream = path.open("w+b")
-            self._writer = BagWriter(self._stream, **options)
+            self._stream, self._writer = open_new(path, **options)
         self._file = BagFile(self._stream, self.filename)
 
     def close(self) -> None:
@@ -127,9 +127,9 @@ class Bag(Closeable):
         if file is not None:
             file.release()
         if stream is not None:
-            if writer is not None:
-                writer.close()
-            stream.close()
+            with naming(self.filename), stream:
+                if writer is not None:
+                    writer.close()
         if self._reader is not None:
             self._reader.close()
             self._reader = None
@@ -341,6 +341,7 @@ class Bag(Closeable):
             ValueError: The bag is closed, or an argument is not valid.
             BagError: The bag is open for reading only, or a raw message has no definition.
             SerializationError: A field has a value of the wrong type.
+            OSError: There is no room; what was written before stays.
         """
         if self._writer is None:
             if self._reader is None:
@@ -355,14 +356,16 @@ class Bag(Closeable):
             if connection_header is not None:
                 header |= {str(key): str(value) for key, value in connection_header.items()}
             header["topic"] = topic
-            connection = self._by_topic[topic] = self._writer.connect(topic, header)
+            with naming(self.filename):
+                connection = self._by_topic[topic] = self._writer.connect(topic, header)
         if raw:
             data = msg[1]
         else:
             buffer = BytesIO()
             msg.serialize(buffer)
             data = buffer.getvalue()
-        self._writer.write(connection, stamp, data)
+        with naming(self.filename):
+            self._writer.write(connection, stamp, data)
 
     def reindex(self) -> Iterator[int]:
         """The places of all chunks; the index of a bag without one was made when it was opened."""
@@ -371,7 +374,8 @@ class Bag(Closeable):
     def flush(self) -> None:
         """Hand what was written to the system."""
         if self._writer is not None:
-            self._writer.flush()
+            with naming(self.filename):
+                self._writer.flush()
 
     def __str__(self) -> str:
         from gazelle.ros.bags.info import describe

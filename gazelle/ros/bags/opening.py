@@ -43,10 +43,10 @@ class Streamed:
 
     def finish(self) -> None:
         """Write to the stream what was written to the file, and delete the file."""
-        if self._writes:
-            with self.path.open("rb") as file:
-                shutil.copyfileobj(file, self._stream)
-        self._folder.cleanup()
+        with self._folder:
+            if self._writes:
+                with self.path.open("rb") as file:
+                    shutil.copyfileobj(file, self._stream)
 
 
 def ensure_index(path: Path) -> None:

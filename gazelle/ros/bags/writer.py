@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import IO
 
 from gazelle.ros.bags import compression, records
 from gazelle.ros.bags.records import U32, U64, BagIndex, Buffer, Chunk, Connection
+from gazelle.writing import naming
 
 CHUNK_BYTES = 768 * 1024
 """Uncompressed bytes after which a chunk is complete; as rosbag's."""
@@ -162,6 +164,23 @@ class BagWriter:
 def check_compression(kind: str) -> str:
     """Return the name of a compression; see `gazelle.ros.bags.compression.check`."""
     return compression.check(kind)
+
+
+def open_new(path: Path, *, compression: str, chunk_bytes: int) -> tuple[IO[bytes], BagWriter]:
+    """Begin a bag, in the place of a file that is there.
+
+    Raises:
+        OSError: There is no room for its header; no file is left.
+    """
+    stream = path.open("w+b")
+    try:
+        with naming(path):
+            return stream, BagWriter(stream, compression=compression, chunk_bytes=chunk_bytes)
+    except OSError:
+        with contextlib.suppress(OSError):
+            stream.close()
+        path.unlink()
+        raise
 
 
 def open_for_appending(

@@ -75,6 +75,16 @@ class NodeProcess:
         """Its number; -1 before it was started."""
         return -1 if self._process is None else self._process.pid
 
+    def _opened_log(self) -> IO[bytes] | None:
+        if self.how.log is None:
+            return None
+        try:
+            return self.how.log.open("ab" if self.spawned else "wb")
+        except OSError as error:
+            raise LaunchError(
+                f"the log cannot be written: {error.strerror}", file=str(self.how.log)
+            ) from None
+
     def start(self) -> None:
         """Start it, in a session of its own, so that signals reach all that it starts.
 
@@ -82,9 +92,7 @@ class NodeProcess:
             LaunchError: The program cannot be executed.
         """
         self._end_group()
-        log: IO[bytes] | None = None
-        if self.how.log is not None:
-            log = self.how.log.open("ab" if self.spawned else "wb")
+        log = self._opened_log()
         try:
             self._process = subprocess.Popen(  # noqa: S603  # nodes are what launch files name
                 self.how.arguments,

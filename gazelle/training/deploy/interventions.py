@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import logging
 from pathlib import Path
@@ -63,15 +64,24 @@ class InterventionLog:
 
     def note(self, event: str, now: float, **details: Any) -> None:
         """Add a line."""
-        if self._file is not None:
+        if self._file is None:
+            return
+        try:
             self._file.write(json.dumps({"time": round(now, 6), "event": event, **details}) + "\n")
             self._file.flush()
+        except OSError as error:
+            name = self._file.name
+            self.close()
+            raise TaskError(
+                f"cannot write the log: {error.strerror}", file=name, hint="see --log"
+            ) from error
 
     def close(self) -> None:
         """Close the file; a second call does nothing."""
-        if self._file is not None:
-            self._file.close()
-            self._file = None
+        file, self._file = self._file, None
+        if file is not None:
+            with contextlib.suppress(OSError):  # what found no room was reported
+                file.close()
 
 
 def _pair(command: VelocityCommand) -> list[float]:

@@ -16,6 +16,7 @@ from gazelle.compat.frobs_rl.models.utils import check_env, get_action_noise, ge
 from gazelle.compat.frobs_rl.wrappers.modern import modern
 from gazelle.errors import TaskError
 from gazelle.ros.compat import rospy
+from gazelle.writing import replacing
 
 
 class BasicModel:
@@ -144,7 +145,9 @@ class BasicModel:
             rospy.logwarn(f"there is a model '{name}' already; this one is saved as '{path.name}'")
         path.parent.mkdir(parents=True, exist_ok=True)
         self.save_trained_model_path = str(path)
-        self.model.save(path)
+        file = path if path.suffix else path.with_suffix(".zip")
+        with replacing(file) as draft:
+            self.model.save(draft)
         self.save_replay_buffer()
         return True
 
@@ -157,7 +160,9 @@ class BasicModel:
         if self.save_trained_model_path is None:
             raise ValueError("train or save the model before its replay buffer")
         if self.parameter("save_replay_buffer") and hasattr(self.model, "save_replay_buffer"):
-            self.model.save_replay_buffer(f"{self.save_trained_model_path}_replay_buffer")
+            file = Path(f"{self.save_trained_model_path}_replay_buffer")
+            with replacing(file if file.suffix else file.with_suffix(".pkl")) as draft:
+                self.model.save_replay_buffer(draft)
         return True
 
     def set_model_logger(self) -> bool:

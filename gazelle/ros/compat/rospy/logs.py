@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import logging
 import os
 import sys
@@ -21,6 +22,7 @@ from gazelle.ros.compat.rospy.rostime import (
 )
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.messages import load_message
+from gazelle.writing import naming
 
 DEBUG, INFO, WARN, ERROR, FATAL = 1, 2, 4, 8, 16
 __all__ = [
@@ -121,12 +123,34 @@ def start_screen(level: int | None) -> None:
         logging.getLogger("gazelle.ros").addHandler(screen)
 
 
+class _LogFile(logging.FileHandler):
+    """A file of log lines; without room it ends, with one line on the screen."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a line."""
+        try:
+            with naming(self.baseFilename):
+                self.stream = self.stream or self._open()
+                self.stream.write(self.format(record) + self.terminator)
+                self.stream.flush()
+        except OSError as error:
+            self._end(error)
+
+    def _end(self, error: OSError) -> None:
+        self.setLevel(logging.CRITICAL + 1)
+        stream, self.stream = self.stream, None
+        if stream is not None:
+            with contextlib.suppress(OSError):
+                stream.close()
+        sys.stderr.write(f"the log ends: {error.filename}: {error.strerror}\n")
+
+
 def _file_handler() -> logging.Handler | None:
     path = _log_path()
     if path is None:
         return None
     path.parent.mkdir(parents=True, exist_ok=True)
-    handler = logging.FileHandler(path, encoding="utf-8", delay=True)
+    handler = _LogFile(path, encoding="utf-8", delay=True)
     line = "[%(name)s][%(levelname)s] %(asctime)s: %(message)s"
     handler.setFormatter(logging.Formatter(line))
     return handler
