@@ -13,7 +13,7 @@ UNUSUAL = _WIDE + _WITHOUT_WIDTH
 """Blanks that nobody types."""
 
 XML_COMMENT = re.compile("<!--.*?-->", re.DOTALL)
-"""What a comment looks like in XML."""
+"""Pattern of a comment in XML."""
 
 _BYTES = tuple(blank.encode() for blank in UNUSUAL)
 

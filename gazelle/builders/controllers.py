@@ -157,7 +157,10 @@ def _controllers(
 
 
 def _gains(model: Model, name: str) -> dict[str, float]:
-    """Of a joint that moves an inertia I: p = I w², d = 2 I w, i = p / s; rounded to three digits."""
+    """Return the PID gains of a joint.
+
+    For a moved inertia I they are p = I w², d = 2 I w, i = p / s, rounded to three digits.
+    """
     joint = next(each for each in model.joints if each.name == name)
     inertia = max(_LEAST, _moved_inertia(model, joint))
     limit = joint.axes[0].effort

@@ -1,10 +1,11 @@
-"""The main job from end to end: load the TurtleBot3 burger and its first world
-from their files, train a policy on many copies at once, and evaluate it on 100
-fresh goals.
+"""Run the main workflow: load, train and evaluate a TurtleBot3 burger.
+
+The burger and its first world are loaded from their files, a policy is trained
+on many copies at once, and it is evaluated on 100 fresh goals.
 
   gazelle demo
   gazelle demo --world my.world --robot my_burger.urdf.xacro
-"""  # noqa: D205  # this is the text of --help
+"""  # this is the text of --help
 
 from __future__ import annotations
 

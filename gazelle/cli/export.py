@@ -1,5 +1,7 @@
-"""Write the policy of a run for use elsewhere, and beside it as JSON what it sees
-and does: the layout of observations with units, rates, limits, frames.
+"""Write the policy of a run for use elsewhere.
+
+A JSON file beside it describes its observations and actions: layout, units,
+rates, limits, frames.
 
   gazelle export runs/TurtleBot3Stage1-ppo-20261105-140302
   gazelle export RUN --format numpy --out robot/policy.npz
@@ -7,7 +9,7 @@ and does: the layout of observations with units, rates, limits, frames.
 onnx:  for ONNX Runtime, TensorRT ...; takes 'observation', gives 'action'.
 numpy: arrays alone; gazelle.training.load_actor(FILE).act(observations) acts
        without torch.
-"""  # noqa: D205  # this is the text of --help
+"""  # this is the text of --help
 
 from __future__ import annotations
 

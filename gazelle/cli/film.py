@@ -1,5 +1,7 @@
-r"""Make a film: of a world that runs, a recording, a bag or a trained policy; GIF,
-or MP4 with the extra film; needs no graphics card and no screen.
+r"""Make a film of a running world, a recording, a bag or a trained policy.
+
+The format is GIF, or MP4 with the extra film. Neither a graphics card nor a
+screen is needed.
 
   gazelle film fleet fleet.mp4 --for 10
   gazelle film turtlebot3_world burger.gif --spawn turtlebot3_burger@-2,-0.5 \
@@ -7,7 +9,7 @@ or MP4 with the extra film; needs no graphics card and no screen.
   gazelle film run.jsonl run.mp4 --speed 4
   gazelle film drive.bag camera.mp4 --topic /camera/image_raw
   gazelle film runs/TurtleBot3Stage1-ppo-20261105-140302 policy.mp4 --for 20
-"""  # noqa: D205  # this is the text of --help
+"""  # this is the text of --help
 
 from __future__ import annotations
 

@@ -1,13 +1,14 @@
-"""Write the beginning of something of yours into this folder: a task, with a
-robot, a test, and a pole that a cart learns to keep up in a minute.
+"""Write a template into this folder: a task with a robot and a test.
+
+Its cart learns to balance a pole in a minute.
 
   gazelle new task Balance
 
-Or what a robot needs to be controlled: its URDF with transmissions, controllers
-and a launch file.
+Or the files that ros_control needs: a robot's URDF with transmissions,
+controllers and a launch file.
 
   gazelle new control my_arm.urdf
-"""  # noqa: D205  # this is the text of --help
+"""  # this is the text of --help
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
-"""Simulate a file, without a window: an SDF or .world, a URDF or xacro, a Stage
-.world, a map_server map, a model's folder, or a bundled name (see 'gazelle
-worlds').
+"""Simulate a file without a window.
+
+The file is an SDF or .world, a URDF or xacro, a Stage .world, a map_server map,
+a model's folder, or a bundled name (see 'gazelle worlds').
 
   gazelle run turtlebot3_stage_1 --for 60 --rate max
   gazelle run my_robot.urdf.xacro
@@ -14,7 +15,7 @@ A robot or model by itself opens in a world with ground and sun.
 With --ros it is a ROS 1 node: /clock, topics and /gazebo/... services, as
 Gazebo has them. A master is started where ROS_MASTER_URI names none that
 answers.
-"""  # noqa: D205  # this is the text of --help
+"""  # this is the text of --help
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What no engine can simulate: judged once, for all engines."""
+"""Limits of all engines, checked once."""
 
 from __future__ import annotations
 

@@ -81,7 +81,7 @@ def _waits(frame: FrameType) -> bool:
 
 
 def _joins_me(frame: FrameType | None) -> bool:
-    """Whether a thread waits for the end of the calling one."""
+    """Return whether a thread waits for the end of the calling one."""
     me = threading.current_thread()
     while frame is not None and frame.f_code.co_filename == threading.__file__:
         if frame.f_code.co_name == "join" and frame.f_locals.get("self") is me:

@@ -90,7 +90,7 @@ def _start(
 
 
 def _fits(found: type[BasePlugin], element: str, name: str, plugin: description.Plugin) -> bool:
-    """Whether a plugin is in an element of its kind; says so if it is not."""
+    """Return whether a plugin is in an element of its kind; warn if it is not."""
     kinds = [vars(each).get("belongs_into", "") for each in found.__mro__]
     if element in kinds:
         return True

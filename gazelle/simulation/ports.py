@@ -343,7 +343,7 @@ class PortTable(dict[str, T]):
 
 
 class Ports:
-    """What somebody offers, by names that do not change with topics.
+    """Ports of one owner, by names that do not change with topics.
 
     Attributes:
         inputs: Ports that take commands.

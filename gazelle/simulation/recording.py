@@ -31,17 +31,17 @@ from gazelle.writing import write_text
 
 
 class StepCuts(Protocol):
-    """What makes steps; see ``StepLoop``."""
+    """Protocol of what makes steps; see ``StepLoop``."""
 
     cut: bool
 
 
 class RecordedRun(RunningState, Protocol):
-    """What can be recorded."""
+    """Protocol of runs that can be recorded."""
 
     @property
     def loop(self) -> StepCuts:
-        """What makes its steps."""
+        """Loop that makes its steps."""
 
 
 FORMAT = "gazelle-recording"

@@ -326,7 +326,7 @@ class Robot(Ports):
 
     @between_steps
     def wrench(self, joint: str, worlds: Worlds | None = None) -> Wrench:
-        """What the child of a joint exerts on its parent, about the joint, in the world frame.
+        """Return the wrench of a joint's child on its parent, about the joint, in the world frame.
 
         Args:
             joint: Name within the robot; fixed joints have a wrench too.
@@ -343,7 +343,7 @@ class Robot(Ports):
         return chosen(worlds, self.simulation.nworld)
 
     def joint_description(self, name: str) -> Joint:
-        """What the file says about a joint, fixed ones too.
+        """Return the joint's description in the file, of fixed ones too.
 
         Raises:
             SimulationError: There is no joint of that name.

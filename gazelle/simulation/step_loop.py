@@ -192,11 +192,11 @@ class StepLoop:
         return self.in_step.ask(self._simulation.clock.now_ns, self._holds(), updated)
 
     def _holds(self) -> Hashable:
-        """What plugins go by that say what carries them, besides what is done to them."""
+        """Return the cache key: engine revision, step size, applied loads."""
         return self._engine.revision, self._simulation.clock.step_ns, self._loads.turned
 
     def _is_settled(self) -> bool:
-        """Whether what was asked before plugins were updated holds still."""
+        """Return whether the plan still holds."""
         return self._planned == self._now() and self.in_step.is_current(self._holds())
 
     def _steps_in_step(self) -> int:
@@ -232,7 +232,7 @@ class StepLoop:
         return self._plan
 
     def _now(self) -> tuple[int, bool, int, int]:
-        """What a plan holds for."""
+        """Return the key of a plan: it holds while this is the same."""
         count, changes = len(self._entities.plugins), self._simulation.lock.changes
         return changes, bool(self.followers), count, self._engine.revision
 

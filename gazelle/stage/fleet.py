@@ -100,7 +100,7 @@ class StageFleet(Senses):
 
     @property
     def description(self) -> StageWorld:
-        """What the file says of the world."""
+        """Description of the world in the file."""
         return self.engine.world.stage or StageWorld()
 
     @property
@@ -206,7 +206,7 @@ class StageFleet(Senses):
 
     @property
     def true_velocities(self) -> Floats:
-        """How the poses changed in the last step, in the world's axes [m/s, rad/s]."""
+        """Change of the poses in the last step, in the world's axes [m/s, rad/s]."""
         change = np.subtract(self.poses, self._motion.before)
         change[..., 2] = np.arctan2(np.sin(change[..., 2]), np.cos(change[..., 2]))
         rate: Floats = change / self.time_step
@@ -214,7 +214,7 @@ class StageFleet(Senses):
 
     @property
     def odometry(self) -> Floats:
-        """Where the robots believe they are, by their ``localization``; as ``poses``."""
+        """Poses of the robots by their ``localization``; as ``poses``."""
         poses, odometry = self.poses, self._motion.odometry
         if not odometry.needed:
             return poses
@@ -223,13 +223,13 @@ class StageFleet(Senses):
 
     @property
     def stalled(self) -> NDArray[np.bool_]:
-        """Whether a robot's last move was not made, as it would have hit something."""
+        """True where a robot's last move was not made, as it would have hit something."""
         self.refresh()
         return self._stalled
 
     @property
     def bumped(self) -> NDArray[np.bool_]:
-        """Whether a move was not made since this was last cleared; to be written, as ``stalled``.
+        """True where a move was not made since this was last cleared; writable, as ``stalled``.
 
         It is kept from when it is first asked for.
         """
@@ -256,7 +256,7 @@ class StageFleet(Senses):
 
     @property
     def mounts(self) -> list[list[Mount]]:
-        """Where its sensors are."""
+        """Mounts of its sensors."""
         return self.rangers.mounts
 
     @property
@@ -265,7 +265,7 @@ class StageFleet(Senses):
         return self.rangers.noise
 
     def scan(self, scanner: int = 0) -> Floats:
-        """What all sensors of a scanner measure now [m], shape (nworld, sensors, samples).
+        """Return the present ranges of all sensors of a scanner [m], shape (nworld, sensors, samples).
 
         ``Ranger.places`` says which scanner and which row are a sensor's. Each is measured
         once a step, however often it is asked for.
@@ -279,7 +279,7 @@ class StageFleet(Senses):
         return self.rangers.scan(scanner)
 
     def scan_system(self, scanner: int) -> tuple[System, Floats] | None:
-        """What scans in native code, and where it writes, a row a sensor; None if that is not all.
+        """Return the native scan system and its output, a row a sensor; None if Python takes part.
 
         Raises:
             SimulationError: There is no such scanner.
@@ -287,7 +287,7 @@ class StageFleet(Senses):
         return self.rangers.system(scanner)
 
     def scan_of(self, name: str, ranger: int = 0, sensor: int = 0, world: int = 0) -> Floats:
-        """What one sensor of a robot measures now [m], shape (samples,).
+        """Return the present ranges of one sensor of a robot [m], shape (samples,).
 
         Raises:
             SimulationError: There is no such robot, ranger or sensor.
@@ -380,7 +380,7 @@ class StageFleet(Senses):
 
 
 def _pairs(old: Sequence[str], new: Sequence[str]) -> list[tuple[int, int]]:
-    """Where names were, and where they are."""
+    """Return the old and the new index of each name that is in both lists."""
     places = {name: index for index, name in enumerate(new)}
     return [(index, places[name]) for index, name in enumerate(old) if name in places]
 

@@ -1,4 +1,4 @@
-"""What Stage's models look like to cameras: their bodies in their colours, and the ground."""
+"""Appearance of Stage's models to cameras: their bodies in their colours, and the ground."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ from gazelle.stage.faces import NO_FACES, in_tiles, plates, prism, walls_between
 Rgb = tuple[float, float, float]
 
 SKY = (179.0 / 255.0, 179.0 / 255.0, 204.0 / 255.0, 1.0)
-"""What is behind all."""
+"""Background colour."""
 
 _FLOOR = (1.0, 1.0, 1.0)
 _FAR = 1e7
-"""How far the ground goes [m], and no farther than its heights are still exact to a nanometre."""
+"""Extent of the ground [m], limited so that its heights are exact to a nanometre."""
 _TILE = 64
 """Faces of what stands still that a camera leaves out together."""
 
@@ -57,7 +57,7 @@ class StageScenery:
 
 @dataclass(frozen=True, slots=True)
 class _BodyLook:
-    """What is on a body: of the owners that have a link of their own, and of all others (-1)."""
+    """Appearance of a body: of the owners that have a link of their own, and of all others (-1)."""
 
     parts: tuple[tuple[int, TriangleMesh, Rgb], ...]
     casings: tuple[int, ...]
@@ -72,7 +72,7 @@ def color_of(model: StageModel) -> Color:
 
 
 def scenery_of(still_ones: Iterable[StageModel], bodies: Sequence[StageModel]) -> StageScenery:
-    """What a world looks like.
+    """Return the scenery of a world.
 
     Args:
         still_ones: Models that never move.

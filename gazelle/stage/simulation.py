@@ -101,7 +101,7 @@ class StageSimulation(Closeable):
 
     @property
     def paused(self) -> bool:
-        """Whether ``run`` refuses to run."""
+        """True if ``run`` refuses to run."""
         return self.simulation.paused
 
     def step(self, count: int = 1) -> None:

@@ -255,7 +255,7 @@ _DERIVED_FROM = frozenset(
 
 
 _CONSTANT = {"joint_lower", "joint_upper"}
-"""What is compiled stays for a layout's life, and joints that are placed ask in every step."""
+"""Parameters that are fixed for a layout's life; placed joints read them in every step."""
 
 
 class ParameterStore:

@@ -1,4 +1,4 @@
-"""What controllers in native code are bound to within MuJoCo's steps."""
+"""Binding of controllers in native code to MuJoCo's steps."""
 
 from __future__ import annotations
 

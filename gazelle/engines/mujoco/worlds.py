@@ -120,7 +120,7 @@ class RunningWorlds:
     if not TYPE_CHECKING:  # what is compiled is had by attributes that the class names
 
         def __getattr__(self, name: str) -> Any:
-            """What runs, which is compiled when it is first asked for."""
+            """Return a compiled attribute; compile the worlds on the first access."""
             if self.revision or name not in _COMPILED:
                 raise AttributeError(name)
             self._start(self.latest, compile_world(self.latest))
@@ -151,7 +151,7 @@ class RunningWorlds:
 
     @cached_property
     def hooks(self) -> Hooks:
-        """What steps call to bring systems."""
+        """Hooks by which steps call systems."""
         return Hooks(self.nworld)
 
     @property
@@ -161,7 +161,7 @@ class RunningWorlds:
 
     @property
     def latest(self) -> CompilerInput:
-        """What runs, or will from the next step on."""
+        """Input of the model that runs, or will from the next step on."""
         return self.pending or self.recipe
 
     @property
@@ -197,7 +197,7 @@ class RunningWorlds:
         return tuple(name for name, parts in self.bodies().items() if parts)
 
     def axes_at_zero(self, joint: str) -> int:
-        """How many axes a joint has whose world is not compiled: they are at zero; 0 if it is."""
+        """Return the number of axes of a joint in uncompiled worlds, which are at zero; 0 if compiled."""
         if self.revision:
             return 0
         every = (body for parts in self.bodies().values() for body in parts)

@@ -12,7 +12,7 @@ from gazelle.engines.sections import Levels, parts_of
 from gazelle.geometry.planar_part import PlanarPart
 
 STEP = 0.01
-"""How high a step is that robots still drive over [m]."""
+"""Greatest height of a step that robots still drive over [m]."""
 
 _DROP = 0.5  # from how high a robot is put on the ground [m]
 _HEIGHTS = (STEP, 0.5)  # at which robots bump, if there are none yet [m]

@@ -1,4 +1,4 @@
-"""How a base moves when its wheels turn and roll without slipping."""
+"""Rolling motion of a base: velocity from the speeds of its wheels, without slipping."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def wheel_of(joint: str, link: Link, pose: Pose, axis: Sequence[float]) -> Wheel
 
 
 def rolling(wheels: Sequence[Wheel]) -> Floats:
-    """What turns wheel speeds [rad/s] into the base's twist (vx, vy, turning), shape (3, wheels).
+    """Return the matrix from wheel speeds [rad/s] to the twist (vx, vy, turning), shape (3, wheels).
 
     Each wheel rolls along and does not slip sideways; where that cannot be, as with four
     wheels that cannot steer, the error is least.

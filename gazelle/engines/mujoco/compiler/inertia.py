@@ -20,7 +20,7 @@ from gazelle.errors import EngineError
 from gazelle.formats.limits import HEAVIEST
 
 _ROUNDING = 1e-9
-"""What moments may lack in this proportion to the largest is not worth a second compilation."""
+"""Relative error of moments that is not worth a second compilation."""
 
 
 def principal(tensors: Floats) -> tuple[Floats, Floats]:

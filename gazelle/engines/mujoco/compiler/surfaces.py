@@ -38,7 +38,7 @@ _RATIO_IN_A_PYRAMID, _RATIO_IN_A_CONE = 100.0, 10_000.0
 _SHARE_IN_A_CONE = 0.99
 
 TOUCHING = 5e-7
-"""How far around a geom contacts begin [m]; those of two geoms add up.
+"""Margin around a geom at which contacts begin [m]; those of two geoms add up.
 
 What a file puts exactly on a surface touches with all its corners then, wherever their places are
 rounded to, and rests a thousandth of a millimetre higher.

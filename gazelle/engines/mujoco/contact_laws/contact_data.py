@@ -1,4 +1,4 @@
-"""What laws of contacts know of a step and of a contact; compiled modules have ``contact_data.pxd``.
+"""State of a step and of a contact for contact laws; compiled modules have ``contact_data.pxd``.
 
 A ``Touch`` has, of a step: addresses of the ``mjModel``, the ``mjData`` and the geoms' custom
 numbers, the physics step [s], the strength of gravity [m/s²], whether friction is a ``cone`` or a

@@ -70,7 +70,7 @@ def are_fast(
     velocity: cython.p_double,
     speeds: cython.p_double,
 ) -> cython.bint:
-    """Whether an effort speeds up what is too fast, of velocities side by side, several at a time."""
+    """Return whether an effort accelerates a velocity that is too fast, several at a time."""
     found: cython.Py_ssize_t = 0
     index: cython.Py_ssize_t
     for index in range(count):

@@ -1,4 +1,4 @@
-"""What is let out of an overlap leaves at ``max_vel``, whatever pieces it touches with on its way.
+"""Bound on the velocity of penetration recovery, whatever pieces a body touches on its way.
 
 The surfaces of what overlapped are below where they are, and rise (``penetration_recovery``): their contacts
 have a margin below zero, which marks them. Of such a body other pieces come to touch as it

@@ -1,4 +1,4 @@
-"""Where a cylinder touches a plane, also when it stands on it to the last digit.
+"""Contact of a cylinder with a plane, also when it stands on it to the last digit.
 
 MuJoCo looks for the lowest point of a cylinder's rim along the part of the plane's normal that is
 across the axis. For a cylinder that stands upright that part is rounding, of any direction: along

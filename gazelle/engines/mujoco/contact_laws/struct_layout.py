@@ -1,4 +1,4 @@
-"""Where the fields of MuJoCo's structs lie in memory, from MuJoCo's own description of them.
+"""Memory layout of MuJoCo's structs, from MuJoCo's own description of them.
 
 Compiled code that MuJoCo calls in the middle of a step gets bare addresses of its model and
 data. The offsets are worked out by ``ctypes`` from ``mujoco.introspect``, which comes with

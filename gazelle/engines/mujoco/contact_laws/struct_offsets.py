@@ -1,4 +1,4 @@
-"""Where the fields of MuJoCo's structs are, for the laws that are compiled (``struct_layout``)."""
+"""Offsets of the fields of MuJoCo's structs, for the laws that are compiled (``struct_layout``)."""
 
 from __future__ import annotations
 

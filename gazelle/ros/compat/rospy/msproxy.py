@@ -11,7 +11,7 @@ from gazelle.ros.compat.rospy.names import resolve_name
 
 _PLACE = {"subscribeParam": 1, "unsubscribeParam": 1}
 _PLACE |= dict.fromkeys(("deleteParam", "setParam", "getParam", "hasParam", "lookupService"), 0)
-"""Which argument is a name to resolve."""
+"""Index of the argument that is a name to resolve."""
 
 
 class MasterProxy:

@@ -1,0 +1,136 @@
+"""Wording of docstrings: the first word, and the length of the first sentence."""
+
+from __future__ import annotations
+
+import ast
+import functools
+import itertools
+import re
+from pathlib import Path
+
+import pytest
+
+import gazelle
+
+PACKAGE = Path(gazelle.__file__).parent
+CHECKOUT = PACKAGE.parent
+QUESTION = re.compile(r"(What|Where|Who|Whose|Whether|How|Which)\b")
+SENTENCE = re.compile(r"(?s)(.*?[.!?]\)?)(?=\s+[A-Z\"'`(0-9:*\-]|\s*$)")
+MOST_WORDS = 25
+KINDS = {
+    ast.Module: "module",
+    ast.ClassDef: "class",
+    ast.FunctionDef: "function",
+    ast.AsyncFunctionDef: "function",
+}
+
+
+def is_text(node):
+    """Return whether a statement is a string alone."""
+    value = node.value if isinstance(node, ast.Expr) else None
+    return isinstance(value, ast.Constant) and isinstance(value.value, str)
+
+
+def docstrings_below(node):
+    """Yield the kind, line and text of each docstring in a statement; expressions have none."""
+    kind = KINDS.get(type(node))
+    text = ast.get_docstring(node) if kind else None
+    if text:
+        yield kind, node.body[0].lineno, text
+    for field in ("body", "orelse", "finalbody"):
+        body = getattr(node, field, [])
+        for before, each in itertools.pairwise(body):
+            if isinstance(before, ast.Assign | ast.AnnAssign) and is_text(each):
+                yield "attribute", each.lineno, each.value.value
+        for each in body:
+            yield from docstrings_below(each)
+
+
+def docstrings(source):
+    """Return the kind, line and text of each docstring of a module."""
+    return [*docstrings_below(ast.parse(source))]
+
+
+@functools.cache
+def all_docstrings(folder):
+    """Return file, kind, line and text of every docstring below a folder."""
+    return [
+        (path.relative_to(folder.parent).as_posix(), *each)
+        for path in sorted(folder.rglob("*.py"))
+        for each in docstrings(path.read_text(encoding="utf-8"))
+    ]
+
+
+def first_sentence(text):
+    """Return the first sentence of a docstring, or its first paragraph without a full stop."""
+    paragraph = text.strip().split("\n\n")[0]
+    found = SENTENCE.match(paragraph)
+    return found[1] if found else paragraph
+
+
+SOURCE = '''
+"""How it is."""
+
+LEAST = 1
+"""What is least."""
+
+
+class Thing:
+    """Who does it."""
+
+    size: int = 2
+    """Length of the thing."""
+
+    def act(self):
+        """Whether it acts. This is more."""
+
+    def rest(self):
+        """Wait for the end."""
+'''
+
+
+def test_docstrings_of_all_kinds_are_found():
+    found = [(kind, text) for kind, _, text in docstrings(SOURCE)]
+    assert sorted(found) == [
+        ("attribute", "Length of the thing."),
+        ("attribute", "What is least."),
+        ("class", "Who does it."),
+        ("function", "Wait for the end."),
+        ("function", "Whether it acts. This is more."),
+        ("module", "How it is."),
+    ]
+    assert sum(bool(QUESTION.match(text)) for _, text in found) == 4
+
+
+@pytest.mark.parametrize(
+    ("text", "first"),
+    [
+        ("Return it. And more.", "Return it."),
+        ("Return it\nover lines.\n\nMore.", "Return it\nover lines."),
+        ("Return 0.5 or less, e.g. none at all.", "Return 0.5 or less, e.g. none at all."),
+        ("A name without a stop\n\nMore.", "A name without a stop"),
+    ],
+)
+def test_the_first_sentence_is_found(text, first):
+    assert first_sentence(text) == first
+
+
+@pytest.mark.long
+def test_docstrings_of_the_package_begin_with_no_question_word():
+    assert [each for each in all_docstrings(PACKAGE) if QUESTION.match(each[3])] == []
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("folder", ["tests", "benchmarks", "tools", "examples"])
+def test_docstrings_of_other_modules_begin_with_no_question_word(folder):
+    found = all_docstrings(CHECKOUT / folder)
+    assert found
+    assert [each for each in found if each[1] == "module" and QUESTION.match(each[3])] == []
+
+
+@pytest.mark.long
+def test_first_sentences_are_short():
+    found = all_docstrings(PACKAGE)
+    assert len(found) > 10_000
+    texts = [each for each in found if each[1] != "attribute"]
+    assert [each for each in texts if len(first_sentence(each[3]).split()) > MOST_WORDS] == []
