@@ -97,7 +97,7 @@ def current(group: MoveGroupCommander) -> Answer:
 
 
 def group_state(group: MoveGroupCommander) -> Answer:
-    """Where joints are, as an SRDF says it."""
+    """Return the present joint values as SRDF."""
     variables = group.get_variables()
     values = zip(variables, group.get_current_joint_values(), strict=True)
     lines = [

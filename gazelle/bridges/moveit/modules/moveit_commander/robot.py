@@ -47,7 +47,7 @@ class CommanderJoint:
         return _one([high for _, high in self._limits()])
 
     def value(self) -> Any:
-        """Where it is now, or a list of that."""
+        """Return its present position, or a list of positions."""
         return _one(self._robot.get_current_joint_values(self._name))
 
     def move(self, position: Any, wait: bool = True) -> bool:  # noqa: FBT001, FBT002  # MoveIt's interface
@@ -124,7 +124,7 @@ class RobotCommander:
         return list(self._names.groups)
 
     def has_group(self, group: str) -> bool:
-        """Whether there is a group of a name."""
+        """Return whether there is a group of a name."""
         return group in self._names.groups
 
     def get_group_joint_names(self, group: str) -> list[str]:
@@ -255,7 +255,7 @@ class RobotCommander:
         return self._access.message(self._access.known())
 
     def get_link_pose(self, link: str) -> list[float]:
-        """Where a link is now: x, y, z, qx, qy, qz, qw; empty if there is no such link."""
+        """Return the present pose of a link: x, y, z, qx, qy, qz, qw; empty if it does not exist."""
         if link not in self._robot.links:
             return []
         pose = self._robot.pose(self._access.known(), link)
