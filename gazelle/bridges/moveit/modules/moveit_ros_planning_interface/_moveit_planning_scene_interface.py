@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import Any, ClassVar
 
-from gazelle.bridges.moveit.client import byte_interface
+from gazelle.bridges.moveit.client.byte_interface import ByteInterface
 from gazelle.bridges.moveit.modules.moveit_commander import planning_scene_interface
 
 __all__ = ["PlanningSceneInterface"]
 
 
-class PlanningSceneInterface(byte_interface.ByteInterface):
+class PlanningSceneClient(ByteInterface):
     """The planning scene of ``move_group``."""
 
     client: ClassVar[type[Any]] = planning_scene_interface.PlanningSceneInterface
     takes: ClassVar = {"apply_planning_scene": ("moveit_msgs/PlanningScene",)}
+
+
+PlanningSceneInterface = PlanningSceneClient
