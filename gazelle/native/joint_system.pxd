@@ -26,7 +26,3 @@ cdef void copy(Py_ssize_t count, double* restrict start, double* restrict end) n
 
 @cython.locals(i=Py_ssize_t, held=double)
 cdef void act_in_row(Py_ssize_t count, double* restrict effort, double* restrict pushed, double* restrict most, double* restrict applied) noexcept nogil
-
-
-@cython.locals(index=Py_ssize_t, place="void*")
-cdef void bring_systems(long long* table, Py_ssize_t count, Py_ssize_t world, double* qpos, double* qvel, double* applied, double* user, long long time) noexcept nogil

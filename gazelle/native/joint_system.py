@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import cython
@@ -21,9 +20,6 @@ from cython.cimports.gazelle.native.system import System
 from numpy.typing import NDArray
 
 from gazelle.native.rows import first_of_run
-
-# Systems by their addresses, for Python that runs the sources of compiled modules.
-_KNOWN: dict[int, Any] = {}
 
 
 @cython.cclass
@@ -179,23 +175,3 @@ def act_in_row(count: int, effort: Any, pushed: Any, most: Any, applied: Any) ->
         held = min(max(effort[i], -most[i]), most[i])
         applied[i] = held if pushed[i] != 0.0 else applied[i]
         pushed[i] = 0.0
-
-
-def bring_systems(
-    table: Any, count: int, world: int, qpos: Any, qvel: Any, applied: Any, user: Any, time: int
-) -> None:
-    """``exchange`` of systems whose addresses are in a table (``addresses``)."""
-    for index in range(count):
-        if cython.compiled:
-            place = cython.cast(cython.p_void, table[index])
-            cython.cast(JointSystem, place).exchange(world, qpos, qvel, applied, user, time)
-        else:
-            _KNOWN[int(table[index])].exchange(world, qpos, qvel, applied, user, time)
-
-
-def addresses(systems: Sequence[JointSystem]) -> NDArray[np.int64]:
-    """Return the addresses that ``bring_systems`` takes; valid as long as the systems are kept."""
-    if not cython.compiled:
-        _KNOWN.clear()
-        _KNOWN.update((id(each), each) for each in systems)
-    return np.array([id(each) for each in systems], np.int64)

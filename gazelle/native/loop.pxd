@@ -9,6 +9,7 @@ cdef enum:
 
 
 cdef long long moment(long long count, double rate) noexcept nogil
+cdef long long next_due(long long time, double rate) noexcept nogil
 
 
 cdef class SystemLoop:
@@ -21,12 +22,14 @@ cdef class SystemLoop:
     cdef double[::1] _rates
     cdef long long[:, ::1] _due
     cdef long long[::1] _shared
+    cdef long long[::1] _end
     cdef void _play_worlds(self, Py_ssize_t part, Py_ssize_t blocks, long long until) noexcept nogil
     cdef void _play_together(self, Py_ssize_t part, Py_ssize_t threads, long long until) noexcept nogil
     cdef long long _next_block(self) noexcept nogil
     cdef void _wait_for_all(self, Py_ssize_t threads) noexcept nogil
     cdef void _update_due(self, Py_ssize_t row, long long late) noexcept nogil
     cdef long long _steps_to_due(self, Py_ssize_t row, long long until) noexcept nogil
+    cdef void _pass_within(self, Py_ssize_t row) noexcept nogil
     cdef void _pass(self, Py_ssize_t row, long long until) noexcept nogil
     cdef long long _moment_of(self, Py_ssize_t index, long long time) noexcept nogil
     cdef void _begin(self, Py_ssize_t part) noexcept nogil

@@ -4,14 +4,31 @@
 
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
+from weakref import WeakValueDictionary
 
 import cython
 import numpy as np
+from cython.cimports.gazelle.native.acting import (
+    ACTS,
+    ADDRESS,
+    AHEAD,
+    BETWEEN,
+    DIVISIBLE,
+    LATE,
+    LEAST,
+    ROWS,
+    STEADY,
+    WIDTH,
+)
 from cython.cimports.gazelle.native.system import System
 from cython.cimports.libc.math import floor, rint
 
 if not cython.compiled:
     BLOCKS_A_THREAD, APART = 4, 16  # in a compiled module, what loop.pxd says
+
+
+# Systems by their addresses, for Python that runs the sources of compiled modules.
+KNOWN: WeakValueDictionary[int, Any] = WeakValueDictionary()
 
 
 class Pool(Protocol):
@@ -31,6 +48,19 @@ def moment(count: cython.longlong, rate: cython.double) -> cython.longlong:
     return cython.cast(cython.longlong, rint(cython.cast(cython.double, count * 1000000000) / rate))
 
 
+@cython.cfunc
+@cython.nogil
+@cython.exceptval(check=False)
+def next_due(time: cython.longlong, rate: cython.double) -> cython.longlong:
+    """When something with a rate [Hz] is due for the first time after a time [ns]."""
+    count: cython.longlong = cython.cast(cython.longlong, floor(time * rate / 1e9))
+    due: cython.longlong = moment(count, rate)
+    while due <= time:
+        count += 1
+        due = moment(count, rate)
+    return due
+
+
 @cython.cclass
 class SystemLoop:
     """Systems that are updated one after another in every step in which they are due.
@@ -46,6 +76,8 @@ class SystemLoop:
         step: Simulated time of a step [ns].
         pool: Threads to share the work among; None: the calling one works alone.
         time: When it begins [ns].
+        acts: When an engine whose steps are made by something else updates each system, of
+            ``gazelle.native.acting``; all between two steps if None.
 
     Attributes:
         time: Of the next step [ns].
@@ -61,6 +93,7 @@ class SystemLoop:
         step: cython.longlong,
         pool: Pool | None = None,
         time: cython.longlong = 0,
+        acts: Sequence[int] | None = None,
     ) -> None:
         if nworld < 1 or step < 1:
             raise ValueError(f"there are {nworld} worlds and steps of {step} ns")
@@ -71,13 +104,16 @@ class SystemLoop:
         size = 1 if pool is None or not cython.compiled else pool.size
         rows = [(each.rows, each.divisible, each.late, each.least) for each in self.systems]
         table = [
-            (id(each), *row, getattr(each, "steady", False))
-            for each, row in zip(self.systems, rows, strict=True)
+            (id(each), *row, getattr(each, "steady", False), when)
+            for each, row, when in zip(
+                self.systems, rows, acts or [BETWEEN] * len(rows), strict=True
+            )
         ]
-        self._table = np.array(table, np.int64).reshape(-1, 6)
+        self._table = np.array(table, np.int64).reshape(-1, WIDTH)
         self._rates = np.array([each.rate for each in self.systems], np.float64)
         self._due = np.zeros((size + 1, len(self.systems)), np.int64)  # the last: at the beginning
         self._shared = np.zeros(APART + 2, np.int64)
+        self._end = np.zeros(1, np.int64)
 
     def run(self, until: cython.longlong, threads: cython.Py_ssize_t = 0) -> None:
         """Make steps as long as they begin before a time.
@@ -116,21 +152,47 @@ class SystemLoop:
             advance: Makes so many steps, at whose beginning or end systems are due, and not between.
         """
         row: cython.Py_ssize_t = self._due.shape[0] - 1
+        index: cython.Py_ssize_t
         steps: cython.longlong
-        for index, system in enumerate(self.systems):
+        system: System
+        for index in range(self._due.shape[1]):
+            system = self.systems[index]
             self._due[row, index] = system.due
+            if self._table[index, ACTS] != BETWEEN and system.rate > 0.0:
+                self._due[row, index] = max(system.due, self.time)  # what is late is due at once
+        self._end[0] = self.time
         try:
             while self.time < until:
                 with cython.nogil:
                     self._update_due(row, 0)
                     steps = self._steps_to_due(row, until)
+                    self._end[0] = self.time + steps * self.step
                 advance(steps)
-                self.time += steps * self.step
+                self.time = self._end[0]
                 with cython.nogil:
+                    self._pass_within(row)
                     self._update_due(row, 1)
         finally:
-            for index, system in enumerate(self.systems):
+            self._pass_within(row)
+            for index in range(self._due.shape[1]):
+                system = self.systems[index]
                 system.due = self._due[row, index]
+
+    def shared(self) -> tuple[int, int, int, int, int]:
+        """Return what an engine's steps go by: how many systems there are, and four addresses.
+
+        They are those of the table, of the rates [Hz], of when systems are due [ns], and of the time at
+        which the steps end that are made at once [ns].
+        """
+        if not cython.compiled:
+            KNOWN.update((id(each), each) for each in self.systems)
+        return (
+            len(self.systems),
+            np.asarray(self._table).ctypes.data,
+            np.asarray(self._rates).ctypes.data,
+            np.asarray(self._due)[-1].ctypes.data,
+            np.asarray(self._end).ctypes.data,
+        )
 
     @cython.cfunc
     @cython.nogil
@@ -139,20 +201,37 @@ class SystemLoop:
         """Update the systems that are due at this time, those that are late or the others."""
         index: cython.Py_ssize_t
         for index in range(self._table.shape[0]):
-            if self._table[index, 3] == late and self._is_due(row, index, self.time):
-                self._update(index, 0, self.nworld * self._table[index, 1], self.time)
+            acts: cython.longlong = self._table[index, ACTS]
+            between: cython.bint = acts == BETWEEN or acts == AHEAD  # noqa: PLR1714  of C
+            if between and self._table[index, LATE] == late and self._is_due(row, index, self.time):
+                self._update(index, 0, self.nworld * self._table[index, ROWS], self.time)
 
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
     def _steps_to_due(self, row: cython.Py_ssize_t, until: cython.longlong) -> cython.longlong:
-        """Steps until a system is due again or a time has come, one at least."""
+        """Steps until a system acts between two or a time has come, one at least."""
         soonest: cython.longlong = until
         index: cython.Py_ssize_t
         for index in range(self._table.shape[0]):
-            if self._rates[index] > 0.0 or not self._table[index, 5]:
+            if self._table[index, ACTS] != BETWEEN:
+                continue
+            if self._rates[index] > 0.0 or not self._table[index, STEADY]:
                 soonest = min(soonest, self._due[row, index])
         return max(1, (soonest - self.time + self.step - 1) // self.step)
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
+    def _pass_within(self, row: cython.Py_ssize_t) -> cython.void:
+        """Let systems be due after the steps in which they were updated."""
+        index: cython.Py_ssize_t
+        last: cython.longlong = self._end[0] - self.step
+        for index in range(self._table.shape[0]):
+            if self._table[index, ACTS] == BETWEEN or self._rates[index] <= 0.0:
+                continue
+            if self._due[row, index] <= last:
+                self._due[row, index] = next_due(last, self._rates[index])
 
     @cython.cfunc
     @cython.nogil
@@ -202,7 +281,7 @@ class SystemLoop:
                 for index in range(self._table.shape[0]):
                     when: cython.longlong = self._moment_of(index, time)
                     if self._is_due(part, index, when):
-                        rows: cython.longlong = self._table[index, 1]
+                        rows: cython.longlong = self._table[index, ROWS]
                         self._update(index, first * rows, last * rows, when)
                 time += self.step
 
@@ -225,10 +304,10 @@ class SystemLoop:
             for index in range(self._table.shape[0]):
                 when: cython.longlong = self._moment_of(index, time)
                 if self._is_due(part, index, when):
-                    rows: cython.longlong = self._table[index, 1]
-                    unit: cython.longlong = 1 if self._table[index, 2] else rows
+                    rows: cython.longlong = self._table[index, ROWS]
+                    unit: cython.longlong = 1 if self._table[index, DIVISIBLE] else rows
                     count: cython.longlong = self.nworld * rows // unit
-                    worth: cython.longlong = count * unit // self._table[index, 4]
+                    worth: cython.longlong = count * unit // self._table[index, LEAST]
                     parts: cython.longlong = max(1, min(threads, worth, count))
                     if not (alone and parts == 1):
                         self._wait_for_all(threads)
@@ -245,7 +324,7 @@ class SystemLoop:
     @cython.exceptval(check=False)
     def _moment_of(self, index: cython.Py_ssize_t, time: cython.longlong) -> cython.longlong:
         """The time of an update in the step that begins at a time [ns]."""
-        return time + self._table[index, 3] * self.step
+        return time + self._table[index, LATE] * self.step
 
     @cython.cfunc
     @cython.nogil
@@ -285,12 +364,7 @@ class SystemLoop:
             return False
         rate: cython.double = self._rates[index]
         if rate > 0.0:
-            count: cython.longlong = cython.cast(cython.longlong, floor(time * rate / 1e9))
-            due: cython.longlong = moment(count, rate)
-            while due <= time:
-                count += 1
-                due = moment(count, rate)
-            self._due[part, index] = due
+            self._due[part, index] = next_due(time, rate)
         return True
 
     @cython.cfunc
@@ -301,7 +375,7 @@ class SystemLoop:
         time: cython.longlong,
     ) -> cython.void:  # fmt: skip
         if cython.compiled:
-            place: cython.p_void = cython.cast(cython.p_void, self._table[index, 0])
+            place: cython.p_void = cython.cast(cython.p_void, self._table[index, ADDRESS])
             cython.cast(System, place).update(first, last, time)
         else:
             self.systems[index].update(first, last, time)

@@ -106,6 +106,7 @@ class PosePath(PathSystem):
     ) -> None:
         PathSystem.__init__(self, path)
         self.position, self.quaternion, self.moved = position, quaternion, moved
+        self.uses = position, quaternion
         held = np.array([*arm, *turned], np.float64)
         self.arm, self.plain = held, held.tolist() == [0.0] * 6 + [1.0]
 

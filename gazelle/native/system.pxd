@@ -5,4 +5,5 @@ cdef class System:
     cdef public Py_ssize_t least
     cdef readonly bint divisible
     cdef public long long due
+    cdef public object uses
     cdef void update(self, Py_ssize_t first, Py_ssize_t last, long long time) noexcept nogil

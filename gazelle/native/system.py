@@ -2,6 +2,8 @@
 
 # mypy: disallow-untyped-decorators=False
 
+from typing import Any
+
 import cython
 
 HEAP_TYPE = 1 << 9
@@ -27,6 +29,9 @@ class System:
         due: When it is updated next [ns]; 0 for at once.
         late: Whether it is updated after all that moves, for the end of the step.
         least: Fewer rows are not worth a thread.
+        uses: Arrays of an engine that it reads or writes, such as ``motor_targets``. An engine that can
+            show them in the middle of its steps updates it there; None: others may be needed, and it
+            acts between two steps.
 
     Raises:
         TypeError: A subclass is compiled without Python's stable ABI.
@@ -49,6 +54,7 @@ class System:
             )
         self.rows, self.rate, self.divisible, self.due = rows, rate, divisible, due
         self.late, self.least = False, 1
+        self.uses: Any = None
 
     def bring(self, first: int, last: int, time: int) -> None:
         """``update``, for callers in Python; other threads run meanwhile."""

@@ -106,6 +106,7 @@ class DiffDriveLaw(System):
             sides: Twice the number of each wheel's robot, one more on the right, likewise.
         """
         self.targets, self.columns = targets, np.array(columns, np.intp)
+        self.uses = (targets,)
         self.sides = np.array(sides % 2, np.intp)
         self.start = np.searchsorted(sides // 2, np.arange(self.rows + 1)).astype(np.intp)
 

@@ -14,7 +14,7 @@ from gazelle.engines import DivergenceError, Engine
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
 from gazelle.simulation.applied_wrenches import Loads
-from gazelle.simulation.clock import Schedule
+from gazelle.simulation.clock import NANOSECONDS, Schedule
 from gazelle.simulation.divergence import FaultLog
 from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.falling import FallWatch
@@ -145,8 +145,11 @@ class StepLoop:
             most = 1
         # Nothing is due within a single step: nobody need be asked.
         steps = 1 if most == 1 else steps_to_next(plugins, plan.sensors, clock, most)
-        if steps > 1 and self.in_step.kernels:
-            steps = min(steps, self._steps_in_step())
+        if steps > 1:
+            # What broke down starts over within a second, and what falls is looked for.
+            steps = min(steps, clock.steps_to((clock.now_ns // NANOSECONDS + 1) * NANOSECONDS))
+            if self.in_step.kernels:
+                steps = min(steps, self._steps_in_step())
         if loads.any:
             steps = min(steps, loads.steps_until(clock) or steps)
         try:
@@ -288,7 +291,7 @@ class StepLoop:
     def _give_up(self, error: DivergenceError, wanted: int) -> int:
         """Start worlds over that broke down, as ``on_fault`` says, when the others are there.
 
-        That is when a system is due next, so that it does not depend on where steps are cut.
+        That is when Python comes next, within a second, so that it does not depend on where steps are cut.
 
         Args:
             error: What happened in the first of the steps.
@@ -301,30 +304,23 @@ class StepLoop:
         clock.advance(error.made - error.steps)
         text = self._faults.note(self._simulation, error, clock.now_ns)
         clock.advance(error.steps)
-        rest = min(wanted - error.made, self._steps_to_systems())
-        try:
-            if rest > 0:
-                self._step(rest)
-        except DivergenceError as later:
-            new = ~np.isin(later.worlds, worlds)
-            if new.any():
-                found = later.worlds[new], later.before[new]
-                more = DivergenceError(later.message, *found, later.steps, later.made)
-                text += f"; {self._faults.note(self._simulation, more, clock.now_ns)}"
-                worlds, before = np.append(worlds, found[0]), np.vstack((before, found[1]))
-        clock.advance(rest)
+        left = wanted - error.made
+        while left > 0:
+            try:
+                self._step(left)
+            except DivergenceError as later:
+                made, new = later.made, ~np.isin(later.worlds, worlds)
+                if new.any():
+                    found = later.worlds[new], later.before[new]
+                    more = DivergenceError(later.message, *found, later.steps, made)
+                    text += f"; {self._faults.note(self._simulation, more, clock.now_ns)}"
+                    worlds, before = np.append(worlds, found[0]), np.vstack((before, found[1]))
+            else:
+                made = left
+            clock.advance(made)
+            left -= made
         self._entities.reset(worlds)
         if self._faults.policy == "raise":
             raise DivergenceError(text, worlds, before, error.steps, error.made) from error
         warnings.warn(SimulationWarning(text), stacklevel=6)
-        return error.made + rest
-
-    def _steps_to_systems(self) -> int:
-        """Return the steps until an engine updates a system of plugins."""
-        due = [
-            each.due for each in self._systems if each.rate or not getattr(each, "steady", False)
-        ]
-        clock = self._simulation.clock
-        if not due:
-            return sys.maxsize
-        return clock.steps_to(min(due)) if min(due) > clock.now_ns else 0
+        return wanted

@@ -1,4 +1,4 @@
-"""Systems that MuJoCo's steps are cut for do what plugins do that Python updates, bit by bit."""
+"""Systems in MuJoCo's steps and between them do what plugins do that Python updates, bit by bit."""
 
 import numpy as np
 import pytest
@@ -7,8 +7,9 @@ import gazelle
 from gazelle import formats
 from gazelle.engines import DivergenceError
 from gazelle.errors import SimulationWarning
+from gazelle.plugins.diff_drive_law import DiffDriveLaw, WheelTables
 from gazelle.plugins.scripted_motion import ScriptedMotion
-from gazelle.simulation import ModelPlugin, register
+from gazelle.simulation import ModelPlugin, register, step_loop
 from gazelle.simulation.scheduled_systems import ScheduledSystem
 from tests.simulation import test_drives_in_space as drives
 
@@ -81,35 +82,34 @@ class Hand(ModelPlugin):
 
 @pytest.mark.parametrize("kind", ["diff", "skid"])
 @pytest.mark.parametrize("policy", ["reset", "raise"])
-def test_worlds_that_break_down_do_so_as_under_python(kind, policy, tmp_path):
+def test_worlds_that_break_down_do_so_wherever_steps_are_cut(kind, policy, tmp_path, monkeypatch):
     register("libhand.so", Hand)
     box = (
         "<model name='box'><pose>0 3 1 0 0 0</pose><link name='l'/>"
         "<plugin name='h' filename='libhand.so'/></model>"
     )
-    found = []
-    for native in (False, True):
+    found, others = [], []
+    for native, longest in ((False, 1e9), (True, 1e9), (True, 0.0)):
+        for name in ("_PIECE", "_LONG_PIECE"):  # as many steps at once as can be, or one
+            monkeypatch.setattr(step_loop, name, longest)
         Hand.worlds = (1,)
-        dump = tmp_path / f"{native}.jsonl"
-        with yard(kind, 3, native=native, more=box, on_fault=policy, fault_dump=dump) as sim:
+        faults = {"on_fault": policy, "fault_dump": tmp_path / "fault.jsonl"}
+        with yard(kind, 3, native=native, more=box, **faults) as sim:
             for each in drives.moving(sim):
                 each.inputs["cmd_vel"].send(0.4, 0.2)
             if policy == "raise":
-                with pytest.raises(DivergenceError) as said:
+                with pytest.raises(DivergenceError, match="1 of 3 worlds") as said:
                     sim.run(0.9)
-                told = said.value
-                found.append(
-                    (told.message.partition(";")[0], told.worlds.tolist(), told.before.tobytes())
-                )
+                assert said.value.worlds.tolist() == [1]
             else:
                 with pytest.warns(SimulationWarning, match="1 of 3 worlds became infinite"):
                     sim.run(0.9)
-            found.append((sim.clock.now_ns, sim.state_hash(), sim.faults[0].time))
-            sim.run(0.5)
-            found.append(sim.state_hash())
-        found.append(dump.read_text())
-    half = len(found) // 2
-    assert found[half:] == found[:half]
+            found.append((sim.clock.now_ns, sim.state_hash()))
+            sim.run(1.4 - sim.time)
+            found[-1] += (sim.state_hash(),)
+            others.append([sim.state_hash([world]) for world in (0, 2)])
+    assert found[1] == found[2]
+    assert others[0] == others[1] == others[2]
 
 
 PATHS = {
@@ -208,3 +208,68 @@ def test_bases_that_slide_go_as_engines_set_them(lean):
         np.testing.assert_allclose(found[0], wanted[0], rtol=0.0, atol=1e-12)
         np.testing.assert_allclose(found[1].linear, wanted[1].linear, rtol=0.0, atol=1e-12)
         assert (joints.velocity() == 0.0).all()
+
+
+@pytest.mark.parametrize("kind", WHEELS)
+def test_steps_are_not_cut_for_drives_and_paths(kind, monkeypatch):
+    path = (
+        "<model name='mover'><pose>0 5 1 0 0 0</pose><link name='l'/><plugin name='p' "
+        "filename='libgazelle_scripted_motion.so'><updateRate>0</updateRate>"
+        "<angular_velocity>0 0 1</angular_velocity></plugin></model>"
+    )
+    for name in ("_PIECE", "_LONG_PIECE"):
+        monkeypatch.setattr(step_loop, name, 1e9)
+    with yard(kind, 2, native=True, more=path) as sim:
+        sim.run(1.0)
+        steps, batch = [], sim.engine.running.batch
+        make = batch.step
+        monkeypatch.setattr(batch, "step", lambda **how: (steps.append(how), make(**how)))
+        sim.run(0.6)
+        assert steps == [{"nstep": 60}]
+
+
+@pytest.mark.parametrize("rate", [0.0, 40.0, 1e3 / 7])
+@pytest.mark.parametrize("nworld", [1, 3])
+def test_a_system_that_names_what_it_uses_is_updated_in_steps_to_the_same_bits(rate, nworld):
+    found = []
+    for known in (False, True):
+        with yard("at every step", nworld, native=True, threads=2) as sim:
+            engine = sim.engine
+            names = tuple(each for each in engine.joints.names if each.startswith("r0::"))[:2]
+            tables = WheelTables.empty(nworld, 1)
+            law = DiffDriveLaw(tables, separation=[0.3], radius=[0.1], acceleration=[0.8])
+            law.send_to(*engine.joints[names].motor_targets(), np.arange(2))
+            law.rate, law.uses = rate, law.uses if known else None
+            tables.linear[..., 0] = 0.1 + np.arange(nworld)[:, None]
+            calls, make, time = [], engine.running.batch.step, 0
+            engine.running.batch.step = lambda make=make, calls=calls, **how: (
+                calls.append(1),
+                make(**how),
+            )
+            for count in (1, 13, 2, 40):
+                engine.step(count, [law], time)
+                time += count * 10_000_000
+                tables.linear[:] *= -1.0
+            found.append((engine.snapshot().tobytes(), tables.speeds.tobytes(), law.due))
+            assert (len(calls) == 4) == known
+    assert found[0] == found[1]
+
+
+def test_a_system_before_one_that_may_need_it_is_not_put_off():
+    with yard("at every step", 1, native=True) as sim:
+        names = tuple(each for each in sim.engine.joints.names if each.startswith("r0::"))[:2]
+        targets, columns = sim.engine.joints[names].motor_targets()
+        first, second = (
+            DiffDriveLaw(
+                WheelTables.empty(1, 1), separation=[0.3], radius=[0.1], acceleration=[0.0]
+            )
+            for _ in range(2)
+        )
+        for law in (first, second):
+            law.send_to(targets, columns, np.arange(2))
+        second.uses = None
+        seen = []
+        sim.engine.step(1, [first, second], 0)
+        seen.append(sim.engine._made._sort([first, second]) or sim.engine._made._within)
+        seen.append(sim.engine._made._sort([second, first]) or sim.engine._made._within)
+        assert seen == [False, True]

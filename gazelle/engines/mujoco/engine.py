@@ -75,6 +75,8 @@ class MujocoEngine:
         EngineError: The world cannot be simulated.
     """
 
+    _calls_systems = True  # steps are made where compiled systems are
+
     def __init__(
         self,
         world: World,
@@ -92,7 +94,9 @@ class MujocoEngine:
             world = with_profile(world, replace(world.profile, max_step_size=step))
         check_world(world)
         make_batch = partial(self._batch_of, nworld, min(threads or processors(), nworld))
-        self.running = RunningWorlds(CompilerInput(world, step), nworld, make_batch)
+        self.running = RunningWorlds(
+            CompilerInput(world, step), nworld, make_batch, calls=self._calls_systems
+        )
         self._put_together(self.running)
         if not late:
             self.prepare()
@@ -127,11 +131,11 @@ class MujocoEngine:
         self.parameter, self.set_parameter = run.parameter, run.set_parameter
         touches = ContactAccess(run, steps, self.reactions)
         self.contacts = touches.contacts
-        self._made = WorldSteps(run, steps, self.reset)
+        self._made = WorldSteps(run, steps, self.reset, self._acts_in_step)
 
     def _acts_in_step(self) -> bool:
         """Return whether steps can call systems of joints: the integrator looks once at forces."""
-        return self._run.batch.model.opt.integrator in _ONCE
+        return self._calls_systems and self._run.batch.model.opt.integrator in _ONCE
 
     def _kinematic(self, model: str) -> None:
         """Make a model kinematic by the engine's own call, which a recorder listens to."""

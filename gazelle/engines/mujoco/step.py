@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from gazelle.array_types import Worlds
+from gazelle.array_types import Floats, Worlds
 from gazelle.engines.engine import DivergenceError
 from gazelle.engines.mujoco.divergence import divergence_report
 from gazelle.engines.mujoco.step_forces import ForcedSteps
 from gazelle.engines.mujoco.worlds import RunningWorlds
+from gazelle.native.acting import AHEAD, BETWEEN, IN_STEP, OF_JOINTS
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
@@ -20,22 +20,28 @@ _NANOSECONDS = 1_000_000_000
 
 
 class WorldSteps:
-    """Steps from one time at which a system is due to the next.
+    """Steps from one time at which a system acts between two of them to the next.
 
-    MuJoCo calls systems of joints at the beginning of every step. All others are updated between
-    two calls of MuJoCo, as threads of those work on copies of the state.
+    MuJoCo updates systems in the middle of its steps that need no more than it can show there. All
+    others are updated between two calls of MuJoCo, as threads of those work on copies of the state.
 
     Args:
         run: What runs.
         stepper: Steps it.
         reset: Puts worlds back to their initial state.
+        in_step: Returns whether the integrator looks at forces once a step.
     """
 
     def __init__(
-        self, run: RunningWorlds, stepper: ForcedSteps, reset: Callable[[Worlds], None]
+        self,
+        run: RunningWorlds,
+        stepper: ForcedSteps,
+        reset: Callable[[Worlds], None],
+        in_step: Callable[[], bool],
     ) -> None:
-        self._run, self._stepper, self._reset = run, stepper, reset
-        self._kept: tuple[Sequence[System], list[JointSystem], SystemLoop | None] = [], [], None
+        self._run, self._stepper, self._reset, self._in_step = run, stepper, reset, in_step
+        self._kept: tuple[Sequence[System], int, bool] = (), 0, False
+        self._loop, self._within = SystemLoop((), 1, 1), False
         self._made = 0  # steps of this call
 
     def make(self, count: int, systems: Sequence[System], now_ns: int) -> None:
@@ -49,56 +55,63 @@ class WorldSteps:
         Raises:
             DivergenceError: The state of some worlds became infinite.
         """
-        self._run.now()
+        run = self._run
+        run.now()
         self._made = 0
         if not systems:
             self._advance(count)
             return
-        if self._kept[0] != systems:
-            self._kept = systems, *self._sorted(systems)
-        _, joints, loop = self._kept
-        if joints:
-            with self._acting(joints, now_ns):
-                self._run_around(loop, count, now_ns)
-        else:
-            self._run_around(loop, count, now_ns)
-
-    def _run_around(self, loop: SystemLoop | None, count: int, now_ns: int) -> None:
-        """Make steps, and update systems between them."""
-        if loop is None:
-            self._advance(count)
+        held = systems, run.revision, run.overlaps.any
+        if self._kept != held:
+            self._kept = held
+            self._sort(systems)
+        loop = self._loop
+        loop.step, loop.time = round(run.time_step * _NANOSECONDS), now_ns
+        until = now_ns + count * loop.step
+        if not self._within:
+            loop.run_around(until, self._advance)
             return
-        step = round(self._run.time_step * _NANOSECONDS)
-        until = now_ns + count * step
-        for each in loop.systems:
-            if each.due <= until:
-                break
-        else:  # nothing is due, as in most single steps
-            self._advance(count)
-            return
-        loop.step, loop.time = step, now_ns
-        loop.run_around(until, self._advance)
-
-    def _sorted(self, systems: Sequence[System]) -> tuple[list[JointSystem], SystemLoop | None]:
-        """Systems that act within MuJoCo's steps, and those that act between them."""
-        joints = [each for each in systems if isinstance(each, JointSystem)]
-        others = [each for each in systems if not isinstance(each, JointSystem)]
-        return joints, SystemLoop(others, self._run.nworld, 1) if others else None
-
-    @contextmanager
-    def _acting(self, joints: Sequence[JointSystem], now_ns: int) -> Iterator[None]:
-        """Let systems of joints act while it lasts."""
-        hooks, stepper = self._run.hooks, self._stepper
-        hooks.begin(joints, now_ns, round(self._run.time_step * _NANOSECONDS))
-        stepper.holds_back = True
+        run.hooks.begin(loop, now_ns)
+        self._stepper.holds_back = True
         try:
-            yield
+            loop.run_around(until, self._advance)
         except DivergenceError as error:
-            hooks.kept[error.worlds] = 0.0
+            run.hooks.kept[error.worlds] = 0.0
             raise
         finally:
-            stepper.holds_back = False
-            hooks.end(self._run.state.qfrc_applied)
+            self._stepper.holds_back = False
+            run.hooks.end(run.state.qfrc_applied)
+
+    def _sort(self, systems: Sequence[System]) -> None:
+        """Find out which systems MuJoCo's steps can update; those of joints come last."""
+        found, free = [], True
+        for system in reversed(systems):
+            acts = self._acts(system)
+            if acts in (IN_STEP, AHEAD) and not free:
+                acts = BETWEEN  # one that may depend on it is updated after it, between two steps
+            free = free and (acts != BETWEEN or system.late or system.uses is not None)
+            found.append((acts, system))
+        found.reverse()
+        found.sort(key=lambda each: each[0] == OF_JOINTS)
+        made = [system for _, system in found], [acts for acts, _ in found]
+        self._loop = SystemLoop(made[0], self._run.nworld, 1, acts=made[1])
+        self._within = any(made[1])
+
+    def _acts(self, system: System) -> int:
+        """Return when a system is updated, of ``gazelle.native.acting``."""
+        run, used = self._run, system.uses
+        if not (run.recipe.hooks and self._in_step()):
+            return BETWEEN
+        if isinstance(system, JointSystem):
+            return OF_JOINTS
+        if system.late or used is None:
+            return BETWEEN
+        targets, mocap = run.motor_targets, (run.state.mocap_pos, run.state.mocap_quat)
+        if all(_is_part(each, (targets,)) for each in used):
+            return IN_STEP
+        if run.sleepy or run.overlaps.any or not all(_is_part(each, mocap) for each in used):
+            return BETWEEN
+        return AHEAD
 
     def _advance(self, count: int) -> None:
         """Make steps at whose beginning and end alone something may be changed."""
@@ -157,3 +170,10 @@ class WorldSteps:
             count,
             self._made,
         )
+
+
+def _is_part(array: Floats, fields: Sequence[Floats]) -> bool:
+    """Return whether an array of all worlds is part of one field of their states."""
+    low, high = np.lib.array_utils.byte_bounds(array[:1])
+    bounds = (np.lib.array_utils.byte_bounds(each[:1]) for each in fields)
+    return any(first <= low and high <= last for first, last in bounds)

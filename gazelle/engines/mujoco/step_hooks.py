@@ -1,23 +1,25 @@
-"""Binding of controllers in native code to MuJoCo's steps."""
+"""Table of the systems that MuJoCo's steps update, and of the state that those use."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.engines.mujoco.effort_limits import EffortLimits
-from gazelle.native.joint_system import JointSystem, addresses
+from gazelle.engines.mujoco.state import StateViews
+from gazelle.native.loop import SystemLoop
 from gazelle.native.rows import first_of_run
 
 
 class Hooks:
     """Numbers at one address, which a compiled model has (``contact_laws.joint_commands``).
 
-    They are: how many systems act, where their addresses are, a step [ns], where the times of
+    They are: how many systems there are, where their table is, a step [ns], where the times of
     worlds are; how many velocities of joints are limited, which ones, how, and where efforts are kept
-    that do not act now, a row a world; and the first of those velocities, if they are side by side.
+    that do not act now, a row a world; the first of those velocities, if they are side by side; where
+    rates of systems are, when they are due, and when the steps end that are made at once; bytes
+    between the states of two worlds; where motors' velocities are in the first, and how many; where
+    positions and quaternions of mocap bodies are, and how many.
 
     Args:
         nworld: Number of worlds.
@@ -28,13 +30,13 @@ class Hooks:
     """
 
     def __init__(self, nworld: int) -> None:
-        self._numbers = np.zeros(9, np.int64)
+        self._numbers = np.zeros(18, np.int64)
         self._times = np.zeros(nworld, np.int64)
         self._numbers[3] = self._times.ctypes.data
         self.address = int(self._numbers.ctypes.data)
-        self._systems: list[JointSystem] = []
-        self._table = np.zeros(0, np.int64)
-        self._dofs: np.ndarray[tuple[int], np.dtype[np.int64]] = self._table
+        self._loop: SystemLoop | None = None
+        self._count = 0
+        self._dofs = np.zeros(0, np.int64)
         self._speeds: Floats = np.zeros(0)
         self.kept: Floats = np.zeros((nworld, 0))
 
@@ -47,20 +49,32 @@ class Hooks:
         self._numbers[5:8] = [each.ctypes.data for each in (self._dofs, self._speeds, self.kept)]
         self._numbers[8] = first_of_run(self._dofs)
 
-    def begin(self, systems: Sequence[JointSystem], now_ns: int, step_ns: int) -> None:
+    def show(self, state: StateViews, targets: Floats) -> None:
+        """Let systems have the velocities that motors hold, and the mocap bodies of a state."""
+        position, quaternion = state.mocap_pos, state.mocap_quat
+        self._numbers[12:] = (
+            state.qpos.strides[0],
+            targets.ctypes.data,
+            targets.shape[1],
+            position.ctypes.data,
+            quaternion.ctypes.data,
+            position.shape[1],
+        )
+
+    def begin(self, loop: SystemLoop, now_ns: int) -> None:
         """Let systems act in the steps that follow."""
         numbers = self._numbers
-        if self._systems != systems:
-            self._systems, self._table = list(systems), addresses(systems)
-            numbers[1] = self._table.ctypes.data
+        if self._loop is not loop:
+            self._loop = loop
+            self._count, numbers[1], *others = loop.shared()
+            numbers[9:12] = others
         self._times.fill(now_ns)
-        numbers[0] = len(systems)
-        numbers[2] = step_ns
+        numbers[0], numbers[2] = self._count, loop.step
 
     def end(self, applied: Floats) -> None:
         """Let none act any more, and put back what was kept, shape (nworld, velocities)."""
         self._numbers[0] = 0
-        if np.count_nonzero(self.kept):
+        if self._numbers[4] and np.count_nonzero(self.kept):
             rows = np.nonzero(self.kept)
             applied[rows[0], self._dofs[rows[1]]] = self.kept[rows]
             self.kept[:] = 0.0

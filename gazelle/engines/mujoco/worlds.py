@@ -16,7 +16,7 @@ from gazelle.array_types import Bools, Floats, Worlds
 from gazelle.description import World
 from gazelle.engines.mujoco.compiler.description_edits import with_inertial
 from gazelle.engines.mujoco.compiler.free_bodies import keep_awake
-from gazelle.engines.mujoco.compiler.motors import AXES, motor_of, refuse_motors
+from gazelle.engines.mujoco.compiler.motors import AXES, motor_count, motor_of, refuse_motors
 from gazelle.engines.mujoco.compiler.shapes import OPEN_GROUP
 from gazelle.engines.mujoco.compiler.spec import Compiled, CompilerInput, compile_world, trees_of
 from gazelle.engines.mujoco.compiler.welds import Attachment
@@ -65,6 +65,7 @@ class RunningWorlds:
         recipe: What to compile.
         nworld: Number of copies.
         make_batch: Makes them from a compiled model and the world that it is of.
+        calls: Whether steps can call systems.
 
     Attributes:
         nworld: That.
@@ -108,8 +109,10 @@ class RunningWorlds:
         recipe: CompilerInput,
         nworld: int,
         make_batch: Callable[[mujoco.MjModel, World], Batch],
+        *,
+        calls: bool = True,
     ) -> None:
-        self.nworld, self._make_batch = nworld, make_batch
+        self.nworld, self._make_batch, self._calls = nworld, make_batch, calls
         self.parameters = ParameterStore(nworld)
         self.recipe = recipe
         self.pending: CompilerInput | None = None
@@ -123,7 +126,7 @@ class RunningWorlds:
             """Return a compiled attribute; compile the worlds on the first access."""
             if self.revision or name not in _COMPILED:
                 raise AttributeError(name)
-            self._start(self.latest, compile_world(self.latest))
+            self.change(self.latest)
             return getattr(self, name)
 
     def _start(self, recipe: CompilerInput, compiled: Compiled) -> None:
@@ -146,6 +149,7 @@ class RunningWorlds:
         self.revision += 1
         if recipe.hooks:
             self.hooks.limit(layout.limits)
+            self.hooks.show(self.state, self.motor_targets)
             if self.nworld > 1:
                 batch.expand("numeric_data")[:, WORLD] = np.arange(self.nworld)
 
@@ -153,6 +157,11 @@ class RunningWorlds:
     def hooks(self) -> Hooks:
         """Hooks by which steps call systems."""
         return Hooks(self.nworld)
+
+    @property
+    def motor_targets(self) -> Floats:
+        """Velocities that motors hold, shape (nworld, motors); may be written."""
+        return self.state.userdata[:, : motor_count(self.recipe.motors)]
 
     @property
     def time_step(self) -> float:
@@ -214,6 +223,8 @@ class RunningWorlds:
     def change(self, recipe: CompilerInput) -> None:
         """Go on with another model, with all states that both have."""
         self.pending = None
+        if recipe.motors and self._calls and not recipe.hooks:  # what drives motors acts in steps
+            recipe = replace(recipe, hooks=self.hooks.address)
         compiled = compile_world(recipe)
         if not self.revision:
             self._start(recipe, compiled)

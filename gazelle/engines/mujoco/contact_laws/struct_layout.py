@@ -49,6 +49,8 @@ class Offsets(NamedTuple):
     stiffness: int
     frictionloss: int
     userdata: int
+    mocap_pos: int
+    mocap_quat: int
     nisland: int
     to_island: int
     island_softness: int
@@ -134,6 +136,8 @@ def offsets() -> Offsets:
         stiffness=data.efc_D.offset,
         frictionloss=data.efc_frictionloss.offset,
         userdata=data.userdata.offset,
+        mocap_pos=data.mocap_pos.offset,
+        mocap_quat=data.mocap_quat.offset,
         nisland=data.nisland.offset,
         to_island=data.map_efc2iefc.offset,
         island_softness=data.iefc_R.offset,
@@ -242,6 +246,7 @@ def _verify(found: Offsets) -> None:
     spec.nuserdata = 1
     spec.add_numeric(name="here", data=[1.0], size=1)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[1, 1, 1])
+    spec.worldbody.add_body(mocap=True, pos=[0, 0, 9])
     body = spec.worldbody.add_body(pos=[0, 0, 0.09])
     body.add_freejoint()
     body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.1, 0, 0])
@@ -264,6 +269,8 @@ def _verify(found: Offsets) -> None:
         (there + found.cvel, data.cvel),
         (there + found.frictionloss, data.efc_frictionloss),
         (there + found.userdata, data.userdata),
+        (there + found.mocap_pos, data.mocap_pos),
+        (there + found.mocap_quat, data.mocap_quat),
         (there + found.bias, data.qfrc_bias),
         (there + found.applied, data.qfrc_applied),
         (there + found.constraint, data.qfrc_constraint),

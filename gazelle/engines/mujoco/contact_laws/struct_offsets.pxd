@@ -1,5 +1,6 @@
 cdef struct Places:
     size_t ncon, ne, nf, contact, kind, owner, softness, stiffness, frictionloss, userdata
+    size_t mocap_pos, mocap_quat
     size_t nisland, to_island, island_softness, island_stiffness
     size_t bias, applied, constraint, smooth, acceleration, rownnz, rowadr, colind, jacobian
     size_t velocity, reference, qpos, qvel, warmstart, passive, xmat, geom_xmat, geom_xpos, xaxis

@@ -222,7 +222,7 @@ class MujocoJointRows:
     def motor_targets(self) -> tuple[Floats, Indices]:
         """Return the velocities that motors hold, to be written, and the joints' columns."""
         columns = self._motors.within(self._run.now())
-        return self._run.state.userdata, columns
+        return self._run.motor_targets, columns
 
     def _find_motors(self, layout: MujocoLayout) -> Indices:
         return np.array([layout.motor(name).targets.start for name in self._names], np.intp)

@@ -42,6 +42,7 @@ class LevelMotion(System):
     ) -> None:
         System.__init__(self, linear.shape[1])
         self.linear, self.angular, self.qpos, self.qvel = linear, angular, qpos, qvel
+        self.uses = qpos, qvel
         self.places, self.frames, self.dofs, self.changed = places, frames, dofs, changed
         self.start = np.searchsorted(owners, np.arange(linear.shape[1] + 1)).astype(np.intp)
 

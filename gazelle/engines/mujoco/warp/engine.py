@@ -31,9 +31,7 @@ class WarpEngine(MujocoEngine):
         EngineError: The world cannot be simulated by MuJoCo Warp.
     """
 
-    def _acts_in_step(self) -> bool:
-        """Return False: controllers of joints are not on the device, and act between steps."""
-        return False
+    _calls_systems = False  # they are not on the device, and act between steps
 
     def on_device(self, kind: str, joint: str) -> Any:
         """A joint's positions or velocities in all worlds where the device has them, without a copy.
