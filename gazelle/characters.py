@@ -22,6 +22,14 @@ _NOTHING = re.compile(f"(?<!\\A)[{_WITHOUT_WIDTH}]")
 _CURLY = re.compile("[\u2018-\u201f]")
 
 
+_IMPOSSIBLE = re.compile("[\0\ud800-\udfff]")
+
+
+def can_be_written(text: str) -> bool:
+    """Return False for a text with a null or with half of a surrogate pair, which no file or name holds."""
+    return _IMPOSSIBLE.search(text) is None
+
+
 def plain_bytes(data: bytes, comment: re.Pattern[str]) -> tuple[bytes, int | None]:
     """As ``plain``, of what is in a file; it stays as it is where it is not UTF-8."""
     if all(blank not in data for blank in _BYTES):

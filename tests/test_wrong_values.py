@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
+
 import public_handles
+import public_samples
 import pytest
 import scenes
 import wrong_values
@@ -108,3 +111,32 @@ def test_a_simulation_refuses_wrong_values(engine):
             findings.attempt(what, lambda p=positional, n=named: make(p, n))
     assert not findings.foreign
     assert findings.count > 90
+
+
+ROOMS = ["builders", "navigation"]
+NOT_LOADED = {"GoToGoal"}
+"""Plugins, whose methods a simulation calls after ``load``."""
+
+
+def of_owners(_handle, name):
+    return name in {"close", "restore"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("room", ROOMS)
+def test_what_a_room_exports_refuses_wrong_values(room):
+    findings = Findings()
+    with wrong_values.limits():
+        good = public_samples.Samples()
+        for name, call in public_samples.public(room):
+            said = inspect.getdoc(call) or ""
+            for parameter, value, positional, named in wrong_values.calls(call, good):
+                what = f"{name}({parameter}={wrong_values.shown(value)})"
+                findings.attempt(what, lambda c=call, p=positional, n=named: c(*p, **n), said)
+            made = good.instance(call) if isinstance(call, type) else None
+            if made is not None and name not in NOT_LOADED:
+                wrong_values.try_members(name, made, good, findings, of_owners)
+        good.stack.close()
+    assert not findings.foreign
+    assert not findings.late
+    assert findings.count > 400

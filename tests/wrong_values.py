@@ -27,7 +27,7 @@ import numpy as np
 
 from gazelle import Error
 
-SECONDS = 10.0
+SECONDS = 20.0
 LONG = 10_000
 """Of a text or a list."""
 MEMORY = 64 * 2**30
@@ -104,6 +104,12 @@ ARRAYS: list[Any] = [
         [10**400],
     ),
 ]
+NO_FLOATS = (16, 22, 23)
+"""Places of ``ARRAYS`` that are no arrays of floats."""
+ROWS: list[Any] = [
+    *([], [math.nan], [math.inf], [0.0], [-1.0], [1.0] * 3, [1.0] * 4, [1.0] * LONG, [1e308] * 3),
+    *([math.nan] * 3, [10**400], [10**400] * 3),
+]
 WORLDS: list[Any] = [
     [-1],
     [99],
@@ -137,15 +143,23 @@ DATA: list[Any] = [b"", b"\x00", b"PK\x03\x04", b"a" * LONG, b"\xff" * 100]
 
 BY_WORD: list[tuple[str, list[Any]]] = [
     (r"\bWorlds\b", WORLDS),
-    (
-        r"\bArrayLike\b|\bFloats\d*\b|\bNDArray\b|\bInts\d*\b|\bIndices\b|\bBools\b|\bPicture\b",
-        ARRAYS,
-    ),
-    (r"\bVector3\b|tuple\[float", VECTORS),
-    (r"\b(Sequence|Iterable|list|tuple)\[str", LISTS),
-    (r"\b(Sequence|Iterable|list|tuple)\[(int|float)", ARRAYS[:12]),
-    (r"\b(Sequence|Iterable|list|tuple)\[", [[], ()]),
     (r"\b(Mapping|dict)\[", MAPPINGS),
+    (r"\bArrayLike\b", ARRAYS),
+    (
+        r"\bFloats\d*\b|\bNDArray\b|\bPicture\b",
+        [np.asarray(each, float) for n, each in enumerate(ARRAYS) if n not in NO_FLOATS],
+    ),
+    (r"\bInts\d*\b|\bIndices\b", [np.asarray(each) for each in ([], [-1], [99], [[0]], [2**62])]),
+    (r"\bBools\b", [np.asarray(each, bool) for each in ([], [True] * 99, [[True]], False)]),
+    (r"\bVector3\b|\bVector\b", VECTORS),
+    (
+        r"(?<!\[)tuple\[float, float\]",
+        [(math.nan, 0.0), (0.0, math.inf), (1e308, -1e308), (0.0, 0.0)],
+    ),
+    (r"(?<!\[)tuple\[int, int\]", [(-1, 5), (0, 0), (2**31, 2**31), (10**400, 1)]),
+    (r"\b(Sequence|Iterable|list|tuple)\[str", LISTS),
+    (r"\b(Sequence|Iterable|list|tuple)\[(int|float)", ROWS),
+    (r"\b(Sequence|Iterable|list|tuple)\[", [[], ()]),
     (r"\bPath(Like)?\b", PATHS),
     (r"\bLiteral\[|\bstr\b", TEXTS),
     (r"\bbytes\b", DATA),
@@ -229,7 +243,7 @@ class Findings:
         self.foreign: dict[str, list[str]] = collections.defaultdict(list)
         self.late: list[str] = []
 
-    def attempt(self, what: str, call: Callable[[], Any]) -> Any:
+    def attempt(self, what: str, call: Callable[[], Any], documented: str = "") -> Any:
         """Make a call; return what it returns, None where it raises."""
         self.count += 1
         signal.setitimer(signal.ITIMER_REAL, SECONDS)
@@ -237,19 +251,26 @@ class Findings:
             return call()
         except Error:
             self.refused += 1
+        except OSError as error:
+            if "OSError" not in documented:
+                self._add(what, error)
         except TookTooLongError:
             self.late.append(what)
             print("late", what, flush=True)
         except Exception as error:  # noqa: BLE001  # that is what is looked for
-            frames = traceback.extract_tb(error.__traceback__)
-            ours = [each for each in frames if "/gazelle/" in each.filename]
-            if ours:  # else the call itself did not fit
-                last = ours[-1]
-                place = f"{last.filename.rpartition('/gazelle/')[2]}:{last.lineno}"
-                self.foreign[f"{type(error).__name__} in {place}"].append(f"{what}: {error!s:.150}")
+            self._add(what, error)
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0)
         return None
+
+    def _add(self, what: str, error: Exception) -> None:
+        frames = traceback.extract_tb(error.__traceback__)
+        ours = [each for each in frames if "/gazelle/" in each.filename]
+        if ours and not ours[-1].filename.endswith("argument_checks.py"):
+            # else the call itself did not fit
+            last = ours[-1]
+            place = f"{last.filename.rpartition('/gazelle/')[2]}:{last.lineno}"
+            self.foreign[f"{type(error).__name__} in {place}"].append(f"{what}: {error!s:.150}")
 
     def show(self) -> None:
         for place, examples in sorted(self.foreign.items(), key=lambda pair: -len(pair[1])):
@@ -308,7 +329,8 @@ def try_members(
             continue
         for parameter, value, positional, named in calls(call, good):
             what = f"{path}.{name}({parameter}={shown(value)})"
-            findings.attempt(what, lambda c=call, p=positional, n=named: c(*p, **n))
+            said = inspect.getdoc(call) or ""
+            findings.attempt(what, lambda c=call, p=positional, n=named: c(*p, **n), said)
 
 
 def broken_parts(root: Any, path: str = "", depth: int = 9) -> Iterator[tuple[str, Any]]:

@@ -12,6 +12,7 @@ import numpy as np
 import yaml
 
 from gazelle import formats
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.builders import urdf_text
 from gazelle.builders.errors import BuildError
@@ -32,6 +33,7 @@ _NO_LIMIT = 100.0  # What an integral may add where no effort limit says it [N o
 _LEAST = 1e-4  # Of an inertia, for gains that are not nothing [kg m²].
 
 
+@checked(BuildError)
 @dataclass(frozen=True, slots=True)
 class ControlFiles:
     """Texts that let a robot be controlled.
@@ -52,22 +54,27 @@ class ControlFiles:
         """Write ``urdf/NAME.urdf``, ``config/NAME_control.yaml`` and ``launch/NAME_control.launch``.
 
         Raises:
-            BuildError: One of them is there already; nothing is written then.
+            BuildError: One of them is there already, and nothing is written, or the folder
+                cannot be written.
         """
         texts = {
             Path(folder, "urdf", f"{self.name}.urdf"): self.urdf,
             Path(folder, "config", f"{self.name}_control.yaml"): self.controllers,
             Path(folder, "launch", f"{self.name}_control.launch"): self.launch,
         }
-        for path in texts:
-            if path.exists():
-                raise BuildError(f"{path} is there already", hint="name another folder")
-        for path, text in texts.items():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            write_text(path, text)
+        try:
+            for path in texts:
+                if path.exists():
+                    raise BuildError(f"{path} is there already", hint="name another folder")
+            for path, text in texts.items():
+                path.parent.mkdir(parents=True, exist_ok=True)
+                write_text(path, text)
+        except OSError as error:
+            raise BuildError(f"the files cannot be written: {error.strerror}") from error
         return list(texts)
 
 
+@checked(BuildError)
 def control_files(
     robot: str,
     *,

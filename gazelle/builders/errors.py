@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gazelle.builders.limits import SMALLEST
 from gazelle.errors import Error
 
 
@@ -17,7 +18,7 @@ def positive(value: float, what: str) -> float:
     Raises:
         BuildError: It is not.
     """
-    if not (value > 0.0 and math.isfinite(value)):
+    if not SMALLEST <= value < math.inf:
         raise BuildError(f"{what} must be a finite number above zero, found {value:g}")
     return float(value)
 

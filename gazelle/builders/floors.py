@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, positive
 from gazelle.builders.paint import Paint, material
 from gazelle.builders.solids import ORIGIN, assemble, slab
@@ -25,6 +26,7 @@ _SUN_DISTANCE = 100.0  # where the sun's frame is drawn; its rays come from infi
 _FLOOR = 0.004  # thickness of a floor [m]
 
 
+@checked(BuildError)
 def ground(
     name: str = "ground_plane",
     *,
@@ -51,6 +53,7 @@ def ground(
     return Model(name, static=True, links=(link,))
 
 
+@checked(BuildError)
 def floor(
     name: str = "floor",
     *,
@@ -67,6 +70,7 @@ def floor(
     return assemble(name, (part,), pose=pose)
 
 
+@checked(BuildError)
 def sun(
     name: str = "sun",
     *,
@@ -102,6 +106,7 @@ def sun(
     )
 
 
+@checked(BuildError)
 def lamp(
     name: str = "lamp",
     *,

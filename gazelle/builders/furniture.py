@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import math
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, positive
+from gazelle.builders.limits import MAX_PARTS
 from gazelle.builders.paint import Paint
 from gazelle.builders.solids import ORIGIN, Part, assemble, post, slab
 from gazelle.description import Box, Model, Pose
@@ -18,6 +20,7 @@ _LEG = 0.05  # width of legs [m]
 _CORNERS = ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0))
 
 
+@checked(BuildError)
 def desk(
     name: str = "desk",
     *,
@@ -70,6 +73,7 @@ def _workplace(length: float, height: float) -> list[Part]:
     ]
 
 
+@checked(BuildError)
 def table(
     name: str = "table",
     *,
@@ -89,6 +93,7 @@ def table(
     return assemble(name, parts, pose=pose, mass=24.0 if movable else None)
 
 
+@checked(BuildError)
 def round_table(
     name: str = "round_table",
     *,
@@ -130,6 +135,7 @@ def _board_on_legs(
     return parts
 
 
+@checked(BuildError)
 def chair(
     name: str = "chair",
     *,
@@ -151,6 +157,7 @@ def chair(
     return assemble(name, parts, pose=pose, mass=5.0 if movable else None)
 
 
+@checked(BuildError)
 def office_chair(
     name: str = "office_chair",
     *,
@@ -179,6 +186,7 @@ def office_chair(
     return assemble(name, parts, pose=pose, mass=14.0 if movable else None, friction=0.3)
 
 
+@checked(BuildError)
 def shelf(
     name: str = "shelf",
     *,
@@ -207,7 +215,7 @@ def shelf(
     Raises:
         BuildError: There are too few boards, or they leave no room between them.
     """
-    if boards < 2 or height < boards * 0.1 or width < 0.2 or length < 0.1:
+    if not 2 <= boards <= MAX_PARTS or height < boards * 0.1 or width < 0.2 or length < 0.1:
         raise BuildError(f"a shelf {height:g} m high has no room for {boards} boards")
     thick = 0.025
     parts = [slab("back", (0.012, width, height), (0.006 - length / 2.0, 0.0, height / 2.0), color)]
@@ -239,6 +247,7 @@ def _books(row: int, width: float, z: float, room: float) -> list[Part]:
     return parts
 
 
+@checked(BuildError)
 def cabinet(
     name: str = "cabinet",
     *,
@@ -260,6 +269,7 @@ def cabinet(
     return assemble(name, parts, pose=pose, mass=35.0 if movable else None)
 
 
+@checked(BuildError)
 def sofa(
     name: str = "sofa",
     *,
@@ -289,6 +299,7 @@ def sofa(
     return assemble(name, parts, pose=pose, mass=40.0 if movable else None)
 
 
+@checked(BuildError)
 def whiteboard(name: str = "whiteboard", *, pose: Pose = ORIGIN, width: float = 1.8) -> Model:
     """A whiteboard for a wall, from 0.9 to 2 m high, facing +x.
 

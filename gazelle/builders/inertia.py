@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, positive
 from gazelle.description import Geometry, Inertial, Pose
 from gazelle.formats.solids import UnitSolid, inertial_of, joined, solid_of
 
 
+@checked(BuildError)
 def solid_inertial(parts: Sequence[tuple[Geometry, Pose]], mass: float) -> Inertial:
     """Mass and inertia of a body of one density, from its shapes and their poses.
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.builders.errors import BuildError, positive
 from gazelle.builders.paint import Paint
@@ -26,6 +27,7 @@ _OVERLAP = 1.01  # slabs reach a little over their cells, so that no gap shows
 _MOST_CELLS = 10_000
 
 
+@checked(BuildError)
 @dataclass(frozen=True, slots=True, eq=False)
 class Terrain:
     """Heights on a grid around the origin.
@@ -132,6 +134,7 @@ def _square_axes(along_x: Floats, along_y: Floats) -> tuple[Floats, Floats]:
     return (plus - minus) / math.sqrt(2.0), (plus + minus) / math.sqrt(2.0)
 
 
+@checked(BuildError)
 def terrain(heights: ArrayLike, *, cell: float = 1.0) -> Terrain:
     """Ground of given heights [m], shape (rows, columns), ``cell`` [m] apart; see ``Terrain``.
 
@@ -154,6 +157,7 @@ def terrain(heights: ArrayLike, *, cell: float = 1.0) -> Terrain:
     return Terrain(grid, cell)
 
 
+@checked(BuildError)
 def hills(
     seed: int = 0,
     *,

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError
 from gazelle.description import Atmosphere, Ode, Physics, Vector3, World
 from gazelle.errors import did_you_mean
@@ -30,6 +31,7 @@ PRESETS: dict[str, Physics] = {
 finer than the default; and as fast as possible for learning (4 ms steps)."""
 
 
+@checked(BuildError)
 @dataclass(frozen=True, slots=True)
 class Planet:
     """Environment of a planet.
@@ -83,6 +85,7 @@ def physics(preset: PresetName | str = "default", **changes: float) -> Physics:
     return replace(chosen, **changes)  # type: ignore[arg-type]  # the names were just checked
 
 
+@checked(BuildError)
 def planet(name: PlanetName | str) -> Planet:
     """A place by name: ``earth``, ``moon``, ``mars`` or ``zero-gravity``.
 
@@ -94,6 +97,7 @@ def planet(name: PlanetName | str) -> Planet:
     return PLANETS[name]
 
 
+@checked(BuildError)
 def with_physics(world: World, preset: PresetName | str | Physics) -> World:
     """The world with one physics profile, that of a name or a given one, in place of its own.
 
@@ -104,6 +108,7 @@ def with_physics(world: World, preset: PresetName | str | Physics) -> World:
     return replace(world, physics=(chosen,))
 
 
+@checked(BuildError)
 def on_planet(world: World, name: PlanetName | str) -> World:
     """The world with the gravity, magnetic field and air of a place.
 

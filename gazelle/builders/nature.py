@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, get_args
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, positive
 from gazelle.builders.paint import Paint
 from gazelle.builders.solids import ORIGIN, Part, assemble, post, slab
@@ -13,6 +14,7 @@ from gazelle.errors import did_you_mean
 TreeKind = Literal["broadleaf", "conifer", "poplar"]
 
 
+@checked(BuildError)
 def tree(
     name: str = "tree",
     *,
@@ -80,6 +82,7 @@ def _poplar(height: float, color: Paint | None) -> list[Part]:
 _CROWNS = {"broadleaf": _broadleaf, "conifer": _conifer, "poplar": _poplar}
 
 
+@checked(BuildError)
 def bush(
     name: str = "bush", *, height: float = 0.9, pose: Pose = ORIGIN, color: Paint = "leaf"
 ) -> Model:
@@ -106,6 +109,7 @@ def bush(
     return assemble(name, parts, pose=pose)
 
 
+@checked(BuildError)
 def rock(
     name: str = "rock", *, size: float = 0.8, pose: Pose = ORIGIN, color: Paint = "rock"
 ) -> Model:
@@ -127,6 +131,7 @@ def rock(
     return assemble(name, parts, pose=pose)
 
 
+@checked(BuildError)
 def plant(
     name: str = "plant", *, height: float = 1.1, pose: Pose = ORIGIN, pot: Paint = "clay"
 ) -> Model:
@@ -147,6 +152,7 @@ def plant(
     return assemble(name, parts, pose=pose)
 
 
+@checked(BuildError)
 def log(
     name: str = "log", *, length: float = 2.5, radius: float = 0.18, pose: Pose = ORIGIN
 ) -> Model:

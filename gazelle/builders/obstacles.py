@@ -6,7 +6,9 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Literal, get_args
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError
+from gazelle.builders.limits import MAX_THINGS
 from gazelle.builders.nature import bush, rock, tree
 from gazelle.builders.paint import Paint
 from gazelle.builders.placing import Place, Rectangle, Zone, scatter
@@ -23,6 +25,7 @@ _PAINTS: tuple[Paint, ...] = ("beech", "orange", "blue", "clay", "green", "slate
 _DENSITY = 120.0  # of a movable obstacle: a carton with something in it [kg/m³]
 
 
+@checked(BuildError)
 def random_obstacles(
     count: int,
     *,
@@ -70,6 +73,7 @@ def random_obstacles(
     return tuple(models)
 
 
+@checked(BuildError)
 def random_plants(
     count: int,
     *,
@@ -176,8 +180,8 @@ def _between(span: Range, share: float) -> float:
 
 
 def _count(count: int) -> int:
-    if count < 0:
-        raise BuildError(f"the number of things must not be negative, found {count}")
+    if not 0 <= count <= MAX_THINGS:
+        raise BuildError(f"the number of things is from 0 to {MAX_THINGS}, found {count}")
     return count
 
 

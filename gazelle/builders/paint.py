@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError
 from gazelle.description import Color, Material
 from gazelle.errors import did_you_mean
@@ -48,6 +49,7 @@ PALETTE: dict[str, tuple[float, float, float]] = {
 """Red, green and blue, each 0 to 1, of the names that ``material`` takes."""
 
 
+@checked(BuildError)
 def material(paint: Paint) -> Material:
     """The material of a colour.
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, positive
 from gazelle.description import (
     Box,
@@ -27,6 +28,7 @@ from gazelle.streams import Stream
 _TRIES = 400
 
 
+@checked(BuildError)
 @dataclass(frozen=True, slots=True)
 class Disc:
     """A round zone of the ground: centre and radius [m]."""
@@ -40,6 +42,7 @@ class Disc:
         return math.hypot(x - self.x, y - self.y) - self.radius
 
 
+@checked(BuildError)
 @dataclass(frozen=True, slots=True)
 class Rectangle:
     """A rectangular zone of the ground: centre, full lengths [m] and turn [rad]."""
@@ -69,6 +72,7 @@ class Rectangle:
 Zone = Disc | Rectangle
 
 
+@checked(BuildError)
 @dataclass(frozen=True, slots=True)
 class Place:
     """A free place: position [m], turn [rad], and the radius [m] that is free around it."""
@@ -79,6 +83,7 @@ class Place:
     radius: float
 
 
+@checked(BuildError)
 def scatter(
     radii: Sequence[float],
     area: Rectangle,
@@ -132,6 +137,7 @@ def _free(
     return None
 
 
+@checked(BuildError)
 def footprints(model: Model) -> list[Rectangle]:
     """Return the footprint of each of a model's collisions as a rectangle; planes are left out.
 
@@ -147,6 +153,7 @@ def footprints(model: Model) -> list[Rectangle]:
     ]
 
 
+@checked(BuildError)
 def along(
     points: Sequence[tuple[float, float]], width: float, pose: Pose | None = None
 ) -> list[Zone]:

@@ -13,6 +13,7 @@ east (+x)::
 
 from __future__ import annotations
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, positive
 from gazelle.builders.paint import Paint
 from gazelle.builders.solids import ORIGIN, assemble, slab
@@ -21,6 +22,7 @@ from gazelle.description import Model, Pose
 _WALL = "#"
 
 
+@checked(BuildError)
 def plan_walls(
     plan: str,
     *,
@@ -59,6 +61,7 @@ def plan_walls(
     return assemble(name, parts, pose=pose)
 
 
+@checked(BuildError)
 def plan_places(plan: str, letter: str, *, cell: float = 0.5) -> list[tuple[float, float]]:
     """Return the positions of a letter in a plan: (x, y) of the cells [m], row by row.
 
@@ -77,6 +80,7 @@ def plan_places(plan: str, letter: str, *, cell: float = 0.5) -> list[tuple[floa
     ]
 
 
+@checked(BuildError)
 def plan_size(plan: str, *, cell: float = 0.5) -> tuple[float, float]:
     """Length along x and width along y of a plan [m]."""
     rows = _rows(plan)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError
 from gazelle.builders.furniture import (
     cabinet,
@@ -32,6 +33,7 @@ _HEIGHT = 2.6
 _QUARTER = math.pi / 2.0
 
 
+@checked(BuildError)
 def office(
     *,
     seed: int = 0,
@@ -160,6 +162,7 @@ def _lounge(builder: WorldBuilder) -> None:
     builder.place(shelf, 3.1, -4.8, _QUARTER, height=1.2, boards=4)
 
 
+@checked(BuildError)
 def outdoor(
     *,
     seed: int = 0,

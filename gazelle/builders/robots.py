@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, TypeVar
 
+from gazelle.argument_checks import checked
 from gazelle.builders import urdf_text
 from gazelle.builders.elements import Value, element, group
 from gazelle.builders.errors import BuildError
@@ -36,6 +37,7 @@ _EFFORT = "hardware_interface/EffortJointInterface"
 _SIMPLE = "transmission_interface/SimpleTransmission"
 
 
+@checked(BuildError)
 def add_link_properties(
     robot: RobotT,
     link: str,
@@ -101,6 +103,7 @@ def add_link_properties(
     return _with_link(robot, changed if material is None else _painted(changed, material))
 
 
+@checked(BuildError)
 def add_joint_properties(
     robot: RobotT,
     joint: str,
@@ -153,6 +156,7 @@ def add_joint_properties(
     return replace(robot, joints=joints)
 
 
+@checked(BuildError)
 def keep_fixed_joint(text: str, joint: str) -> str:
     """URDF text whose fixed joint keeps its two links apart, instead of lumping them.
 
@@ -164,6 +168,7 @@ def keep_fixed_joint(text: str, joint: str) -> str:
     return urdf_text.insert(text, [_tags(joint, tags)])
 
 
+@checked(BuildError)
 def add_transmission(
     robot: RobotT,
     joint: str,
@@ -220,6 +225,7 @@ def add_transmission(
     return replace(robot, transmissions=(*robot.transmissions, added))
 
 
+@checked(BuildError)
 def add_transmissions(robot: RobotT, *, interface: str = _EFFORT, reduction: float = 1.0) -> RobotT:
     """A simple transmission for each moving joint that has none and follows no other.
 
@@ -231,6 +237,7 @@ def add_transmissions(robot: RobotT, *, interface: str = _EFFORT, reduction: flo
     return robot
 
 
+@checked(BuildError)
 def add_sensor(robot: RobotT, link: str, sensor: Sensor) -> RobotT:
     """A sensor on a link, or on a frame that was a link before it was lumped.
 
@@ -248,6 +255,7 @@ def add_sensor(robot: RobotT, link: str, sensor: Sensor) -> RobotT:
     return _fitted(robot, link, sensor)
 
 
+@checked(BuildError)
 def add_plugin(robot: RobotT, plugin: Plugin) -> RobotT:
     """A plugin of the model, such as one made with ``plugin``."""
     if isinstance(robot, str):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from gazelle.argument_checks import checked
 from gazelle.builders.elements import element, group
 from gazelle.builders.errors import BuildError, positive
 from gazelle.builders.solids import ORIGIN
@@ -17,6 +18,7 @@ from gazelle.formats.sdf.pose import read_pose
 from gazelle.formats.sdf.sensor import QUANTIZE, read_sensor
 
 
+@checked(BuildError)
 def camera(
     name: str = "camera",
     *,
@@ -54,6 +56,7 @@ def camera(
     return _sensor(name, "camera", pose, update_rate, block, plugin if topic else None)
 
 
+@checked(BuildError)
 def depth_camera(
     name: str = "depth_camera",
     *,
@@ -86,6 +89,7 @@ def depth_camera(
     return _sensor(name, "depth", pose, update_rate, block, plugin if topic else None)
 
 
+@checked(BuildError)
 def lidar(
     name: str = "lidar",
     *,
@@ -153,6 +157,7 @@ def lidar(
     return _sensor(name, "ray", pose, update_rate, block, plugin if topic else None)
 
 
+@checked(BuildError)
 def imu(
     name: str = "imu",
     *,
@@ -196,6 +201,7 @@ def imu(
     return _sensor(name, "imu", pose, update_rate, block, plugin if topic else None)
 
 
+@checked(BuildError)
 def gps(
     name: str = "gps",
     *,
@@ -226,6 +232,7 @@ def gps(
     return _sensor(name, "gps", pose, update_rate, block, None)
 
 
+@checked(BuildError)
 def contact_sensor(collision: str, name: str = "contact", *, update_rate: float = 50.0) -> Sensor:
     """A sensor of what touches one collision of its link.
 
@@ -328,6 +335,7 @@ def _camera_plugin(
     )
 
 
+@checked(BuildError)
 def plugin(name: str, filename: str, **values: str | float | bool) -> Plugin:
     """A plugin with one tag a keyword, such as ``leftJoint="left_wheel"``.
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, finite, positive
 from gazelle.builders.inertia import solid_inertial
+from gazelle.builders.limits import MAX_PARTS
 from gazelle.builders.paint import Paint, material
 from gazelle.description import (
     Box,
@@ -27,6 +30,7 @@ ORIGIN = Pose()
 """The pose that leaves things where they are."""
 
 
+@checked(BuildError)
 @dataclass(frozen=True, slots=True)
 class Part:
     """One shape of a model.
@@ -48,6 +52,7 @@ class Part:
     shows: bool = True
 
 
+@checked(BuildError)
 def slab(
     name: str,
     size: Vector3,
@@ -67,6 +72,7 @@ def slab(
     return Part(name, Box(size), Pose(*at, yaw=yaw), color, collides)
 
 
+@checked(BuildError)
 def post(
     name: str,
     radius: float,
@@ -86,6 +92,7 @@ def post(
     return Part(name, Cylinder(radius, length), Pose(*at), color, collides)
 
 
+@checked(BuildError)
 def assemble(
     name: str,
     parts: Sequence[Part],
@@ -108,9 +115,10 @@ def assemble(
         BuildError: Two parts have one name, a colour is unknown, the pose is not finite, or
             a model with a mass has nothing that collides.
     """
-    names = [part.name for part in parts]
-    twice = next((each for each in names if names.count(each) > 1), None)
-    if twice is not None:
+    if len(parts) > MAX_PARTS:
+        raise BuildError(f"'{name}' has {len(parts)} parts; the most are {MAX_PARTS}")
+    twice, count = next(iter(Counter(part.name for part in parts).most_common(1)), ("", 0))
+    if count > 1:
         raise BuildError(f"two parts of '{name}' are called '{twice}'")
     finite((*pose.position, *pose.quaternion), f"the pose of '{name}'")
     solid = [part for part in parts if part.collides]
@@ -137,6 +145,7 @@ def _visual(part: Part) -> Visual:
     return Visual(f"{part.name}_visual", part.geometry, part.pose, material(part.color))
 
 
+@checked(BuildError)
 def box(
     name: str = "box",
     size: Vector3 = (0.5, 0.5, 0.5),
@@ -161,6 +170,7 @@ def box(
     return assemble(name, (part,), pose=pose, mass=mass)
 
 
+@checked(BuildError)
 def cylinder(
     name: str = "cylinder",
     radius: float = 0.25,
@@ -179,6 +189,7 @@ def cylinder(
     return assemble(name, (part,), pose=pose, mass=mass)
 
 
+@checked(BuildError)
 def sphere(
     name: str = "sphere",
     radius: float = 0.25,

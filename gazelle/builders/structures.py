@@ -6,7 +6,9 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, finite, positive
+from gazelle.builders.limits import MAX_PARTS
 from gazelle.builders.paint import Paint
 from gazelle.builders.solids import ORIGIN, Part, assemble, post, slab
 from gazelle.builders.walling import Point
@@ -16,6 +18,7 @@ _STOREY = 3.0
 _LAYER = 0.006  # a road's asphalt, and on it its lines [m]
 
 
+@checked(BuildError)
 def building(
     name: str = "building",
     *,
@@ -44,6 +47,11 @@ def building(
     """
     if min(length, width) < 3.0 or storeys < 1:
         raise BuildError(f"a building of {length:g} m x {width:g} m with {storeys} storeys is none")
+    if 2.0 * (length + width) * storeys > MAX_PARTS:  # no less than a metre a window
+        raise BuildError(
+            f"a building of {length:g} m x {width:g} m with {storeys} storeys has too many windows",
+            hint=f"the walls are up to {MAX_PARTS} m, all storeys together",
+        )
     height = storeys * _STOREY
     parts = [slab("body", (length, width, height), (0.0, 0.0, height / 2.0), color)]
     parts += _saddle(length, width, height, roof, color) if pitched else [
@@ -95,6 +103,7 @@ def _window(name: str, side: str, at: float, out: float, z: float) -> Part:
     return slab(name, (0.05, 1.1, 1.3), (out, at, z), "glass", collides=False)
 
 
+@checked(BuildError)
 def road(
     points: Sequence[Point],
     *,
@@ -157,6 +166,7 @@ def _dashes(number: int, start: Pose, length: float) -> list[Part]:
     ]
 
 
+@checked(BuildError)
 def fence(
     points: Sequence[Point],
     *,

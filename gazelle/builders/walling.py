@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, finite, positive
 from gazelle.builders.paint import Paint
 from gazelle.builders.solids import ORIGIN, Part, assemble, slab
@@ -15,6 +16,7 @@ Point = tuple[float, float]
 _SHORTEST = 1e-6  # what is shorter is no piece of wall [m]
 
 
+@checked(BuildError)
 @dataclass(frozen=True, slots=True)
 class Opening:
     """A hole in a wall.
@@ -34,11 +36,13 @@ class Opening:
     top: float = 2.1
 
 
+@checked(BuildError)
 def door(wall: int, at: float, width: float = 0.95, height: float = 2.1) -> Opening:
     """A doorway in stretch ``wall``, its middle ``at`` [m] along it."""
     return Opening(wall, at, width, 0.0, height)
 
 
+@checked(BuildError)
 def window(
     wall: int, at: float, width: float = 1.6, bottom: float = 0.9, top: float = 2.1
 ) -> Opening:
@@ -46,6 +50,7 @@ def window(
     return Opening(wall, at, width, bottom, top)
 
 
+@checked(BuildError)
 def walls(
     points: Sequence[Point],
     *,
@@ -96,6 +101,7 @@ def walls(
     return assemble(name, parts, pose=pose)
 
 
+@checked(BuildError)
 def room(
     length: float,
     width: float,

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import Any, Self
 
+from gazelle.argument_checks import checked
 from gazelle.builders import floors
 from gazelle.builders.errors import BuildError
 from gazelle.builders.land import Terrain
@@ -33,6 +34,7 @@ from gazelle.errors import did_you_mean
 from gazelle.formats import load_model
 
 
+@checked(BuildError)
 class WorldBuilder:
     """Makes a world by calls that can be chained.
 

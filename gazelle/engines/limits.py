@@ -6,6 +6,7 @@ import math
 import operator
 from typing import Any
 
+from gazelle.characters import can_be_written
 from gazelle.description import World
 from gazelle.errors import EngineError
 
@@ -66,7 +67,7 @@ def name_fault(name: Any) -> str | None:
         return "a name is text"
     if "::" in name:
         return "'::' parts the names of models and links"
-    if "\x00" in name or any("\ud800" <= each <= "\udfff" for each in name):
+    if not can_be_written(name):
         return "it holds what is no character"
     return None
 

@@ -13,8 +13,10 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
-from gazelle.errors import ControlError
+from gazelle.engines.limits import MAX_WORLDS, whole_number
+from gazelle.errors import ControlError, SimulationError
 from gazelle.navigation.pid import BoundedPid
 
 _STANDS = 0.25  # of a tolerance, between two updates
@@ -30,6 +32,7 @@ class Outcome(IntEnum):
     CANCELLED = 4
 
 
+@checked(SimulationError)
 @dataclass(frozen=True, slots=True)
 class Limits:
     """Limits of speed and accuracy of motions.
@@ -62,6 +65,7 @@ class Limits:
                 raise ControlError(f"{name} must be positive, not {getattr(self, name)}")
 
 
+@checked(SimulationError)
 class Motions:
     """The motions of ``count`` robots, each with one at a time.
 
@@ -78,7 +82,7 @@ class Motions:
     """
 
     def __init__(self, count: int = 1, limits: Limits | None = None) -> None:
-        self.count = count
+        self.count = whole_number("the number of robots", count, least=0, most=MAX_WORLDS)
         self.limits = limits or Limits()
         self.outcome = np.full(count, Outcome.IDLE, np.int8)
         self.taken = np.zeros(count)

@@ -7,6 +7,7 @@ import functools
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats, Indices
 from gazelle.errors import SimulationError
 
@@ -18,9 +19,13 @@ _LEAST = -1.5
 _MOST = 2.5
 _OBSTACLE = 0.5
 
+MAX_CELLS = 2**26
+"""Cells of a map."""
+
 _MARGIN = 1.0  # ground that is added around what must be on the map [m]
 
 
+@checked(SimulationError)
 class OccupancyGrid:
     """Log-odds of being occupied, cell by cell; zero is unknown.
 
@@ -72,6 +77,12 @@ class OccupancyGrid:
         spare = int(np.ceil(_MARGIN / self.resolution))
         before = np.where(low < 0, spare - low, 0)
         after = np.where(high > self.cells.shape, high - self.cells.shape + spare, 0)
+        rows, columns = (before + after + self.cells.shape).tolist()
+        if rows * columns > MAX_CELLS:
+            raise SimulationError(
+                f"a map of {rows} x {columns} cells is too large: the most are {MAX_CELLS}",
+                hint="the points are far from each other; or take a coarser resolution",
+            )
         self.cells = np.pad(self.cells, np.stack((before, after), axis=1))
         self.origin = self.origin - before * self.resolution
 

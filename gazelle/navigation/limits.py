@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from gazelle.argument_checks import checked
 from gazelle.errors import SimulationError
 
 
+@checked(SimulationError)
 @dataclass(frozen=True, slots=True)
 class BaseLimits:
     """Limits of a base and its clearance.

@@ -7,12 +7,15 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
-from gazelle.errors import ControlError
+from gazelle.engines.limits import MAX_WORLDS, whole_number
+from gazelle.errors import ControlError, SimulationError
 
 Rows = NDArray[np.intp] | slice
 
 
+@checked(SimulationError)
 class BoundedPid:
     """Proportional, integral and derivative action on an error.
 
@@ -46,8 +49,7 @@ class BoundedPid:
                 raise ControlError(
                     f"the bounds of the {name} are the wrong way round: {low}, {high}"
                 )
-        if count < 0:
-            raise ControlError(f"a PID needs a number of loops, not {count}")
+        whole_number("the number of loops", count, least=0, most=MAX_WORLDS)
         self.p, self.i, self.d = p, i, d
         self.integral, self.output = integral, output
         self._sum = np.zeros(count)

@@ -9,7 +9,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
+from gazelle.errors import SimulationError
 from gazelle.navigation.avoidance import safe_velocity
 from gazelle.navigation.following import Pose2, turn_to, wanted_velocity, wrapped
 from gazelle.navigation.grid import OccupancyGrid
@@ -26,6 +28,7 @@ _LOOK_AROUND = 2.0  # [s]
 _HISTORY = 64  # poses that are kept to place scans on
 
 
+@checked(SimulationError)
 class GoalSeeker:
     """Drives one base from goal to goal, in the frame of its odometry.
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
+from gazelle.errors import SimulationError
 
 
+@checked(SimulationError)
 @dataclass(frozen=True, slots=True)
 class GoalPose:
     """Goal pose.
@@ -24,6 +27,7 @@ class GoalPose:
     frame: str = ""
 
 
+@checked(SimulationError)
 @dataclass(frozen=True, slots=True)
 class Path:
     """The way that is left, in every world.

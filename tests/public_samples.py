@@ -1,0 +1,185 @@
+"""Good values for parameters of the public API, by name, class or word of their annotations."""
+
+from __future__ import annotations
+
+import contextlib
+import enum
+import functools
+import importlib
+import inspect
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import is_dataclass
+from pathlib import Path
+from typing import Any
+
+import arms
+import numpy as np
+import scenes
+import wrong_values
+
+import gazelle
+import gazelle.builders
+from gazelle import Simulation, planning
+from gazelle.description import Box, Pose
+from gazelle.sensors import View, look_at
+from gazelle.streams import Stream
+
+ROOMS = {
+    name: f"gazelle.{name}"
+    for name in (
+        *("builders", "clients", "control", "description", "engines", "envs", "formats"),
+        *("navigation", "planning", "rendering", "sensors", "simulation"),
+        *("training", "viewer"),
+    )
+} | {"gazelle": "gazelle"}
+
+BROKEN = 24
+"""Wrong values at most of a parameter that takes a dataclass."""
+
+
+def public(room: str) -> Iterator[tuple[str, Any]]:
+    """Yield functions and classes that a room exports."""
+    module = importlib.import_module(ROOMS[room])
+    for name in module.__all__:
+        value = getattr(module, name)
+        kind = isinstance(value, type) and issubclass(value, BaseException | enum.Enum)
+        if callable(value) and not kind and not getattr(value, "_is_protocol", False):
+            yield name, value
+
+
+@functools.cache
+def classes() -> dict[str, type]:
+    """Return the public classes, by name."""
+    found = {}
+    for room in ROOMS:
+        found.update({name: each for name, each in public(room) if isinstance(each, type)})
+    return found
+
+
+class Samples:
+    """Good values; the call is what ``wrong_values.calls`` takes."""
+
+    def __init__(self) -> None:
+        self.stack = contextlib.ExitStack()
+        self._making: list[type] = []
+
+    def __call__(self, name: str, annotation: str) -> Any:
+        if name in BY_NAME and ("str" in annotation or not annotation):
+            return BY_NAME[name](self)
+        plain = annotation.replace("'", "")
+        listed = re.match(r"(Sequence|Iterable|list|tuple)\[\(?(\w+)", plain)
+        if listed and (listed[2] in TABLE or listed[2] in classes()):
+            return (self(name, listed[2]),)
+        for word in re.findall(r"\w+", plain):
+            if word in TABLE:
+                return TABLE[word](self)
+            if word in classes() and (word != "Path" or name == "route"):
+                return self.instance(classes()[word])
+        found = (value for word, value in BY_WORD.items() if word in plain)
+        return next(found, 1)
+
+    def instance(self, kind: type) -> Any:
+        """Return an instance of a public class, made of good values; None if none can be made."""
+        with contextlib.suppress(gazelle.Error):
+            return self._made(kind)
+
+    def _made(self, kind: type) -> Any:
+        if kind.__name__ in TABLE:
+            return TABLE[kind.__name__](self)
+        if kind in self._making:
+            return None
+        self._making.append(kind)
+        try:
+            parameters = inspect.signature(kind).parameters.values()
+            positional, named = [], {}
+            for each in parameters:
+                if each.default is each.empty and each.kind not in (
+                    each.VAR_KEYWORD,
+                    each.VAR_POSITIONAL,
+                ):
+                    value = self(each.name, wrong_values.annotation_of(each))
+                    if each.kind is each.KEYWORD_ONLY:
+                        named[each.name] = value
+                    else:
+                        positional.append(value)
+            return kind(*positional, **named)
+        finally:
+            self._making.pop()
+
+    @functools.cached_property
+    def simulation(self) -> Simulation:
+        """A burger and a box on the ground, in two worlds."""
+        world = scenes.world(scenes.ground(), scenes.burger(), scenes.box(pose=Pose(1, 1, 1)))
+        return self.stack.enter_context(Simulation(world, nworld=2, threads=1))
+
+    @functools.cached_property
+    def group_plan(self) -> Any:
+        """A plan of the arm."""
+        return planning.Group(self.arm, "arm").plan({"wrist_flex_joint": 0.3})
+
+    @functools.cached_property
+    def arm(self) -> Any:
+        """Robot of a running simulation with a group "arm"."""
+        sim = self.stack.enter_context(Simulation("fetch", threads=1))
+        return sim.robots["fetch"]
+
+
+TABLE: dict[str, Callable[[Samples], Any]] = {
+    "Simulation": lambda s: s.simulation,
+    "Robot": lambda s: s.arm,
+    "World": lambda s: scenes.world(scenes.ground(), scenes.box()),
+    "Model": lambda s: scenes.box("new"),
+    "RobotModel": lambda s: arms.arm("fetch"),
+    "JointModelGroup": lambda s: arms.arm_group("fetch")[1],
+    "Engine": lambda s: s.simulation.engine,
+    "Pose": lambda s: Pose(),
+    "Shape": lambda s: Box((1.0, 1.0, 1.0)),
+    "Geometry": lambda s: Box((1.0, 1.0, 1.0)),
+    "Region": lambda s: Box((1.0, 1.0, 1.0)),
+    "Goal": lambda s: dict.fromkeys(arms.arm_group("fetch")[1].names, 0.0),
+    "View": lambda s: View(look_at((2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), 4, 4),
+    "Callable": lambda s: gazelle.builders.desk,
+    "Serializer": lambda s: lambda call, *a: call(*a),
+    "Generator": lambda s: np.random.default_rng(0),
+    "Floats": lambda s: np.zeros(3),
+    "Paint": lambda s: "grey",
+    "Zone": lambda s: gazelle.builders.Disc(),
+    "RobotT": lambda s: scenes.burger(),
+    "Stream": lambda s: Stream(0, "test", 1),
+    "Terrain": lambda s: gazelle.builders.terrain(np.eye(3)),
+    "Point": lambda s: (0.0, 1.0),
+    "Node": lambda s: s.node,
+    "Octree": lambda s: None,
+    "PlanningScene": lambda s: planning.PlanningScene(arms.arm("fetch")),
+    "Group": lambda s: planning.Group(s.arm, "arm"),
+    "MotionPlan": lambda s: s.group_plan.plan,
+    "GroupPlan": lambda s: s.group_plan,
+    "LaserScan": lambda s: None,
+    "Pose2": lambda s: (0.0, 0.0, 0.0),
+}
+BY_NAME: dict[str, Callable[[Samples], Any]] = {
+    "group": lambda s: "arm",
+    "link": lambda s: "gripper_link",
+    "joint": lambda s: "wrist_flex_joint",
+    "effector": lambda s: "gripper",
+    "path": lambda s: "file",
+}
+BY_WORD = {
+    "Vector3": (0.0, 0.0, 1.0),
+    "ArrayLike": 1.0,
+    "Sequence": [],
+    "Mapping": {},
+    "Path": Path("file"),
+    "str": "a",
+    "float": 1.0,
+    "bool": True,
+}
+
+
+def wrong_parts(sample: Any) -> list[Any]:
+    """Return copies of a dataclass that are wrong somewhere."""
+    if not is_dataclass(sample) or isinstance(sample, type):
+        return []
+    found = [value for _, value in wrong_values.broken_parts(sample, depth=2)]
+    return found[:: max(1, len(found) // BROKEN)]

@@ -1,0 +1,75 @@
+"""Arguments that make no sense anywhere are refused before anything is computed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+from gazelle.argument_checks import checked
+from gazelle.description import Vector3
+from gazelle.errors import PlanningError
+
+
+@checked(PlanningError)
+def measure(
+    length: float = 1.0,
+    most: float = math.inf,
+    *,
+    at: Vector3 = (0.0, 0.0, 0.0),
+    points: ArrayLike = (),
+    name: str = "",
+    seed: int = 0,
+    **options: float,
+):
+    """Return a length."""
+    return length + np.asarray(points, float).reshape(-1, 2).sum()
+
+
+@checked(PlanningError)
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A span."""
+
+    low: float
+    high: float = 1.0
+
+    def scaled(self, factor: float) -> float:
+        return factor * (self.high - self.low)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        *({"length": value} for value in (math.nan, math.inf, -math.inf, 1e308, 10**400)),
+        *({"at": value} for value in ((0.0, math.nan, 0.0), (1.0, 2.0), (), 1.0, ("a",) * 3)),
+        *({"points": value} for value in ([math.nan, 0.0], [[0.0], [1.0, 2.0]], [1j, 1j], "a")),
+        *({"name": value} for value in ("\x00", "a\ud800")),
+        *({"other": math.nan}, {"most": math.nan}, {"points": np.array([[math.inf, 0.0]])}),
+    ],
+)
+def test_an_argument_that_cannot_be_is_named(wrong):
+    with pytest.raises(PlanningError, match=f"'{next(iter(wrong))}' must be "):
+        measure(**wrong)
+
+
+def test_arrays_of_shapes_that_do_not_fit_are_refused():
+    with pytest.raises(PlanningError, match="measure cannot take these arrays"):
+        measure(points=[1.0, 2.0, 3.0])
+
+
+def test_what_can_be_is_taken_as_it_is():
+    assert measure(2.0, math.inf, at=(1, 2, 3), points=[1.0, 2.0], name="a", seed=2**127) == 5.0
+    assert measure(points=np.ones((2, 2)), other=3) == 5.0
+
+
+def test_classes_check_what_they_are_made_of_and_their_methods_arguments():
+    for make in (lambda: Span(math.nan), lambda: Span(0.0, high=math.inf)):
+        with pytest.raises(PlanningError, match="finite"):
+            make()
+    with pytest.raises(PlanningError, match="'factor' must be"):
+        Span(0.0).scaled(math.nan)
+    assert Span(0.0).scaled(3.0) == 3.0
