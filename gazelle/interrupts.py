@@ -260,14 +260,20 @@ class _Listener:
                 self._chosen.request(byte - _HEARD)
             else:
                 self._insist()
-        elif byte in self._before and self.receivers[-1:] == [None]:
+        elif byte in self._before:
             self._await_handler(byte)
 
     def _await_handler(self, number: int) -> None:
-        """End the process if its main thread does not come to run the handler."""
+        """Wake the main thread, and end the process if it does not come to run the handler.
+
+        Of two signals that come together the main thread may note both and go on waiting.
+        """
         for _ in range(_LOOKS):
             if self._count or self._closing.wait(_DEAF_S / _LOOKS):
                 return
+            signal.pthread_kill(self._main, number)
+        if self.receivers[-1:] != [None]:
+            return
         with contextlib.suppress(OSError):
             os.write(2, b"\ngazelle: interrupted\n")
         os._exit(128 + number)

@@ -174,16 +174,27 @@ def test_what_is_inside_a_library_for_long_ends_all_the_same():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_thousand_double_signals_end_a_thousand_waits(number):
-    """The handlers of a master set the event that the main thread held: 5 of 40 hung."""
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        (signal.SIGINT, signal.SIGINT),
+        (signal.SIGTERM, signal.SIGTERM),
+        (signal.SIGINT, signal.SIGTERM),
+        (signal.SIGTERM, signal.SIGINT),
+    ],
+)
+def test_a_thousand_double_signals_end_a_thousand_waits(first, second):
+    """The handlers of a master set the event that the main thread held: 5 of 40 hung.
+
+    Of two different signals the main thread ran no handler at all: 24 of 60 hung.
+    """
     process = child(
         "import signal, sys\n"
         "for number in (signal.SIGINT, signal.SIGTERM):\n"
         "    signal.signal(number, signal.SIG_IGN)\n"  # the second of two that come too late
         "from gazelle.interrupts import stopping\n"
         "print('ready', flush=True)\n"
-        "for _ in range(500):\n"
+        "for _ in range(250):\n"
         "    with stopping() as stop:\n"
         "        print('again', flush=True)\n"
         "        stop.wait()\n"
@@ -193,8 +204,8 @@ def test_a_thousand_double_signals_end_a_thousand_waits(number):
         for line in process.stdout:
             if line == "done\n":
                 break
-            process.send_signal(number)
-            process.send_signal(number)
+            process.send_signal(first)
+            process.send_signal(second)
         else:
             pytest.fail("it ended early")
     assert process.returncode == 0
