@@ -189,7 +189,7 @@ def _moved_inertia(model: Model, joint: Joint) -> float:
 
 
 def _carried(model: Model, link: str) -> set[str]:
-    """A link and all that hang on it."""
+    """Return a link and all that hang on it."""
     found, edge = {link}, [link]
     while edge:
         at = edge.pop()

@@ -19,7 +19,7 @@ def element(
     *children: Parameters,
     attributes: Mapping[str, Value] | None = None,
 ) -> Parameters:
-    """An element with a value, or with children, and attributes.
+    """Return an element with a value, or with children, and attributes.
 
     Raises:
         BuildError: A number is not a number.
@@ -30,7 +30,7 @@ def element(
 
 
 def group(tag: str, **values: Value | Parameters | None) -> Parameters:
-    """An element with one child a keyword; a child that is None is left out."""
+    """Return an element with one child a keyword; a child that is None is left out."""
     children = [
         each if isinstance(each, Parameters) else element(name, each)
         for name, each in values.items()
@@ -40,7 +40,7 @@ def group(tag: str, **values: Value | Parameters | None) -> Parameters:
 
 
 def text_of(value: Value) -> str:
-    """A value as the writers of SDF and URDF write it; a pose in angles.
+    """Return a value as the writers of SDF and URDF write it; a pose in angles.
 
     Raises:
         BuildError: A number is not a number.

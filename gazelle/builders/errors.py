@@ -13,7 +13,7 @@ class BuildError(Error):
 
 
 def positive(value: float, what: str) -> float:
-    """The value, if it is a finite number above zero.
+    """Return the value, if it is a finite number above zero.
 
     Raises:
         BuildError: It is not.

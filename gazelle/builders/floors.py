@@ -34,7 +34,7 @@ def ground(
     friction: float = 100.0,
     color: Paint = "light grey",
 ) -> Model:
-    """The ground: an endless plane at z = 0, of which ``size`` [m] shows.
+    """Return the ground: an endless plane at z = 0, of which ``size`` [m] shows.
 
     The default friction is that of Gazebo's ground plane: high, so that the friction of
     what stands on it counts.
@@ -61,7 +61,7 @@ def floor(
     pose: Pose = ORIGIN,
     color: Paint = "carpet",
 ) -> Model:
-    """A floor covering: it shows, 4 mm above the ground, and touches nothing.
+    """Return a floor covering: it shows, 4 mm above the ground, and touches nothing.
 
     Raises:
         BuildError: A length is not positive.
@@ -78,7 +78,7 @@ def sun(
     azimuth: float = math.radians(215.0),
     brightness: float = 0.8,
 ) -> Light:
-    """A sun that throws shadows.
+    """Return a sun that throws shadows.
 
     Args:
         name: Of the light.
@@ -117,7 +117,7 @@ def lamp(
     brightness: float = 0.5,
     cast_shadows: bool = False,
 ) -> Light:
-    """A lamp at a point [m], whose light ends at ``reach`` [m].
+    """Return a lamp at a point [m], whose light ends at ``reach`` [m].
 
     Raises:
         BuildError: The reach is not positive, or the brightness is out of range.

@@ -32,7 +32,7 @@ def desk(
     movable: bool = False,
     color: Paint = "oak",
 ) -> Model:
-    """A desk with a cabinet and, if ``screen``, a screen and a keyboard; 38 kg if movable.
+    """Return a desk with a cabinet and, if ``screen``, a screen and a keyboard; 38 kg if movable.
 
     Args:
         name: Of the model.
@@ -84,7 +84,7 @@ def table(
     movable: bool = False,
     color: Paint = "beech",
 ) -> Model:
-    """A table with four legs; 24 kg if movable. Arguments are those of ``desk``.
+    """Return a table with four legs; 24 kg if movable. Arguments are those of ``desk``.
 
     Raises:
         BuildError: A length is too small.
@@ -103,7 +103,7 @@ def round_table(
     movable: bool = False,
     color: Paint = "white",
 ) -> Model:
-    """A round table on one leg; 20 kg if movable.
+    """Return a round table on one leg; 20 kg if movable.
 
     Raises:
         BuildError: The radius or height is not positive.
@@ -143,7 +143,7 @@ def chair(
     movable: bool = False,
     color: Paint = "oak",
 ) -> Model:
-    """A wooden chair; 5 kg if movable."""
+    """Return a wooden chair; 5 kg if movable."""
     parts = [slab("seat", (0.42, 0.42, 0.035), (0.0, 0.0, 0.445), color)]
     for number, (x, y) in enumerate(_CORNERS):
         at = (0.185 * x, 0.185 * y, 0.21375)
@@ -165,7 +165,7 @@ def office_chair(
     movable: bool = False,
     color: Paint = "slate",
 ) -> Model:
-    """An office chair on five feet; 14 kg if movable. Its castors do not turn."""
+    """Return an office chair on five feet; 14 kg if movable. Its castors do not turn."""
     parts = [
         slab("seat", (0.48, 0.5, 0.08), (0.0, 0.0, 0.46), color),
         slab("back", (0.06, 0.46, 0.52), (-0.23, 0.0, 0.82), color),
@@ -199,7 +199,7 @@ def shelf(
     movable: bool = False,
     color: Paint = "beech",
 ) -> Model:
-    """A shelf, its back at -x and open towards +x; 45 kg if movable.
+    """Return a shelf, its back at -x and open towards +x; 45 kg if movable.
 
     Args:
         name: Of the model.
@@ -255,7 +255,7 @@ def cabinet(
     movable: bool = False,
     color: Paint = "light grey",
 ) -> Model:
-    """A filing cabinet with four drawers that open towards +x; 35 kg if movable."""
+    """Return a filing cabinet with four drawers that open towards +x; 35 kg if movable."""
     parts = [slab("body", (0.6, 0.45, 1.3), (0.0, 0.0, 0.65), color)]
     for number in range(4):
         z = 0.18 + 0.315 * number
@@ -278,7 +278,7 @@ def sofa(
     movable: bool = False,
     color: Paint = "blue",
 ) -> Model:
-    """A sofa, its back at -x; 40 kg if movable.
+    """Return a sofa, its back at -x; 40 kg if movable.
 
     Raises:
         BuildError: It is narrower than a metre.
@@ -301,7 +301,7 @@ def sofa(
 
 @checked(BuildError)
 def whiteboard(name: str = "whiteboard", *, pose: Pose = ORIGIN, width: float = 1.8) -> Model:
-    """A whiteboard for a wall, from 0.9 to 2 m high, facing +x.
+    """Return a whiteboard for a wall, from 0.9 to 2 m high, facing +x.
 
     Raises:
         BuildError: The width is not positive.

@@ -70,7 +70,7 @@ class Terrain:
         color: Paint | Callable[[float], Paint] = "meadow",
         thickness: float = 1.0,
     ) -> Model:
-        """The ground as a model that stands still.
+        """Return the ground as a model that stands still.
 
         Args:
             name: Of the model.

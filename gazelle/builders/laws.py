@@ -64,7 +64,7 @@ at the ground, of NASA's Planetary Fact Sheets; their fields are too weak to mat
 
 
 def physics(preset: PresetName | str = "default", **changes: float) -> Physics:
-    """A physics profile by name.
+    """Return a physics profile by name.
 
     Args:
         preset: ``default``, ``real-time``, ``accurate`` or ``fast``; see ``PRESETS``.
@@ -87,7 +87,7 @@ def physics(preset: PresetName | str = "default", **changes: float) -> Physics:
 
 @checked(BuildError)
 def planet(name: PlanetName | str) -> Planet:
-    """A place by name: ``earth``, ``moon``, ``mars`` or ``zero-gravity``.
+    """Return a place by name: ``earth``, ``moon``, ``mars`` or ``zero-gravity``.
 
     Raises:
         BuildError: There is no such place.
@@ -110,7 +110,7 @@ def with_physics(world: World, preset: PresetName | str | Physics) -> World:
 
 @checked(BuildError)
 def on_planet(world: World, name: PlanetName | str) -> World:
-    """The world with the gravity, magnetic field and air of a place.
+    """Return the world with the gravity, magnetic field and air of a place.
 
     Raises:
         BuildError: There is no such place.

@@ -23,7 +23,7 @@ def tree(
     pose: Pose = ORIGIN,
     color: Paint | None = None,
 ) -> Model:
-    """A tree, which stands still. Trunk and crown collide.
+    """Return a tree, which stands still. Trunk and crown collide.
 
     Args:
         name: Of the model.
@@ -86,7 +86,7 @@ _CROWNS = {"broadleaf": _broadleaf, "conifer": _conifer, "poplar": _poplar}
 def bush(
     name: str = "bush", *, height: float = 0.9, pose: Pose = ORIGIN, color: Paint = "leaf"
 ) -> Model:
-    """A bush.
+    """Return a bush.
 
     Raises:
         BuildError: The height is not positive.
@@ -113,7 +113,7 @@ def bush(
 def rock(
     name: str = "rock", *, size: float = 0.8, pose: Pose = ORIGIN, color: Paint = "rock"
 ) -> Model:
-    """A boulder, about ``size`` [m] across, partly in the ground.
+    """Return a boulder, about ``size`` [m] across, partly in the ground.
 
     Raises:
         BuildError: The size is not positive.
@@ -135,7 +135,7 @@ def rock(
 def plant(
     name: str = "plant", *, height: float = 1.1, pose: Pose = ORIGIN, pot: Paint = "clay"
 ) -> Model:
-    """A plant in a pot, for indoors.
+    """Return a plant in a pot, for indoors.
 
     Raises:
         BuildError: The height is not positive.
@@ -156,7 +156,7 @@ def plant(
 def log(
     name: str = "log", *, length: float = 2.5, radius: float = 0.18, pose: Pose = ORIGIN
 ) -> Model:
-    """A felled trunk along x.
+    """Return a felled trunk along x.
 
     Raises:
         BuildError: The length or radius is not positive.

@@ -51,7 +51,7 @@ PALETTE: dict[str, tuple[float, float, float]] = {
 
 @checked(BuildError)
 def material(paint: Paint) -> Material:
-    """The material of a colour.
+    """Return the material of a colour.
 
     Args:
         paint: A name of ``PALETTE``; the name of a Gazebo material script such as

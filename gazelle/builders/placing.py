@@ -63,7 +63,7 @@ class Rectangle:
         return outside or max(along, across)
 
     def point(self, u: float, v: float) -> tuple[float, float]:
-        """The point (x, y) [m] at fractions u along its length and v along its width."""
+        """Return the point (x, y) [m] at fractions u along its length and v along its width."""
         dx, dy = (u - 0.5) * self.length, (v - 0.5) * self.width
         cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
         return (self.x + cosine * dx - sine * dy, self.y + sine * dx + cosine * dy)

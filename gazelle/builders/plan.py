@@ -32,7 +32,7 @@ def plan_walls(
     color: Paint = "plaster",
     pose: Pose = ORIGIN,
 ) -> Model:
-    """The walls of a floor plan, its middle at the frame's origin.
+    """Return the walls of a floor plan, its middle at the frame's origin.
 
     Neighbouring cells become one box, as large as it can be.
 

@@ -42,7 +42,7 @@ def office(
     movable: bool = False,
     name: str = "office",
 ) -> World:
-    """A floor of offices: desks in pairs, a meeting room, a corner with sofas, and clutter.
+    """Return a floor of offices: desks in pairs, a meeting room, a corner with sofas, and clutter.
 
     It is 14 m by 10 m, open above. The origin, where a robot may start, is free within a
     metre, and so is the way to the door at -y.
@@ -173,7 +173,7 @@ def outdoor(
     kinds: Sequence[PlantKind] = ("broadleaf", "conifer", "conifer", "poplar"),
     name: str = "outdoor",
 ) -> World:
-    """A road with houses, trees and rocks on a meadow, and hills around it.
+    """Return a road with houses, trees and rocks on a meadow, and hills around it.
 
     It is 80 m by 80 m. The origin lies on the road, and is free within 4 m.
 

@@ -177,7 +177,7 @@ def add_transmission(
     reduction: float = 1.0,
     name: str = "",
 ) -> RobotT:
-    """A simple transmission, through which ros_control moves a joint.
+    """Return a simple transmission, through which ros_control moves a joint.
 
     Args:
         robot: URDF text or a model.
@@ -227,7 +227,7 @@ def add_transmission(
 
 @checked(BuildError)
 def add_transmissions(robot: RobotT, *, interface: str = _EFFORT, reduction: float = 1.0) -> RobotT:
-    """A simple transmission for each moving joint that has none and follows no other.
+    """Return a simple transmission for each moving joint that has none and follows no other.
 
     Raises:
         BuildError: The text is xacro, whose macros may make joints that cannot be seen.
@@ -239,7 +239,7 @@ def add_transmissions(robot: RobotT, *, interface: str = _EFFORT, reduction: flo
 
 @checked(BuildError)
 def add_sensor(robot: RobotT, link: str, sensor: Sensor) -> RobotT:
-    """A sensor on a link, or on a frame that was a link before it was lumped.
+    """Return a sensor on a link, or on a frame that was a link before it was lumped.
 
     Args:
         robot: URDF text or a model.
@@ -257,7 +257,7 @@ def add_sensor(robot: RobotT, link: str, sensor: Sensor) -> RobotT:
 
 @checked(BuildError)
 def add_plugin(robot: RobotT, plugin: Plugin) -> RobotT:
-    """A plugin of the model, such as one made with ``plugin``."""
+    """Return a plugin of the model, such as one made with ``plugin``."""
     if isinstance(robot, str):
         urdf_text.root_of(robot)
         return urdf_text.insert(robot, [urdf_text.gazebo("", (write_plugin(plugin),))])

@@ -33,7 +33,7 @@ def camera(
     topic: str = "",
     frame: str = "",
 ) -> Sensor:
-    """A colour camera, which looks along its x axis.
+    """Return a colour camera, which looks along its x axis.
 
     Args:
         name: Unique in its link.
@@ -71,7 +71,7 @@ def depth_camera(
     topic: str = "",
     frame: str = "",
 ) -> Sensor:
-    """A camera that also measures depth; arguments are those of ``camera``.
+    """Return a camera that also measures depth; arguments are those of ``camera``.
 
     Raises:
         BuildError: A figure makes no sense.
@@ -109,7 +109,7 @@ def lidar(
     topic: str = "",
     frame: str = "",
 ) -> Sensor:
-    """A laser range finder: planar, or with several ``rows`` of rays.
+    """Return a laser range finder: planar, or with several ``rows`` of rays.
 
     Args:
         name: Unique in its link.
@@ -170,7 +170,7 @@ def imu(
     topic: str = "",
     frame: str = "",
 ) -> Sensor:
-    """An inertial measurement unit.
+    """Return an inertial measurement unit.
 
     Args:
         name: Unique in its link.
@@ -211,7 +211,7 @@ def gps(
     vertical_noise: float = 0.0,
     velocity_noise: float = 0.0,
 ) -> Sensor:
-    """A satellite receiver; the world needs ``spherical_coordinates``.
+    """Return a satellite receiver; the world needs ``spherical_coordinates``.
 
     Args:
         name: Unique in its link.
@@ -234,7 +234,7 @@ def gps(
 
 @checked(BuildError)
 def contact_sensor(collision: str, name: str = "contact", *, update_rate: float = 50.0) -> Sensor:
-    """A sensor of what touches one collision of its link.
+    """Return a sensor of what touches one collision of its link.
 
     Raises:
         BuildError: The rate is not positive, or the collision has no name.
@@ -337,7 +337,7 @@ def _camera_plugin(
 
 @checked(BuildError)
 def plugin(name: str, filename: str, **values: str | float | bool) -> Plugin:
-    """A plugin with one tag a keyword, such as ``leftJoint="left_wheel"``.
+    """Return a plugin with one tag a keyword, such as ``leftJoint="left_wheel"``.
 
     Raises:
         BuildError: A number is not a number.

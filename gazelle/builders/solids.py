@@ -62,7 +62,7 @@ def slab(
     yaw: float = 0.0,
     collides: bool = True,
 ) -> Part:
-    """A box of ``size`` [m], its centre ``at`` [m], turned about z by ``yaw`` [rad].
+    """Return a box of ``size`` [m], its centre ``at`` [m], turned about z by ``yaw`` [rad].
 
     Raises:
         BuildError: A length is not positive.
@@ -82,7 +82,7 @@ def post(
     *,
     collides: bool = True,
 ) -> Part:
-    """An upright cylinder, its centre ``at`` [m].
+    """Return an upright cylinder, its centre ``at`` [m].
 
     Raises:
         BuildError: The radius or length is not positive.
@@ -101,7 +101,7 @@ def assemble(
     mass: float | None = None,
     friction: float = 1.0,
 ) -> Model:
-    """A model of one rigid link.
+    """Return a model of one rigid link.
 
     Args:
         name: Of the model.
@@ -154,7 +154,7 @@ def box(
     mass: float | None = None,
     color: Paint = "beech",
 ) -> Model:
-    """A box that stands on its frame's xy plane.
+    """Return a box that stands on its frame's xy plane.
 
     Args:
         name: Of the model.
@@ -180,7 +180,7 @@ def cylinder(
     mass: float | None = None,
     color: Paint = "orange",
 ) -> Model:
-    """An upright cylinder that stands on its frame's xy plane; see ``box``.
+    """Return an upright cylinder that stands on its frame's xy plane; see ``box``.
 
     Raises:
         BuildError: The radius, length or mass is not positive.
@@ -198,7 +198,7 @@ def sphere(
     mass: float | None = None,
     color: Paint = "blue",
 ) -> Model:
-    """A sphere that lies on its frame's xy plane; see ``box``.
+    """Return a sphere that lies on its frame's xy plane; see ``box``.
 
     Raises:
         BuildError: The radius or mass is not positive.

@@ -30,7 +30,7 @@ def building(
     color: Paint = "brick",
     roof: Paint = "roof",
 ) -> Model:
-    """A house seen from outside: solid, with windows, and a door at -y.
+    """Return a house seen from outside: solid, with windows, and a door at -y.
 
     Args:
         name: Of the model.
@@ -113,7 +113,7 @@ def road(
     pose: Pose = ORIGIN,
     color: Paint = "asphalt",
 ) -> Model:
-    """A road along a line of points; it shows and touches nothing, as in Gazebo.
+    """Return a road along a line of points; it shows and touches nothing, as in Gazebo.
 
     Args:
         points: Of its middle line [m], at least two.
@@ -175,7 +175,7 @@ def fence(
     pose: Pose = ORIGIN,
     color: Paint = "oak",
 ) -> Model:
-    """A wooden fence along a line of points: posts at most 2 m apart, and two rails.
+    """Return a wooden fence along a line of points: posts at most 2 m apart, and two rails.
 
     Raises:
         BuildError: There are too few points, two neighbours coincide, or one is not finite.

@@ -18,7 +18,7 @@ _XACRO = "http://www.ros.org/wiki/xacro"
 
 
 def insert(text: str, nodes: Iterable[Parameters]) -> str:
-    """The text with elements added at the end of its ``<robot>``.
+    """Return the text with elements added at the end of its ``<robot>``.
 
     Raises:
         BuildError: There is no ``</robot>``.
@@ -39,13 +39,13 @@ def insert(text: str, nodes: Iterable[Parameters]) -> str:
 
 
 def gazebo(reference: str, children: Iterable[Parameters]) -> Parameters:
-    """A ``<gazebo>`` element; without a reference it is about the model."""
+    """Return a ``<gazebo>`` element; without a reference it is about the model."""
     attributes = {"reference": reference} if reference else {}
     return element("gazebo", None, *children, attributes=attributes)
 
 
 def root_of(text: str) -> Parameters:
-    """The ``<robot>`` of a text.
+    """Return the ``<robot>`` of a text.
 
     Raises:
         FormatError: The text is not well-formed XML.

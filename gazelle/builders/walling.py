@@ -38,7 +38,7 @@ class Opening:
 
 @checked(BuildError)
 def door(wall: int, at: float, width: float = 0.95, height: float = 2.1) -> Opening:
-    """A doorway in stretch ``wall``, its middle ``at`` [m] along it."""
+    """Return a doorway in stretch ``wall``, its middle ``at`` [m] along it."""
     return Opening(wall, at, width, 0.0, height)
 
 
@@ -46,7 +46,7 @@ def door(wall: int, at: float, width: float = 0.95, height: float = 2.1) -> Open
 def window(
     wall: int, at: float, width: float = 1.6, bottom: float = 0.9, top: float = 2.1
 ) -> Opening:
-    """A window in stretch ``wall``, its middle ``at`` [m] along it."""
+    """Return a window in stretch ``wall``, its middle ``at`` [m] along it."""
     return Opening(wall, at, width, bottom, top)
 
 

@@ -256,7 +256,7 @@ class WorldBuilder:
 
 
 def _free_name(name: str, taken: Mapping[str, object]) -> str:
-    """The name, or the first free one with a number behind."""
+    """Return the name, or the first free one with a number behind."""
     if name not in taken:
         return name
     return next(each for i in itertools.count(1) if (each := f"{name}_{i}") not in taken)

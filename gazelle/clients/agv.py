@@ -200,7 +200,7 @@ class AGVFleet(Closeable):
 
 
 def _list_of(names: Sequence[str]) -> str:
-    """The first few names."""
+    """Return the first few names."""
     more = f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else ""
     return ", ".join(name or "the AGV" for name in names[:_MOST_NAMES]) + more
 

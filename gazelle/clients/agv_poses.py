@@ -138,7 +138,7 @@ class ServicePoses(PoseSource):
 def pose_source(
     poses: str, node: Node, spaces: Sequence[str], name: str | None, kind: str, rate: float
 ) -> PoseSource:
-    """The source that is asked for.
+    """Return the source that is asked for.
 
     Raises:
         ClientError: There is no such source.

@@ -97,7 +97,7 @@ class Caller:
         return self.accept(name, self.call_once(name, kind, **fields))
 
     def accept(self, name: str, answer: Any) -> Any:
-        """The answer of a service that has ``success``.
+        """Return the answer of a service that has ``success``.
 
         Raises:
             ClientError: It did not succeed.

@@ -52,7 +52,7 @@ class Controllers(Closeable):
         return found
 
     def types(self) -> Sequence[str]:
-        """The types of controllers that can be loaded."""
+        """Return the types of controllers that can be loaded."""
         kind = "controller_manager_msgs/ListControllerTypes"
         found: Sequence[str] = self._caller.call("list_controller_types", kind).types
         return found

@@ -20,7 +20,7 @@ def read_urdf(
     package: str | None = None,
     xacro_args: Mapping[str, str] | None = None,
 ) -> str:
-    """The text of a URDF file, with xacro expanded.
+    """Return the text of a URDF file, with xacro expanded.
 
     Args:
         path: A file; within the package's folder if one is given.
@@ -87,7 +87,7 @@ def load_parameters(
 
 
 def find_file(path: str | Path, package: str | None = None) -> Path:
-    """A file, or one within a package.
+    """Return a file, or one within a package.
 
     Raises:
         ClientError: There is no such package or file.

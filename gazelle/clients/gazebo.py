@@ -313,11 +313,11 @@ class Gazebo(PhysicsCalls, Closeable):
     # -- watching ----------------------------------------------------------------------------
 
     def watch_models(self) -> LiveStates:
-        """A table of all models that is kept up to date; close it when done."""
+        """Return a table of all models that is kept up to date; close it when done."""
         return LiveStates(self.node, f"{self._caller.namespace}/model_states", "ModelStates")
 
     def watch_links(self) -> LiveStates:
-        """A table of all links that is kept up to date; close it when done."""
+        """Return a table of all links that is kept up to date; close it when done."""
         return LiveStates(self.node, f"{self._caller.namespace}/link_states", "LinkStates")
 
     def wait_for_model(self, name: str, timeout: float = 10.0) -> None:

@@ -119,7 +119,7 @@ class SimulatorProcess(Closeable):
 
 
 def _client(uri: str) -> Gazebo:
-    """A client of the simulator that is there.
+    """Return a client of the simulator that is there.
 
     Raises:
         RosError: None is, yet.

@@ -172,7 +172,7 @@ def _by_name(targets: Mapping[str, float], joints: Sequence[str], topic: str) ->
 
 
 def _joints_of(node: Node, place: str) -> tuple[tuple[str, ...], bool]:
-    """The joints that a controller's parameters name, and whether it is one of a group."""
+    """Return the joints that a controller's parameters name, and whether it is one of a group."""
     parameters = node.get_param(place, None)
     if not isinstance(parameters, Mapping):
         raise ClientError(f"there are no parameters of a controller at {place}")

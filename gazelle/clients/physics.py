@@ -125,5 +125,5 @@ class PhysicsCalls:
 
 
 def vector(x: float, y: float, z: float) -> Any:
-    """A ``geometry_msgs/Vector3``."""
+    """Return a ``geometry_msgs/Vector3``."""
     return load_message("geometry_msgs/Vector3")(x, y, z)

@@ -65,7 +65,7 @@ def three(value: Sequence[float], what: str) -> Vector:
 
 
 def read_state(pose: Any, twist: Any) -> ModelState:
-    """The numbers of a ``Pose`` and a ``Twist``."""
+    """Return the numbers of a ``Pose`` and a ``Twist``."""
     turn = pose.orientation
     return ModelState(
         _triple(pose.position),
@@ -76,7 +76,7 @@ def read_state(pose: Any, twist: Any) -> ModelState:
 
 
 def pose_message(position: Vector, rpy: Vector) -> Any:
-    """A ``geometry_msgs/Pose`` [m, rad]; roll, pitch and yaw about fixed axes."""
+    """Return a ``geometry_msgs/Pose`` [m, rad]; roll, pitch and yaw about fixed axes."""
     pose: Any = load_message("geometry_msgs/Pose")()
     pose.position.x, pose.position.y, pose.position.z = three(position, "a position")
     turn = pose.orientation
@@ -85,7 +85,7 @@ def pose_message(position: Vector, rpy: Vector) -> Any:
 
 
 def twist_message(linear: Vector, angular: Vector) -> Any:
-    """A ``geometry_msgs/Twist`` [m/s, rad/s]."""
+    """Return a ``geometry_msgs/Twist`` [m/s, rad/s]."""
     twist: Any = load_message("geometry_msgs/Twist")()
     twist.linear.x, twist.linear.y, twist.linear.z = three(linear, "a velocity")
     twist.angular.x, twist.angular.y, twist.angular.z = three(angular, "an angular velocity")

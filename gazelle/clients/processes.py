@@ -114,7 +114,7 @@ class Processes:
         return [each.name for each in self._launches if each.runs]
 
     def nodes(self) -> list[str]:
-        """The names of all nodes on the graph."""
+        """Return the names of all nodes on the graph."""
         return node_tools.list_nodes(GraphInspector("clients", self._uri)).splitlines()
 
     def stop(self, name: str) -> None:

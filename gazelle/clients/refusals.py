@@ -66,7 +66,7 @@ def why_not_switched(start: Sequence[str], stop: Sequence[str], loaded: Sequence
 
 
 def _claims(state: Any) -> set[str]:
-    """The resources that a controller has to itself while it runs."""
+    """Return the resources that a controller has to itself while it runs."""
     return {
         name
         for each in state.claimed_resources

@@ -182,7 +182,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
 
 
 def _read(node: Node, options: argparse.Namespace) -> str:
-    """The description.
+    """Return the description.
 
     Raises:
         RosError: There is none, or it is empty.

@@ -30,7 +30,7 @@ class Inertia:
         return cls(ixx, iyy, izz, ixy, ixz, iyz)
 
     def matrix(self) -> NDArray[np.float64]:
-        """The tensor as a matrix, shape (3, 3) [kg m²]."""
+        """Return the tensor as a matrix, shape (3, 3) [kg m²]."""
         return np.array(
             [
                 [self.ixx, self.ixy, self.ixz],

@@ -14,7 +14,7 @@ class HoldsMappings:
     __slots__ = ()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """The class, and the values of its fields as Python can pickle them."""
+        """Return the class, and the values of its fields as Python can pickle them."""
         values = {each.name: getattr(self, each.name) for each in fields(self)}  # type: ignore[arg-type]  # a dataclass is
         return _made_again, (type(self), {name: _plain(each) for name, each in values.items()})
 

@@ -44,7 +44,7 @@ class Parameters(HoldsMappings):
     source: Source | None = field(default=None, compare=False, repr=False)
 
     def find(self, tag: str) -> Parameters | None:
-        """The first child with that tag, or None. ``a/b`` goes down two levels."""
+        """Return the first child with that tag, or None. ``a/b`` goes down two levels."""
         head, _, rest = tag.partition("/")
         for child in self.children:
             if child.tag == head:
@@ -70,7 +70,7 @@ class Parameters(HoldsMappings):
         return child.value(type(default))
 
     def require(self, tag: str, kind: type[T]) -> T:
-        """The value of a child that must be there.
+        """Return the value of a child that must be there.
 
         Raises:
             FormatError: The child is missing, empty, or not of that type.
@@ -81,7 +81,7 @@ class Parameters(HoldsMappings):
         return child.value(kind)
 
     def value(self, kind: type[T]) -> T:
-        """The text as bool, int, float or str.
+        """Return the text as bool, int, float or str.
 
         Raises:
             FormatError: The text is not of that type.

@@ -54,7 +54,7 @@ class Pose:
     def from_quaternion(
         cls, position: Sequence[float] = (0.0, 0.0, 0.0), quaternion: Sequence[float] = _IDENTITY
     ) -> Pose:
-        """A pose from a position [m] and a quaternion (x, y, z, w), which is normalised.
+        """Return a pose from a position [m] and a quaternion (x, y, z, w), which is normalised.
 
         One that has length one but for rounding keeps its numbers, so that a pose that is
         written and read stays the same. One of length zero becomes the identity, as in Gazebo.
@@ -80,7 +80,7 @@ class Pose:
 
     @classmethod
     def from_matrix(cls, matrix: NDArray[np.float64]) -> Pose:
-        """A pose from a homogeneous transform, shape (4, 4), or a rotation, shape (3, 3)."""
+        """Return a pose from a homogeneous transform, shape (4, 4), or a rotation, shape (3, 3)."""
         position = matrix[:3, 3] if matrix.shape == (4, 4) else (0.0, 0.0, 0.0)
         return cls.from_quaternion(tuple(position), quaternion_from_matrix(matrix[:3, :3]))
 
@@ -136,23 +136,23 @@ class Pose:
         return Pose.from_quaternion((x, y, z), multiply(self._quaternion, other._quaternion))
 
     def inverse(self) -> Pose:
-        """The pose of the parent frame in the child frame."""
+        """Return the pose of the parent frame in the child frame."""
         x, y, z, w = self._quaternion
         conjugate: Quaternion = (-x, -y, -z, w)
         px, py, pz = rotate(conjugate, self._position)
         return Pose.from_quaternion((-px, -py, -pz), conjugate)
 
     def apply(self, point: Sequence[float]) -> Vector3:
-        """A point [m] of the child frame in the parent frame."""
+        """Return a point [m] of the child frame in the parent frame."""
         px, py, pz = rotate(self._quaternion, (point[0], point[1], point[2]))
         return (self.x + px, self.y + py, self.z + pz)
 
     def rotate(self, vector: Sequence[float]) -> Vector3:
-        """A direction of the child frame in the parent frame."""
+        """Return a direction of the child frame in the parent frame."""
         return rotate(self._quaternion, (vector[0], vector[1], vector[2]))
 
     def matrix(self) -> NDArray[np.float64]:
-        """The homogeneous transform from child to parent, shape (4, 4)."""
+        """Return the homogeneous transform from child to parent, shape (4, 4)."""
         matrix = np.eye(4)
         for column, axis in enumerate(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))):
             matrix[:3, column] = rotate(self._quaternion, axis)
@@ -197,7 +197,7 @@ def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def rotate(q: Quaternion, v: Vector3) -> Vector3:
-    """The vector v turned by the unit quaternion q (x, y, z, w)."""
+    """Return the vector v turned by the unit quaternion q (x, y, z, w)."""
     x, y, z, w = q
     tx = 2.0 * (y * v[2] - z * v[1])
     ty = 2.0 * (z * v[0] - x * v[2])

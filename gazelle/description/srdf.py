@@ -124,7 +124,7 @@ class Semantics(HoldsMappings):
     source: Source | None = field(default=None, compare=False, repr=False)
 
     def group(self, name: str) -> JointGroup:
-        """The group with a name.
+        """Return the group with a name.
 
         Raises:
             FormatError: There is none.
@@ -136,7 +136,7 @@ class Semantics(HoldsMappings):
         raise FormatError(f"there is no group '{name}'", source=self.source, hint=hint)
 
     def state(self, group: str, name: str) -> JointGroupState:
-        """The named posture of a group.
+        """Return the named posture of a group.
 
         Raises:
             FormatError: There is none.
@@ -228,7 +228,7 @@ class _Tree:
         yield from (joint.name for joint in (*up, *down) if joint.name not in shared)
 
     def _body(self, link: str, group: JointGroup) -> str:
-        """The link itself, or the one that it became part of."""
+        """Return the link itself, or the one that it became part of."""
         if link in self._links:
             return link
         if link in self._frames:

@@ -40,7 +40,7 @@ class StagePose(NamedTuple):
     yaw: float = 0.0
 
     def then(self, child: StagePose) -> StagePose:
-        """A pose given in this one's frame, in the frame that this one is given in."""
+        """Return a pose given in this one's frame, in the frame that this one is given in."""
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
         return StagePose(
             self.x + cos * child.x - sin * child.y,

@@ -14,7 +14,7 @@ from gazelle.errors import TaskError
 
 
 def autoreset_mode(mode: AutoresetMode | str) -> AutoresetMode:
-    """The mode of that name: ``NextStep``, ``SameStep`` or ``Disabled``.
+    """Return the mode of that name: ``NextStep``, ``SameStep`` or ``Disabled``.
 
     Raises:
         TaskError: There is no such mode.

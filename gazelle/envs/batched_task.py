@@ -318,7 +318,7 @@ class BatchedTask(ABC):
 
     @abstractmethod
     def render(self, world: int) -> NDArray[np.uint8]:
-        """A picture of one world, shape (height, width, 3)."""
+        """Return a picture of one world, shape (height, width, 3)."""
 
     @abstractmethod
     def close(self) -> None:
@@ -342,7 +342,7 @@ class BatchedTask(ABC):
 
     @abstractmethod
     def _state(self) -> dict[str, Any]:
-        """The subclass's part of ``get_state``."""
+        """Return the subclass's part of ``get_state``."""
 
     @abstractmethod
     def _set_state(self, state: dict[str, Any]) -> None:
@@ -350,7 +350,7 @@ class BatchedTask(ABC):
 
 
 def _put(info: Info, start: Info, worlds: Worlds) -> Info:
-    """The info with that of some worlds' new episodes in its place."""
+    """Return the info with that of some worlds' new episodes in its place."""
     merged = dict(info)
     nworld = len(next(iter(info.values()))) if info else 0
     for name, values in start.items():
@@ -365,12 +365,12 @@ def _put(info: Info, start: Info, worlds: Worlds) -> Info:
 def _made_again(
     kind: type[BatchedTask], arguments: tuple[Any, ...], options: dict[str, Any]
 ) -> BatchedTask:
-    """A task as it was made."""
+    """Return a task as it was made."""
     return kind(*arguments, **options)
 
 
 def _only(values: NDArray[Any], worlds: Worlds) -> NDArray[Any]:
-    """The values of some worlds, and zeros elsewhere."""
+    """Return the values of some worlds, and zeros elsewhere."""
     kept = np.zeros(values.shape, values.dtype)
     kept[worlds] = values[worlds]
     return kept

@@ -67,7 +67,7 @@ class CameraObservation:
 
 
 def fit_camera(model: Model, width: int, height: int) -> Model:
-    """The robot, its cameras with so many pixels; the horizontal field of view stays.
+    """Return the robot, its cameras with so many pixels; the horizontal field of view stays.
 
     Args:
         model: The robot.

@@ -146,7 +146,7 @@ class PolicyContract:
 
     @classmethod
     def from_dict(cls, values: dict[str, Any]) -> PolicyContract:
-        """The contract that `to_dict` wrote.
+        """Return the contract that `to_dict` wrote.
 
         Raises:
             TaskError: Something in it is missing, unknown or impossible.
@@ -216,7 +216,7 @@ def _part_of(name: str, space: gym.Space[Any]) -> ObservationPart:
 
 
 def action_rule(space: gym.Space[Any], **values: Any) -> ActionRule:
-    """The rule of a space of actions; ``values`` are more fields of `ActionRule`."""
+    """Return the rule of a space of actions; ``values`` are more fields of `ActionRule`."""
     if isinstance(space, gym.spaces.Discrete):
         return ActionRule(type="discrete", first=int(space.start), **values)
     if isinstance(space, gym.spaces.Box):
@@ -264,7 +264,7 @@ def _check_kind(part: dict[str, Any], number: int) -> None:
 
 
 def _made(kind: type[Any], values: dict[str, Any]) -> Any:
-    """A dataclass of plain values; lists become tuples."""
+    """Return a dataclass of plain values; lists become tuples."""
     known = {each.name for each in dataclasses.fields(kind)}
     for key in values:
         if key not in known:

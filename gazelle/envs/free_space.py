@@ -127,7 +127,7 @@ def _outline(plan: FloorPlan, step: float) -> Floats:
 
 
 def _flooded(passable: Bools, first: NDArray[np.intp]) -> Bools:
-    """The cells that hang together with the first, side by side."""
+    """Return the cells that hang together with the first, side by side."""
     reached = np.zeros(passable.size, np.bool_)
     rows = passable.shape[1]
     front = np.array([first[0] * rows + first[1]])

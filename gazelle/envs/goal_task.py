@@ -95,7 +95,7 @@ class GoalSimulationTask(SimulationTask):
     def compute_reward(
         self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: object
     ) -> NDArray[Any]:
-        """The reward of steps after which this is achieved, were that the goal.
+        """Return the reward of steps after which this is achieved, were that the goal.
 
         By default 0 where it is reached and -1 elsewhere. It depends on the arguments alone, so
         that it tells what a step had been worth with another goal.

@@ -84,7 +84,7 @@ class GoalTable:
 
 
 def _checked(points: Sequence[tuple[float, float]] | Floats) -> Floats:
-    """The points as an array of their own, or an error that says what is wrong."""
+    """Return the points as an array of their own, or an error that says what is wrong."""
     try:
         array = np.array(points, dtype=np.float64)
     except (TypeError, ValueError, OverflowError) as error:

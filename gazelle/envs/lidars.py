@@ -129,7 +129,7 @@ def _lidars(model: Model) -> Iterator[Sensor]:
 
 
 def _put(model: Model, old: Sensor, new: Sensor) -> Model:
-    """The model with one sensor in place of another."""
+    """Return the model with one sensor in place of another."""
     links = tuple(
         replace(link, sensors=tuple(new if sensor is old else sensor for sensor in link.sensors))
         if any(sensor is old for sensor in link.sensors)

@@ -17,7 +17,7 @@ _THICK = 0.005  # what is nearer to the ground than this does not hide a mark on
 
 
 def take(simulation: Simulation, view: View, world: int) -> tuple[Picture, Floats]:
-    """A picture by the rasteriser, fast enough for every step of an episode.
+    """Return a picture by the rasteriser, fast enough for every step of an episode.
 
     Args:
         simulation: Of the environment; the caller owns its state.

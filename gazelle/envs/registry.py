@@ -43,7 +43,7 @@ def _turtlebot3() -> list[RegisteredTask]:
 
 
 def _named(room: str, name: str, steps: int, env: str = "") -> RegisteredTask:
-    """A task whose environments are called after it.
+    """Return a task whose environments are called after it.
 
     Args:
         room: The package below `gazelle.envs` that has them.
@@ -109,5 +109,5 @@ def register_all() -> None:
 
 
 def task_ids() -> tuple[str, ...]:
-    """The ids of all tasks, in the order of the table."""
+    """Return the ids of all tasks, in the order of the table."""
     return tuple(entry.id for entry in ENTRIES)

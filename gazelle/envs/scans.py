@@ -46,7 +46,7 @@ def clean_all(ranges: Floats, cleaned: Floats32, nearest: float, farthest: float
 
 
 def nearest_obstacle(ranges: Floats32) -> tuple[Floats32, NDArray[np.intp]]:
-    """The shortest range [m] of each scan and the index of its ray, each of shape (n,)."""
+    """Return the shortest range [m] of each scan and the index of its ray, each of shape (n,)."""
     shortest, ray = np.empty(len(ranges), np.float32), np.empty(len(ranges), np.intp)
     find_nearest(np.ascontiguousarray(ranges, np.float32), shortest, ray)
     return shortest, ray

@@ -114,7 +114,7 @@ class SimulationTask(BatchedTask):
         return self.elapsed + 1 >= self.max_episode_steps
 
     def render(self, world: int) -> NDArray[np.uint8]:
-        """A picture of one world from ``view``."""
+        """Return a picture of one world from ``view``."""
         return self.simulation.render(self.view, world)
 
     def close(self) -> None:

@@ -90,7 +90,7 @@ class TaskEnv(gym.Env[Any, Any]):
         return self.task.contract
 
     def render(self) -> NDArray[np.uint8] | None:
-        """A picture, shape (height, width, 3); None without render mode.
+        """Return a picture, shape (height, width, 3); None without render mode.
 
         Raises:
             ClosedEnvError: The environment is closed.

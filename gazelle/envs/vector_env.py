@@ -249,7 +249,7 @@ def _spelled(finals: Finals, nworld: int) -> dict[str, Any]:
 
 
 def _masked(mask: object, nworld: int) -> Worlds:
-    """The worlds of a reset mask; all without one."""
+    """Return the worlds of a reset mask; all without one."""
     if mask is None:
         return np.arange(nworld)
     array = np.asarray(mask)
@@ -274,5 +274,5 @@ def _whole_seed(seed: object) -> int:
 
 
 def _fresh_seed() -> int:
-    """A seed from the operating system's entropy."""
+    """Return a seed from the operating system's entropy."""
     return int(np.random.SeedSequence().generate_state(1)[0])

@@ -84,7 +84,7 @@ class TaskWrapper(BatchedTask):
         return self.task.floor_plan
 
     def render(self, world: int) -> NDArray[np.uint8]:
-        """A picture of one world."""
+        """Return a picture of one world."""
         return self.task.render(world)
 
     def close(self) -> None:
@@ -151,7 +151,7 @@ class FrameStackTask(TaskWrapper):
         self.memory["frames"] = np.zeros((task.nworld, count, size), np.float32)
 
     def changed_observation(self, observation: Floats32) -> Floats32:
-        """The last frames, shape (nworld, count * size)."""
+        """Return the last frames, shape (nworld, count * size)."""
         frames = self.memory["frames"]
         frames[:, :-1] = frames[:, 1:]
         frames[:, -1] = observation.reshape(self.nworld, -1)
@@ -159,7 +159,7 @@ class FrameStackTask(TaskWrapper):
         return seen
 
     def first_observation(self, observation: Floats32, worlds: Worlds) -> Floats32:
-        """The first frame over and over, shape (n, count * size)."""
+        """Return the first frame over and over, shape (n, count * size)."""
         frames = self.memory["frames"]
         frames[worlds] = observation.reshape(len(worlds), 1, -1)
         seen: Floats32 = frames[worlds].reshape(len(worlds), -1)
@@ -221,7 +221,7 @@ class ObservationDelayTask(TaskWrapper):
         self.memory["seen"] = np.zeros(shape, np.float32)
 
     def changed_observation(self, observation: Floats32) -> Floats32:
-        """The one of some steps ago, shape (nworld, ...)."""
+        """Return the one of some steps ago, shape (nworld, ...)."""
         seen = self.memory["seen"]
         seen[:, :-1] = seen[:, 1:]
         seen[:, -1] = observation
@@ -291,7 +291,7 @@ class ActionSmoothingTask(TaskWrapper):
         self.memory["done"] = np.broadcast_to(self._still, (task.nworld, *self._still.shape)).copy()
 
     def changed_actions(self, actions: ArrayLike) -> ArrayLike:
-        """The moving average."""
+        """Return the moving average."""
         done = self.memory["done"]
         done += self._weight * (np.asarray(actions, np.float64) - done)
         return done.copy()
@@ -307,7 +307,7 @@ def wrapped(
     kind: type[TaskWrapper],
     **options: Any,
 ) -> TaskEnv | TaskVectorEnv:
-    """A fresh environment of an environment's task with something around it.
+    """Return a fresh environment of an environment's task with something around it.
 
     Args:
         env: Of a task of Gazelle's kind, single or vector, wrapped by Gymnasium or not. It is not to
@@ -332,7 +332,7 @@ def wrapped(
 
 
 def _still(space: gym.Space[Any]) -> ArrayLike:
-    """The action nearest to zeros."""
+    """Return the action nearest to zeros."""
     if isinstance(space, gym.spaces.Box):
         return np.clip(np.zeros(space.shape), space.low, space.high)
     if isinstance(space, gym.spaces.Discrete):

@@ -269,6 +269,6 @@ class Motions:
 
 
 def wrapped(angle: ArrayLike) -> Floats:
-    """The same angle [rad] in (-pi, pi]."""
+    """Return the same angle [rad] in (-pi, pi]."""
     around: Floats = np.pi - np.mod(np.pi - np.asarray(angle, np.float64), 2.0 * np.pi)
     return around

@@ -24,7 +24,7 @@ def safe_velocity(
     interval: float,
     limits: BaseLimits,
 ) -> tuple[float, float]:
-    """The velocity nearest to what is wanted that hits nothing before the base stands.
+    """Return the velocity nearest to what is wanted that hits nothing before the base stands.
 
     Only velocities that can be had within the interval are tried: the dynamic window of
     D. Fox, W. Burgard and S. Thrun, "The dynamic window approach to collision avoidance",

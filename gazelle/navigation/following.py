@@ -17,7 +17,7 @@ _TURNING_GAIN = 2.5  # turning rate for an error of heading [1/s]
 
 
 def wrapped(angle: float) -> float:
-    """The same angle between -pi and pi [rad]."""
+    """Return the same angle between -pi and pi [rad]."""
     return math.remainder(angle, 2.0 * math.pi)
 
 

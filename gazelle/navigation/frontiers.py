@@ -44,7 +44,7 @@ def find_frontiers(
     place: tuple[float, float],
     least: float = 0.0,
 ) -> list[Frontier]:
-    """The frontiers that a robot can get to over free cells.
+    """Return the frontiers that a robot can get to over free cells.
 
     Args:
         costs: Of a costmap: 0 is free, 255 is unknown, shape (rows, columns).

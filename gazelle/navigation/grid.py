@@ -136,7 +136,7 @@ def _disc(radius: float) -> Indices:
 
 
 def dilate(mask: Bools, radius: float) -> Bools:
-    """A mask grown by a disc.
+    """Return a mask grown by a disc.
 
     Args:
         mask: Shape (columns, rows).
@@ -153,7 +153,7 @@ def dilate(mask: Bools, radius: float) -> Bools:
 
 
 def _widened(mask: Bools, half: int) -> Bools:
-    """A mask grown by so many cells along its rows, to both sides."""
+    """Return a mask grown by so many cells along its rows, to both sides."""
     rows = mask.shape[1]
     sums = np.zeros((mask.shape[0], rows + 1), np.intp)
     np.cumsum(mask, axis=1, out=sums[:, 1:])

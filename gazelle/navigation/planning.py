@@ -16,7 +16,7 @@ _GOAL_WITHIN = 0.4  # beyond its room; else a goal in an obstacle has no way to 
 
 
 def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -> Floats:
-    """A way from place to place, as far from obstacles as is worth it.
+    """Return a way from place to place, as far from obstacles as is worth it.
 
     Args:
         grid: What is known; it grows to hold both places. Unknown ground counts as free.
@@ -84,7 +84,7 @@ def _cell(grid: OccupancyGrid, place: Floats) -> Cell:
 def _nearest_open(
     grid: OccupancyGrid, prices: Floats, start: Floats, goal: Floats, limits: BaseLimits
 ) -> Cell | None:
-    """The cell of the goal, or an open one near to it."""
+    """Return the cell of the goal, or an open one near to it."""
     wished = _cell(grid, goal)
     open_to = prices < _TIGHT
     if open_to[wished]:
@@ -101,7 +101,7 @@ def _nearest_open(
 
 
 def _smoothed(points: Floats) -> Floats:
-    """The corners of the grid rounded: each point in the middle of its five neighbours."""
+    """Return the corners of the grid rounded: each point in the middle of its five neighbours."""
     if len(points) < 5:
         return points
     padded = np.concatenate((points[:1], points[:1], points, points[-1:], points[-1:]))

@@ -253,7 +253,7 @@ def _limits(parameters: Parameters) -> BaseLimits:
 
 
 def laser_of(robot: Robot, parameters: Parameters) -> tuple[Any, Pose2]:
-    """The laser to use, and its pose in the model.
+    """Return the laser to use, and its pose in the model.
 
     Of several it is the one with the most rays side by side, so that it is no sonar; of equals the first.
 

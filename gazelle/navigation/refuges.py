@@ -96,7 +96,7 @@ class RefugeMap:
         bodies: Sequence[RobotDisc],
         taken: Sequence[RobotDisc],
     ) -> RobotDisc | None:
-        """The place, nearest by the way there, where a robot stands in nobody's way.
+        """Return the place, nearest by the way there, where a robot stands in nobody's way.
 
         Args:
             robot: That has to make way.

@@ -193,7 +193,7 @@ class RobotNavigation(ModelPlugin):
         return list(range(nworld)) if found is None else found.tolist()
 
     def plans(self) -> dict[int, NavigationPlan]:
-        """The goal of each world that has one, and the way there."""
+        """Return the goal of each world that has one, and the way there."""
         goals = {world: pilot.goal for world, pilot in self.pilots.items()}
         return {
             world: NavigationPlan(goal, self.pilots[world].path)

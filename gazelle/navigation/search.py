@@ -15,7 +15,7 @@ _DIAGONAL = math.sqrt(2.0)
 
 
 def find_way(prices: Floats, start: Cell, goal: Cell) -> list[Cell] | None:
-    """The cheapest way from cell to cell, to all eight neighbours; None if there is none.
+    """Return the cheapest way from cell to cell, to all eight neighbours; None if there is none.
 
     Method: Hart, Nilsson and Raphael, "A formal basis for the heuristic determination of
     minimum cost paths", 1968; the heuristic is the octile distance.

@@ -97,7 +97,7 @@ class Actor:
         return None if self.memory is None else self.memory.empty(copies)
 
     def outputs(self, obs: Floats32, memory: PolicyMemory | None = None) -> Floats32:
-        """The last layer's outputs.
+        """Return the last layer's outputs.
 
         Args:
             obs: Observations, shape (N, inputs), float32.
@@ -153,7 +153,7 @@ class Actor:
         return self.to_env(self.sample(outputs, rng))
 
     def mode(self, outputs: Floats32) -> npt.NDArray[Any]:
-        """The likeliest raw actions for the outputs of the last layer."""
+        """Return the likeliest raw actions for the outputs of the last layer."""
         if not self.discrete:
             return outputs
         best: npt.NDArray[np.int64] = outputs.argmax(axis=-1)

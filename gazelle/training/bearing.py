@@ -77,7 +77,7 @@ class Bearing:
 
 
 def bearing_of(value: Mapping[str, Any] | Bearing) -> Bearing:
-    """A bearing of its values by name, as in JSON.
+    """Return a bearing of its values by name, as in JSON.
 
     Raises:
         TaskError: One is missing or unknown, or cannot be.

@@ -145,7 +145,7 @@ def _restore_environment(learner: Learner, state: dict[str, Any]) -> None:
 
 
 def _generators(learner: Learner) -> dict[str, Any]:
-    """The state of every random generator that training uses."""
+    """Return the state of every random generator that training uses."""
     state: dict[str, Any] = {
         "python": random.getstate(),
         "numpy": np.random.get_state(),  # noqa: NPY002  # SB3 draws from the global one

@@ -86,7 +86,7 @@ def load_contract(file: Path) -> PolicyContract:
 def run_contract(
     run: Run, modules: Sequence[TaskModule] = (), *, trust: bool = False
 ) -> PolicyContract:
-    """The contract of a run; of one that kept none, its environment is made once to ask it.
+    """Return the contract of a run; of one that kept none, its environment is made once to ask it.
 
     Args:
         run: The run.

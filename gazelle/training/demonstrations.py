@@ -25,7 +25,7 @@ Demonstrator = Callable[[Floats32], NDArray[Any]]
 
 
 def find_demonstrator(text: str) -> Demonstrator:
-    """A demonstrator by its name.
+    """Return a demonstrator by its name.
 
     Args:
         text: ``module:function``, or ``file.py:function``.
@@ -43,7 +43,7 @@ def find_demonstrator(text: str) -> Demonstrator:
 
 
 def with_demonstrator_found(recipe: Recipe) -> tuple[Recipe, tuple[TaskModule, ...]]:
-    """The recipe as a run remembers it, and where its demonstrator is, if it has one.
+    """Return the recipe as a run remembers it, and where its demonstrator is, if it has one.
 
     Raises:
         TaskError: See `find_demonstrator`.
@@ -59,7 +59,7 @@ def with_demonstrator_found(recipe: Recipe) -> tuple[Recipe, tuple[TaskModule, .
 
 
 def _parted(text: str) -> tuple[TaskModule, str]:
-    """The module, imported, and the name in it."""
+    """Return the module, imported, and the name in it."""
     module, colon, name = text.rpartition(":")
     if not colon:
         raise TaskError(f"'{text}' is no demonstrator", hint="expected module:function")

@@ -193,7 +193,7 @@ def resolve_policy(
     best: bool = False,
     trust: bool = False,
 ) -> tuple[Actor, str, dict[str, Any]]:
-    """The actor, its task, and the options of the environment."""
+    """Return the actor, its task, and the options of the environment."""
     given = {key: value for key, value in options.items() if value is not None}
     if isinstance(run_or_policy, str | Path) and Path(run_or_policy).suffix != ".npz":
         run = Run.open(Path(run_or_policy))

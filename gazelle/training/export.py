@@ -65,7 +65,7 @@ def export_actor(policy: Any) -> Actor:
 
 
 def _unscaled(weight: Floats32, extractor: Any) -> tuple[Floats32, Floats32]:
-    """The first layer for observations as they are: its weights, and what its biases gain.
+    """Return the first layer for observations as they are: its weights, and what its biases gain.
 
     Scaling and the differences of goals are linear, so they are part of the layer.
     """
@@ -84,7 +84,7 @@ def _unscaled(weight: Floats32, extractor: Any) -> tuple[Floats32, Floats32]:
 
 
 def _parts(policy: Any) -> tuple[Head, Any, list[nn.Module]]:
-    """The head, the features extractor and the layers in order."""
+    """Return the head, the features extractor and the layers in order."""
     if hasattr(policy, "mlp_extractor"):
         head: Head = "categorical"
         if isinstance(policy.action_space, gym.spaces.Box):
@@ -103,7 +103,7 @@ def _parts(policy: Any) -> tuple[Head, Any, list[nn.Module]]:
 
 
 def _memory(lstm: nn.LSTM) -> MemoryLayers:
-    """The layers of a policy that remembers."""
+    """Return the layers of a policy that remembers."""
     numbers = range(lstm.num_layers)
     return MemoryLayers(
         tuple(_numpy(getattr(lstm, f"weight_ih_l{number}").T) for number in numbers),

@@ -114,7 +114,7 @@ def _merged(
     slots: npt.NDArray[np.intp],
     name: str,
 ) -> Floats:
-    """A number of each copy at the end of the step, before any reset."""
+    """Return a number of each copy at the end of the step, before any reset."""
     values = _told(info, name)
     if last is not None and len(slots):
         values[slots] = _told(last, name)[slots]

@@ -31,7 +31,7 @@ class TaskModule:
 
     @staticmethod
     def find(text: str) -> TaskModule:
-        """The module that a user means.
+        """Return the module that a user means.
 
         Args:
             text: ``my_package.tasks``, installed or in the current folder, or a ``.py`` file.
@@ -140,7 +140,7 @@ def modules_from_list(values: Iterable[Mapping[str, Any]]) -> tuple[TaskModule, 
 
 
 def _of_file(file: Path) -> TaskModule:
-    """The module of a file, from the outermost folder that is a package on."""
+    """Return the module of a file, from the outermost folder that is a package on."""
     if not file.is_file():
         near = [str(path) for path in file.parent.glob("*.py")]
         hint = did_you_mean(str(file), near) if near else "expected a Python file"

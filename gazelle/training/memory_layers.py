@@ -54,7 +54,7 @@ class MemoryLayers:
         return len(self.hidden[0])
 
     def empty(self, copies: int) -> PolicyMemory:
-        """The memory at the beginning of episodes in so many copies."""
+        """Return the memory at the beginning of episodes in so many copies."""
         shape = (len(self.biases), copies, self.units)
         return PolicyMemory(np.zeros(shape, np.float32), np.zeros(shape, np.float32))
 

@@ -23,7 +23,7 @@ _REPLAYING = tuple(name for name in ALGORITHM_NAMES if name != "ppo")
 
 
 def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
-    """A recipe in which some values are others.
+    """Return a recipe in which some values are others.
 
     Args:
         recipe: How it is without them.
@@ -83,7 +83,7 @@ def _changed(settings: Any, values: dict[str, Any]) -> Any:
 
 
 def _typed(name: str, value: Any) -> Any:
-    """A value of a recipe, from what JSON has for it."""
+    """Return a value of a recipe, from what JSON has for it."""
     if name == "bearing" and value is not None:
         return bearing_of(value)
     return tuple(value) if isinstance(value, list) else value

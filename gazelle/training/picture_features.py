@@ -59,7 +59,7 @@ class PictureFeatures(BaseFeaturesExtractor):  # type: ignore[misc]  # untyped b
         return made.permute(0, 2, 3, 1).flatten(1)
 
     def exported(self) -> PictureLayers:
-        """The same layers in numpy."""
+        """Return the same layers in numpy."""
         convolutions = [layer for layer in self.layers if isinstance(layer, nn.Conv2d)]
         return PictureLayers(
             self._shape,

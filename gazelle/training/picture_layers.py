@@ -79,7 +79,7 @@ class PictureLayers:
 
 
 def _convolved(x: Floats32, weight: Floats32, stride: int) -> Floats32:
-    """A convolution without padding: x of shape (N, rows, columns, channels)."""
+    """Return a convolution without padding: x of shape (N, rows, columns, channels)."""
     rows, columns, entering, leaving = weight.shape
     windows = np.lib.stride_tricks.sliding_window_view(x, (rows, columns), axis=(1, 2))
     windows = windows[:, ::stride, ::stride].transpose(0, 1, 2, 4, 5, 3)

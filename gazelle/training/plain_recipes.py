@@ -17,7 +17,7 @@ _ON_POLICY_COPIES = 64
 
 
 def library_recipe(algo: str) -> Recipe:
-    """The library's own settings, but for what many copies ask for."""
+    """Return the library's own settings, but for what many copies ask for."""
     if algo in {"tqc", "qrdqn"}:
         options = {"learning_starts": 5_000, "train_freq": 1, "gradient_steps": 4}
         return Recipe(
@@ -81,7 +81,7 @@ _OF_TASKS: dict[tuple[str, str], dict[str, Any]] = {
 
 
 def plain_recipe(task: str, algo: str) -> Recipe:
-    """The recipe of an algorithm, with what is known of it on a task.
+    """Return the recipe of an algorithm, with what is known of it on a task.
 
     Args:
         task: The task's name, without ``Continuous``.

@@ -98,7 +98,7 @@ def check_format(name: str) -> None:
 def load_policy(
     source: str | Path, *, imports: Sequence[str] = (), trust: bool = False
 ) -> tuple[Path, PolicyContract]:
-    """The file of a policy and its contract.
+    """Return the file of a policy and its contract.
 
     Args:
         source: Folder of a run, or a file that `export_policy` wrote.

@@ -165,7 +165,7 @@ class Bar:
 
 
 def choose_progress(stream: TextIO | None = None) -> Progress:
-    """A bar on a terminal, else a line now and then.
+    """Return a bar on a terminal, else a line now and then.
 
     Args:
         stream: Where to; by default standard error.
@@ -175,7 +175,7 @@ def choose_progress(stream: TextIO | None = None) -> Progress:
 
 
 def describe(summary: dict[str, float]) -> str:
-    """The most telling figure of an `EpisodeLog.summary`: success, else return."""
+    """Return the most telling figure of an `EpisodeLog.summary`: success, else return."""
     if "success_rate" in summary:
         return f", success {summary['success_rate']:.0%}"
     if "return" in summary:

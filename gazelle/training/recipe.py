@@ -228,12 +228,12 @@ def _settings_of(algo: str) -> type[Settings]:
 
 
 def recipe_to_dict(recipe: Recipe) -> dict[str, Any]:
-    """A recipe as plain values for JSON."""
+    """Return a recipe as plain values for JSON."""
     return dataclasses.asdict(recipe)
 
 
 def recipe_from_dict(values: dict[str, Any]) -> Recipe:
-    """The recipe that `recipe_to_dict` wrote.
+    """Return the recipe that `recipe_to_dict` wrote.
 
     Raises:
         TaskError: A key is not part of a recipe, or its algorithm takes no notice of a value.

@@ -23,7 +23,7 @@ def task_recipe(
     imports: Sequence[str | TaskModule] = (),
     options: Mapping[str, Any] | None = None,
 ) -> Recipe:
-    """The recipe of a task: its own, or the one for tasks with goals, or the one for any.
+    """Return the recipe of a task: its own, or the one for tasks with goals, or the one for any.
 
     A task without a recipe whose environments have goals, a ``compute_reward`` and continuous
     actions is trained with hindsight, as a reward at the goal alone hardly teaches others.

@@ -229,7 +229,7 @@ RECIPES: dict[str, Recipe] = {
 
 
 def recipe_for(task: str, algo: str | None = None) -> Recipe:
-    """The recipe for a task, by default with the algorithm that suits it best.
+    """Return the recipe for a task, by default with the algorithm that suits it best.
 
     A task without a recipe of its own gets the defaults of the algorithm. A
     continuous twin (``...Continuous``) without one uses the recipe of its task. Another algorithm than the

@@ -90,7 +90,7 @@ class Run:
         return Run(folder, config)
 
     def changed(self, **values: Any) -> Run:
-        """The run with another configuration, which takes the old one's place on disk.
+        """Return the run with another configuration, which takes the old one's place on disk.
 
         Args:
             values: Fields of `RunConfig` that change.
@@ -122,13 +122,13 @@ class Run:
             raise FormatError(f"not a run's configuration: {error}", file=str(file)) from error
 
     def checkpoints(self) -> list[Path]:
-        """The complete checkpoints, oldest first."""
+        """Return the complete checkpoints, oldest first."""
         return sorted(
             path for path in (self.folder / "checkpoints").iterdir() if path.name.isdigit()
         )
 
     def newest_checkpoint(self) -> Path:
-        """The checkpoint to resume from.
+        """Return the checkpoint to resume from.
 
         Raises:
             FormatError: There is none yet.
@@ -140,7 +140,7 @@ class Run:
         return found[-1]
 
     def policy_file(self, *, best: bool = False) -> Path:
-        """The newest policy, or the best of the evaluations during the training.
+        """Return the newest policy, or the best of the evaluations during the training.
 
         Raises:
             FormatError: There is none.
@@ -185,7 +185,7 @@ class Run:
 
 
 def _new_folder(out: Path, name: str) -> Path:
-    """A folder that did not exist, also when two runs start in the same second."""
+    """Return a folder that did not exist, also when two runs start in the same second."""
     for suffix in ("", *(f"-{i}" for i in range(2, 100))):
         folder = out / f"{name}{suffix}"
         try:

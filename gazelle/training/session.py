@@ -211,7 +211,7 @@ def resume(
 
 
 def _fitting(task: str, algo: str | None) -> str:
-    """The task, or its twin where an algorithm needs continuous actions."""
+    """Return the task, or its twin where an algorithm needs continuous actions."""
     twin = with_continuous_actions(task)
     if algo not in NEED_CONTINUOUS_ACTIONS or twin == task:
         return task
@@ -307,7 +307,7 @@ class _Session:
 
 
 def _alone(config: RunConfig, episodes: EpisodeLog) -> VectorEnvAdapter:
-    """All copies in this process."""
+    """Return all copies in this process."""
     return VectorEnvAdapter(
         make_task(config.task, config.recipe.num_envs, **config.options),
         reward_scale=config.recipe.reward_scale,

@@ -65,7 +65,7 @@ def wilson_interval(count: float, total: float, z: float = Z_95) -> tuple[float,
 def clustered_rate(
     counts: npt.NDArray[np.int64], totals: npt.NDArray[np.int64], clusters: npt.NDArray[np.int64]
 ) -> SuccessRate:
-    """A rate over episodes of which some are repetitions of others.
+    """Return a rate over episodes of which some are repetitions of others.
 
     Repetitions tell less than fresh draws: nothing more where they end alike. The number of
     draws that the interval counts is the total divided by the design effect of the clusters
@@ -197,7 +197,7 @@ class EpisodeLog:
         return {name: mean for name, mean in means.items() if not math.isnan(mean)}
 
     def get_state(self) -> dict[str, Any]:
-        """The account, for a checkpoint."""
+        """Return the account, for a checkpoint."""
         return {"rows": self._rows, "total": self.total}
 
     def set_state(self, state: dict[str, Any]) -> None:

@@ -209,7 +209,7 @@ class Stepper:
         return self._resetting
 
     def get_state(self) -> dict[str, Any]:
-        """The stepper's own state (not the environment's)."""
+        """Return the stepper's own state (not the environment's)."""
         state = {} if self._teacher is None else self._teacher.get_state()
         return {
             **state,

@@ -57,7 +57,7 @@ class Study:
                 raise TaskError(f"a study cannot vary '{name}' over {list(values)}")
 
     def calls(self) -> list[dict[str, Any]]:
-        """The arguments of every call, in the table's order."""
+        """Return the arguments of every call, in the table's order."""
         combinations = itertools.product(*self.vary.values())
         return [
             dict(zip(self.vary, values, strict=True)) | {"seed": seed}
@@ -91,7 +91,7 @@ class ExperimentHost:
         self._name = name
 
     def call(self, arguments: Mapping[str, Any]) -> dict[str, Any]:
-        """A row: the arguments, what came of them, how long it took, or the error."""
+        """Return a row: the arguments, what came of them, how long it took, or the error."""
         self._module.load()
         function = getattr(sys.modules[self._module.name], self._name)
         start = time.perf_counter()
@@ -226,7 +226,7 @@ def _found(function: str) -> tuple[TaskModule, str]:
 
 
 def _plain(name: str, value: Any) -> float | int | str | bool:
-    """A result as a table takes it."""
+    """Return a result as a table takes it."""
     value = value.item() if hasattr(value, "item") else value
     if not isinstance(value, bool | int | float | str) or name in _OWN:
         raise TaskError(f"'{name}' is a {type(value).__name__}: a table takes numbers and text")

@@ -89,7 +89,7 @@ def split_module(name: str) -> tuple[str | None, str]:
 
 
 def _registered(name: str) -> str | None:
-    """The id of a task that is registered by now."""
+    """Return the id of a task that is registered by now."""
     for candidate in (name, f"{NAMESPACE}/{name}"):
         if candidate in gym.registry:
             return candidate
@@ -100,7 +100,7 @@ def _registered(name: str) -> str | None:
 
 
 def _hint(name: str) -> str:
-    """The closest id, or name, of those of the same form; else where one's own is found."""
+    """Return the closest id, or name, of those of the same form; else where one's own is found."""
     specs = gym.registry.values()
     if "/" in name:
         known = [spec.id for spec in specs if spec.namespace]

@@ -57,7 +57,7 @@ class TrialOutcome:
     """The run's folder as a tar archive, from a worker with other disks."""
 
     def unpacked(self, runs: Path) -> Path:
-        """The run's folder, put among others if it comes along."""
+        """Return the run's folder, put among others if it comes along."""
         if not self.files:
             return Path(self.run)
         with tarfile.open(fileobj=io.BytesIO(self.files)) as archive:
@@ -115,7 +115,7 @@ class TrialHost:
 
 
 def _packed(folder: Path, name: str) -> bytes:
-    """A folder as a tar archive in which it is called so."""
+    """Return a folder as a tar archive in which it is called so."""
     buffer = io.BytesIO()
     with tarfile.open(fileobj=buffer, mode="w:gz") as archive:
         archive.add(folder, arcname=name)

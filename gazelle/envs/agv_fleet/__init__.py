@@ -18,7 +18,7 @@ __all__ = ["parallel_env"]
 
 
 def parallel_env(**options: Any) -> AGVFleetParallelEnv:
-    """The fleet under PettingZoo's parallel API; see `AGVFleetParallelEnv`.
+    """Return the fleet under PettingZoo's parallel API; see `AGVFleetParallelEnv`.
 
     Raises:
         MissingExtraError: PettingZoo is not installed.

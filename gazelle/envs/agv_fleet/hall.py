@@ -44,7 +44,7 @@ def walls() -> Floats:
 
 
 def world(agvs: int, *, step: float, samples: int, reach: float) -> World:
-    """The hall with AGVs, in Stage's words.
+    """Return the hall with AGVs, in Stage's words.
 
     Args:
         agvs: How many; they all stand in the middle.

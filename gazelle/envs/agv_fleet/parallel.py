@@ -128,7 +128,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         return answer
 
     def render(self) -> NDArray[np.uint8] | None:
-        """The hall from above; None without render mode.
+        """Return the hall from above; None without render mode.
 
         Raises:
             ClosedEnvError: The environment is closed.

@@ -154,7 +154,7 @@ class AGVFleetTask(BatchedTask):
         self._frozen[rows] = True
 
     def render(self, world: int) -> NDArray[np.uint8]:
-        """The hall of one AGV from above."""
+        """Return the hall of one AGV from above."""
         first = world // self.agents * self.agents
         rows = slice(first, first + self.agents)
         return hall.picture(self.poses[rows], self.goals[rows])

@@ -64,7 +64,7 @@ class DriveSettings(TaskSettings):
 
 
 def drive_task(rules: DriveRules, nworld: int, settings: DriveSettings) -> BatchedTask:
-    """The task that these rules and options ask for.
+    """Return the task that these rules and options ask for.
 
     Raises:
         TaskError: An option does not fit the task.

@@ -33,7 +33,7 @@ _TOLERANCE = (1e-4, 1e-4)  # [m], [rad]
 def held_model(
     model: Model, moving: Collection[str], changed: Callable[[Joint], Joint] = driven
 ) -> Model:
-    """A robot that stands fast, of which only some joints move.
+    """Return a robot that stands fast, of which only some joints move.
 
     Args:
         model: As its file says.
@@ -102,7 +102,7 @@ class ReachingArm(CarriedGripper):
         return driven(joint)
 
     def _completed(self, model: Model) -> Model:
-        """The robot with all that it needs."""
+        """Return the robot with all that it needs."""
         return model
 
     def _add_motors(self) -> None:

@@ -68,7 +68,7 @@ def push(rows: Floats32) -> Floats32:
 
 
 def _around(away: Floats, ahead: Floats) -> Floats:
-    """The way to behind an object, up first where that is aside, shape (n, 3)."""
+    """Return the way to behind an object, up first where that is aside, shape (n, 3)."""
     start = away[:, :2] - _BEHIND * ahead
     there = np.linalg.norm(start, axis=1) < _ASIDE
     up = away[:, 2] + np.where(there, 0.0, _OVER)

@@ -66,7 +66,7 @@ FIGURES = {
 
 
 def figures_of(task: str) -> FetchFigures:
-    """The figures of a task.
+    """Return the figures of a task.
 
     Raises:
         TaskError: There is no such task.

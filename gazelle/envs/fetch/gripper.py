@@ -44,7 +44,7 @@ def fetch_model() -> Model:
 
 
 def driven(joint: Joint) -> Joint:
-    """A joint for a motor that holds velocities; the left finger follows the right.
+    """Return a joint for a motor that holds velocities; the left finger follows the right.
 
     Such a motor wants no viscosity: with it the solver looks for forces that nothing determines where something stiff presses on a
     table, and throws it about.
@@ -205,7 +205,7 @@ def flying_model(robot: Model, start: tuple[float, float, float], *, fingers_mov
 
 
 def heavy_finger(link: Link) -> Link:
-    """A finger that weighs as much as there; how it would turn matters to nothing."""
+    """Return a finger that weighs as much as there; how it would turn matters to nothing."""
     inertial = dataclasses.replace(link.inertial or Inertial(), mass=_FINGER)
     return dataclasses.replace(link, inertial=inertial)
 

@@ -203,14 +203,14 @@ class ReachTask(SimulationTask):
 
 
 def _cell(rules: ReachRules, settings: ReachSettings, nworld: int) -> tuple[Simulation, Robot]:
-    """The arm alone; MoveIt, which moves it for frobs_rl, knows of no floor either."""
+    """Return the arm alone; MoveIt, which moves it for frobs_rl, knows of no floor either."""
     simulation = simulation_of(World(name="cell"), nworld, settings, _TIME_STEP)
     model = _limited(formats.load_model(assets.robot(rules.robot)), rules)
     return simulation, simulation.spawn(model, name=rules.robot)
 
 
 def _limited(model: Model, rules: ReachRules) -> Model:
-    """The arm with the limits that the task gives its joints."""
+    """Return the arm with the limits that the task gives its joints."""
     limits = iter(zip(rules.lower, rules.upper, strict=True))
     joints = []
     for joint in model.joints:

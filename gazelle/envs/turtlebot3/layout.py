@@ -40,7 +40,7 @@ class GoalLayout:
         self._settings = settings
 
     def goals(self) -> GoalTable:
-        """The places of goals, and which may follow which.
+        """Return the places of goals, and which may follow which.
 
         Raises:
             TaskError: The user's goals are no places, or no place is free.

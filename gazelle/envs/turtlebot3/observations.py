@@ -67,7 +67,7 @@ def sight(
 
 
 def observation(rules: Rules, seen: RobotViews) -> Floats32:
-    """The state: ranges, heading, distance and, if the stage has it, the nearest obstacle.
+    """Return the state: ranges, heading, distance and, if the stage has it, the nearest obstacle.
 
     Returns:
         Shape (n, samples + 2) or (n, samples + 4).
@@ -79,7 +79,7 @@ def observation(rules: Rules, seen: RobotViews) -> Floats32:
 
 
 def observation_space(rules: Rules, samples: int, *, distance_max: float) -> Box:
-    """The bounds of ``observation``.
+    """Return the bounds of ``observation``.
 
     Args:
         rules: Of the stage.

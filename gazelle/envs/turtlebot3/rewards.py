@@ -38,7 +38,7 @@ def travelling_reward(
     start_distance: Floats,
     nearest: Floats,
 ) -> Floats:
-    """The reward of a step that neither collides nor arrives.
+    """Return the reward of a step that neither collides nor arrives.
 
     Args:
         rules: Of the stage.

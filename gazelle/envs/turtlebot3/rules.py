@@ -66,5 +66,5 @@ STAGES = {
 
 
 def stage_goals(stage: int) -> GoalTable:
-    """The goals of a stage: a grid in stages 1 to 3, thirteen places in stage 4."""
+    """Return the goals of a stage: a grid in stages 1 to 3, thirteen places in stage 4."""
     return plaza_goals() if stage == 4 else grid_goals()

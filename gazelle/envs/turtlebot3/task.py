@@ -86,7 +86,7 @@ class TurtleBot3Task(BatchedTask):
         return self.scene.simulation
 
     def render(self, world: int) -> NDArray[np.uint8]:
-        """A picture of one world from behind and above, its goal as a red square of 0.5 m.
+        """Return a picture of one world from behind and above, its goal as a red square of 0.5 m.
 
         The square lies on the ground: what stands before or on it hides it.
         """
@@ -222,7 +222,7 @@ class TurtleBot3Task(BatchedTask):
         return discrete_command(actions, self.nworld)
 
     def _nearest(self, worlds: Worlds) -> Floats:
-        """The shortest range in some worlds [m], as `_see` has it, without the rest."""
+        """Return the shortest range in some worlds [m], as `_see` has it, without the rest."""
         lidar = self.scene.lidar
         ranges = self.scene.robot.sensors[lidar.sensor].measure(worlds)
         seen = clean_ranges(ranges, nearest=lidar.lidar.range_min, farthest=self.rules.range_max)
@@ -291,7 +291,7 @@ def _action_space(*, continuous: bool) -> gym.Space[Any]:
 
 
 def _distance_max(rules: Rules, settings: NavigationSettings, goals: GoalTable) -> float:
-    """The longest distance to a goal [m]; without bound in a world of the user's."""
+    """Return the longest distance to a goal [m]; without bound in a world of the user's."""
     if settings.world is not None:
         return float("inf")
     farthest = float(np.hypot(*goals.points.T).max())

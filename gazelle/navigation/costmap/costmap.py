@@ -148,19 +148,19 @@ class Costmap:
         return (column, row) if 0 <= column < columns and 0 <= row < rows else None
 
     def place_of(self, column: float, row: float) -> tuple[float, float]:
-        """The middle of a cell (x, y) [m]."""
+        """Return the middle of a cell (x, y) [m]."""
         return (
             self.origin[0] + (column + 0.5) * self.resolution,
             self.origin[1] + (row + 0.5) * self.resolution,
         )
 
     def cost_at(self, x: float, y: float) -> int:
-        """The cost of a place; unknown off the map."""
+        """Return the cost of a place; unknown off the map."""
         cell = self.cell_of(x, y)
         return NO_INFORMATION if cell is None else int(self.cells[cell[1], cell[0]])
 
     def window_of(self, region: CostmapBounds) -> Window:
-        """The cells of a region that are on the map."""
+        """Return the cells of a region that are on the map."""
         rows, columns = self.cells.shape
         if not region.x0 <= region.x1 or not region.y0 <= region.y1:
             return Window(0, 0, 0, 0)

@@ -15,7 +15,7 @@ _CORNERS = 16
 
 
 def footprint_of(text: object = "[]", radius: float = 0.46, padding: float = 0.01) -> Floats:
-    """The corners of a robot, padded, shape (n, 2) [m].
+    """Return the corners of a robot, padded, shape (n, 2) [m].
 
     Args:
         text: A list of corners, or such a list as text; where it is empty the radius counts.
@@ -48,7 +48,7 @@ def footprint_of(text: object = "[]", radius: float = 0.46, padding: float = 0.0
 
 
 def radii_of(footprint: Floats) -> tuple[float, float]:
-    """The inscribed and the circumscribed radius about the origin [m]."""
+    """Return the inscribed and the circumscribed radius about the origin [m]."""
     ends = np.roll(footprint, -1, axis=0)
     along = ends - footprint
     square = np.maximum((along**2).sum(axis=1), 1e-12)
@@ -59,14 +59,14 @@ def radii_of(footprint: Floats) -> tuple[float, float]:
 
 
 def placed(footprint: Floats, x: float, y: float, heading: float) -> Floats:
-    """The corners of a robot at a place, shape (n, 2)."""
+    """Return the corners of a robot at a place, shape (n, 2)."""
     cos, sin = math.cos(heading), math.sin(heading)
     corners: Floats = footprint @ np.array([[cos, sin], [-sin, cos]]) + np.array([x, y])
     return corners
 
 
 def cells_under(corners: Indices) -> tuple[Indices, Indices]:
-    """The cells that a robot is on, those of its outline included.
+    """Return the cells that a robot is on, those of its outline included.
 
     The lines from corner to corner are those along which local planners look for obstacles, so that
     a robot never stands on an obstacle in a costmap where these cells were freed.

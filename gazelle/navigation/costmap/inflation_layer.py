@@ -55,7 +55,7 @@ class InflationLayer(Layer):
         self._prepare(costmap)
 
     def cost_of(self, distance: float, costmap: Costmap) -> int:
-        """The cost at a distance from an obstacle [m]."""
+        """Return the cost at a distance from an obstacle [m]."""
         if distance <= 0.0:
             return LETHAL
         if distance <= costmap.inscribed:

@@ -70,7 +70,7 @@ class CostmapSetup:
 
 
 def value_of(values: Values, name: str, default: Any) -> Any:
-    """A parameter, of the kind of its default.
+    """Return a parameter, of the kind of its default.
 
     Raises:
         Error: It is of another kind.
@@ -88,7 +88,7 @@ def value_of(values: Values, name: str, default: Any) -> Any:
 
 
 def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:
-    """The parameters that a dataclass of settings has, each of the kind of its default.
+    """Return the parameters that a dataclass of settings has, each of the kind of its default.
 
     Raises:
         Error: One is of another kind.
@@ -100,7 +100,7 @@ def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:
 
 
 def costmap_of(values: Values, *, name: str = "costmap", frame: str = "map") -> CostmapSetup:
-    """A costmap from its parameters.
+    """Return a costmap from its parameters.
 
     Args:
         values: What stands below ``~global_costmap`` or ``~local_costmap``, nested.
@@ -189,7 +189,7 @@ def _from_flat(values: Values, name: str) -> tuple[Values, list[dict[str, str]]]
 
 
 def _layer(plugin: Any, values: Values, maps: dict[str, str], sensors: list[SensorTopic]) -> Layer:
-    """The layer of an entry ``{name, type}`` of ``plugins``."""
+    """Return the layer of an entry ``{name, type}`` of ``plugins``."""
     if not isinstance(plugin, Mapping) or not {"name", "type"} <= set(plugin):
         raise Error(f"an entry of 'plugins' has a name and a type, not {plugin!r}")
     name, kind = str(plugin["name"]), str(plugin["type"])
@@ -255,7 +255,7 @@ def _voxel(name: str, values: Values, maps: dict[str, str], sensors: list[Sensor
 
 
 def _sources(layer: str, own: Values, sensors: list[SensorTopic]) -> dict[str, ObservationSource]:
-    """The sensors of ``observation_sources``."""
+    """Return the sensors of ``observation_sources``."""
     found = {}
     for name in str(own.get("observation_sources", "")).split():
         values = _below(own, name)

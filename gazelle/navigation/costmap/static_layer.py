@@ -79,7 +79,7 @@ class StaticLayer(Layer):
         self._changed = self._extent()
 
     def _interpreted(self, grid: OccupancyMap, *, track_unknown: bool) -> Bytes:
-        """The cost of each value, as costmap_2d says."""
+        """Return the cost of each value, as costmap_2d says."""
         values = np.arange(256).astype(np.uint8).view(np.int8).astype(int)
         if self._trinary:
             table = np.where(values >= self._lethal, LETHAL, FREE_SPACE)
@@ -136,7 +136,7 @@ class StaticLayer(Layer):
             np.copyto(target, costs, where=known)
 
     def _seen(self, costmap: Costmap, window: Window) -> Bytes:
-        """The map at the middles of the cells of a window."""
+        """Return the map at the middles of the cells of a window."""
         grid = self._map
         side = costmap.resolution
         x = costmap.origin[0] + (np.arange(window.x0, window.x1) + 0.5) * side

@@ -23,7 +23,7 @@ _STANDING = 0.01
 
 
 def check_model(name: str) -> OdometryModel:
-    """The model of a name.
+    """Return the model of a name.
 
     Raises:
         Error: There is none.

@@ -49,7 +49,7 @@ class LikelihoodField:
         self._x0, self._y0, self._cell = origin[0], origin[1], resolution
 
     def scores(self, poses: Floats, points: Floats, first: float) -> Floats:
-        """The sum of what the ends of beams add, at each pose, shape (n,).
+        """Return the sum of what the ends of beams add, at each pose, shape (n,).
 
         Args:
             poses: x, y [m] and heading [rad] of the robot, shape (n, 3).

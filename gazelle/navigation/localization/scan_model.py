@@ -105,7 +105,7 @@ class ScanModel:
         return np.log(p) if s.laser_model_type == "likelihood_field_prob" else p**3
 
     def _field_for(self, most: float) -> LikelihoodField:
-        """The field of terms for a greatest range, made once."""
+        """Return the field of terms for a greatest range, made once."""
         if self._field is None or self._field[0] != most:
             marked = self._map.data == OCCUPIED
             if self.settings.laser_surfaces_only:

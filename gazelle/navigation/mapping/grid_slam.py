@@ -235,7 +235,7 @@ class GridSlam:
         self.map_to_odom = composed((x, y, wrapped(heading)), inverse(odom))
 
     def map(self) -> OccupancyMap:
-        """The best particle's map, of all that it may hold."""
+        """Return the best particle's map, of all that it may hold."""
         s = self.settings
         _, _, hits, visits = self._maps.cells(self.best)
         data = np.full(hits.shape, UNKNOWN, np.int8)

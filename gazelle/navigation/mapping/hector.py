@@ -123,7 +123,7 @@ class HectorSlam:
         )
 
     def map(self) -> OccupancyMap:
-        """All of it: cells are what beams that passed or ended there make more likely."""
+        """Return all of it: cells are what beams that passed or ended there make more likely."""
         s = self.settings
         _, _, hits, visits = self._maps.cells(0)[:, : s.map_size, : s.map_size]
         odds = hits * _logit(s.update_factor_occupied)

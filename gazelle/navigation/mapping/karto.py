@@ -135,7 +135,7 @@ class KartoSlam:
         return x, y, heading
 
     def _recent(self) -> list[int]:
-        """The scans of the buffer: the last ones, as far as they are near."""
+        """Return the scans of the buffer: the last ones, as far as they are near."""
         first = max(len(self._frames) - self.settings.scan_buffer_size, 0)
         away = np.hypot(*(self.poses[first:, :2] - self.poses[-1, :2]).T)
         near = away <= self.settings.scan_buffer_maximum_scan_distance
@@ -183,7 +183,7 @@ class KartoSlam:
     # Maps ---------------------------------------------------------------------------------
 
     def _draw(self, numbers: Sequence[int]) -> TiledMaps:
-        """A map of some scans at their poses."""
+        """Return a map of some scans at their poses."""
         s = self.settings
         places = self.poses[list(numbers), :2]
         side = s.resolution * SIDE

@@ -47,7 +47,7 @@ class ScanMatcher:
         self._sums = np.zeros(9)
 
     def likelihood(self, particle: int, pose: Floats, beams: Floats) -> float:
-        """The logarithm of the likelihood of a scan at a pose; arguments as of `match`."""
+        """Return the logarithm of the likelihood of a scan at a pose; arguments as of `match`."""
         self._score(particle, pose[0], pose[1], pose[2], beams)
         return float(self._likelihood)
 

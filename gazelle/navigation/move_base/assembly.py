@@ -36,7 +36,7 @@ class NavigationStack:
 
 
 def navigation_stack(values: Values) -> NavigationStack:
-    """The stack of some parameters, nested as on the parameter server below ``~``.
+    """Return the stack of some parameters, nested as on the parameter server below ``~``.
 
     Raises:
         Error: A parameter is wrong, or names something that is not there.

@@ -36,7 +36,7 @@ class RecoveryBehavior(ABC):
 
     @abstractmethod
     def update(self, in_local: Pose2) -> Velocity | None:
-        """The velocity to have now; None when it is done."""
+        """Return the velocity to have now; None when it is done."""
 
 
 class ClearCostmapRecovery(RecoveryBehavior):
@@ -93,7 +93,7 @@ class RotateRecovery(RecoveryBehavior):
         return 0.0, 0.0, min(max(rate, least), most)
 
     def _limit(self, name: str, before: str, default: float) -> float:
-        """A parameter by its name of today or of before."""
+        """Return a parameter by its name of today or of before."""
         values = self.parameters
         key = before if before in values and name not in values else name
         return float(value_of(values, key, default))
@@ -130,7 +130,7 @@ def register_recovery(kind: str, make: MakeRecovery) -> None:
 def make_recovery(
     entry: Mapping[str, Any], whole: Costmap, local: Costmap, values: Values, *, conservative: float
 ) -> RecoveryBehavior:
-    """The behaviour of an entry ``{name, type}``.
+    """Return the behaviour of an entry ``{name, type}``.
 
     Args:
         entry: Name and type.

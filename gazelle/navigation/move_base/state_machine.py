@@ -209,7 +209,7 @@ class MoveBase:
         )
 
     def _plan(self, time: float, state: RobotState) -> Floats | None:
-        """A new plan; None if there is none."""
+        """Return a new plan; None if there is none."""
         goal = self.goal
         self._planned_at = time
         plan = np.zeros((0, 3)) if goal is None else self.planner.make_plan(state.in_whole, goal)
@@ -285,7 +285,7 @@ class MoveBase:
 
 
 def goal_of(x: float, y: float, yaw: float) -> Pose2:
-    """A goal's pose.
+    """Return a goal's pose.
 
     Raises:
         Error: A number is not finite.

@@ -85,7 +85,7 @@ class DwaPlanner(PlanFollower):
         return super().set_plan(plan)
 
     def command(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> Velocity | None:
-        """The best velocity; at the goal, stop and turn."""
+        """Return the best velocity; at the goal, stop and turn."""
         plan = self.local(pose, to_local)
         if not len(plan):
             return None
@@ -151,7 +151,7 @@ class DwaPlanner(PlanFollower):
     def _best(
         self, rollout: TrajectoryRollout, pose: Pose2, velocity: Velocity, commands: Floats
     ) -> Floats | None:
-        """The command that costs least, shape (3,); None if all are out of the question."""
+        """Return the command that costs least, shape (3,); None if all are out of the question."""
         costs = self._score(rollout, pose, velocity, commands)
         costs[self._guard.forbidden(commands)] = -5.0
         good = costs >= 0.0
@@ -224,7 +224,7 @@ class DwaPlanner(PlanFollower):
         return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
 
     def _driven(self, pose: Pose2, command: Floats) -> Floats:
-        """The poses that a command leads through."""
+        """Return the poses that a command leads through."""
         return driven(pose, command, self.settings.sim_time)
 
 
@@ -239,7 +239,7 @@ def spread(low: float, high: float, count: int) -> Floats:
 
 
 def driven(pose: Pose2, command: Floats, duration: float, count: int = 20) -> Floats:
-    """The poses that a constant command leads through, shape (count, 3)."""
+    """Return the poses that a constant command leads through, shape (count, 3)."""
     dt = duration / count
     headings = pose[2] + command[2] * dt * np.arange(count)
     cos, sin = np.cos(headings), np.sin(headings)

@@ -38,12 +38,12 @@ class PlanFollower(LocalPlannerPlugin):
         return len(plan) > 0
 
     def goal(self, to_local: Pose2) -> Pose2:
-        """The end of the plan in the costmap's frame."""
+        """Return the end of the plan in the costmap's frame."""
         x, y, heading = self._plan[-1].tolist()
         return composed(to_local, (x, y, heading))
 
     def local(self, pose: Pose2, to_local: Pose2) -> Floats:
-        """The part of the plan within half a window of the robot, in the costmap's frame."""
+        """Return the part of the plan within half a window of the robot, in the costmap's frame."""
         plan = moved(self._plan, to_local)
         away = np.hypot(plan[:, 0] - pose[0], plan[:, 1] - pose[1])
         rows, columns = self.costmap.cells.shape
@@ -81,7 +81,7 @@ class PlanFollower(LocalPlannerPlugin):
 
 
 def _dense(points: Floats, spacing: float) -> Floats:
-    """The same way with points no farther apart than this."""
+    """Return the same way with points no farther apart than this."""
     if len(points) < 2:
         return points
     lengths = np.hypot(*np.diff(points, axis=0).T)

@@ -46,7 +46,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
         return table.astype(np.float32)
 
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
-        """The cheapest way; see `GlobalPlannerPlugin`."""
+        """Return the cheapest way; see `GlobalPlannerPlugin`."""
         first = self.costmap.cell_of(start[0], start[1])
         last = self.costmap.cell_of(goal[0], goal[1])
         if first is None or last is None:
@@ -76,7 +76,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
     def _nearest(
         self, field: PotentialField, goal: tuple[int, int], reach: float
     ) -> tuple[int, int] | None:
-        """The cell nearest to the goal that was reached, within a distance [m]."""
+        """Return the cell nearest to the goal that was reached, within a distance [m]."""
         rows, columns = np.nonzero(field.values < NOT_REACHED)
         away = np.hypot(columns - goal[0], rows - goal[1])
         if not len(away) or away.min() * self.costmap.resolution > reach:
@@ -95,7 +95,7 @@ class PotentialPlanner(GlobalPlannerPlugin):
         return self.oriented(plan, start)
 
     def oriented(self, plan: Floats, start: Pose2) -> Floats:
-        """The same poses with headings; here they are left 0, as navfn leaves them."""
+        """Return the same poses with headings; here they are left 0, as navfn leaves them."""
         del start
         return plan
 

@@ -21,7 +21,7 @@ def composed(first: Pose2, second: Pose2) -> Pose2:
 
 
 def inverse(pose: Pose2) -> Pose2:
-    """The pose of the frame that a pose is in, in the frame of the pose."""
+    """Return the pose of the frame that a pose is in, in the frame of the pose."""
     cos, sin = math.cos(pose[2]), math.sin(pose[2])
     return (-cos * pose[0] - sin * pose[1], sin * pose[0] - cos * pose[1], -pose[2])
 

@@ -39,7 +39,7 @@ class GlobalPlannerPlugin(ABC):
 
     @abstractmethod
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
-        """A way in the frame of the costmap.
+        """Return a way in the frame of the costmap.
 
         Args:
             start: x, y [m] and heading [rad].
@@ -74,7 +74,7 @@ class LocalPlannerPlugin(ABC):
 
     @abstractmethod
     def command(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> Velocity | None:
-        """The velocity to go with now; None if there is none.
+        """Return the velocity to go with now; None if there is none.
 
         Args:
             pose: In the costmap's frame.
@@ -116,7 +116,7 @@ def register_local(kind: str, make: MakeLocal) -> None:
 
 
 def global_planner(kind: str) -> MakeGlobal:
-    """The global planner of a type.
+    """Return the global planner of a type.
 
     Raises:
         Error: There is none, or its module cannot be imported.
@@ -125,7 +125,7 @@ def global_planner(kind: str) -> MakeGlobal:
 
 
 def local_planner(kind: str) -> MakeLocal:
-    """The local planner of a type.
+    """Return the local planner of a type.
 
     Raises:
         Error: There is none, or its module cannot be imported.

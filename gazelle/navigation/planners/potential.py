@@ -211,7 +211,7 @@ class PotentialField:
         counts[which] = count
 
     def way_down(self, start: tuple[int, int], source: tuple[int, int], grid: int = 0) -> Floats:
-        """The way of steepest descent from a cell to the source.
+        """Return the way of steepest descent from a cell to the source.
 
         Args:
             start: Column and row.
@@ -290,7 +290,7 @@ class PotentialField:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _between(self, x: cython.double, y: cython.double, axis: cython.int) -> cython.double:
-        """The slope at a place between the middles of four cells."""
+        """Return the slope at a place between the middles of four cells."""
         column: cython.int = cython.cast(cython.int, x)
         row: cython.int = cython.cast(cython.int, y)
         s: cython.double = x - column
@@ -336,7 +336,7 @@ class PotentialField:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _lowest(self, n: cython.int) -> cython.int:
-        """The lowest of a cell and its eight neighbours."""
+        """Return the lowest of a cell and its eight neighbours."""
         row: cython.int
         column: cython.int
         best: cython.int = n

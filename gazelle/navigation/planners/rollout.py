@@ -76,7 +76,7 @@ class TrajectoryRollout:
     def judge(
         self, pose: Floats, velocity: Floats, commands: Floats, steps: Ints32, duration: float
     ) -> Floats:
-        """The cost of each command; negative where it cannot be.
+        """Return the cost of each command; negative where it cannot be.
 
         Args:
             pose: x, y [m] and heading [rad], shape (3,).
@@ -119,7 +119,7 @@ class TrajectoryRollout:
         steps: cython.int,
         duration: cython.double,
     ) -> cython.double:
-        """The cost of one command."""
+        """Return the cost of one command."""
         x: cython.double = pose[0]
         y: cython.double = pose[1]
         heading: cython.double = pose[2]
@@ -272,7 +272,7 @@ class TrajectoryRollout:
         return worst
 
     def footprint_cost(self, x: float, y: float, heading: float) -> float:
-        """The highest cost under the robot at a place; negative where it cannot stand."""
+        """Return the highest cost under the robot at a place; negative where it cannot stand."""
         column: cython.int = cython.cast(cython.int, floor((x - self._x0) / self._cell))
         row: cython.int = cython.cast(cython.int, floor((y - self._y0) / self._cell))
         if not self._within(column, row):

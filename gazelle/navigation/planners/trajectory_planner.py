@@ -94,7 +94,7 @@ class TrajectoryPlanner(PlanFollower):
         return self.has_plan and self._stop.reached(pose, velocity, self.goal(to_local))
 
     def command(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> Velocity | None:
-        """The best velocity; at the goal, stop and turn."""
+        """Return the best velocity; at the goal, stop and turn."""
         plan = self.local(pose, to_local)
         if not len(plan):
             return None
@@ -183,7 +183,7 @@ class TrajectoryPlanner(PlanFollower):
         turns: Floats,
         most: float,
     ) -> Floats | None:
-        """The turn that looks best, by where a point before the robot then is."""
+        """Return the turn that looks best, by where a point before the robot then is."""
         s = self.settings
         least = s.min_in_place_vel_theta
         rates = np.where(turns > 0.0, np.maximum(turns, least), np.minimum(turns, -least))
@@ -209,7 +209,7 @@ class TrajectoryPlanner(PlanFollower):
 
 
 def _cheapest(commands: Floats, costs: Floats) -> Floats | None:
-    """The command with the least cost that is not negative."""
+    """Return the command with the least cost that is not negative."""
     good = costs >= 0.0
     if not good.any():
         return None

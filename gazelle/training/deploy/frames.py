@@ -48,7 +48,7 @@ class GoalFrames:
 
 
 def _moved(goal: GoalPlace, found: Any) -> tuple[float, float]:
-    """A place on the ground, turned and shifted by a transform."""
+    """Return a place on the ground, turned and shifted by a transform."""
     x, y, z, w = found.rotation
     cos, sin = 1.0 - 2.0 * (y * y + z * z), 2.0 * (w * z + x * y)
     other_cos, other_sin = 1.0 - 2.0 * (x * x + z * z), 2.0 * (x * y - w * z)

@@ -61,7 +61,7 @@ def read_goals(file: Path) -> list[GoalPlace]:
 
 
 def parse_goal(text: str) -> GoalPlace:
-    """A goal from ``x,y`` or ``x,y,frame``.
+    """Return a goal from ``x,y`` or ``x,y,frame``.
 
     Raises:
         ValueError: It is not of that form.

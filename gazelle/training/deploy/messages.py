@@ -43,13 +43,13 @@ def goal_of(message: Any) -> GoalPlace:
 
 
 def yaw_of(quaternion: Any) -> float:
-    """The angle about z of a geometry_msgs/Quaternion [rad], in [-pi, pi]."""
+    """Return the angle about z of a geometry_msgs/Quaternion [rad], in [-pi, pi]."""
     x, y, z, w = quaternion.x, quaternion.y, quaternion.z, quaternion.w
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def floats_message(labels: Sequence[str], values: Sequence[float]) -> Any:
-    """A std_msgs/Float32MultiArray of one dimension, whose label names its numbers."""
+    """Return a std_msgs/Float32MultiArray of one dimension, whose label names its numbers."""
     message: Any = load_message("std_msgs/Float32MultiArray")()
     dimension: Any = load_message("std_msgs/MultiArrayDimension")()
     dimension.label, dimension.size, dimension.stride = ",".join(labels), len(values), len(values)

@@ -86,7 +86,7 @@ def command_of(action: tuple[float, ...], rule: ActionRule) -> VelocityCommand:
 
 
 def open_policy(source: str | Path, *, imports: Sequence[str] = (), trust: bool = False) -> Policy:
-    """A policy from the folder of a run, or from a file that `export_policy` wrote.
+    """Return a policy from the folder of a run, or from a file that `export_policy` wrote.
 
     Args:
         source: The folder or file.

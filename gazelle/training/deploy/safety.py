@@ -68,7 +68,7 @@ class SafetyLimits:
         return contract.collision_range + _MARGIN
 
     def limited(self, wanted: VelocityCommand) -> VelocityCommand:
-        """The command within the greatest speeds; numbers that are none become 0."""
+        """Return the command within the greatest speeds; numbers that are none become 0."""
         return VelocityCommand(
             _cut(wanted.linear, self.max_linear), _cut(wanted.angular, self.max_angular)
         )
@@ -76,7 +76,7 @@ class SafetyLimits:
     def blocked(
         self, wanted: VelocityCommand, scan: ScanReading, *, turned: float = 0.0
     ) -> float | None:
-        """The nearest thing in the way of a command, if it is nearer than it may be [m].
+        """Return the nearest thing in the way of a command, if it is nearer than it may be [m].
 
         Args:
             wanted: What the robot is to do.

@@ -100,7 +100,7 @@ class Observer:
     def observe(
         self, scan: ScanReading, odometry: OdometryReading, goal: tuple[float, float]
     ) -> Floats32:
-        """The observation of one moment.
+        """Return the observation of one moment.
 
         Args:
             scan: Of the lidar.
@@ -133,7 +133,7 @@ class Observer:
 
 
 def sampled(scan: ScanReading, rule: ScanRule, rays: int, *, turned: float = 0.0) -> Floats:
-    """The rays that a policy was trained with, from a scan with as many as it has.
+    """Return the rays that a policy was trained with, from a scan with as many as it has.
 
     Each is the ray nearest in angle. Where that one failed, it is the nearest of those up to the
     middle between two rays of the policy that did not; where all of those failed, nothing is known

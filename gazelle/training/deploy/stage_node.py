@@ -54,7 +54,7 @@ def run_stage(stage: int, arguments: Sequence[str]) -> int:
 
 
 def _learned(node: Node, stage: int) -> Path | None:
-    """The folder of a run; None if its training was told to stop."""
+    """Return the folder of a run; None if its training was told to stop."""
     given = str(node.get_param("~run", ""))
     if given:
         return expanded(given)

@@ -31,7 +31,7 @@ ALGORITHMS: dict[str, Callable[[Recipe, VectorEnvAdapter, int], Learner]] = {
 
 
 def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
-    """A fresh learner for an environment.
+    """Return a fresh learner for an environment.
 
     Raises:
         TaskError: The algorithm does not know this kind of actions.
@@ -51,7 +51,7 @@ def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
 
 
 def _scaled(learner: Learner, env: VectorEnvAdapter) -> Learner:
-    """The learner, with the scale of its observations told of all that is observed."""
+    """Return the learner, with the scale of its observations told of all that is observed."""
     learner.scale = learner.policy_kwargs["features_extractor_kwargs"]["scale"]
     env.watch(learner.scale.observe)
     return learner

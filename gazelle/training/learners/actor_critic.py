@@ -45,7 +45,7 @@ class CriticUpdate:
     def _least_value(
         self, critic: Any, features: torch.Tensor, actions: torch.Tensor
     ) -> torch.Tensor:
-        """The least that a critic's networks say of actions, shape (n, 1)."""
+        """Return the least that a critic's networks say of actions, shape (n, 1)."""
         known = torch.cat((features, actions), dim=1)
         values = [self._outputs(net, known) for net in critic.q_networks]
         return torch.stack(values).amin(dim=0)

@@ -77,7 +77,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         self.ends[self.current[over], over] = _RUNNING
 
     def get_state(self) -> dict[str, Any]:
-        """The memory as arrays, only as far as it is filled."""
+        """Return the memory as arrays, only as far as it is filled."""
         return super().get_state() | {
             "ends": self.ends,
             "steps": self.steps,

@@ -202,7 +202,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
             self._hand_over()
 
     def _dense_update(self) -> DenseUpdate:
-        """An update of the policy's weights as they are now."""
+        """Return an update of the policy's weights as they are now."""
         rounded = self.bfloat16 and multiplies_bfloat16()
         return DenseUpdate(self.policy, self.max_grad_norm, bfloat16=rounded)
 

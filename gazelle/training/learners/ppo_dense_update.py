@@ -136,7 +136,7 @@ class DenseUpdate:
         return logs.gather(0, chosen)[0] - batch.log_probs, entropies.mean(), back
 
     def _judge_numbers(self, outputs: torch.Tensor, batch: Transitions, ent_coef: float) -> Any:
-        """The same for normally distributed actions."""
+        """Return the same for normally distributed actions."""
         inverse = (-self._log_std).exp()
         scaled = (batch.actions - outputs) * inverse
         logs = (-0.5 * scaled.square() - self._log_std - HALF_LOG_2_PI).sum(dim=1)
@@ -249,13 +249,13 @@ class _FlatAdam:
 
 
 def _layers(policy: Any, name: str) -> list[nn.Module]:
-    """The layers of one of the two networks in order, with its head."""
+    """Return the layers of one of the two networks in order, with its head."""
     head = policy.action_net if name == "policy_net" else policy.value_net
     return [*getattr(policy.mlp_extractor, name), head]
 
 
 def _joined(tensors: Sequence[torch.Tensor]) -> torch.Tensor:
-    """All numbers of some tensors in a row, copied, shape (n,)."""
+    """Return all numbers of some tensors in a row, copied, shape (n,)."""
     return torch.cat([tensor.detach().reshape(-1) for tensor in tensors])
 
 

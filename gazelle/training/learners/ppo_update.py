@@ -75,7 +75,7 @@ NAMES = (
 
 
 def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Tensor, torch.Tensor]:
-    """The loss of a minibatch, and what the curves show of it, see `NAMES`, shape (6,).
+    """Return the loss of a minibatch, and what the curves show of it, see `NAMES`, shape (6,).
 
     Args:
         policy: A Stable-Baselines3 ``ActorCriticPolicy`` with discrete or normal actions.

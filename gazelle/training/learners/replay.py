@@ -70,7 +70,7 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         return rows, slots
 
     def get_state(self) -> dict[str, Any]:
-        """The memory as arrays, only as far as it is filled."""
+        """Return the memory as arrays, only as far as it is filled."""
         filled = self.buffer_size if self.full else self.pos
         state: dict[str, Any] = {name: getattr(self, name)[:filled] for name in self._names()}
         return state | {"pos": self.pos, "full": self.full}
@@ -86,14 +86,14 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         return [*names, "valid"]
 
     def _gather(self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]) -> Any:
-        """The transitions at the given rows and slots, as tensors."""
+        """Return the transitions at the given rows and slots, as tensors."""
         parts = self._parts(rows, slots)
         return ReplayBufferSamples(**{name: self.to_torch(part) for name, part in parts.items()})
 
     def _parts(
         self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
     ) -> dict[str, npt.NDArray[Any]]:
-        """The transitions at the given rows and slots, arrays of their own."""
+        """Return the transitions at the given rows and slots, arrays of their own."""
         cut_off = self.timeouts[rows, slots]
         return {
             "observations": self.observations[rows, slots],

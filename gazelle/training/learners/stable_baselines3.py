@@ -23,7 +23,7 @@ _GIVEN = {"policy", "env", "replay_buffer_class", "replay_buffer_kwargs"}
 
 
 def build_library_learner(recipe: Recipe, env: VectorEnvAdapter, common: dict[str, Any]) -> Any:
-    """A learner that Gazelle has no builder of its own for.
+    """Return a learner that Gazelle has no builder of its own for.
 
     Args:
         recipe: With `LibrarySettings`.

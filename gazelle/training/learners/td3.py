@@ -113,7 +113,7 @@ class DeterministicLearner(CriticUpdate, TD3):  # type: ignore[misc]  # untyped 
         return loss.detach()
 
     def _shown(self, batch_size: int) -> _Imitated | None:
-        """A share of what a demonstrator did, as far as it is remembered."""
+        """Return a share of what a demonstrator did, as far as it is remembered."""
         if self.demonstrator is None or not self.ways.imitation:
             return None
         rows = -(-self.learning_starts // self.n_envs)

@@ -79,7 +79,7 @@ class _Queue(Generic[JobT]):
         self._lock = threading.Lock()
 
     def take(self) -> JobT:
-        """The next one.
+        """Return the next one.
 
         Raises:
             StopIteration: There is none.

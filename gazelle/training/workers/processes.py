@@ -151,7 +151,7 @@ def read(pipe: IO[bytes]) -> Any:
 
 
 def _answer(host: Any, method: str, arguments: tuple[Any, ...]) -> tuple[Exception | None, Any]:
-    """An error or what was asked for."""
+    """Return an error or what was asked for."""
     try:
         return None, getattr(host, method)(*arguments)
     except Exception as error:  # noqa: BLE001  # the driver raises it
@@ -159,7 +159,7 @@ def _answer(host: Any, method: str, arguments: tuple[Any, ...]) -> tuple[Excepti
 
 
 def _portable(error: Exception) -> Exception:
-    """The error itself, if it can travel, else one with its text."""
+    """Return the error itself, if it can travel, else one with its text."""
     try:
         pickle.loads(pickle.dumps(error))  # noqa: S301  # our own
     except Exception:  # noqa: BLE001  # whatever is wrong with it

@@ -184,7 +184,7 @@ class ShardHost:
         return {n: (each.step(actions[n]), None) for n, each in self._shards.items()}
 
     def get_state(self) -> dict[int, tuple[None, Any]]:
-        """The states by shard."""
+        """Return the states by shard."""
         return {n: (None, each.get_state()) for n, each in self._shards.items()}
 
     def set_state(self, states: Mapping[int, Any]) -> dict[int, tuple[None, Any]]:

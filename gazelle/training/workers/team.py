@@ -27,7 +27,7 @@ class WorkerLink(Protocol):
         """
 
     def receive(self) -> Any:
-        """The answer to the last `send`.
+        """Return the answer to the last `send`.
 
         Raises:
             WorkerLostError: The worker ended before it answered.

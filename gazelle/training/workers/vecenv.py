@@ -192,7 +192,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
 
 
 def _cut_off(last: Floats32, first: Floats32) -> ShardStep:
-    """The step in which a worker was lost: its episodes are cut off where they were."""
+    """Return the step in which a worker was lost: its episodes are cut off where they were."""
     copies = len(last)
     nothing, all_of_them = np.zeros(copies, np.bool_), np.ones(copies, np.bool_)
     rewards = np.zeros(copies, np.float32)
