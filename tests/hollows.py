@@ -93,6 +93,46 @@ def gear(teeth: int = 16) -> trimesh.Trimesh:
     return extruded(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1), 0.25)
 
 
+def involute_gear(teeth: int = 20) -> trimesh.Trimesh:
+    """Return a spur gear of module 0.1 and a pressure angle of 20 degrees, with a little play.
+
+    The triangles of its caps have corners on one line, as exporters make them.
+    """
+    pitch, module = teeth * 0.05, 0.1
+    base, tip, root = pitch * math.cos(math.radians(20)), pitch + 0.095, pitch - 1.2 * module
+
+    def involute(radius: float) -> float:
+        return math.sqrt(max((radius / base) ** 2 - 1.0, 0.0)) - math.acos(min(1.0, base / radius))
+
+    half = 0.97 * math.pi / 2.0 / teeth + involute(pitch)
+    radii = np.linspace(max(root, base), tip, 7)
+    flank = [(float(r), half - involute(r)) for r in radii]
+    flank = [(root, flank[0][1]), *flank] if root < base else flank
+    tooth = [(r, -turn) for r, turn in flank] + flank[::-1]
+    polar = [(r, turn + 2.0 * math.pi * k / teeth) for k in range(teeth) for r, turn in tooth]
+    return extruded(np.array([(r * math.cos(a), r * math.sin(a)) for r, a in polar]), 0.2)
+
+
+def crate(wall: float = 0.02) -> trimesh.Trimesh:
+    """Return an open box of five boxes that touch along edges."""
+    inner, at = 1.0 - 2.0 * wall, (1.0 - wall) / 2.0
+    parts = [
+        trimesh.creation.box((1.0, wall, 0.6)).apply_translation((0.0, y, 0.3)) for y in (-at, at)
+    ]
+    parts += [
+        trimesh.creation.box((wall, inner, 0.6)).apply_translation((x, 0.0, 0.3)) for x in (-at, at)
+    ]
+    floor = trimesh.creation.box((inner, inner, wall)).apply_translation((0.0, 0.0, wall / 2.0))
+    return trimesh.util.concatenate([*parts, floor])
+
+
+def thin_bowl() -> trimesh.Trimesh:
+    """Return half a ball with a wall of a hundredth of its radius."""
+    angle = np.linspace(0.0, np.pi / 2.0, 13)
+    way = np.stack([np.sin(angle), -np.cos(angle)], axis=1)
+    return revolved(np.concatenate([1.01 * way, way[::-1]]))
+
+
 SHAPES: dict[str, Callable[[], trimesh.Trimesh]] = {
     "car body": car,
     "sleeve": lambda: trimesh.creation.annulus(0.3, 0.4, 0.8, sections=64),
@@ -106,6 +146,16 @@ SHAPES: dict[str, Callable[[], trimesh.Trimesh]] = {
     "bracket": lambda: extruded(
         np.array([(0, 0), (1, 0), (1, 0.1), (0.1, 0.1), (0.1, 1), (0, 1)], float), 0.4
     ),
+    "thin bowl": thin_bowl,
+    "thin mug": lambda: revolved(
+        [(0, 0), (0.5, 0), (0.5, 1.2), (0.49, 1.2), (0.49, 0.01), (0, 0.01)]
+    ),
+    "thin tube": lambda: trimesh.creation.annulus(0.49, 0.5, 1.5, sections=48),
+    "funnel": lambda: revolved(
+        [(0.1, 0), (0.15, 0), (0.15, 0.5), (0.8, 1.2), (0.75, 1.2), (0.1, 0.52), (0.1, 0)]
+    ),
+    "crate": crate,
+    "involute gear": involute_gear,
 }
 
 

@@ -23,6 +23,7 @@ from gazelle.formats.hull import Hull, Solid, convex_hull, spread_directions
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.patches import joined_flat, thick_patches
+from gazelle.formats.probing import spread
 from gazelle.formats.surface import WeldedSurface, clean, components
 
 CACHED = 256
@@ -47,6 +48,8 @@ _MOST_CORNERS = 100_000
 """Vertices up to which it is asked whether dents are small."""
 _FIRST_LOOK = 256
 """Places that are looked at first."""
+_LOOKS_ALONG = 60.0
+"""Places on a hull along its size, from which it is asked how far the surface lies below."""
 _MAX_PAIRS = 2_000_000
 _LOOKS = spread_directions(48)
 """Directions whose outermost corners are looked at first."""
@@ -240,16 +243,31 @@ def _is_convex(surface: WeldedSurface, tolerance: float) -> bool:
     if len(points) * len(hull.offsets) > _MAX_PAIRS:  # most lie right below the hull
         above = _below(surface, hull, points, normals)
         points = points[(above > tolerance) & np.isfinite(above)]
-    return not _is_deep(hull, points, tolerance)
+    return not _is_deep(hull, points, tolerance) and not _spans(surface, hull, tolerance)
+
+
+def _spans(surface: WeldedSurface, hull: Hull, tolerance: float) -> bool:
+    """Return whether the hull of a surface lies higher above it than this somewhere.
+
+    In a vessel with thin walls no place of the surface is deep in the hull.
+    """
+    places, rows = spread(_hull_surface(surface, hull), surface.size / _LOOKS_ALONG)
+    ways = hull.normals[rows]
+    below, _ = first_hits(surface, places + tolerance * ways, -ways)
+    return bool((below > 2.01 * tolerance).any())
+
+
+def _hull_surface(surface: WeldedSurface, hull: Hull) -> WeldedSurface:
+    """Return the hull of a surface as a surface."""
+    corners = surface.vertices[hull.faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.linalg.norm(across, axis=1) / 2.0
+    return WeldedSurface(surface.vertices, hull.faces, hull.normals, areas)
 
 
 def _below(surface: WeldedSurface, hull: Hull, points: Floats, ways: Floats) -> Floats:
     """Return how far the hull of a surface is from points along ways [m]; infinite if on it."""
-    corners = surface.vertices[hull.faces]
-    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    areas = np.linalg.norm(across, axis=1) / 2.0
-    around = WeldedSurface(surface.vertices, hull.faces, hull.normals, areas)
-    return first_hits(around, points, ways)[0]
+    return first_hits(_hull_surface(surface, hull), points, ways)[0]
 
 
 def _is_deep(hull: Hull, points: Floats, tolerance: float) -> bool:

@@ -8,7 +8,6 @@ import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
 
-_AT_ONCE = 2_000_000
 _ROUNDING = 1e-9
 """Share of the squared length at which a turn counts as none."""
 _FULL = 1e-6
@@ -55,7 +54,11 @@ def hull_rows(polygons: Planar) -> Bools:
 
 
 def filled(polygons: Planar, depth: float) -> Bools:
-    """Return whether all corners off the hull are no deeper in it than this, shape (k,)."""
+    """Return whether all corners off the hull are no deeper in it than this, shape (k,).
+
+    Deep is what is far from the side of the hull across its own notch: in a thin ring that is
+    nearly closed all corners are close to some side.
+    """
     kept = hull_rows(polygons)
     fits = _turns_once(polygons, kept)
     points, rows = polygons.points[kept], polygons.rows[kept]
@@ -63,18 +66,13 @@ def filled(polygons: Planar, depth: float) -> Bools:
     sides = np.bincount(rows, minlength=polygons.count)
     starts = np.cumsum(sides) - sides
     asked = np.flatnonzero(~kept & fits[polygons.rows])
-    for part in np.array_split(asked, 1 + int(sides[polygons.rows[asked]].sum()) // _AT_ONCE):
-        owner = polygons.rows[part]
-        size = sides[owner]
-        corner = np.repeat(np.arange(len(part)), size)
-        first = np.cumsum(size) - size
-        side = starts[owner][corner] + np.arange(len(corner)) - first[corner]
-        along = points[after[side]] - points[side]
-        away = polygons.points[part][corner] - points[side]
-        height = along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]
-        height /= np.hypot(along[:, 0], along[:, 1])
-        nearest = np.minimum.reduceat(height, first) if len(part) else height
-        fits[owner[nearest > depth]] = False
+    owner = polygons.rows[asked]
+    passed = np.cumsum(kept)[asked] - 1 - starts[owner]
+    side = starts[owner] + passed % np.maximum(sides[owner], 1)
+    along, away = points[after[side]] - points[side], polygons.points[asked] - points[side]
+    height = along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]
+    height /= np.hypot(along[:, 0], along[:, 1])
+    fits[owner[height > depth]] = False
     return fits
 
 

@@ -22,6 +22,10 @@ _ALONG = 20_000
 """Places along all edges that are bent inwards, about, at most."""
 _INSET = 0.02
 """Distance of probes from the corners beside them, as a share of the way to the middle."""
+_SHARP = 0.85
+"""Cosine of the turn at an edge up to which there are places on both sides of it."""
+_BESIDE = 0.1
+"""Distance of these from the edge, as a share of that from the surface."""
 _SHARPEST = 0.2
 """Cosine of half the turn at an edge from which on places are not moved farther out."""
 _TURNS = (0.7548776662466927, 0.5698402909980532)
@@ -58,8 +62,9 @@ def air_beside(surface: WeldedSurface, closed: Bools, distance: float, skin: flo
         distance: From the surface [m].
         skin: Thickness of what is not closed, behind it [m].
     """
-    over, along = _over_faces(surface, distance), _along_notches(surface, distance)
-    found = [_in_air(surface, feet, closed) for feet in (over, along)]
+    over, rims = _over_faces(surface, distance), _along_rims(surface, distance)
+    along = _along_notches(surface, distance)
+    found = [_in_air(surface, feet, closed) for feet in (over, rims, along)]
     if not closed.all():
         rows = ~closed[over.faces]
         lengths = over.lengths[rows] + skin
@@ -104,6 +109,41 @@ def spread(surface: WeldedSurface, spacing: float) -> tuple[Floats, Indices]:
     u, v = u + inset * (1.0 / 3.0 - u), v + inset * (1.0 / 3.0 - v)
     a, b, c = (surface.vertices[surface.faces[faces, i]] for i in range(3))
     return a + u[:, None] * (b - a) + v[:, None] * (c - a), faces
+
+
+def _along_rims(surface: WeldedSurface, distance: float) -> _Feet:
+    """Return places beside sharp edges that are bent outwards, and beside open ones.
+
+    Each is level with the face on the other side of the edge, just below its plane: what would
+    lie across an opening as a thin lid holds it, though it is far from all others.
+    """
+    twins = surface.twins
+    faces = np.arange(len(twins)) // 3
+    bend = np.einsum("ij,ij->i", surface.normals[faces], surface.normals[twins // 3])
+    edges = np.flatnonzero((twins < 0) | (bend < _SHARP))
+    tails, heads = surface.faces.ravel(), np.roll(surface.faces, -1, axis=1).ravel()
+    start, way = surface.vertices[tails[edges]], surface.vertices[heads[edges]]
+    way = way - start
+    length = np.linalg.norm(way, axis=1)
+    ways = way / length[:, None]
+    is_open = twins[edges] < 0
+    here = surface.normals[faces[edges]]
+    level = np.where(is_open[:, None], here, surface.normals[twins[edges] // 3])
+    outwards = np.cross(level, ways) * np.where(is_open, -1.0, 1.0)[:, None]
+    rise = np.where(is_open, 1.0, np.einsum("ij,ij->i", here, outwards))
+    height = 2.0 * surface.areas[faces[edges]] / length
+    beside = np.minimum(_BESIDE * distance, _INSET * height)[:, None]
+    foot = beside * np.where(is_open[:, None], -here, np.cross(here, ways))
+    depth = np.einsum("ij,ij->i", foot, level)[:, None] * level
+    reach = distance / np.maximum(rise, _SHARPEST)
+    leap = reach[:, None] * outwards + depth - foot
+    far = np.linalg.norm(leap, axis=1)
+    spacing = max(4.0 * distance, surface.size / _COARSE, float(length.sum()) / _ALONG)
+    counts = np.where(rise > 0.0, np.ceil(length / spacing), 0.0).astype(np.intp)
+    rows, place = _counted(counts)
+    points = (start + foot)[rows] + ((place + 0.5) / counts[rows])[:, None] * way[rows]
+    leaps = (leap / np.maximum(far, 1e-300)[:, None])[rows]
+    return _Feet(points, leaps, far[rows], faces[edges[rows]])
 
 
 def _along_notches(surface: WeldedSurface, distance: float) -> _Feet:

@@ -9,9 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices
+from gazelle.formats.slivers import flip_slivers, half_edge_twins
 
 _BITS = 21
 """Of a coordinate that places are told apart by: a two-millionth of the size."""
+_SLIVER = 2.0
+"""Width of triangles that count as none, in such parts."""
 
 
 @dataclass(frozen=True)
@@ -42,19 +45,7 @@ class WeldedSurface:
 
         Half-edge 3 f + i of face f runs from its corner i to the next.
         """
-        tails, heads = self.faces.ravel(), np.roll(self.faces, -1, axis=1).ravel()
-        count = np.int64(len(self.vertices))
-        forward, backward = tails * count + heads, heads * count + tails
-        order = np.argsort(forward, kind="stable")
-        keys = forward[order]
-        place = np.searchsorted(keys, backward)
-        place[place == len(keys)] = 0
-        single = np.ones(len(keys), bool)
-        single[1:] &= keys[1:] != keys[:-1]
-        single[:-1] &= keys[1:] != keys[:-1]
-        found = np.where((keys[place] == backward) & single[place], order[place], -1)
-        found[order[~single]] = -1
-        return found.astype(np.intp)
+        return half_edge_twins(self.faces, len(self.vertices))
 
     @property
     def volume(self) -> float:
@@ -74,7 +65,10 @@ class WeldedSurface:
 
 
 def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
-    """Weld corners at the same place; leave out faces without area, and all but one of each.
+    """Weld corners at the same place; leave out all but one of each face, and those without area.
+
+    Where several corners lie on one line, the triangles without area between them are gone, and
+    those beside them are divided there, so that a closed surface stays closed.
 
     Of two faces that are each other's back, as in sheets drawn from both sides, the first
     is kept.
@@ -91,6 +85,8 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
     else:
         _, kept = np.unique(alike, axis=0, return_index=True)
     welded = welded[np.sort(kept)]
+    welded = welded[(np.diff(np.sort(welded, axis=1), axis=1) > 0).all(axis=1)]
+    welded = flip_slivers(points, welded, _SLIVER * step)
     a, b, c = (points[welded[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
     doubled = np.linalg.norm(normals, axis=1)

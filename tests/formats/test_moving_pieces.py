@@ -1,5 +1,7 @@
 """Pieces of meshes that move stay within a bound of the triangles, whatever their shape and size."""
 
+import itertools
+
 import hollows
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ import trimesh
 from gazelle.formats import convex
 from gazelle.formats.convex import decompose
 from gazelle.formats.mesh import MeshData
+from gazelle.formats.surface import clean
 
 
 @pytest.fixture(autouse=True)
@@ -39,9 +42,9 @@ def test_pieces_keep_to_the_triangles(name, size):
     bound = min(0.005, 0.01 * size)
     assert pieces.promised == pytest.approx(bound)
     assert pieces.gap <= pieces.promised * (1.0 + 1e-9)
-    assert hollows.protrusion(mesh, pieces) <= bound
+    assert hollows.protrusion(mesh, pieces) <= bound * (1.0 + 1e-9)
     assert hollows.uncovered(mesh, pieces) <= 1e-5 * size
-    assert 1 < len(pieces.solids) < 500
+    assert 1 < len(pieces.solids) < 600
 
 
 @pytest.mark.parametrize("name", ["car body", "finger", "bracket", "mug"])
@@ -90,3 +93,68 @@ def test_what_needs_too_many_pieces_says_how_far_it_is_off(monkeypatch):
     assert len(pieces.solids) <= 60
     assert pieces.gap > pieces.promised
     assert hollows.protrusion(mesh, pieces, 1000) <= pieces.gap
+
+
+THIN = ["thin bowl", "thin mug", "thin tube", "crate"]
+
+
+@pytest.mark.parametrize("static", [False, True])
+@pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
+@pytest.mark.parametrize("name", THIN)
+def test_vessels_with_thin_walls_stay_hollow(name, size, static):
+    """No place of such a surface is deep in its hull, as with a body that has small dents."""
+    mesh = hollows.made(name, size)
+    pieces = decompose(mesh, static=static)
+    assert not pieces.whole
+    top, middle = float(mesh.vertices[:, 2].max()), mesh.vertices.mean(axis=0)
+    column = np.linspace(0.0, 0.999 * top, 40)[:, None] * (0.0, 0.0, 1.0)
+    assert not inside(pieces, column + middle * (1.0, 1.0, 0.0)).any()
+
+
+@pytest.mark.parametrize("size", [0.05, 0.3, 1.0, 2.0, 4.0])
+@pytest.mark.parametrize("name", ["crate", "funnel", "thin tube"])
+def test_no_lid_lies_across_an_opening(name, size):
+    """The rim of an opening is flat, and so is what would close it."""
+    mesh = hollows.made(name, size)
+    low, high = (float(f(mesh.vertices[:, 2])) for f in (np.min, np.max))
+    ends = [high] if name == "crate" else [low, high]
+    rise = np.linspace(0.0, 0.02, 21) * (high - low)
+    column = np.concatenate([abs(end) - rise for end in ends])
+    column = np.where(np.arange(len(column)) < len(rise), np.sign(ends[0]), 1.0) * column
+    points = column[:, None] * (0.0, 0.0, 1.0)
+    assert not inside(decompose(mesh, static=False), points).any()
+
+
+@pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
+def test_triangles_without_a_width_leave_a_body_closed(size):
+    mesh = hollows.made("involute gear", size)
+    assert clean(mesh.vertices, mesh.faces).is_closed()
+    pieces = decompose(mesh, static=False)
+    assert pieces.closed
+    assert len(pieces.solids) < 80  # of 424 as sheets
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 12])
+def test_corners_on_the_edges_of_a_box_divide_what_is_beside_them(count):
+    """One face of a box has corners on an edge; slivers close the gap to the other."""
+    box = trimesh.creation.box((1.0, 1.0, 1.0))
+    a, b, c = next(tri for tri in box.faces.tolist() if _is_cut_edge(box, tri))
+    way = np.linspace(0.0, 1.0, count + 2)[1:-1, None]
+    more = box.vertices[a] + way * (box.vertices[b] - box.vertices[a])
+    line = [a, *range(8, 8 + count), b]
+    fan = [(u, v, c) for u, v in itertools.pairwise(line)]
+    slivers = [(line[i + 1], line[i], b) for i in range(count)]
+    kept = [tri for tri in box.faces.tolist() if tri != [a, b, c]]
+    mesh = MeshData(
+        np.concatenate([box.vertices, more]), np.array([*kept, *fan, *slivers], np.int32)
+    )
+    surface = clean(mesh.vertices, mesh.faces)
+    assert surface.is_closed()
+    assert surface.volume == pytest.approx(1.0)
+    assert float(surface.areas.sum()) == pytest.approx(6.0)
+    assert decompose(mesh, static=False).whole
+
+
+def _is_cut_edge(box, tri):
+    a, b, _ = (np.asarray(box.vertices[corner]) for corner in tri)
+    return np.count_nonzero(np.abs(a - b) > 0.5) == 1
