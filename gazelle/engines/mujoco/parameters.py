@@ -19,6 +19,7 @@ from gazelle.engines.mujoco.compiler.inertia import matrices, principal, tensor
 from gazelle.engines.mujoco.compiler.joints import rigid_stop
 from gazelle.engines.mujoco.compiler.motors import stiffen_worlds
 from gazelle.engines.mujoco.compiler.options import PASSIVE_OFF
+from gazelle.engines.mujoco.compiler.rotors import soften_rotors_of_worlds
 from gazelle.engines.mujoco.compiler.surfaces import LARGEST_FRICTION, LEAST_FRICTION
 from gazelle.engines.mujoco.compiler.wheel_slip import compiled_slip, set_slip
 from gazelle.engines.mujoco.compliance import retune
@@ -316,6 +317,7 @@ class ParameterStore:
         """Derive terms that depend on masses and inertias: springs and slips keep their values."""
         batch.set_const()
         stiffen_worlds(batch)
+        soften_rotors_of_worlds(batch)
         retune(batch, layout.springs)
         for link, slot in layout.tyres.items():
             set_slip(batch, slot, self.read(batch, layout, "wheel_slip", link))

@@ -8,11 +8,12 @@ import pytest
 import scenes
 import trimesh
 
-from gazelle.description import Cylinder, Mesh, Pose
+from gazelle.description import Cylinder, Joint, JointAxis, Mesh, Pose
 from gazelle.engines import make_engine
 from gazelle.errors import EngineWarning
 from gazelle.formats import bounded_pieces, convex
 from gazelle.formats.mesh import MeshData
+from gazelle.formats.surface import clean
 
 
 def body(name, data, folder, mass=100.0, pose=None):
@@ -88,3 +89,102 @@ def test_a_ball_in_a_sealed_cavity_stays_there(tmp_path):
     assert height(engine, "shell") == pytest.approx(0.5, abs=0.002)
     place = engine.models["ball"].placement().position[0] - (0.0, 0.0, 0.5)
     assert float(np.linalg.norm(place)) == pytest.approx(0.3, abs=0.005)
+
+
+def on_axle(model, kind, axis, **options):
+    """Hang a model of one link on the world by a joint."""
+    joint = Joint("axle", kind, "world", "link", axes=(JointAxis(axis, **options),))
+    return replace(model, joints=(joint,))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("step", [0.001, 0.002, 0.005])
+@pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
+@pytest.mark.parametrize("teeth", [20, 30])
+def test_gears_turn_one_another_at_the_ratio_of_their_teeth(teeth, size, step, tmp_path):
+    scale = size / float(np.linalg.norm(hollows.involute_gear().extents))
+    models = []
+    for name, count, turn in (("driver", 20, 0.0), ("driven", teeth, np.pi / teeth)):
+        mesh = hollows.involute_gear(count)
+        mesh.apply_transform(np.diag([scale, scale, scale, 1.0]))
+        data = MeshData(np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int32))
+        mass = 1000.0 * float(mesh.volume)
+        at = Pose(x=scale * 0.05 * (20 + teeth), yaw=turn) if name == "driven" else Pose()
+        free = on_axle(body(name, data, tmp_path, mass, at), "continuous", (0.0, 0.0, 1.0))
+        rubs = scenes.with_surface(free, scenes.rubber(0.1))
+        load = 0.0 if name == "driver" else 0.5 * mass * size**2
+        models.append(on_axle(rubs, "continuous", (0.0, 0.0, 1.0), damping=load))
+    engine = make_engine("mujoco", scenes.world(*models, gravity=(0, 0, 0), step=step), threads=1)
+    engine.add_motor("driver::axle", [0.2 * models[0].links[0].inertial.mass * (20.0 * size) ** 2])
+    engine.joints["driver::axle"].set_motor_velocity(2.0)
+    count = round(2.0 / step)
+    engine.step(count)
+    turned = float(engine.joints["driver::axle"].position()[0, 0])
+    followed = float(engine.joints["driven::axle"].position()[0, 0])
+    assert turned == pytest.approx(2.0 * count * step, rel=0.1)
+    assert followed == pytest.approx(-turned * 20.0 / teeth, abs=0.02)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("step", [0.001, 0.002, 0.005])
+@pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
+@pytest.mark.parametrize("name", ["bowl", "thin bowl"])
+def test_a_ball_rolls_on_the_triangles_of_a_bowl_that_is_shaken(name, size, step, tmp_path):
+    data = hollows.made(name, size)
+    rim = float(np.linalg.norm(data.vertices[:, :2], axis=1).max()) / float(
+        1.05 if name == "bowl" else 1.01
+    )
+    radius, top = 0.2 * rim, float(data.vertices[:, 2].max())
+    bowl = on_axle(body("bowl", data, tmp_path, 10.0), "prismatic", (1.0, 0.0, 0.0))
+    ball = scenes.ball(
+        radius=radius,
+        mass=0.1,
+        pose=Pose(x=0.25 * rim, z=top - np.sqrt((0.79 * rim) ** 2 - (0.25 * rim) ** 2)),
+    )
+    engine = make_engine("mujoco", scenes.world(bowl, ball, step=step), threads=1)
+    engine.add_motor("bowl::axle", [1e4])
+    pace = 0.6 * np.sqrt(5.0 * 9.8 / (7.0 * 0.8 * rim))  # of its own swings
+    surface = clean(data.vertices, data.faces)
+    for k in range(40):
+        engine.joints["bowl::axle"].set_motor_velocity(0.2 * rim * pace * np.cos(0.2 * k))
+        engine.step(max(1, round(0.2 / pace / step)))
+        centre = (
+            engine.models["ball"].placement().position
+            - engine.links["bowl::link"].placement().position
+        )
+        gap = float(hollows.distances(surface, centre)[0]) - radius
+        assert abs(gap) <= min(0.005, 0.01 * size)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("step", [0.001, 0.005])
+@pytest.mark.parametrize("size", [0.05, 0.3, 2.0])
+def test_notched_fingers_centre_a_bar(size, step, tmp_path):
+    data = hollows.made("finger", size)
+    unit, half = float(np.ptp(data.vertices[:, 0])), float(data.vertices[:, 1].max())
+    radius, away = 0.1 * unit, half + 0.2 * unit
+    fingers = []
+    for name, side, turn in (("left", -1.0, 0.0), ("right", 1.0, np.pi)):
+        at = Pose(y=side * away, yaw=turn)
+        finger = scenes.with_surface(body(name, data, tmp_path, 0.2, at), scenes.rubber(0.3))
+        fingers.append(on_axle(finger, "prismatic", (0.0, 1.0, 0.0), lower=-away, upper=away))
+    bar = scenes.solid(
+        "bar",
+        Cylinder(radius, 0.25 * unit),
+        mass=0.05,
+        moments=(0.02 * radius**2,) * 3,
+        pose=Pose(x=0.03 * unit),
+        mu=0.3,
+    )
+    world = scenes.world(*fingers, bar, gravity=(0, 0, 0), step=step)
+    engine = make_engine("mujoco", world, threads=1)
+    for name in ("left", "right"):
+        engine.joints[f"{name}::axle"].set_effort(0.5 * max(1.0, 4.0 * size))
+    engine.step(round(0.7 * max(1.0, np.sqrt(size)) / step))
+    place = engine.models["bar"].placement().position[0]
+    deep = half - 0.12 * unit + np.sqrt(2.0) * radius
+    bound = min(0.005, 0.01 * size)
+    assert place[0] == pytest.approx(0.0, abs=bound)
+    for name in ("left", "right"):
+        apart = abs(float(engine.links[f"{name}::link"].placement().position[0, 1]) - place[1])
+        assert apart == pytest.approx(deep, abs=bound)

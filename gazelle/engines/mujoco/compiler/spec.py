@@ -36,6 +36,7 @@ from gazelle.engines.mujoco.compiler.options import (
     skip_idle_forces,
 )
 from gazelle.engines.mujoco.compiler.pose_snapping import straight_pose
+from gazelle.engines.mujoco.compiler.rotors import soften_rotors
 from gazelle.engines.mujoco.compiler.shapes import CONTACT_GROUP, ShapeBuilder
 from gazelle.engines.mujoco.compiler.surfaces import (
     friction_ranks,
@@ -151,6 +152,7 @@ class Draft:
         if as_written:
             give_inertias(compiled, itertools.chain.from_iterable(self.bodies.values()))
         hold_fast(compiled)
+        soften_rotors(compiled)
         self.spec.option.impratio = compiled.opt.impratio
         tune_springs(compiled, self.springs)
         tune_stops(compiled, itertools.chain.from_iterable(self.bodies.values()))
