@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import Any, Protocol
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.description import Parameters, Plugin
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.errors import SimulationError
-from gazelle.simulation import registry
-from gazelle.simulation.plugin import ModelPlugin
-from gazelle.simulation.scheduled_plugin import make_scheduled
 
 
 class NavigationTask(Protocol):
@@ -73,28 +68,3 @@ class NavigationControl(Protocol):
 
     def plans(self) -> dict[int, NavigationPlan]:
         """The goal of each world that has one, and the way there."""
-
-
-if TYPE_CHECKING:
-    from gazelle.simulation.robot import Robot
-
-FILE = "libgazelle_navigation.so"
-
-
-def navigation_of(robot: Robot) -> NavigationControl:
-    """A robot's navigation; it begins when it is first asked for.
-
-    Raises:
-        SimulationError: The robot has no drive or no laser.
-    """
-    plugins = robot.simulation.plugins
-    kind = registry.find(Plugin("navigation", FILE))
-    if kind is None or not issubclass(kind, ModelPlugin):
-        raise SimulationError(f"there is no plugin '{FILE}'")
-    for entry in plugins:
-        if entry.owner == robot.name and isinstance(entry.plugin, kind):
-            return cast("NavigationControl", entry.plugin)
-    made = kind()
-    made.load(robot, Parameters("plugin"))
-    plugins.append(make_scheduled(made, "navigation", robot.name, robot.simulation.lock))
-    return cast("NavigationControl", made)

@@ -186,7 +186,7 @@ class Robot(Ports):
         Raises:
             SimulationError: The robot has no drive or no laser.
         """
-        from gazelle.simulation.navigation import navigation_of  # it needs robots itself
+        from gazelle.simulation.navigation_plugin import navigation_of  # it needs robots itself
 
         return navigation_of(self)
 
