@@ -1,6 +1,9 @@
 cdef extern from "pythread.h":
     unsigned long get_ident "PyThread_get_thread_ident" ()
 
+cdef extern from "Python.h":
+    int check_signals "PyErr_CheckSignals" () except -1
+
 
 cdef class Turn:
     cdef unsigned long thread

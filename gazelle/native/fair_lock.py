@@ -24,6 +24,10 @@ import cython
 if not cython.compiled:
     from _thread import get_ident
 
+    def check_signals() -> None:
+        """Do nothing: Python looks for signals between its lines by itself."""
+
+
 # How often a waiting thread checks that the owner can ever answer it [s]. A turn wakes it.
 _LOOK: float = 0.25
 
@@ -172,10 +176,12 @@ class FairLock:
                 self.depth = 1
             if self.owner == turn.thread:
                 self._pass_on()
+            # A signal that comes before the lock sleeps does not wake it.
             while not turn.granted.acquire(True, _LOOK):
                 if watch is None:
                     watch = self.watch()
                 watch(self.owner)
+                check_signals()
         except BaseException:
             if self.owner == turn.thread:
                 self._pass_on()

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
 from gazelle.engines.limits import MAX_WORLDS, whole_number
-from gazelle.errors import ControlError, SimulationError
+from gazelle.errors import ControlError
 from gazelle.navigation.pid import BoundedPid
 
 _STANDS = 0.25  # of a tolerance, between two updates
@@ -32,7 +32,7 @@ class Outcome(IntEnum):
     CANCELLED = 4
 
 
-@checked(SimulationError)
+@checked(ControlError)
 @dataclass(frozen=True, slots=True)
 class Limits:
     """Limits of speed and accuracy of motions.
@@ -65,7 +65,7 @@ class Limits:
                 raise ControlError(f"{name} must be positive, not {getattr(self, name)}")
 
 
-@checked(SimulationError)
+@checked(ControlError)
 class Motions:
     """The motions of ``count`` robots, each with one at a time.
 

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
-from gazelle.errors import SimulationError
 
 
-@checked(SimulationError)
 @dataclass(frozen=True, slots=True)
 class GoalPose:
     """Goal pose.
@@ -27,7 +24,6 @@ class GoalPose:
     frame: str = ""
 
 
-@checked(SimulationError)
 @dataclass(frozen=True, slots=True)
 class Path:
     """The way that is left, in every world.

@@ -19,7 +19,7 @@ def test_worlds_by_name():
     stages = {f"turtlebot3_stage_{number}" for number in (1, 2, 3, 4)}
     gazebos = {"empty", "shapes", "rubble", "mud", "elevator_ros", "gazebo_ros_range"}
     tables = {"pick_and_place"}
-    indoors = {"furnished_room", "office", "turtlebot3_world", "fleet", "depot"}
+    indoors = {"furnished_room", "office", "turtlebot3_world", "turtlebot3_house", "fleet", "depot"}
     tasks = {"turtlebot2_maze", "turtlebot2_wall", "kobuki_maze", "kobuki_boxes"}
     tasks |= {"rosbot_playground", "summit_xl_room", "turtlebot3_camera", "drone_field"}
     tasks |= {"wamv_channel"}

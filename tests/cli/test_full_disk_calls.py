@@ -142,7 +142,7 @@ def test_a_world_that_breaks_down_is_reported_without_its_recording(tmp_path):
     with gazelle.Simulation(
         "shapes", threads=1, on_fault="reset", fault_dump=tmp_path / "a"
     ) as sim:
-        from gazelle.simulation.faults import FaultLog
+        from gazelle.simulation.divergence import FaultLog
 
         log = FaultLog("reset", tmp_path / "a.jsonl")
         error = SimpleNamespace(

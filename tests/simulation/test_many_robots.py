@@ -64,7 +64,7 @@ def yard(count=12, *, native=True, **options):
     if not native:
         for each in sim.robots.values():
             for unit in each.sensors.values():
-                unit.kind = lambda: None
+                unit.system = lambda: None
             if "odom" in each.outputs:
                 each.outputs["odom"].subscribe(lambda _: None)
     for name, each in sim.robots.items():
@@ -161,7 +161,7 @@ def test_python_has_no_part_in_what_nobody_listens_to(monkeypatch):
         command(sim, 0.2)
         sim.run(0.2)
         before = told(sim)
-        for name in ("measure", "kind"):
+        for name in ("measure", "system"):
             monkeypatch.setattr(LidarModel, name, refuse)
         sim.run(1.0)
         after = told(sim)
