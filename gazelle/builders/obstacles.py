@@ -181,7 +181,9 @@ def _between(span: Range, share: float) -> float:
 
 def _count(count: int) -> int:
     if not 0 <= count <= MAX_THINGS:
-        raise BuildError(f"the number of things is from 0 to {MAX_THINGS}, found {count}")
+        raise BuildError(
+            f"the number of things must not be negative or over {MAX_THINGS}, found {count}"
+        )
     return count
 
 

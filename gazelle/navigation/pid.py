@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.engines.limits import MAX_WORLDS, whole_number
-from gazelle.errors import ControlError, SimulationError
+from gazelle.errors import ControlError
 
 Rows = NDArray[np.intp] | slice
 
 
-@checked(SimulationError)
+@checked(ControlError)
 class BoundedPid:
     """Proportional, integral and derivative action on an error.
 
