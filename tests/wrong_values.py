@@ -158,7 +158,7 @@ BY_WORD: list[tuple[str, list[Any]]] = [
     ),
     (r"(?<!\[)tuple\[int, int\]", [(-1, 5), (0, 0), (2**31, 2**31), (10**400, 1)]),
     (r"\b(Sequence|Iterable|list|tuple)\[str", LISTS),
-    (r"\b(Sequence|Iterable|list|tuple)\[(int|float)", ROWS),
+    (r"(?<!\[)\b(Sequence|Iterable|list|tuple)\[(int|float)", ROWS),
     (r"\b(Sequence|Iterable|list|tuple)\[", [[], ()]),
     (r"\bPath(Like)?\b", PATHS),
     (r"\bLiteral\[|\bstr\b", TEXTS),
