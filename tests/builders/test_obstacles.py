@@ -95,7 +95,7 @@ def test_plants_stand_on_the_ground_given():
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"count": -1}, "from 0 to 10000, found -1"),
+        ({"count": -1}, "must not be negative"),
         ({"kinds": ("bx",)}, "did you mean 'box'"),
         ({"kinds": ()}, "at least one kind"),
         ({"radius": (0.5, 0.1)}, "radius"),
