@@ -81,9 +81,6 @@ class PlanarRays:
         link, origins, directions = rays.link, rays.origins, rays.directions
         model = self._run.owner(link)
         each = self._run.model(model)
-        if model not in self._run.layout.bodies:
-            self._make_kinematic(model)  # a sensor needs a body to sit on
-            each = self._run.model(model)
         own = self._run.own(model, None)[0]
         bone = each.skeleton.bones[link]
         if not bone.fixed and np.ptp(own, axis=0).any():
@@ -96,7 +93,9 @@ class PlanarRays:
         turned = multiply(tilt[None], turned)
         start = rotate(tilt, at)[0] + rotate(turned, origins)
         along = rotate(turned, directions)
-        check_level(start, along)  # before the world is cut at their height
+        check_level(start, along)  # before the world is changed for them
+        if model not in self._run.layout.bodies:
+            self._make_kinematic(model)  # a sensor needs a body to sit on
         body = self._run.layout.bodies[model]
         self._run.cut_at(float(self._run.fleet.rows[body, c.Z] + start[0, 2]))
         grid = self._run.fleet.scene.grid

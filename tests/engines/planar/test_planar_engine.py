@@ -108,11 +108,13 @@ def test_rays_that_begin_inside_something_say_so():
     ],
     ids=["leaning", "down", "two heights"],
 )
-def test_rays_that_are_not_level_are_refused_and_change_nothing(origins, along):
-    engine = make_engine("planar", scenes.world(scanner_model()))
+@pytest.mark.parametrize("link", ["scanner::base", "pillar::link"])  # which has no body
+def test_rays_that_are_not_level_are_refused_and_change_nothing(link, origins, along):
+    world = scenes.world(still("pillar", Cylinder(0.5, 2.0), Pose(2.0)), scanner_model())
+    engine = make_engine("planar", world)
     fleet, revision = engine.fleet, engine.revision
     with pytest.raises(EngineError, match="level plane"):
-        engine.links["scanner::base"].cast_rays(origins, along)
+        engine.links[link].cast_rays(origins, along)
     assert engine.fleet is fleet
     assert engine.revision == revision
 
