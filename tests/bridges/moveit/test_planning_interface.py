@@ -4,6 +4,7 @@ import importlib
 
 import pytest
 from bridges.moveit.commander_graph import ARM, commander_graph
+from bridges.moveit.moveit_graph import READY
 
 from gazelle.bridges.moveit.client.session import packed, unpacked
 from gazelle.ros import load_message
@@ -160,6 +161,8 @@ def test_states_and_bounds(group):
 def test_plans_and_motions_are_bytes(group):
     group.set_max_acceleration_scaling_factor(1.0)
     group.set_planning_time(30.0)
+    group.set_joint_value_target(READY)  # stretched, as other tests may leave it, it is singular
+    assert group.move()
     before = group.get_current_joint_values()
     group.set_joint_value_target({"shoulder_pan_joint": before[0] + 0.2})
     code, plan, seconds = group.plan()
@@ -176,8 +179,9 @@ def test_plans_and_motions_are_bytes(group):
     assert group.execute(plan)
     here = group.get_current_pose("")
     limits = packed(load_message("moveit_msgs/Constraints")())
+    up = [*here[:2], here[2] + 0.02, *here[3:]]
     for arguments in ((0.0, True, limits), (True, limits), (0.0, True)):
-        way, fraction = group.compute_cartesian_path([here], 0.01, *arguments)
+        way, fraction = group.compute_cartesian_path([here, up], 0.01, *arguments)
         assert fraction == 1.0
         assert message("moveit_msgs/RobotTrajectory", way).joint_trajectory.points
     group.set_joint_value_target(before)
