@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import importlib
+import pkgutil
 from typing import TypeVar
 
 from gazelle.control.controller import Controller, ControllerSetup
@@ -88,12 +89,9 @@ def _find(name: str) -> type[Controller] | None:
 @functools.cache
 def _own(name: str) -> type[Controller]:
     """A class of the table, with the interface that the type is for."""
-    module, _, attribute = CONTROLLERS[name].code.partition(":")
-    found: type[Controller] = getattr(
-        importlib.import_module(f"gazelle.control.{module}"), attribute
-    )
+    found: type[Controller] = pkgutil.resolve_name(f"gazelle.control.{CONTROLLERS[name].code}")
     interfaces = CONTROLLERS[name].interfaces
-    return type(attribute, (found,), {"interfaces": interfaces, "__doc__": found.__doc__})
+    return type(found.__name__, (found,), {"interfaces": interfaces, "__doc__": found.__doc__})
 
 
 def _checked(found: object, name: str) -> type[Controller]:

@@ -8,6 +8,7 @@ in Gazelle's own table. A file can also name a Python class itself: ``filename="
 from __future__ import annotations
 
 import importlib
+import pkgutil
 import warnings
 from importlib.metadata import EntryPoint
 from typing import TypeVar, cast
@@ -71,8 +72,7 @@ def find(plugin: description.Plugin) -> type[BasePlugin] | None:
         return _load(point)
     row = known_plugins().get(stem)
     if row is not None and row.code:
-        module, _, name = row.code.partition(":")
-        return cast("type[BasePlugin]", getattr(importlib.import_module(module), name))
+        return cast("type[BasePlugin]", pkgutil.resolve_name(row.code))
     if row is not None and row.missing:
         _warn(plugin, f": {row.missing}")
     elif row is None and stem not in _missing:

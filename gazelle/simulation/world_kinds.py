@@ -6,7 +6,7 @@ which is imported by its name when a simulation first has such a model: this roo
 
 from __future__ import annotations
 
-import importlib
+import pkgutil
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
@@ -44,6 +44,5 @@ def find_world_kind(name: str) -> Start | None:
     """Return what starts a kind; None for one whose models run as all others."""
     if name not in _KINDS:
         return None
-    module, _, attribute = _KINDS[name].partition(":")
-    start: Start = getattr(importlib.import_module(module), attribute)
+    start: Start = pkgutil.resolve_name(_KINDS[name])
     return start

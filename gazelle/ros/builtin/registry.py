@@ -7,7 +7,7 @@ the package's, its value leads to a `BuiltinPackage`. It is loaded when the pack
 from __future__ import annotations
 
 import functools
-import importlib
+import pkgutil
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -151,8 +151,7 @@ def main_of(name: str, kind: str) -> Main:
     target = found.nodes.get(kind) if found is not None else None
     if target is None:
         raise RosError(f"no built-in package '{name}' has a node '{kind}'")
-    module, _, function = target.partition(":")
-    main: Main = getattr(importlib.import_module(module), function)
+    main: Main = pkgutil.resolve_name(target)
     return main
 
 
