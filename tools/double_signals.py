@@ -55,7 +55,7 @@ NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
 @dataclass
 class Tally:
-    """What happened.
+    """Counts and times of ended runs.
 
     Attributes:
         pairs: Ended runs by command line.

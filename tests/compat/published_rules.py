@@ -31,7 +31,7 @@ def scan(ranges, mod, low, high, convert, least):
 
 
 def clamped(item, low=0.3, high=6.0):
-    """What Husarion's task makes of a range."""
+    """Return a range as Husarion's task observes it."""
     return round(min(max(item, low), high), 1)
 
 
@@ -68,7 +68,7 @@ def drive(name, ranges, mod, x, y, action, closer, acceleration):
 
 
 def drone(seen, closer):
-    """Whether an episode of the drone is over, and the reward."""
+    """Return whether an episode of the drone is over, and the reward."""
     x, y, z, roll, pitch, _, sonar = seen
     inside = -1.0 < x <= 10.0 and -1.0 < y <= 5.0 and -1.0 < z <= 3.0
     upright = -1.57 < roll <= 1.57 and -1.57 < pitch <= 1.57
@@ -77,7 +77,7 @@ def drone(seen, closer):
 
 
 def wamv(seen, closer):
-    """Whether an episode of the WAM-V is over, and the reward."""
+    """Return whether an episode of the WAM-V is over, and the reward."""
     x, y = seen[:2]
     at_goal = near(x, y, (30.0, 0.0), 0.5)
     done = not (-1.0 < x <= 30.0 and -5.0 < y <= 5.0) or at_goal
@@ -85,7 +85,7 @@ def wamv(seen, closer):
 
 
 def cube(seen, before):
-    """Whether an episode of the cube is over, and the reward."""
+    """Return whether an episode of the cube is over, and the reward."""
     _, y, _, pitch, speed, yaw = seen
     if abs(pitch) > 0.3 or abs(yaw) > 0.3:
         return True, 10.0
@@ -94,12 +94,12 @@ def cube(seen, before):
 
 
 def cartpole(seen):
-    """Whether an episode of the cart and pole is over."""
+    """Return whether an episode of the cart and pole is over."""
     return seen[0] <= -1.0 or seen[0] >= 1.0 or seen[2] <= -0.7 or seen[2] >= 0.7
 
 
 def hopper(seen, roll, pitch):
-    """Whether an episode of the leg is over, and the reward; its tilt is not judged as rounded."""
+    """Return whether an episode of the leg is over, and the reward; its tilt is not rounded for it."""
     reward = 100.0 - 1.0 * sum(abs(each) for each in seen[5:8])
     reward = reward - 1.0 * abs(seen[4] - 7.08)
     reward = reward - 1.0 * (abs(seen[1]) + abs(seen[2]) + abs(seen[3] - 0.0))

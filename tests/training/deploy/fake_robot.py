@@ -34,7 +34,7 @@ class FakeRobot:
         self.x = self.y = self.yaw = 0.0
         self.time = 10.0
         self.delay = 0.0
-        """How old the readings of its sensors are [s]."""
+        """Age of the readings of its sensors [s]."""
         self.twists = []
         self.results, self.actions, self.status = [], [], []
         self._lock = threading.Lock()
