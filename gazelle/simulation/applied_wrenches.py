@@ -49,7 +49,7 @@ class TimedWrench:
     held: tuple[Floats, Floats] | None = None
 
     def resolve(self, engine: Engine) -> tuple[Floats, Floats]:
-        """Force and torque about the centre of mass, in the world frame, now."""
+        """Return the force and torque about the centre of mass, in the world frame, now."""
         if self.held is not None and not self.follow:
             return self.held
         force, torque, point = self.force, self.torque, self.point
@@ -114,7 +114,7 @@ class Loads:
         duration: float | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Let a wrench act on a link; see ``LinkHandle.apply_wrench``."""
+        """Apply a wrench to a link; see ``LinkHandle.apply_wrench``."""
         # What cannot be pushed is an error now, not when it begins.
         self._push_links([link], self._clock.now_ns)
         if frame:
@@ -135,7 +135,7 @@ class Loads:
         self._schedule()
 
     def hold(self, name: str, link: str, force: Floats, torque: Floats) -> None:
-        """Let a wrench act on a link until the same name gives another; for plugins.
+        """Apply a wrench to a link until the same name sets another; for plugins.
 
         Args:
             name: Whose wrench it is; with ``model::`` in it if it ends with that model.
@@ -154,7 +154,7 @@ class Loads:
         duration: float | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Let an effort act on a joint for a time; see ``JointHandle.apply_effort``."""
+        """Apply an effort to a joint for a time; see ``JointHandle.apply_effort``."""
         lasting = self._engine.joints[joint].effort()
         known = self._joints.setdefault(joint, _Joint(lasting))
         start_ns, end_ns = self._span(start, duration)
@@ -196,7 +196,7 @@ class Loads:
         return begin, begin + round(duration * NANOSECONDS)
 
     def _rows(self, values: ArrayLike, width: int, worlds: Worlds | None) -> Floats:
-        """Values of all worlds, zero in those not chosen."""
+        """Return values of all worlds, zero in those not chosen."""
         rows = np.zeros((self._engine.nworld, width))
         rows[slice(None) if worlds is None else worlds] = values
         if not np.isfinite(rows).all():
@@ -211,14 +211,14 @@ class Loads:
         return self._due_ns is not None or self._follows
 
     def update(self, now_ns: int) -> None:
-        """Begin and end what is due; to be called before every run of steps."""
+        """Start and end wrenches and efforts that are due; called before every run of steps."""
         if self._due_ns is not None and now_ns >= self._due_ns:
             self._change(now_ns)
         elif self._follows:
             self._push_links({w.target for w in self._wrenches if w.follow}, now_ns)
 
     def steps_until(self, clock: Clock) -> int | None:
-        """Physics steps until something begins or ends; None for never."""
+        """Return the physics steps until something starts or ends; None for never."""
         if self._follows:
             return 1
         if self._due_ns is None:
@@ -268,19 +268,19 @@ class Loads:
     # -- ending ------------------------------------------------------------------------
 
     def clear_link(self, link: str) -> None:
-        """End all wrenches on a link but those that plugins hold."""
+        """Remove all wrenches from a link except those that plugins hold."""
         self._wrenches = [w for w in self._wrenches if w.target != link]
         self._push_links([link], self._clock.now_ns)
         self._schedule()
 
     def clear_joint(self, joint: str) -> None:
-        """End all efforts on a joint, the lasting one too."""
+        """Remove all efforts from a joint, the lasting one too."""
         self._joints.pop(joint, None)
         self._engine.joints[joint].set_effort(np.zeros_like(self._engine.joints[joint].effort()))
         self._schedule()
 
     def forget(self, model: str) -> None:
-        """Drop what acts on, or is given in a frame of, a model that is gone."""
+        """Remove what acts on, or is given in a frame of, a deleted model."""
         inside, now_ns = f"{model}::", self._clock.now_ns
         for wrench in [w for w in self._wrenches if w.frame.startswith(inside)]:
             self._wrenches.remove(wrench)
@@ -295,7 +295,7 @@ class Loads:
         self._schedule()
 
     def reset(self, worlds: Worlds | None) -> None:
-        """End everything in these worlds, as the engine's reset does with what acts now."""
+        """Remove everything in these worlds, as the engine's reset does with what acts now."""
         if not (self._wrenches or self._joints or self._held):
             return
         if worlds is None:
@@ -314,7 +314,7 @@ class Loads:
     # -- saving ------------------------------------------------------------------------
 
     def state(self) -> dict[str, Any]:
-        """Everything that acts or waits, in plain lists and arrays."""
+        """Return all active and pending wrenches and efforts, in plain lists and arrays."""
         wrenches = [
             {name: getattr(wrench, name) for name in TimedWrench.__slots__}
             for wrench in self._wrenches
@@ -330,7 +330,7 @@ class Loads:
         return {"wrenches": wrenches, "joints": joints, "held": held}
 
     def restore(self, state: dict[str, Any]) -> None:
-        """Put back what ``state`` gave; what acts is in the engine's state."""
+        """Restore what ``state`` returned; what acts is in the engine's state."""
         self._wrenches = [TimedWrench(**each) for each in state["wrenches"]]
         self._joints = {
             name: _Joint(

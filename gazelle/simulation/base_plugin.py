@@ -37,14 +37,14 @@ class BasePlugin:
         return True
 
     def on_update(self, time: float) -> None:
-        """Act; called at ``update_rate``.
+        """Update the plugin; called at ``update_rate``.
 
         Args:
             time: Simulated time [s].
         """
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Use the random numbers of another seed from now on; a reset follows.
+        """Set the seed of the random numbers; a reset follows.
 
         Args:
             seed: Any int.
@@ -52,11 +52,11 @@ class BasePlugin:
         """
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget everything about these worlds (all if None), as if just loaded."""
+        """Reset these worlds (all if None) to the state after loading."""
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return {}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""

@@ -22,19 +22,19 @@ class Clock:
         return self.now_ns / NANOSECONDS
 
     def set_step(self, step: float) -> None:
-        """Go on with another physics step [s]."""
+        """Set the physics step [s]."""
         self.step_ns = round(step * NANOSECONDS)
 
     def advance(self, steps: int) -> None:
-        """Go on by physics steps."""
+        """Advance by physics steps."""
         self.now_ns += steps * self.step_ns
 
     def steps_in(self, seconds: float) -> int:
-        """The number of physics steps nearest to a time."""
+        """Return the number of physics steps nearest to a time."""
         return round(seconds * NANOSECONDS / self.step_ns)
 
     def steps_to(self, due_ns: int) -> int:
-        """Physics steps until a time, at least 1."""
+        """Return the physics steps until a time, at least 1."""
         return max(1, -((self.now_ns - due_ns) // self.step_ns))
 
 
@@ -65,7 +65,7 @@ class Stopwatch:
         self.start_ns = self._clock.now_ns
 
     def lap(self) -> float:
-        """Time since the start [s], which is now from here on."""
+        """Return the time since the start [s], and start again."""
         elapsed = self.elapsed
         self.restart()
         return elapsed
@@ -110,13 +110,13 @@ class Schedule:
         self.due_ns = 0 if self.rate <= 0.0 else round(value * NANOSECONDS / self.rate)
 
     def copy(self) -> Schedule:
-        """One that is due at the same times."""
+        """Return a schedule that is due at the same times."""
         made = Schedule(self.rate)
         made.count = self.count
         return made
 
     def follow(self, due_ns: int) -> None:
-        """Go on as a system that is due at a time [ns] now."""
+        """Set the time [ns] at which it is due next."""
         if self.rate > 0.0 and due_ns != self.due_ns:
             self._count, self.due_ns = round(due_ns * self.rate / NANOSECONDS), due_ns
 
@@ -125,7 +125,7 @@ class Schedule:
         return now_ns >= self.due_ns
 
     def done(self, now_ns: int) -> None:
-        """It has happened: the next time is the first multiple after now."""
+        """Set the next due time to the first multiple after now."""
         if self.rate > 0.0:
             self.count = int(now_ns * self.rate // NANOSECONDS)
             while self.due_ns <= now_ns:

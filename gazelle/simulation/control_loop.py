@@ -90,13 +90,13 @@ class ControlLoop(ModelPlugin):
     # -- what is done in steps --------------------------------------------------------------
 
     def _call(self, work: Callable[[], R], /) -> R:
-        """Do work between two steps, that may change what has to be done in them."""
+        """Call a function between two steps that may change what is due."""
         with self._robot.simulation.lock:
             self._stir()
             return work()
 
     def _stir(self) -> None:
-        """Python takes over what native code has in hand."""
+        """Return control from native code to Python."""
         if self._handed or self._resting:
             self._robot.simulation.loop.in_step.invalidate(self)
         self._resting = False
@@ -105,7 +105,7 @@ class ControlLoop(ModelPlugin):
             self._catch_up()
 
     def settle(self) -> None:
-        """Take over what native code did so far."""
+        """Take over the state that native code computed so far."""
         if self._handed:
             with self._robot.simulation.lock:
                 self._catch_up()
@@ -113,7 +113,7 @@ class ControlLoop(ModelPlugin):
     # -- what it is told ---------------------------------------------------------------
 
     def _measure(self) -> int:
-        """See joints as they are now, for controllers that start; returns the time [ns].
+        """Read the joints again, for controllers that start; returns the time [ns].
 
         Since the last update somebody may have put the joints elsewhere, and where nothing was to be
         done there was none for long: that is no period of control.
@@ -124,7 +124,7 @@ class ControlLoop(ModelPlugin):
         return self._clock.now_ns
 
     def set_period(self, seconds: float) -> None:
-        """Let controllers act at this period; as often as the physics if it is never set."""
+        """Set the period of the controllers; by default that of the physics."""
         self._stir()
         self._period_ns = round(seconds * NANOSECONDS)
         if self._period_ns < self._clock.step_ns:
@@ -135,7 +135,7 @@ class ControlLoop(ModelPlugin):
             warnings.warn(ControlWarning(text), stacklevel=2)
 
     def press(self, worlds: Worlds | None, *, on: bool) -> None:
-        """Press the emergency stop, or release it."""
+        """Press or release the emergency stop."""
         self._stir()
         rows = slice(None) if worlds is None else worlds
         before = self.stopped.copy()
@@ -148,7 +148,7 @@ class ControlLoop(ModelPlugin):
         self._told, self._restarts = False, bool(self._released.any())
 
     def _stop_emergency(self) -> None:
-        """Tell the hardware of the emergency stop, if there is anything new."""
+        """Report a change of the emergency stop to the hardware."""
         if not self._told:
             self.hardware.stop_emergency(self.stopped)
             self._told = type(self.hardware) is JointHardware  # another may want to know each time
@@ -222,7 +222,7 @@ class ControlLoop(ModelPlugin):
         self.manager.catch_up(now, updates, each / NANOSECONDS)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Begin anew: controllers that run hold the robot where it is put."""
+        """Reset these worlds: running controllers hold the robot where it is placed."""
         self._stir()
         rows = slice(None) if worlds is None else worlds
         self.stopped[rows] = self._released[rows] = False
@@ -236,7 +236,7 @@ class ControlLoop(ModelPlugin):
         self.manager.reset(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Of hardware and controllers."""
+        """Return the state of hardware and controllers."""
         self.settle()
         times = [-1 if each is None else each for each in (self._updated_ns, self._written_ns)]
         return {
@@ -248,7 +248,7 @@ class ControlLoop(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._stir()
         times = [None if each < 0 else int(each) for each in state["times"]]
         self._updated_ns, self._written_ns = times
@@ -282,7 +282,7 @@ class ControlSystem(PluginSystem[ControlLoop]):
         return self.plugins[0].in_step()
 
     def settle(self) -> None:
-        """Take over what native code did."""
+        """Take over the state that native code computed."""
         self.plugins[0].settle()
 
 
@@ -295,7 +295,7 @@ def _below(begin: str, state: Mapping[str, NDArray[np.generic]]) -> dict[str, ND
 
 
 def add_controllers(robot: Robot) -> ControllerManager:
-    """Let a robot be controlled that no file lets be: each joint with one axis, through any interface."""
+    """Add controllers to a robot without any: each single-axis joint through any interface."""
     joints = [
         CommandedJoint(name, INTERFACES, JointLimits.of_joint(robot.joint_description(name)))
         for name, handle in robot.joints.items()

@@ -41,7 +41,7 @@ class BlockedOwner:
         self._since = 0.0
 
     def check(self, owner: int) -> None:
-        """Look once more.
+        """Check again for a deadlock.
 
         Args:
             owner: Identifier of the thread; 0 for nobody.
@@ -91,7 +91,7 @@ def _joins_me(frame: FrameType | None) -> bool:
 
 
 def _caller(frame: FrameType) -> str:
-    """File and line of who called the waiting functions."""
+    """Return file and line of the caller of the waiting functions."""
     here: FrameType | None = frame
     while here is not None and here.f_code.co_filename in _WAITING:
         here = here.f_back

@@ -107,7 +107,7 @@ class FaultLog:
 
 
 def _of_one(call: Call, world: int) -> Call:
-    """A call of an engine's history as one world alone needs it."""
+    """Return a call of an engine's history, reduced to one world."""
     if call.method != "set_parameter":
         return call
     kind, name, values = call.arguments

@@ -26,7 +26,7 @@ _KINDS: dict[str, Callable[..., Any]] = {
 
 
 def encode(value: Any) -> Any:
-    """A value as JSON has it.
+    """Convert a value to what JSON can hold.
 
     Raises:
         SimulationError: It holds something that cannot be written.

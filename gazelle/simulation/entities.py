@@ -60,7 +60,7 @@ class EntityManager:
         return next((each for each in found if isinstance(each, kind)), None)
 
     def adopt_all(self, models: Sequence[Model]) -> None:
-        """Make the handles of models that the engine has, and start their plugins.
+        """Make the handles of models in the engine, and start their plugins.
 
         Those that a kind of world runs without a plugin can wait until their handle is needed.
         All handles are made before the first plugin is started: plugins ask the engine for motors
@@ -79,7 +79,7 @@ class EntityManager:
             adopt(self._simulation, model, robot, self._kinds[model.kind])
 
     def adopt(self, model: Model, namespace: str) -> Robot:
-        """Make the handle of a model that the engine has, and start its plugins."""
+        """Make the handle of a model in the engine, and start its plugins."""
         self._start_kinds((model,))
         robot = self._handle(model, namespace)
         adopt(self._simulation, model, robot, self._kinds[model.kind])
@@ -102,13 +102,13 @@ class EntityManager:
                 self._kinds[name] = None if start is None else start(self._simulation)
 
     def _make(self, name: str) -> Robot:
-        """Make the handle of a model that was put off."""
+        """Make the handle of a model that was deferred."""
         with self._simulation.lock:
             model = self._awaited.pop(name, None)
             return self.robots[name] if model is None else self.adopt(model, "")
 
     def delete(self, name: str) -> None:
-        """Take a model out of every world, with its plugins.
+        """Delete a model from every world, with its plugins.
 
         Raises:
             SimulationError: There is no such model.
@@ -132,7 +132,7 @@ class EntityManager:
             simulation.events.deleted.tell(gone)
 
     def reset(self, worlds: Worlds | None, *, seed: int | None = None, time: bool = True) -> None:
-        """Put everything back to its initial state; see ``Simulation.reset``."""
+        """Reset everything to its initial state; see ``Simulation.reset``."""
         simulation = self._simulation
         simulation.engine.reset(worlds)
         simulation.loads.reset(worlds)

@@ -18,7 +18,7 @@ class Event:
         return lambda: self._listeners.remove(listener)
 
     def tell(self, *arguments: object) -> None:
-        """It happened."""
+        """Call all listeners."""
         for listener in tuple(self._listeners):
             listener(*arguments)
 

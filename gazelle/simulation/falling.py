@@ -42,7 +42,7 @@ class FallWatch:
         self._lowest: Floats = np.zeros(0)
 
     def look(self, now_ns: int) -> None:
-        """Look for models that fall, once in a simulated second."""
+        """Check for falling models, once in a simulated second."""
         period = now_ns // _PERIOD_NS
         if period == self._period:
             return
@@ -61,7 +61,7 @@ class FallWatch:
                 self._judge(model, world, float(heights[world, column]), now_ns / 1e9)
 
     def _watch(self, world: World) -> None:
-        """Look for models of a world from now on."""
+        """Start watching the models of a world."""
         self._world = world
         self._watched = [
             model

@@ -10,7 +10,7 @@ R = TypeVar("R")
 
 
 def of_one_kind(items: Iterable[T], kind: Callable[[T], Hashable | None]) -> list[list[T]]:
-    """Things by their kind, groups and things in order; those of no kind (None) are left out."""
+    """Return group items by kind, in order; those without a kind (None) are left out."""
     groups: dict[Hashable, list[T]] = {}
     for item in items:
         its = kind(item)
@@ -22,7 +22,7 @@ def of_one_kind(items: Iterable[T], kind: Callable[[T], Hashable | None]) -> lis
 def with_replacements(
     items: Iterable[T], replaced: Iterable[tuple[Sequence[T], R | None]]
 ) -> list[T | R]:
-    """Things in order, what stands for a group in the place of the group's first.
+    """Return items in order, with each group replaced by its substitute at the group's first item.
 
     Args:
         items: All.

@@ -29,7 +29,7 @@ _LONGEST = 60
 
 
 def chosen(worlds: ArrayLike | None, nworld: int) -> Worlds | None:
-    """Indices or a mask of worlds as indices, in the order given; None stays None.
+    """Return indices of worlds, given as indices or a mask, in the order given; None stays None.
 
     Raises:
         SimulationError: There is no such world.
@@ -62,7 +62,7 @@ def is_ascending(worlds: Worlds) -> bool:
 
 
 def one_world(world: int, nworld: int) -> int:
-    """The index of a world.
+    """Return the index of a world.
 
     Raises:
         SimulationError: There is no such world, or it is no int.
@@ -82,7 +82,7 @@ def size_of(worlds: Worlds | None, nworld: int) -> int:
 
 
 def finite(what: str, values: ArrayLike, width: int, count: int, *, alike: bool = False) -> Floats:
-    """Finite numbers of a known shape; see ``numbers``.
+    """Return finite numbers of a known shape; see ``numbers``.
 
     Raises:
         SimulationError: They are not numbers, not finite, or too many or too few.
@@ -94,7 +94,7 @@ def finite(what: str, values: ArrayLike, width: int, count: int, *, alike: bool 
 
 
 def numbers(what: str, values: ArrayLike, width: int, count: int, *, alike: bool = False) -> Floats:
-    """Numbers of a known shape: (width,) or (count, width); single ones may be () and (count,).
+    """Return numbers of shape (width,) or (count, width); single ones may be () or (count,).
 
     Args:
         what: For the message.
@@ -123,7 +123,7 @@ def numbers(what: str, values: ArrayLike, width: int, count: int, *, alike: bool
 def placement(
     name: str, position: ArrayLike, quaternion: ArrayLike, count: int
 ) -> tuple[Floats, Floats]:
-    """A position and a quaternion that something can be put at in so many worlds.
+    """Return a valid position and quaternion for so many worlds.
 
     Raises:
         SimulationError: They are not finite, too far away, no orientation, or of another shape.
@@ -143,7 +143,7 @@ def placement(
 
 
 def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tuple[Floats, Floats]:
-    """A linear and an angular velocity that something can be given in so many worlds.
+    """Return a valid linear and angular velocity for so many worlds.
 
     Raises:
         SimulationError: They are not finite, or of another shape.
@@ -155,7 +155,7 @@ def motion(name: str, linear: ArrayLike, angular: ArrayLike, count: int) -> tupl
 
 
 def number(what: str, value: object) -> float:
-    """A single number.
+    """Return a single number.
 
     Raises:
         SimulationError: It is none.
@@ -169,7 +169,7 @@ def number(what: str, value: object) -> float:
 
 
 def steps(count: int) -> int:
-    """A number of physics steps.
+    """Return a valid number of physics steps.
 
     Raises:
         SimulationError: It is negative, or no int.
@@ -186,7 +186,7 @@ def steps(count: int) -> int:
 
 
 def duration(seconds: float) -> float:
-    """A time to run [s].
+    """Return a valid duration [s].
 
     Raises:
         SimulationError: It is negative or not finite.
@@ -203,7 +203,7 @@ def duration(seconds: float) -> float:
 
 
 def placeable(model: Model) -> Model:
-    """A model that a world can hold.
+    """Return a model whose name and pose are valid.
 
     Raises:
         SimulationError: Its name or its pose cannot be.
@@ -226,6 +226,6 @@ def placeable(model: Model) -> Model:
 
 
 def _short(values: object) -> str:
-    """Values as text of one line."""
+    """Return values as text of one line."""
     text = " ".join(str(values).split())
     return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."

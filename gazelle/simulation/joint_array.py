@@ -45,7 +45,7 @@ class JointArray:
 
     @between_steps
     def place(self, position: ArrayLike, velocity: ArrayLike, chosen: Bools) -> None:
-        """Put joints somewhere, to their limits at most, and give them velocities.
+        """Set the positions of joints, clipped to their limits, and their velocities.
 
         Args:
             position: [m or rad], shape (nworld, joints) or one that broadcasts to it.

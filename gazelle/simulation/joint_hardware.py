@@ -115,7 +115,7 @@ class JointHardware(SimulatedHardware):
         self._arrange()
 
     def _ports(self) -> dict[str, Any]:
-        """Arrays that native code works on."""
+        """Return the arrays that native code works on."""
         cycle, states = self.cycle, self.states
         ports: dict[str, Any] = {
             "measured": cycle.position_in, "measured_rate": cycle.velocity_in,
@@ -146,7 +146,7 @@ class JointHardware(SimulatedHardware):
         self._move_motors()
 
     def _move_motors(self) -> None:
-        """Put motors on joints that hold velocities, and switch those of others off."""
+        """Add motors to joints that hold velocities, and switch off those of others."""
         wanted = set(np.flatnonzero(self._kinds == BY_MOTOR).tolist())
         for index in sorted(self._motors - wanted):
             self._handles[index].add_motor(0.0)
@@ -181,7 +181,7 @@ class JointHardware(SimulatedHardware):
         self._forget(some, np.arange(self.nworld))
 
     def _forget(self, joints: Iterable[int], worlds: Worlds) -> None:
-        """Hold positions from where joints are, wherever they were commanded to be before."""
+        """Hold the current joint positions and discard earlier commands."""
         by_position = (BY_POSITION, BY_PLACE)
         some = np.array([i for i in joints if self._kinds[i] in by_position], np.intp)
         cells = np.ix_(worlds, some)
@@ -196,7 +196,7 @@ class JointHardware(SimulatedHardware):
         self.law.read_all()
 
     def measure(self, time: float) -> None:
-        """``read``, but joints that have limits are where they are, however many turns away that is."""
+        """Read the joints; positions of joints with limits are not wrapped."""
         self._look()
         states = self.states
         states.position[:, self._limited] = self.cycle.position_in[:, self._limited]
@@ -216,7 +216,7 @@ class JointHardware(SimulatedHardware):
         return self._rows
 
     def stop_emergency(self, stopped: Bools) -> None:
-        """Take the power from joints, and hold those where they are that hold positions."""
+        """Switch off efforts, and hold position-controlled joints where they are."""
         memory = self._memory
         begun = stopped & ~memory.stopped
         if begun.any():
@@ -251,14 +251,14 @@ class JointHardware(SimulatedHardware):
         return self.cycle
 
     def write(self, time: float, period: float) -> None:  # noqa: ARG002  it needs no time
-        """Hold the commands within limits, and act on them."""
+        """Apply the commands within limits."""
         self.law.write_all(period)
         if self._put_names:
             self._place(period)
         self._act()
 
     def _act(self) -> None:
-        """Let act what changed."""
+        """Apply the commands that changed."""
         cycle = self.cycle
         if not (cycle.pushed_out.any() or cycle.driven_out.any()):
             return
@@ -274,7 +274,7 @@ class JointHardware(SimulatedHardware):
         cycle.pushed_out[:], cycle.driven_out[:] = 0.0, 0
 
     def _place(self, period: float) -> None:
-        """Put joints where they have to be after the step, as fast as their commands move."""
+        """Set joint positions for the next step, at the speed of their commands."""
         put = self._put
         wanted, before = self._memory.wanted[:, put], self._placed[:, put]
         good = np.isfinite(wanted)
@@ -290,7 +290,7 @@ class JointHardware(SimulatedHardware):
     # -- beginning anew ----------------------------------------------------------------
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Know nothing of these worlds."""
+        """Discard the state of these worlds."""
         rows = slice(None) if worlds is None else worlds
         states, memory, cycle = self.states, self._memory, self.cycle
         states.position[rows] = states.effort[rows] = 1.0
@@ -306,7 +306,7 @@ class JointHardware(SimulatedHardware):
                     values[rows] = 0.0
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """All that changes."""
+        """Return all mutable state."""
         memory = self._memory
         own = {
             "stopped": memory.stopped.copy(),
@@ -321,7 +321,7 @@ class JointHardware(SimulatedHardware):
         return {**super().state(), **own}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         super().restore(state)
         active = [INTERFACES[int(each)] for each in state["active"]]
         if active != self._active:

@@ -85,7 +85,7 @@ class JointHandle:
         duration: float | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Let an effort act for a time, besides what acts already.
+        """Apply an effort for a time, added to other efforts.
 
         Args:
             effort: [N or N m], shape (), (n,) or (n, axes).
@@ -102,30 +102,39 @@ class JointHandle:
 
     @between_steps
     def clear_efforts(self) -> None:
-        """End all efforts on the joint, in all worlds."""
+        """Remove all efforts from the joint, in all worlds."""
         self._simulation.loads.clear_joint(self.name)
 
     def _some(self, worlds: Worlds | None) -> Worlds | None:
         return chosen(worlds, self._engine.nworld)
 
     def _effort_of(self, values: ArrayLike, worlds: Worlds | None) -> Floats:
-        """Efforts of the right shape. One that is not finite breaks its own world, no other."""
+        """Return efforts of the right shape.
+
+        One that is not finite breaks its own world, no other.
+        """
         count = size_of(worlds, self._engine.nworld)
         return numbers(f"the effort on joint '{self.name}'", values, self.axes, count, alike=True)
 
     @between_steps
     def positions(self, worlds: Worlds | None = None) -> Floats:
-        """Positions of all axes, shape (n, axes); of ball joints quaternions, shape (n, 4)."""
+        """Return the positions of all axes, shape (n, axes).
+
+        Quaternions of ball joints, shape (n, 4).
+        """
         return self._row.position(self._some(worlds))
 
     @between_steps
     def velocities(self, worlds: Worlds | None = None) -> Floats:
-        """Velocities of all axes, shape (n, axes)."""
+        """Return the velocities of all axes, shape (n, axes)."""
         return self._row.velocity(self._some(worlds))
 
     @between_steps
     def set_position(self, position: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Put it somewhere in some worlds (all if None) [m or rad], shape as `positions` or (axes,)."""
+        """Set the position in some worlds (all if None).
+
+        In m or rad, shape as `positions` or (axes,).
+        """
         width, some = self.positions(np.array([0])).shape[1], self._some(worlds)
         count = size_of(some, self._engine.nworld)
         what = f"the position of joint '{self.name}'"
@@ -133,7 +142,7 @@ class JointHandle:
 
     @between_steps
     def set_velocity(self, velocity: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Give it a velocity in some worlds [m/s or rad/s], shape as `velocities` or (axes,)."""
+        """Set the velocity in some worlds [m/s or rad/s], shape as `velocities` or (axes,)."""
         some = self._some(worlds)
         what, count = f"the velocity of joint '{self.name}'", size_of(some, self._engine.nworld)
         given = finite(what, velocity, self.axes, count, alike=True)
@@ -146,7 +155,7 @@ class JointHandle:
 
     @between_steps
     def add_motor(self, max_effort: ArrayLike) -> None:
-        """Put a velocity motor on it that holds still until ``drive``.
+        """Add a velocity motor that holds the joint at rest until ``drive``.
 
         Args:
             max_effort: Of all axes or of each [N or N m], shape () or (axes,).
@@ -158,7 +167,7 @@ class JointHandle:
 
     @between_steps
     def motor_effort(self, worlds: Worlds | None = None) -> Floats:
-        """Largest efforts of its motor [N or N m], shape (n, axes).
+        """Return the largest efforts of the joint's motor [N or N m], shape (n, axes).
 
         Raises:
             EngineError: There is no motor on it.
@@ -195,7 +204,9 @@ class JointHandle:
         motor_effort: ArrayLike | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Change how the joint moves; what is None stays. All shapes: (), (n,) or (n, axes).
+        """Set properties of the joint; those that are None stay.
+
+        All shapes: (), (n,) or (n, axes).
 
         Args:
             damping: Viscous [N s/m or N m s/rad].

@@ -10,7 +10,7 @@ from gazelle.errors import SimulationError, did_you_mean
 
 
 def with_light(world: World, name: str, changes: dict[str, Any]) -> World:
-    """The world with fields of one of its lights replaced.
+    """Return the world with fields of one of its lights replaced.
 
     Raises:
         SimulationError: There is no such light, or no such field.

@@ -42,12 +42,12 @@ class LinkHandle:
 
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
-        """Its pose in many worlds."""
+        """Return the pose in many worlds."""
         return self._row.placement(chosen(worlds, self._engine.nworld))
 
     @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:
-        """Its velocity in many worlds, in the world frame."""
+        """Return the velocity in many worlds, in the world frame."""
         return self._row.motion(chosen(worlds, self._engine.nworld))
 
     @between_steps
@@ -59,7 +59,7 @@ class LinkHandle:
         yaw: ArrayLike | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Put the link somewhere, with all that hangs on it, joints as they are.
+        """Set the pose of the link and of everything attached to it; joints stay as they are.
 
         A link that hangs on a joint takes the part of the pose that its joint allows, and a
         warning says if that is not all.
@@ -80,7 +80,7 @@ class LinkHandle:
     def approach(
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
     ) -> str:
-        """Put the link somewhere like ``set_pose``; returns what its joint keeps it from."""
+        """Set the pose like ``set_pose``; returns a text if the link's joint prevents it."""
         some = chosen(worlds, self._engine.nworld)
         goal = placement(self.name, position, quaternion, size_of(some, self._engine.nworld))
         joint = self._row.set_placement(*goal, some)
@@ -95,7 +95,7 @@ class LinkHandle:
     def set_twist(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give the link a velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3).
+        """Set the velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3).
 
         The joints of what hangs on it keep their speeds. A link that hangs on a joint takes the
         part that its joint allows.
@@ -120,7 +120,7 @@ class LinkHandle:
         duration: float | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Push the link for a time. Several wrenches at once add up.
+        """Apply a wrench to the link for a time. Several wrenches at once add up.
 
         Args:
             force: [N], shape (3,) or (n, 3).
@@ -156,7 +156,7 @@ class LinkHandle:
 
     @between_steps
     def clear_wrenches(self) -> None:
-        """End all wrenches on the link, in all worlds."""
+        """Remove all wrenches from the link, in all worlds."""
         self._simulation.loads.clear_link(self.name)
 
     @between_steps
@@ -169,7 +169,7 @@ class LinkHandle:
         gravity: ArrayLike | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Change what the link weighs; what is None stays.
+        """Set mass properties of the link; those that are None stay.
 
         Args:
             mass: [kg], shape () or (n,).
@@ -205,7 +205,7 @@ def _apart(here: Placement, position: Floats, quaternion: Floats) -> str:
 
 
 def orientation_of(quaternion: ArrayLike | None, yaw: ArrayLike | None) -> ArrayLike:
-    """A quaternion (x, y, z, w), or that of a heading [rad]; upright if neither is given.
+    """Return a quaternion (x, y, z, w), given as such or as a heading [rad]; identity by default.
 
     Raises:
         SimulationError: Both are given.

@@ -33,7 +33,7 @@ class Named(Mapping[str, T]):
             ) from None
 
     def get(self, name: str, default: Any = None) -> Any:
-        """The item of a name; the default if there is none."""
+        """Return the item of a name, or the default."""
         return self._items.get(self._own(name), default)
 
     def __contains__(self, name: object) -> bool:
@@ -61,11 +61,11 @@ class MadeOnDemand(MutableMapping[str, T], Generic[T]):
         self._items: dict[str, T | None] = {}
 
     def put_off(self, name: str) -> None:
-        """There is an item, to be made later."""
+        """Register an item to be made later."""
         self._items[name] = None
 
     def made(self) -> list[T]:
-        """All that were made."""
+        """Return all items made so far."""
         return [item for item in self._items.values() if item is not None]
 
     def __getitem__(self, name: str) -> T:

@@ -9,7 +9,7 @@ from gazelle.simulation.running_state import RunningState
 
 
 def link_handles(simulation: RunningState, model: Model) -> dict[str, LinkHandle]:
-    """The links of a model, by name within it."""
+    """Return the links of a model, by name within it."""
     return {
         name_within(placed.scope, model.name, link.name): LinkHandle(
             simulation, f"{placed.scope}::{link.name}", link
@@ -20,7 +20,7 @@ def link_handles(simulation: RunningState, model: Model) -> dict[str, LinkHandle
 
 
 def joint_handles(simulation: RunningState, model: Model) -> dict[str, JointHandle]:
-    """The joints of a model that move, by name within it."""
+    """Return the movable joints of a model, by name within it."""
     moving = set(simulation.engine.joints.names)
     return {
         name_within(placed.scope, model.name, joint.name): JointHandle(
@@ -33,7 +33,7 @@ def joint_handles(simulation: RunningState, model: Model) -> dict[str, JointHand
 
 
 def name_within(scope: str, top: str, name: str) -> str:
-    """A name within a model, as its robot has it.
+    """Return a name within a model as its robot has it.
 
     Args:
         scope: Scoped name of the model that has it, which may be nested.

@@ -50,21 +50,21 @@ class NavigationControl(Protocol):
         grid: OccupancyMap | None = ...,
         localization: str = ...,
     ) -> None:
-        """Use parameters of ``move_base``, a map, and truth, ``amcl`` or ``slam`` for the place."""
+        """Set parameters of ``move_base``, a map and localisation: truth, ``amcl`` or ``slam``."""
 
     def go_to(
         self, x: float, y: float, yaw: float | None = ..., *, worlds: Worlds | None = ...
     ) -> NavigationTask:
-        """Go there; the simulation has to run."""
+        """Send the robot to a goal; the simulation has to run."""
 
     def explore(self, settings: Any = ..., *, worlds: Worlds | None = ...) -> NavigationTask:
-        """Go from frontier to frontier until the map is whole; the simulation has to run."""
+        """Explore frontiers until the map is complete; the simulation has to run."""
 
     def map(self, world: int = ...) -> OccupancyMap | None:
-        """The map that a world's robot works on."""
+        """Return the map that a world's robot uses."""
 
     def cancel(self, worlds: Worlds | None = ...) -> None:
-        """Have no goal, and stand."""
+        """Cancel the goal and stop."""
 
     def plans(self) -> dict[int, NavigationPlan]:
-        """The goal of each world that has one, and the way there."""
+        """Return the goal of each world that has one, with the path to it."""

@@ -41,7 +41,7 @@ class Parameter:
 
     @between_steps
     def set(self, name: str, values: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Change some worlds (all if None).
+        """Set the parameter in some worlds (all if None).
 
         Args:
             name: Scoped name.
@@ -144,7 +144,7 @@ class InitialPoses:
 
     @between_steps
     def apply(self, worlds: Worlds | None) -> None:
-        """Put the models there; part of a reset."""
+        """Place the models at their initial poses; part of a reset."""
         rows = slice(None) if worlds is None else worlds
         for name, poses in self._poses.items():
             self._simulation.engine.models[name].set_placement(
@@ -153,17 +153,17 @@ class InitialPoses:
 
     @between_steps
     def forget(self, model: str) -> None:
-        """Drop those of a model that is gone."""
+        """Remove those of a deleted model."""
         self._poses.pop(model, None)
 
     @between_steps
     def state(self) -> dict[str, Floats]:
-        """All that was set."""
+        """Return everything that was set."""
         return {name: poses.copy() for name, poses in self._poses.items()}
 
     @between_steps
     def restore(self, state: Mapping[str, Any]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._poses = dict(state)
 
 
@@ -235,7 +235,10 @@ class WorldParameters:
 
     @between_steps
     def stream(self, name: str) -> Stream:
-        """Random numbers for one purpose; world i's depend on the seed, the name and i alone."""
+        """Return random numbers for one purpose.
+
+        World i's depend on the seed, the name and i alone.
+        """
         if name not in self._streams:
             seed, nworld = self._simulation.seed, self._simulation.nworld
             self._streams[name] = Stream(seed, f"parameters/{name}", nworld)
@@ -250,7 +253,7 @@ class WorldParameters:
         high: ArrayLike,
         worlds: Worlds | None = None,
     ) -> Floats:
-        """Draw a parameter evenly between two bounds in each world.
+        """Return sample a parameter uniformly between two bounds in each world.
 
         Args:
             kind: Such as ``link_mass``, ``friction`` or ``gravity``: an attribute of this class.
@@ -286,7 +289,7 @@ class WorldParameters:
 
     @between_steps
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Draw with the random numbers of another seed from now on."""
+        """Set the seed of the random numbers."""
         for stream in self._streams.values():
             stream.reseed(seed, worlds)
 
@@ -298,7 +301,7 @@ class WorldParameters:
 
     @between_steps
     def restore(self, state: Mapping[str, Any]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.pose.restore(state["pose"])
         self._streams = {}
         for name, (keys, counters) in state["streams"].items():

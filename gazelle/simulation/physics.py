@@ -78,7 +78,7 @@ class PhysicsProperties:
         self._lock = simulation.lock
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Refuse what is no property: it would have no effect, and nobody would notice."""
+        """Reject an unknown property, which would have no effect."""
         if not name.startswith("_") and not hasattr(type(self), name):
             here = [own for own, theirs in (_OF_PROFILE | _OF_SOLVER).items() if theirs == name]
             hint = f"it is called {here[0]} here" if here else did_you_mean(name, _NAMES)
@@ -298,7 +298,7 @@ class PhysicsProperties:
 
     @between_steps
     def set(self, /, **values: Any) -> None:
-        """Change several properties at once, by the names of this class's attributes.
+        """Set several properties at once, by the names of this class's attributes.
 
         Raises:
             SimulationError: There is no such property, or a value cannot be.
@@ -310,7 +310,7 @@ class PhysicsProperties:
 
     @between_steps
     def use(self, preset: str) -> None:
-        """Take another of the physics profiles that the world's file has.
+        """Select another of the physics profiles in the world's file.
 
         Raises:
             SimulationError: There is none of that name.

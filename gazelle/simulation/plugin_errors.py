@@ -36,7 +36,7 @@ def warn_of_fault(
 
 
 def _line(plugin: object, error: Exception) -> str:
-    """The innermost line of the plugin's own module, or else of all."""
+    """Return the innermost line of the plugin's own module, or else of all."""
     frames = traceback.extract_tb(error.__traceback__)
     module = getattr(sys.modules.get(type(plugin).__module__), "__file__", None)
     own = [frame for frame in frames if frame.filename == module]

@@ -69,7 +69,7 @@ class PluginSystem(Generic[P]):
         return self.acts
 
     def update(self, time: float) -> None:
-        """Act for all rows; called at the plugins' ``update_rate``.
+        """Update all rows; called at the plugins' ``update_rate``.
 
         Args:
             time: Simulated time [s].
@@ -83,7 +83,7 @@ class PluginSystem(Generic[P]):
         return None
 
     def settle(self) -> None:
-        """Take over what was done in steps by what ``in_step`` gave."""
+        """Take over what ``in_step`` computed in steps."""
 
     def measure(self, plugins: Sequence[P]) -> Sequence[Any]:
         """Return what ``publish`` gets for some rows, measured at once after ``update``.

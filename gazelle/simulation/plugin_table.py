@@ -44,6 +44,6 @@ class KnownPlugin:
 
 @functools.cache
 def known_plugins() -> Mapping[str, KnownPlugin]:
-    """The rows by file name, without ``lib`` and ``.so``."""
+    """Return the rows by file name, without ``lib`` and ``.so``."""
     rows: tuple[KnownPlugin, ...] = importlib.import_module(_TABLE).TABLE
     return {name: row for row in rows for name in row.files}

@@ -56,7 +56,7 @@ class TwistInput(StatePart):
     def keep_in(
         self, linear: Floats, angular: Floats, revision: NDArray[np.int64] | None = None
     ) -> None:
-        """Keep commands in other arrays from now on, such as columns of those of a system.
+        """Store commands in other arrays from now on, such as columns of a system.
 
         Args:
             linear: Shape (nworld, 3).
@@ -96,7 +96,7 @@ class TwistInput(StatePart):
         self._revision += 1
 
     def _vectors(self, given: ArrayLike, axis: int, count: int) -> Floats:
-        """Vectors of so many worlds, shape (count, 3) or (1, 3)."""
+        """Return vectors of so many worlds, shape (count, 3) or (1, 3)."""
         try:
             values = np.asarray(given, np.float64)
         except (TypeError, ValueError, OverflowError):
@@ -122,7 +122,7 @@ class TwistInput(StatePart):
 
     @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:
-        """Forget the last command: stand still."""
+        """Discard the last command: stop."""
         some = chosen(worlds, len(self.linear))
         rows: slice | Worlds = slice(None) if some is None else some
         self.linear[rows] = 0.0
@@ -158,7 +158,7 @@ class Input(StatePart, Generic[T]):
 
     @between_steps
     def send(self, value: T, worlds: Worlds | None = None) -> None:
-        """Hand over a value.
+        """Send a value to the port.
 
         Args:
             value: Of the port's kind.
@@ -168,7 +168,7 @@ class Input(StatePart, Generic[T]):
 
     @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:
-        """Forget the last value."""
+        """Discard the last value."""
         if self._forget is not None:
             self._forget(self._some(worlds))
 
@@ -197,7 +197,7 @@ class Service(StatePart, Generic[Q, R]):
 
     @between_steps
     def call(self, request: Q, worlds: Worlds | None = None) -> R:
-        """Ask.
+        """Call the service.
 
         Args:
             request: Of the service's request type, or None.
@@ -281,7 +281,7 @@ class Output(StatePart, Generic[T]):
         self._note()
 
     def _note(self) -> None:
-        """Let it be known that somebody else listens now."""
+        """Report a change of subscribers to the step loop."""
         if self._lock is not None:
             self._lock.changes += 1
 
@@ -300,7 +300,7 @@ class Output(StatePart, Generic[T]):
 
     @between_steps
     def forget(self) -> None:
-        """Let ``last`` be what is true now: after a reset what was published is not."""
+        """Discard the last value; after a reset ``last`` is computed again."""
         self._last = None
 
 
@@ -329,7 +329,7 @@ class PortTable(dict[str, T]):
         super().__setitem__(name, port)
 
     def __missing__(self, name: str) -> NoReturn:
-        """Say what there is.
+        """Raise an error that lists the known names.
 
         Raises:
             UnknownNameError: There is no port of this name.

@@ -49,14 +49,14 @@ VERSION = 2
 
 
 def state_hash(state: NDArray[np.float64]) -> str:
-    """A hash of a state, to the bit: 16 hexadecimal digits of BLAKE2b."""
+    """Return a hash of a state, to the bit: 16 hexadecimal digits of BLAKE2b."""
     return hashlib.blake2b(np.ascontiguousarray(state).tobytes(), digest_size=8).hexdigest()
 
 
 def header(
     simulation: RunningState, history: Iterable[Call], state: NDArray[np.float64], time_ns: int
 ) -> dict[str, Any]:
-    """The first line of a recording: what ran, and from where on."""
+    """Return the first line of a recording: the simulation and its initial state."""
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -144,7 +144,7 @@ class Recorder(Closeable):
         )
 
     def _stepped(self, count: int = 1, systems: Sequence[System] = (), now_ns: int = 0) -> None:
-        """Make steps, and update systems between them."""
+        """Record steps, with updates of systems between them."""
         if self._depth or not systems:
             self._called("step", self._step, count, (), now_ns)
             return
@@ -174,7 +174,7 @@ class Recorder(Closeable):
     def _called(
         self, name: str, method: Callable[..., Any], *args: Any, past: int = 0, **options: Any
     ) -> Any:
-        """Do what was asked; write it down unless it is part of something larger."""
+        """Call a method; record it unless it is part of a larger one."""
         if self._depth:
             return method(*args, **options)
         given = args[:1] if name == "step" else args  # systems write the state before

@@ -27,13 +27,13 @@ _missing: set[str] = set()
 
 
 def register(filename: str, plugin: P) -> P:
-    """Let descriptions name a plugin class by a file name, such as ``libmy_drive.so``."""
+    """Register a plugin class under a file name, such as ``libmy_drive.so``."""
     _registered[_stem(filename)] = plugin
     return plugin
 
 
 def names() -> list[str]:
-    """All plugins that are known, as descriptions name them; those too that are not simulated."""
+    """Return all known plugins, as descriptions name them, including those not simulated."""
     stems = {*_registered, *entry_points_of_others(_GROUP), *known_plugins()}
     return sorted(f"lib{stem}.so" for stem in stems)
 
@@ -55,7 +55,7 @@ def purpose(filename: str) -> str:
 
 
 def find(plugin: description.Plugin) -> type[BasePlugin] | None:
-    """The class for a ``<plugin>``; None, with a warning where the world is without something.
+    """Return the class for a ``<plugin>``; None, with a warning where a function is missing.
 
     A plugin that is not known is warned of once a file name.
 
@@ -97,7 +97,7 @@ def _nearest(filename: str) -> str:
 
 
 def _import(plugin: description.Plugin) -> type[BasePlugin]:
-    """The Python class that a file names as ``package.module:Class``."""
+    """Import the Python class that a file names as ``package.module:Class``."""
     name, _, attribute = plugin.filename.partition(":")
     try:
         module = importlib.import_module(name)

@@ -63,7 +63,7 @@ class Replay(Closeable):
         return self._next >= len(self._events)
 
     def step(self, most: int | None = None) -> bool:
-        """Go on to the end of the next recorded run of steps; False when there is none.
+        """Advance to the end of the next recorded run of steps; False when there is none.
 
         Args:
             most: Make so many of its steps at most; the state is compared at its end.
@@ -94,14 +94,14 @@ class Replay(Closeable):
         return False
 
     def run(self) -> int:
-        """Go on to the end; returns the number of runs of steps made."""
+        """Advance to the end; returns the number of runs of steps made."""
         count = 0
         while self.step():
             count += 1
         return count
 
     def _step_into(self, event: dict[str, Any], most: int) -> bool:
-        """Make the first of a run of steps, if there are more; whether it was so."""
+        """Make the first of a run of steps; False if there are no more."""
         try:
             count = decode(event["arguments"])[0] if event["call"] == "step" else 0
         except _DAMAGE as error:
@@ -147,7 +147,7 @@ class Replay(Closeable):
 
 
 def _begin(first: dict[str, Any], threads: int | None) -> Simulation:
-    """The simulation that a recording starts from, by its first line."""
+    """Create the simulation that a recording starts from, by its first line."""
     state = decode(first["state"])
     simulation = Simulation(
         _without_plugins(decode(first["world"])),
@@ -185,7 +185,7 @@ def _without_plugins(world: World) -> World:
 
 
 def _bare(model: Model) -> Model:
-    """A model without plugins."""
+    """Return a model without plugins."""
     return replace(
         model,
         plugins=(),

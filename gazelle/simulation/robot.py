@@ -77,13 +77,13 @@ class RobotHost(RunningState, Protocol):
         """Advance by simulated time [s]; likewise."""
 
     def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
-        """Have something called after every step; returns what ends it."""
+        """Call a function after every step; returns what ends it."""
 
     def pause(self) -> None:
-        """Let ``run`` refuse to run."""
+        """Make ``run`` fail until ``unpause``."""
 
     def unpause(self) -> None:
-        """Let ``run`` run again."""
+        """Allow ``run`` again."""
 
     def spawn(
         self,
@@ -95,12 +95,12 @@ class RobotHost(RunningState, Protocol):
         """Add a model to every world."""
 
     def delete(self, name: str) -> None:
-        """Take a model out of every world."""
+        """Delete a model from every world."""
 
     def reset(
         self, worlds: ArrayLike | None = None, *, seed: int | None = None, time: bool = True
     ) -> None:
-        """Put worlds back to their initial state."""
+        """Reset worlds to their initial state."""
 
     def attach(
         self,
@@ -110,13 +110,13 @@ class RobotHost(RunningState, Protocol):
         *,
         settling: float | None = None,
     ) -> None:
-        """Hold two links together."""
+        """Attach two links to each other."""
 
     def detach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
-        """Let go two links that ``attach`` holds together."""
+        """Detach two links that ``attach`` holds together."""
 
     def set_light(self, name: str, **changes: Any) -> None:
-        """Change a light of the world."""
+        """Set properties of a light."""
 
     def load_plugin(self, filename: str) -> None:
         """Start a plugin that no file names."""
@@ -174,7 +174,7 @@ class Robot(Ports):
         return next(iter(self.managers.values()))
 
     def add_manager(self, namespace: str, manager: ControllerManager) -> None:
-        """Let it have one more controller manager, of which doors are told."""
+        """Add one more controller manager, and report it to the bridges."""
         self.managers[namespace] = manager
         self.simulation.events.managed.tell(self)
 
@@ -229,17 +229,20 @@ class Robot(Ports):
 
     @between_steps
     def placement(self, worlds: Worlds | None = None) -> Placement:
-        """Pose of the model frame in many worlds."""
+        """Return the pose of the model frame in many worlds."""
         return self._row.placement(self._some(worlds))
 
     @between_steps
     def planar_pose(self, worlds: Worlds | None = None) -> Floats:
-        """x, y [m] and heading [rad] of the model frame in many worlds, shape (n, 3)."""
+        """Return x, y [m] and heading [rad] of the model frame in many worlds, shape (n, 3)."""
         return self._row.planar_pose(self._some(worlds))
 
     @between_steps
     def motion(self, worlds: Worlds | None = None) -> Motion:
-        """Velocity of the canonical link in many worlds, in the world frame; 0 without a link."""
+        """Return the velocity of the canonical link in many worlds, in the world frame.
+
+        It is 0 without a link.
+        """
         first = self.first_link
         if first is None:
             count = size_of(self._some(worlds), self.simulation.nworld)
@@ -255,7 +258,7 @@ class Robot(Ports):
         yaw: ArrayLike | None = None,
         worlds: Worlds | None = None,
     ) -> None:
-        """Put the robot somewhere, at rest.
+        """Set the pose of the robot, at rest.
 
         Args:
             position: [m], shape (3,) or (n, 3).
@@ -277,7 +280,7 @@ class Robot(Ports):
     def set_twist(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give the robot a velocity in the world frame [m/s, rad/s], shape (3,) or (n, 3).
+        """Set the velocity of the robot in the world frame [m/s, rad/s], shape (3,) or (n, 3).
 
         One without links has nothing that could move, and stays.
 
@@ -297,7 +300,7 @@ class Robot(Ports):
         positions: ArrayLike,
         worlds: Worlds | None = None,
     ) -> None:
-        """Put joints somewhere, at rest, all at once, to their limits at most, as in Gazebo.
+        """Set joint positions at rest, all at once, clipped to their limits as in Gazebo.
 
         Args:
             joints: Names within the robot, each of one axis.
@@ -356,7 +359,7 @@ class Robot(Ports):
         return Named(f"joint in '{self.name}'", found, self.name)[name]
 
     def frame(self, name: str) -> tuple[LinkHandle, Pose]:
-        """The link that a frame moves with, and the frame's pose in it.
+        """Return the link that a frame moves with, and the frame's pose in it.
 
         Links that a URDF fixed to others live on as frames.
 

@@ -59,4 +59,4 @@ class StepMaker(Protocol):
     in_step: SystemsInStep
 
     def release(self) -> None:
-        """Let everything be updated by itself, until a new plan is made."""
+        """Update everything individually until a new plan is made."""

@@ -29,7 +29,7 @@ _HINT = "restore into a simulation with the same world, models, engine and numbe
 
 
 def snapshot(simulation: RobotHost) -> bytes:
-    """The state of physics, clock, commands, plugins, sensors and noise."""
+    """Return the state of physics, clock, commands, plugins, sensors and noise."""
     arrays = _gather(simulation)
     index = [(name, value.dtype.str, value.shape) for name, value in arrays.items()]
     # Each array of an archive costs 0.1 ms to write and to read, and there are a hundred.
@@ -45,7 +45,7 @@ def snapshot(simulation: RobotHost) -> bytes:
 
 
 def _gather(simulation: RobotHost) -> dict[str, NDArray[Any]]:
-    """All that a snapshot holds, by key."""
+    """Return all contents of a snapshot, by key."""
     arrays: dict[str, NDArray[np.generic]] = {"engine": simulation.engine.snapshot()}
     for key, part in _parts(simulation).items():
         for name, value in part.state().items():
@@ -71,7 +71,7 @@ def _gather(simulation: RobotHost) -> dict[str, NDArray[Any]]:
 
 
 def restore(simulation: RobotHost, data: bytes) -> None:
-    """Put back what ``snapshot`` gave.
+    """Restore what ``snapshot`` returned.
 
     Raises:
         SimulationError: The bytes are no snapshot, or one of another simulation; nothing is
@@ -90,7 +90,7 @@ def restore(simulation: RobotHost, data: bytes) -> None:
 
 
 def _header_of(arrays: Mapping[str, NDArray[Any]], simulation: RobotHost) -> dict[str, Any]:
-    """The header of a snapshot of this simulation.
+    """Return the header of a snapshot of this simulation.
 
     Raises:
         SimulationError: There is none, or it is of another simulation.
@@ -140,12 +140,12 @@ def _put_back(
 
 
 def _held(robot: Robot) -> dict[str, TwistInput]:
-    """Ports that hold a command; what others were told is in the states of their plugins."""
+    """Return the ports that hold a command; other commands are in the states of their plugins."""
     return {name: port for name, port in robot.inputs.items() if isinstance(port, TwistInput)}
 
 
 def _restore_engine(simulation: RobotHost, header: dict[str, Any], state: Any) -> None:
-    """Bring laws, motors, attachments and parameters back, then the state."""
+    """Restore laws, motors, attachments and parameters, then the state."""
     engine = simulation.engine
     laws = decode(header["laws"])
     if _plain(_laws_of(engine.world)) != header["laws"]:
@@ -158,7 +158,7 @@ def _restore_engine(simulation: RobotHost, header: dict[str, Any], state: Any) -
 
 
 def _parts(simulation: RobotHost) -> Mapping[str, Any]:
-    """Everything besides the engine that has a state, by a unique key."""
+    """Return everything besides the engine that has a state, by a unique key."""
     parts: dict[str, Any] = {}
     for entry in simulation.plugins:
         key = f"plugin|{entry.owner}|{entry.name}"
@@ -175,12 +175,12 @@ def _names(simulation: RobotHost) -> list[str]:
 
 
 def _laws_of(world: World) -> World:
-    """All of a world but what files put into it."""
+    """Return a world without its contents."""
     return replace(world, models=(), plugins=(), stage=None)
 
 
 def _plain(value: Any) -> Any:
-    """A value as it comes back from JSON."""
+    """Return a value as it comes back from JSON."""
     return json.loads(json.dumps(encode(value)))
 
 
@@ -196,7 +196,7 @@ def _read(data: bytes) -> dict[str, NDArray[Any]]:
 
 
 def _arrays_of(data: bytes, index: list[tuple[str, str, list[int]]]) -> dict[str, NDArray[Any]]:
-    """Arrays that lie one after the other, by name.
+    """Return the arrays stored one after the other, by name.
 
     Raises:
         ValueError: They have another size.

@@ -19,11 +19,11 @@ class SceneRenderer:
         self._tracer: Tracer | None = None
 
     def picture(self, simulation: RunningState, view: View, world: int) -> NDArray[np.uint8]:
-        """A picture of one world, shape (height, width, 3)."""
+        """Render one world, shape (height, width, 3)."""
         return render(self._placed(simulation, world), simulation.engine.world, view)
 
     def ranges(self, simulation: RunningState, view: View, world: int) -> NDArray[np.float64]:
-        """Distances to what a picture shows, shape (height, width)."""
+        """Render distances to the surfaces of a picture, shape (height, width)."""
         return range_image(self._placed(simulation, world), view)
 
     def _placed(self, simulation: RunningState, world: int) -> Tracer:

@@ -39,14 +39,14 @@ class ScheduledPlugin:
         return [id(self)]
 
     def detach(self, error: Exception, when: str) -> None:
-        """Go on without it."""
+        """Disable the plugin after an error."""
         self.schedule, self.detached = None, True
         if self.lock is not None:
             self.lock.changes += 1
         warn_of_fault(self.plugin, title(self.name, self.owner), f"{when} and is detached", error)
 
     def part(self) -> None:
-        """Be a system by itself from now on."""
+        """Run as a system of its own from now on."""
         self.alone = True
         if self.lock is not None:
             self.lock.changes += 1
@@ -56,7 +56,7 @@ class ScheduledPlugin:
         return self._ask(lambda: self.plugin.active, f"at {clock.now:g} s") is True
 
     def update(self, clock: Clock) -> None:
-        """Let it act, if it is due and has anything to do."""
+        """Update the plugin, if it is due and active."""
         schedule = self.schedule
         if schedule is None or clock.now_ns < schedule.due_ns:
             return
@@ -94,19 +94,19 @@ class ScheduledPlugin:
         )
 
     def reset(self, worlds: NDArray[np.intp] | None) -> None:
-        """Let it begin anew."""
+        """Reset the plugin."""
         self._ask(lambda: self.plugin.reset(worlds), "at a reset")
 
     def reseed(self, seed: int, worlds: NDArray[np.intp] | None) -> None:
-        """Let it use other random numbers."""
+        """Set the seed of the plugin's random numbers."""
         self._ask(lambda: self.plugin.reseed(seed, worlds), "at a reset with a seed")
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Everything that changes in it."""
+        """Return all mutable state of the plugin."""
         return self._ask(self.plugin.state, "at a snapshot") or {}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._ask(lambda: self.plugin.restore(state), "while restoring a snapshot")
 
     def _ask(self, work: Callable[[], T], when: str) -> T | None:
@@ -120,13 +120,13 @@ class ScheduledPlugin:
 
 
 def title(name: str, owner: str) -> str:
-    """A plugin by the name that its file gives it, and the model that it is on."""
+    """Return the title of a plugin: its name in the file, and its model."""
     return f"plugin '{name}' of '{owner}'" if owner else f"plugin '{name}'"
 
 
 def make_scheduled(
     plugin: BasePlugin, name: str, owner: str, lock: StateLock | None = None
 ) -> ScheduledPlugin:
-    """A plugin with the schedule it asks for, once it is loaded."""
+    """Return a plugin with the schedule it asks for, once it is loaded."""
     schedule = None if plugin.update_rate is None else Schedule(plugin.update_rate)
     return ScheduledPlugin(plugin, name, owner, schedule, lock)

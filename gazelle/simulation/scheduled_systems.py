@@ -59,7 +59,7 @@ class ScheduledSystem:
             return None
 
     def settle(self) -> None:
-        """Take over what was done in steps."""
+        """Take over what was computed in steps."""
         try:
             self._system.settle()
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
@@ -79,7 +79,7 @@ class ScheduledSystem:
         return [id(each) for each in self._entries]
 
     def release(self) -> None:
-        """Give each plugin a schedule of its own."""
+        """Return each plugin to a schedule of its own."""
         for entry in self._entries:
             if entry.schedule is self.schedule and self.schedule is not None:
                 entry.schedule = self.schedule.copy()
@@ -99,7 +99,7 @@ class ScheduledSystem:
             return self._parted
 
     def update(self, clock: Clock) -> None:
-        """Act and publish, if it is due."""
+        """Update and publish, if it is due."""
         schedule = self.schedule
         if schedule is None or clock.now_ns < schedule.due_ns or not self.is_active(clock):
             return

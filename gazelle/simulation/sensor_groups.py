@@ -34,10 +34,10 @@ class GroupedUnit(Protocol):
         """Return what is equal for those in one system now; None for one by itself."""
 
     def join(self, group: SensorGroup, part: int) -> None:
-        """Be measured by a group."""
+        """Join a group that measures together."""
 
     def leave(self) -> None:
-        """Be measured by itself again."""
+        """Leave the group and measure alone again."""
 
     def tell(self) -> None:
         """Call all who subscribed."""
@@ -91,7 +91,7 @@ class SensorGroup:
             unit.tell()
 
     def follow(self) -> None:
-        """See whether the kernel has measured."""
+        """Check whether the kernel has measured."""
         due = 0 if self.kernel is None else self.kernel.due
         if due != self.schedule.due_ns or self.schedule.rate <= 0.0:
             self.schedule.follow(due)
@@ -105,7 +105,7 @@ class SensorGroup:
         return np.ascontiguousarray(values[:, part]), int(stamp[0, part])
 
     def release(self) -> None:
-        """Let each be measured by itself again."""
+        """Return all sensors to measuring alone."""
         for unit in self.units:
             unit.leave()
 

@@ -11,7 +11,7 @@ from gazelle.simulation.robot import Robot, SensorUnit
 
 
 def sensor_interfaces(robot: Robot) -> list[SensorInterface]:
-    """Those of its IMUs and of its force-torque sensors; none for a kind that it does not have.
+    """Return the interfaces of its IMUs and force-torque sensors; none for a kind that it lacks.
 
     Gazebo's robot side has none. Names are those of the sensors, frames those of the links that they are
     on, or of a joint's child.

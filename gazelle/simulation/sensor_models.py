@@ -73,7 +73,7 @@ class SensorMount:
 
 
 def mounts(engine: Engine, scene: LiveScene, model: Model, seed: int) -> Iterator[SensorMount]:
-    """All sensors of a model and its nested ones, on links and on joints."""
+    """Yield all sensors of a model and its nested ones, on links and on joints."""
     for placed in model.walk():
         links = {link.name: link for link in placed.model.links}
         for link in placed.model.links:
@@ -90,7 +90,7 @@ def mounts(engine: Engine, scene: LiveScene, model: Model, seed: int) -> Iterato
 
 
 def sensor_model(mount: SensorMount) -> SensorModel | None:
-    """The measurement model of a sensor; None, with a warning, for what is not measured.
+    """Return the measurement model of a sensor; None, with a warning, for unsupported ones.
 
     Raises:
         SimulationError: It has more rays or pixels than there is room for.
@@ -182,7 +182,7 @@ def _force_torque(mount: SensorMount) -> SensorModel:
 
 
 def _contact(mount: SensorMount) -> SensorModel:
-    """Of the collisions that it names, or of all of its link."""
+    """Return the contact sensor of the named collisions, or of all of the link."""
     contact = mount.sensor.contact
     known = [collision.name for collision in mount.link.collisions]
     named = [] if contact is None else [name.rpartition("::")[2] for name in contact.collisions]

@@ -77,7 +77,9 @@ class SampledSensor:
 
     @between_steps
     def read(self, world: int = 0) -> Any:
-        """The last reading of one world: a LaserScan, an ImuReading, ...; see ``gazelle.sensors``.
+        """Return the last reading of one world: a LaserScan, an ImuReading, ....
+
+        See ``gazelle.sensors``.
 
         The first call measures at once and wakes the sensor.
         """
@@ -85,7 +87,7 @@ class SampledSensor:
 
     @between_steps
     def latest(self) -> NDArray[Any]:
-        """The last reading of all worlds, shape (nworld, channels); wakes the sensor."""
+        """Return the last reading of all worlds, shape (nworld, channels); wakes the sensor."""
         if not self._awake:
             self._awake = True
             self._lock.changes += 1
@@ -93,7 +95,10 @@ class SampledSensor:
 
     @between_steps
     def current(self) -> NDArray[Any]:
-        """The same without waking it: measured now if it sleeps or never measured."""
+        """Return the last reading without waking the sensor.
+
+        Measures if it sleeps or never measured.
+        """
         if not self.awake:
             return self.measure()
         self._catch_up()
@@ -107,7 +112,7 @@ class SampledSensor:
 
     @between_steps
     def reading(self, values: NDArray[Any]) -> Any:
-        """Values by name."""
+        """Return values by name."""
         self._catch_up()
         return self._model.reading(values, self._stamp)
 
@@ -125,7 +130,7 @@ class SampledSensor:
             self._lock.changes += 1
 
     def retire(self) -> None:
-        """Be measured in turn no more: the robot is gone."""
+        """Retire the sensor from the schedule when its robot is gone."""
         self._awake = False
         self._listeners.clear()
 
@@ -147,12 +152,12 @@ class SampledSensor:
 
     @between_steps
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Use the random numbers of another seed, from their start."""
+        """Set the seed of the random numbers and start them again."""
         self._model.reseed(seed, worlds)
 
     @between_steps
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget drifts and readings; of all worlds, also that somebody read it.
+        """Discard drifts and readings; for all worlds, also earlier reads.
 
         Readings of the other worlds stay as they are, so that they do not depend on who is reset.
         """
@@ -168,7 +173,7 @@ class SampledSensor:
 
     @between_steps
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         self._catch_up()
         state = dict(self._model.state())
         state["stamp"] = np.array([self._stamp, int(self._awake), self.schedule.count])
@@ -179,7 +184,7 @@ class SampledSensor:
 
     @between_steps
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._stand_alone()
         own = dict(state)
         stamp = own.pop("stamp")
@@ -208,26 +213,26 @@ class SampledSensor:
         return bool(self._listeners)
 
     def join(self, group: SensorGroup, part: int) -> None:
-        """Be measured by a group."""
+        """Join a group that measures together."""
         self._group, self._part, self._seen = group, part, group.count
         self.schedule = group.schedule
 
     def leave(self) -> None:
-        """Be measured by itself again, with what was measured last."""
+        """Leave the group and measure alone again, with its last readings."""
         self._catch_up()
         if self._group is not None:
             self.schedule = self._group.schedule.copy()
         self._group = None
 
     def _catch_up(self) -> None:
-        """Take over what the group measured meanwhile."""
+        """Take over what the group measured in the meantime."""
         group = self._group
         if group is not None and self._seen != group.count:
             self._seen, self._stale = group.count, _NO_WORLDS
             self._values, self._stamp = group.reading(self._part)
 
     def _stand_alone(self) -> None:
-        """Be in no group from now on, until they are made anew."""
+        """Leave all groups until they are made again."""
         if self._group is not None:
             self._group.release()
         self._lock.changes += 1

@@ -48,7 +48,7 @@ class Setting(StatePart, Generic[T]):
 
     @between_steps
     def send(self, value: Any) -> None:
-        """Give another value.
+        """Set the value.
 
         Raises:
             SimulationError: It is of another type.
@@ -84,7 +84,7 @@ class Tunable:
     description: str
 
     def clamp(self, value: Any) -> Any:
-        """The allowed value that is nearest."""
+        """Return the nearest allowed value."""
         kind = type(self.default)
         if kind in (bool, str):
             return kind(value)
@@ -121,7 +121,7 @@ class Tuning(StatePart):
 
     @between_steps
     def send(self, /, **wanted: Any) -> dict[str, Any]:
-        """Change some values, each to the nearest that is allowed; returns what holds then.
+        """Set some values, each to the nearest allowed one; returns the values in effect.
 
         Raises:
             SimulationError: There is no such value.

@@ -195,17 +195,17 @@ class Simulation(Closeable):
         )
 
     def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
-        """Have something called after every step, between two steps; returns what ends it."""
+        """Call a function after every step, between two steps; returns what ends it."""
         with self.lock:
             return self.loop.listen(listener)
 
     def pause(self) -> None:
-        """Let ``run`` refuse to run."""
+        """Make ``run`` fail until ``unpause``."""
         with self.lock:
             self.paused = True
 
     def unpause(self) -> None:
-        """Let ``run`` run again."""
+        """Allow ``run`` again."""
         with self.lock:
             self.paused = False
 
@@ -251,7 +251,7 @@ class Simulation(Closeable):
             load_world_plugin(self, Plugin(filename, filename))
 
     def delete(self, name: str) -> None:
-        """Take a model out of every world, with its plugins.
+        """Delete a model from every world, with its plugins.
 
         Raises:
             SimulationError: There is no such model.
@@ -262,7 +262,7 @@ class Simulation(Closeable):
     def reset(
         self, worlds: ArrayLike | None = None, *, seed: int | None = None, time: bool = True
     ) -> None:
-        """Put everything back to its initial state.
+        """Reset everything to its initial state.
 
         That is poses, velocities, forces, attachments, commands, plugins, sensors and noise.
         What ``physics`` and ``parameters`` hold stays.
@@ -286,7 +286,7 @@ class Simulation(Closeable):
         *,
         settling: float | None = None,
     ) -> None:
-        """Hold two links together as they are to each other now, until ``detach`` or a reset.
+        """Attach two links at their present relative pose, until ``detach`` or a reset.
 
         Args:
             parent: What is held to. Where it is a model that is only placed, it leads the other.
@@ -305,7 +305,7 @@ class Simulation(Closeable):
             self.engine.attach(parent.name, child.name, some, *softly)
 
     def detach(self, parent: LinkHandle, child: LinkHandle, worlds: Worlds | None = None) -> None:
-        """Let go two links that ``attach`` holds together.
+        """Detach two links that ``attach`` holds together.
 
         Raises:
             EngineError: They never were.
@@ -315,7 +315,7 @@ class Simulation(Closeable):
             self.engine.detach(parent.name, child.name, some)
 
     def set_light(self, name: str, **changes: Any) -> None:
-        """Change a light of the world; the next picture shows it.
+        """Set properties of a light of the world; the next picture shows it.
 
         Args:
             name: Of the light.
@@ -330,7 +330,7 @@ class Simulation(Closeable):
     # -- seeing ------------------------------------------------------------------------
 
     def render(self, view: View, world: int = 0) -> NDArray[np.uint8]:
-        """A picture of one world, shape (height, width, 3), made without a graphics card.
+        """Render one world without a graphics card, shape (height, width, 3).
 
         Args:
             view: From where and how; ``gazelle.sensors.look_at`` helps.
@@ -343,12 +343,12 @@ class Simulation(Closeable):
     # -- saving and ending -------------------------------------------------------------
 
     def snapshot(self) -> bytes:
-        """The whole state of all worlds."""
+        """Return the whole state of all worlds."""
         with self.lock:
             return saving.snapshot(self)
 
     def restore(self, data: bytes) -> None:
-        """Put back what ``snapshot`` gave; the models must be the same.
+        """Restore what ``snapshot`` returned; the models must be the same.
 
         Raises:
             SimulationError: The bytes are no snapshot of this simulation.
@@ -357,7 +357,9 @@ class Simulation(Closeable):
             saving.restore(self, data)
 
     def state_hash(self, worlds: ArrayLike | None = None) -> str:
-        """A hash of the physical state, to the bit: the same run gives the same after every step.
+        """Return a hash of the physical state.
+
+        It compares to the bit: the same run gives the same after every step.
 
         Args:
             worlds: Which worlds; all if None. That of one world does not depend on the others.

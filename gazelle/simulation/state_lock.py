@@ -47,7 +47,7 @@ class StateLock(FairLock):
         raise SimulationError(self._reason)
 
     def close(self, reason: str) -> None:
-        """Refuse the lock to all that wait for it, and from now on; the caller holds it.
+        """Close the lock: all who wait for it now or later get an error; the caller holds it.
 
         Args:
             reason: The text of the error that they get.
@@ -55,7 +55,7 @@ class StateLock(FairLock):
         self.closed, self._reason = True, reason
 
     def post(self, work: Callable[[], T]) -> Future[T]:
-        """Have work done between two steps, at once when nothing is stepping; do not wait."""
+        """Run a function between two steps, at once when nothing is stepping; do not wait."""
         future: Future[T] = Future()
 
         def do() -> None:
@@ -94,7 +94,7 @@ S = TypeVar("S", bound=Owned)
 
 
 def between_steps(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S, P], T]:
-    """Let a method hold the simulation's lock, whichever thread calls it."""
+    """Return wrap a method so that it holds the simulation's lock, from any thread."""
 
     @functools.wraps(method)
     def locked(self: S, /, *args: P.args, **options: P.kwargs) -> T:
@@ -121,5 +121,5 @@ class StatePart:
         return worlds if self._lock is None else chosen(worlds, self._lock.nworld)
 
     def bind(self, lock: StateLock | None) -> None:
-        """Belong to a simulation."""
+        """Bind the part to the lock of a simulation."""
         self._lock = lock

@@ -87,7 +87,7 @@ class StepLoop:
         self._listeners: list[Callable[[], None]] = []
 
     def listen(self, listener: Callable[[], None]) -> Callable[[], None]:
-        """Have something called after every step, when sensors have measured."""
+        """Call a function after every step, when sensors have measured; returns what ends it."""
         self._listeners.append(listener)
 
         def end() -> None:
@@ -97,7 +97,7 @@ class StepLoop:
         return end
 
     def walk(self, count: int, stop: Callable[[], bool]) -> None:
-        """Make steps, and what others ask for between two of them.
+        """Advance by steps, and run queued requests between two of them.
 
         Args:
             count: How many.
@@ -133,7 +133,7 @@ class StepLoop:
                 lock.lend()
 
     def _advance(self, most: int) -> int:
-        """Do what is due, then step towards the next thing that will be; returns the steps."""
+        """Run what is due, then step towards the next due time; returns the steps."""
         clock, loads = self._simulation.clock, self._loads
         plugins = self._update_plugins()
         plan = self._plan
@@ -203,12 +203,12 @@ class StepLoop:
         return self._planned == self._now() and self.in_step.is_current(self._holds())
 
     def _steps_in_step(self) -> int:
-        """Steps until Python has to update what is carried now."""
+        """Return the steps until Python has to update what runs in steps."""
         clock, soonest = self._simulation.clock, self.in_step.soonest_ns
         return clock.steps_to(int(soonest)) if math.isfinite(soonest) else sys.maxsize
 
     def _look_back(self) -> None:
-        """After steps: move what follows, measure, tell who listens, look for what falls."""
+        """Finish steps: move followers, measure, call listeners, check for falling models."""
         for follower in tuple(self.followers):
             follower()
         update_sensors(self._plan.sensors, self._simulation.clock.now_ns)
@@ -217,7 +217,7 @@ class StepLoop:
         self._falls.look(self._simulation.clock.now_ns)
 
     def _renew(self) -> StepPlan:
-        """The plan, made anew if it no longer holds."""
+        """Return the step plan, renewed if it is outdated."""
         now = self._now()
         if self._planned != now:
             self.release()
@@ -240,12 +240,12 @@ class StepLoop:
         return changes, bool(self.followers), count, self._engine.revision
 
     def release(self) -> None:
-        """Let everything be updated by itself, until a new plan is made."""
+        """Update everything individually until a new plan is made."""
         self._plan.release()
         self._planned = None
 
     def _step(self, count: int) -> None:
-        """Make steps, and update systems whenever they are due."""
+        """Advance by steps, and update systems whenever they are due."""
         systems: Sequence[System] = self._systems
         if self._plan.groups or self.in_step.kernels:
             measured = (each.kernel for each in self._plan.groups)
@@ -257,7 +257,7 @@ class StepLoop:
             self._follow()
 
     def _follow(self) -> None:
-        """See what systems have done."""
+        """Take over the due times of systems that ran in steps."""
         if self._plan.late:
             self.in_step.settle()
         for schedule, system in zip(self._schedules, self._systems, strict=True):
@@ -267,7 +267,7 @@ class StepLoop:
             group.follow()
 
     def _step_piece(self, wanted: int) -> int:
-        """Make as many steps at once as are not too long; returns how many."""
+        """Make as many steps at once as are not too long; returns their number."""
         steps, begin, worked = self._most, time.perf_counter(), time.process_time()
         self._step(steps)
         # Less where other programs have the processor: they do not wait for the end of a piece.
@@ -282,7 +282,7 @@ class StepLoop:
         return steps
 
     def _shorten(self) -> None:
-        """Make shorter pieces for a while: somebody asks for something."""
+        """Shorten pieces for a while because a request is waiting."""
         now = time.perf_counter()
         if now - self._asked >= _LATELY:
             self._most = max(1, int(self._most * _PIECE / _LONG_PIECE))

@@ -57,7 +57,7 @@ class StepPlan:
         self.settled = None if others else (systems, schedules)
 
     def release(self) -> None:
-        """Let everything be updated by itself again."""
+        """Update everything individually again."""
         for each in self.plugins:
             if isinstance(each, ScheduledSystem):
                 each.release()
@@ -90,7 +90,7 @@ def with_kernels(
 
 
 def set_due(systems: Iterable[System], schedules: Iterable[Schedule]) -> None:
-    """Let systems be due when their schedules say."""
+    """Set the due times of systems to those of their schedules."""
     for system, schedule in zip(systems, schedules, strict=True):
         system.rate, system.due = schedule.rate, schedule.due_ns
 
@@ -114,7 +114,7 @@ def steps_to_next(
     clock: Clock,
     most: int,
 ) -> int:
-    """Physics steps until something is due, ``most`` at most."""
+    """Return the physics steps until something is due, ``most`` at most."""
     soonest = clock.now_ns + most * clock.step_ns
     for each in plugins:
         schedule = each.schedule
@@ -129,7 +129,7 @@ def steps_to_next(
 
 
 def indices_of(worlds: ArrayLike | None, nworld: int) -> NDArray[np.intp] | None:
-    """Indices or a mask of worlds as sorted, unique indices; None stays None.
+    """Return sorted, unique indices of worlds, given as indices or a mask; None stays None.
 
     Raises:
         SimulationError: There is no such world.

@@ -35,7 +35,7 @@ class SystemsInStep:
         self.plan(())
 
     def plan(self, entries: Sequence[ScheduledSystem]) -> None:
-        """Ask these, all of them again."""
+        """Plan these again, and ask all of them."""
         self._entries = tuple(entries)
         self._places = {
             id(plugin): place for place, entry in enumerate(entries) for plugin in entry.plugins
@@ -48,7 +48,7 @@ class SystemsInStep:
         self._count(changed=True)
 
     def invalidate(self, plugin: BasePlugin) -> None:
-        """Ask the system of a plugin again before the next step: something was done to it."""
+        """Invalidate the answer of a plugin's system: it is asked again before the next step."""
         place = self._places.get(id(plugin))
         if place is not None:
             self._until[place] = self._ask_ns = _ASK
@@ -100,6 +100,6 @@ class SystemsInStep:
         self._brief = [entry for entry, found in known if not found.lasting]
 
     def settle(self) -> None:
-        """Let those whose answers do not last take over what was done in steps."""
+        """Take over what systems with transient answers computed in steps."""
         for entry in self._brief:
             entry.settle()

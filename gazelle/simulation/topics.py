@@ -45,7 +45,7 @@ def namespace_of(robot: Spawned, parameters: Parameters, otherwise: str = "") ->
 
 
 def absolute(namespace: str, name: str) -> str:
-    """A topic's full name; one that begins with a slash is full already."""
+    """Return a topic's full name; one that begins with a slash is full already."""
     if name.startswith("/"):
         return name
     parts = [*namespace.split("/"), *name.split("/")]

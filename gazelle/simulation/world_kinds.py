@@ -30,7 +30,7 @@ class WorldKind(Protocol):
         """Return what measures with the sensors of a model, and their descriptions."""
 
     def open_ports(self, robot: Robot) -> None:
-        """Give a model of the kind its inputs and outputs."""
+        """Open the inputs and outputs of a model of the kind."""
 
     def starts(self, plugin: Plugin) -> bool:
         """Return whether the simulation starts a plugin of a model, as the kind does not replace it."""
