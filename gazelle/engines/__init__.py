@@ -41,7 +41,7 @@ def make_engine(
     threads: int | None = None,
     late: bool = False,
 ) -> Engine:
-    """An engine by name.
+    """Create an engine by name.
 
     Args:
         name: ``mujoco``, ``planar``, or another of ``engine_names``.

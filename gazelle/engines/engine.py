@@ -122,7 +122,7 @@ class Engine(Protocol):
         """Update a system now, whatever its rate; one of joints reads them and acts on them."""
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Put worlds back to their initial state: poses, rest, no forces."""
+        """Reset worlds to their initial state: poses, rest, no forces."""
 
     def contacts(self, sets: Sequence[Sequence[str]], worlds: Worlds | None = None) -> ContactTable:
         """Return the points where collisions touch others now, set by set and world by world.
@@ -139,7 +139,7 @@ class Engine(Protocol):
         """
 
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
-        """Give a joint a motor that holds a velocity, zero at first, with limited effort.
+        """Add a motor to a joint that holds a velocity, zero at first, with limited effort.
 
         A joint that has one keeps its velocity and gets the effort, in all worlds.
 
@@ -153,7 +153,7 @@ class Engine(Protocol):
         """
 
     def make_kinematic(self, model: str) -> None:
-        """Let a model move only by ``ModelRow.set_placement``; it pushes, nothing pushes it."""
+        """Make a model kinematic: ``ModelRow.set_placement`` moves it, nothing pushes it."""
 
     def attach(
         self,
@@ -162,7 +162,7 @@ class Engine(Protocol):
         worlds: Worlds | None = None,
         settling: float | None = None,
     ) -> None:
-        """Hold two links together as they are to each other now, until ``detach`` or a reset.
+        """Attach two links at their present relative pose, until ``detach`` or a reset.
 
         Args:
             parent: Scoped name of the link that is held to.
@@ -173,10 +173,10 @@ class Engine(Protocol):
         """
 
     def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
-        """Let go two links that ``attach`` holds together."""
+        """Detach two links that ``attach`` holds together."""
 
     def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
-        """A physical parameter, shape (n, width).
+        """Return a physical parameter, shape (n, width).
 
         Args:
             kind: One of ``PARAMETERS``.
@@ -187,14 +187,14 @@ class Engine(Protocol):
     def set_parameter(
         self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Change a physical parameter, shape (width,) or (n, width); a reset does not undo it.
+        """Set a physical parameter, shape (width,) or (n, width); a reset does not undo it.
 
         Raises:
             EngineError: There is no such parameter, or a value cannot be.
         """
 
     def update_world(self, world: World) -> None:
-        """Take over all of a world but its models: physics, gravity, air, lights, scene.
+        """Update all of a world but its models: physics, gravity, air, lights, scene.
 
         Every state stays as it is. Gravity that worlds have of their own is forgotten.
 
@@ -216,13 +216,16 @@ class Engine(Protocol):
         """
 
     def delete(self, model: str) -> None:
-        """Take a model out of every world; all else stays as it is."""
+        """Delete a model from every world; all else stays as it is."""
 
     def snapshot(self) -> Floats:
-        """The whole dynamic state, shape (nworld, size)."""
+        """Return the whole dynamic state, shape (nworld, size)."""
 
     def peek(self) -> Floats:
-        """The same as ``snapshot`` without a copy; it must be read at once and not kept."""
+        """Return the state like ``snapshot`` without a copy.
+
+        It must be read at once and not kept.
+        """
 
     def write_state(self, indices: Indices, values: Floats) -> None:
         """Set entries of the state, as links, joints and models do that are set.
@@ -233,17 +236,20 @@ class Engine(Protocol):
         """
 
     def restore(self, state: Floats) -> None:
-        """Put back what ``snapshot`` gave; the models must be the same.
+        """Restore what ``snapshot`` returned; the models must be the same.
 
         Raises:
             EngineError: The state does not fit the models that run now.
         """
 
     def history(self) -> list[Call]:
-        """Calls that make a new engine of this ``world`` one like this, but for the state."""
+        """Return the calls that make a new engine of this ``world`` like this one.
+
+        The state is not included.
+        """
 
     def adopt(self, history: Sequence[Call]) -> None:
-        """Become what the calls of a ``history`` make of this world; ``restore`` fits then."""
+        """Replay the calls of a ``history`` on this world; ``restore`` fits then."""
 
     def close(self) -> None:
         """Free threads and memory."""

@@ -74,7 +74,7 @@ class HangingLinks:
         return holder.body.joint_name
 
     def move(self, link: str, goal: Motion, worlds: Worlds | None) -> bool:
-        """Give the joint that a link hangs on the speed that suits a velocity of the link.
+        """Set the speed of the joint that a link hangs on, to suit a velocity of the link.
 
         Returns:
             False for a link that hangs on no joint that can move.

@@ -8,7 +8,7 @@ from gazelle.description import Physics, Vector3, World
 
 
 def with_profile(world: World, profile: Physics) -> World:
-    """The world with its physics profile in use replaced."""
+    """Return the world with its active physics profile replaced."""
     used = world.profile
     if not any(each is used for each in world.physics):
         return replace(world, physics=(*world.physics, profile))

@@ -27,7 +27,7 @@ MAX_WORLDS = 2**20
 
 
 def whole_number(what: str, value: Any, least: int = 1, most: int = MOST) -> int:
-    """A number of worlds, threads or steps.
+    """Return a valid number of worlds, threads or steps.
 
     Raises:
         EngineError: It is no int, or too small or large.
@@ -42,7 +42,7 @@ def whole_number(what: str, value: Any, least: int = 1, most: int = MOST) -> int
 
 
 def physics_step(step: Any) -> float:
-    """A physics step [s].
+    """Return a valid physics step [s].
 
     Raises:
         EngineError: It is no number, not positive, or of no length that a clock could count.
@@ -73,7 +73,7 @@ def name_fault(name: Any) -> str | None:
 
 
 def check_world(world: World) -> None:
-    """Refuse a world whose laws, names or places cannot be.
+    """Check the laws, names and poses of a world.
 
     Raises:
         EngineError: Gravity, magnetic field or wind are not finite, a model's name holds what

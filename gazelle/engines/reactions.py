@@ -82,7 +82,7 @@ class Contacts:
         return len(self.collisions)
 
     def torque_about(self, point: Floats) -> Floats:
-        """Torque of each contact on the collision about a point [N m], shape (k, 3).
+        """Return the torque of each contact on the collision about a point [N m], shape (k, 3).
 
         Args:
             point: In the world frame [m], shape (3,) or (k, 3).

@@ -24,19 +24,19 @@ class EngineFactory(Protocol):
     def __call__(
         self, world: World, nworld: int, *, time_step: float | None, threads: int | None
     ) -> Engine:
-        """An engine that runs copies of a world."""
+        """Create an engine that runs copies of a world."""
 
 
 _registered: dict[str, EngineFactory] = {}
 
 
 def register(name: str, factory: EngineFactory) -> None:
-    """Let an engine be had by a name; it goes before one of that name that is installed."""
+    """Register an engine under a name; it precedes an installed one of that name."""
     _registered[name] = factory
 
 
 def names() -> tuple[str, ...]:
-    """All engines that can be had."""
+    """Return the names of all available engines."""
     return tuple(sorted({*_BUILT_IN, *_registered, *entry_points_of_others(_GROUP)}))
 
 

@@ -59,12 +59,12 @@ class Levels:
     high: float
 
     def lowered(self, z: float) -> Levels:
-        """The same seen from a frame at height z."""
+        """Return the same heights in a frame at height z."""
         return Levels(tuple(level - z for level in self.rays), self.low - z, self.high - z)
 
 
 def parts_of(collision: Collision, pose: Pose, levels: Levels, *, moving: bool) -> list[PlanarPart]:
-    """Parts of a collision whose shape is at a pose; the levels are in the same frame.
+    """Return parts of a collision whose shape is at a pose; the levels are in the same frame.
 
     Raises:
         FormatError: A mesh cannot be read.
@@ -88,7 +88,7 @@ def parts_of(collision: Collision, pose: Pose, levels: Levels, *, moving: bool) 
 
 
 def _upright(collision: Collision, pose: Pose, glow: float) -> Iterator[PlanarPart]:
-    """Parts of a shape that stands upright; none if it does not."""
+    """Yield parts of an upright shape; none if it is not upright."""
     shape = collision.geometry
     _, _, up = pose.rotate((0.0, 0.0, 1.0))
     if abs(up) < 1.0 - _UPRIGHT:
@@ -151,7 +151,7 @@ def _ghost(part: PlanarPart) -> PlanarPart:
 
 
 def _cut(solid: Solid, levels: Levels, glow: float, *, moving: bool) -> list[PlanarPart]:
-    """Parts of a shape that leans, or of a mesh."""
+    """Return parts of a leaning shape or of a mesh."""
     heights = solid[0][:, 2]
     bottom, top = float(heights.min()), float(heights.max())
     parts = []

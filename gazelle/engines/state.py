@@ -81,7 +81,7 @@ class LinkRow(LinkRows, Protocol):
     def set_motion(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give the link a velocity; what hangs on it keeps the speeds of its joints.
+        """Set the velocity of the link; attached links keep the speeds of their joints.
 
         A link that hangs on a joint takes the part that its joint allows, as of a pose.
 
@@ -131,7 +131,7 @@ class JointRows(Protocol):
         """True where systems of the joints can act within the engine's steps."""
 
     def bind(self, system: JointSystem, *, in_step: bool = False) -> None:
-        """Tell a system where the joints are, good for one ``Engine.revision``.
+        """Set a system's columns of the joints, valid for one ``Engine.revision``.
 
         Args:
             system: To be bound.
@@ -139,7 +139,7 @@ class JointRows(Protocol):
         """
 
     def read(self, system: JointSystem) -> None:
-        """Let a bound system read positions and velocities now."""
+        """Update positions and velocities of a bound system."""
 
     def act(self, system: JointSystem) -> None:
         """Apply the efforts and motors' velocities that a bound system has set."""
@@ -221,7 +221,7 @@ class FrameRows(Protocol):
         """Return the poses of the models' frames, which move with the canonical links."""
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Give the models level velocities along and across their headings, joints at rest.
+        """Set level velocities of the models along and across their headings, joints at rest.
 
         Args:
             twist: Forward and to the left [m/s], turning [rad/s], shape (3,) or that of the rows.
@@ -263,7 +263,7 @@ class ModelRow(FrameRows, Protocol):
     def set_motion(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give all links of the model the velocity of one rigid body, joints at rest.
+        """Set the velocity of all links of the model to that of one rigid body, joints at rest.
 
         Args:
             linear: Of the model's frame [m/s], shape (3,) or (n, 3).

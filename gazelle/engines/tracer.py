@@ -40,14 +40,14 @@ class Tracer(Protocol):
         """All visuals that can be met."""
 
     def place(self, poses: Mapping[str, Pose]) -> None:
-        """Put links, by scoped name, at poses in the world."""
+        """Set the poses of links in the world, by scoped name."""
 
     def trace(self, origins: Floats, directions: Floats) -> RayHits:
         """Follow rays in the world frame, shapes (rays, 3), directions of unit length."""
 
 
 def make_tracer(world: World) -> Tracer:
-    """A tracer of a world, its links where the description puts them.
+    """Create a tracer of a world, its links at the described poses.
 
     Raises:
         EngineError: A shape cannot be built.

@@ -79,7 +79,7 @@ class KinematicTree:
 
 
 def tree_of(model: Model, *, kinematic: bool = False) -> KinematicTree:
-    """All bodies of a model and its nested models, and the joints that close loops.
+    """Return all bodies of a model and its nested models, and the joints that close loops.
 
     Of several joints that move one link the tree's is the first that would lose something if
     it closed a loop, or else the first in the file. Where joints form a ring with no end, the
@@ -145,7 +145,7 @@ def _parts_of(model: Model) -> dict[str, _PosedLink]:
 def _sort_joints(
     model: Model, parts: dict[str, _PosedLink]
 ) -> tuple[dict[str, tuple[str, Joint]], list[Closure]]:
-    """The joint that carries each link, and those left over."""
+    """Return the joint that carries each link, and those left over."""
     carrying: dict[str, tuple[str, Joint]] = {}
     closures: list[Closure] = []
     for placed in model.walk():
@@ -169,7 +169,7 @@ def _sort_joints(
 
 
 def _exchanged(closure: Closure, carrying: dict[str, tuple[str, Joint]]) -> Closure:
-    """The closure, or the joint that carries its link if that would lose less by closing."""
+    """Return the closure, or the link's joint if that would lose less by closing."""
     joint = closure.joint
     if joint.type == "gearbox" or not lost_in_loop(joint):
         return closure
@@ -230,7 +230,7 @@ def _open_rings(
 
 
 def _scoped_mimic(joint: Joint, placed: PlacedModel) -> tuple[JointAxis, ...]:
-    """The axes with the names of leading joints scoped."""
+    """Return the axes with the names of leading joints scoped."""
     return tuple(
         axis
         if axis.mimic is None

@@ -10,7 +10,7 @@ R = TypeVar("R")
 
 
 def of_one_kind(items: Iterable[T], kind: Callable[[T], Hashable | None]) -> list[list[T]]:
-    """Return group items by kind, in order; those without a kind (None) are left out."""
+    """Group items by kind, in order; those without a kind (None) are left out."""
     groups: dict[Hashable, list[T]] = {}
     for item in items:
         its = kind(item)

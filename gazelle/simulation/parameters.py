@@ -253,7 +253,7 @@ class WorldParameters:
         high: ArrayLike,
         worlds: Worlds | None = None,
     ) -> Floats:
-        """Return sample a parameter uniformly between two bounds in each world.
+        """Sample a parameter uniformly between two bounds in each world.
 
         Args:
             kind: Such as ``link_mass``, ``friction`` or ``gravity``: an attribute of this class.

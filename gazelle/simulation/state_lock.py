@@ -94,7 +94,7 @@ S = TypeVar("S", bound=Owned)
 
 
 def between_steps(method: Callable[Concatenate[S, P], T]) -> Callable[Concatenate[S, P], T]:
-    """Return wrap a method so that it holds the simulation's lock, from any thread."""
+    """Wrap a method so that it holds the simulation's lock, from any thread."""
 
     @functools.wraps(method)
     def locked(self: S, /, *args: P.args, **options: P.kwargs) -> T:

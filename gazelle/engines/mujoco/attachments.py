@@ -34,7 +34,7 @@ class LinkHolding:
         worlds: Worlds | None = None,
         settling: float | None = None,
     ) -> None:
-        """Hold two links together as they are to each other now; see the protocol."""
+        """Attach two links at their present relative pose; see the protocol."""
         if settling is not None and not 0.0 < settling <= LONGEST_STEP:
             raise EngineError(f"links cannot come together within {settling} s", hint="above 0")
         pair = Attachment(parent, child, settling)
@@ -59,7 +59,7 @@ class LinkHolding:
         return Placement(np.zeros_like(place.position), upright)
 
     def detach(self, parent: str, child: str, worlds: Worlds | None = None) -> None:
-        """Let go two links that ``attach`` holds together."""
+        """Detach two links that ``attach`` holds together."""
         name = Attachment(parent, child).name
         layout = self._run.now()
         if name not in layout.attachments:

@@ -21,7 +21,7 @@ _LEAST, _MOST = 1e-4, 0.9999
 
 
 def retune(batch: Batch, springs: Sequence[int]) -> None:
-    """Let the springs of every world be as stiff as the description says.
+    """Set the springs of every world to the described stiffness.
 
     Args:
         batch: Whose inertias were changed, ``set_const`` being done.
@@ -44,7 +44,7 @@ def retune(batch: Batch, springs: Sequence[int]) -> None:
 def _keep(
     batch: Batch, kind: str, rows: NDArray[np.intp], compiled: Floats, mobility: Floats
 ) -> None:
-    """Keep the compliance of constraints.
+    """Preserve the compliance of constraints.
 
     Args:
         batch: Of them.

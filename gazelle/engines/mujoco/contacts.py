@@ -85,7 +85,7 @@ class _GeomList:
         self._layers: dict[tuple[tuple[str, ...], ...], list[_Layer]] = {}
 
     def layers(self, layout: MujocoLayout, sets: tuple[tuple[str, ...], ...]) -> list[_Layer]:
-        """Sets of collisions in as few layers as need be; one where none is in two of them.
+        """Return sets of collisions in as few layers as possible: no collision twice in a layer.
 
         Raises:
             EngineError: There is no such collision.
@@ -146,7 +146,7 @@ class ContactAccess:
         )
 
     def _all_contacts(self, worlds: Worlds) -> _ContactRows:
-        """All contacts of some worlds, in this order."""
+        """Return all contacts of some worlds, in this order."""
         chosen = np.asarray(worlds)
         with self._stepper.forced():
             found = [_read_contacts(self._reactions.probe(world)[1]) for world in chosen.tolist()]
@@ -192,7 +192,9 @@ def _touches_of(layer: _Layer, geoms: NDArray[np.int32]) -> tuple[Indices, Indic
 
 
 def _read_contacts(data: mujoco.MjData) -> tuple[NDArray[Any], ...]:
-    """All contacts of one world: geoms, addresses, widths, points, distances, axes, coefficients.
+    """Return the contacts of one world.
+
+    They are geoms, addresses, widths, points, distances, axes and coefficients.
 
     Last come the forces of all constraints. Copies: the next world is computed in the same
     memory.
@@ -213,7 +215,7 @@ def _read_contacts(data: mujoco.MjData) -> tuple[NDArray[Any], ...]:
 def _contact_forces(
     forces: Floats, address: NDArray[Any], dims: NDArray[Any], rubs: Floats | None
 ) -> Floats:
-    """Force and torque of contacts, each in its own frame, shape (k, 6).
+    """Return force and torque of contacts, each in its own frame, shape (k, 6).
 
     Args:
         forces: Of all constraints.

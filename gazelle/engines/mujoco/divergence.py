@@ -39,7 +39,7 @@ def divergence_report(
 
 
 def _within(states: Floats, view: Floats) -> slice:
-    """The columns of the states that a view shows."""
+    """Return the columns of the states that a view shows."""
     start = (view.ctypes.data - states.ctypes.data) // states.itemsize
     return slice(start, start + int(np.prod(view.shape[1:])))
 

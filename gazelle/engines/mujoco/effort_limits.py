@@ -38,7 +38,7 @@ class EffortLimits:
     speed: Floats
 
     def clamp(self, joint: str, effort: Floats) -> Floats:
-        """An effort within the limits of its joint, shape (..., axes)."""
+        """Return an effort within the limits of its joint, shape (..., axes)."""
         largest = self.effort.get(joint)
         return effort if largest is None else np.clip(effort, -largest, largest)
 
@@ -48,7 +48,7 @@ class EffortLimits:
 
     @contextmanager
     def held_back(self, state: StateViews) -> Iterator[None]:
-        """Leave out efforts that speed up what is too fast already, while it lasts."""
+        """Remove efforts that accelerate joints above their velocity limit, while it lasts."""
         commanded = state.qfrc_applied[:, self.dofs]
         velocity = state.qvel[:, self.dofs]
         onward = (np.abs(velocity) > self.speed) & (commanded * velocity > 0.0)
@@ -65,7 +65,7 @@ class EffortLimits:
 def effort_limits(
     bodies: Iterable[TreeLink], velocities: Mapping[str, tuple[slice, ...]]
 ) -> EffortLimits:
-    """The limits that the joints of a world have.
+    """Return the limits of the joints of a world.
 
     Args:
         bodies: All of the world.

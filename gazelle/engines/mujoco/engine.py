@@ -102,7 +102,7 @@ class MujocoEngine:
             self.prepare()
 
     def _put_together(self, run: RunningWorlds) -> None:
-        """Make the parts, and take over what they offer."""
+        """Make the parts, and expose their methods."""
         self._run = run
         self._steps = steps = ForcedSteps(run, lambda link: self.links[link].motion())
         self.reactions = JointReactions(run, steps)
@@ -143,7 +143,7 @@ class MujocoEngine:
 
     @staticmethod
     def _batch_of(nworld: int, threads: int, model: mujoco.MjModel, _: World) -> Batch:
-        """The worlds of a compiled model."""
+        """Return the worlds of a compiled model."""
         sleepy = bool(model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP)
         return Batch(model, nworld, threads, persistent=sleepy)
 
@@ -188,7 +188,7 @@ class MujocoEngine:
             self._run.stale = True
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Put worlds back to their initial state: poses, rest, no forces."""
+        """Reset worlds to their initial state: poses, rest, no forces."""
         self._run.now()
         if self._run.sleepy:
             self._run.batch.reset(worlds, stage=_NO_STAGE)  # wakes all that sleeps
@@ -208,7 +208,7 @@ class MujocoEngine:
         self._run.change(replace(recipe, world=world))
 
     def delete(self, model: str) -> None:
-        """Take a model out of every world; all else stays as it is."""
+        """Delete a model from every world; all else stays as it is."""
         recipe = self._run.latest
         names = [each.name for each in recipe.world.models]
         if model not in names:
@@ -227,7 +227,7 @@ class MujocoEngine:
         self._run.change(changed)
 
     def _held(self, gone: str) -> tuple[Attachment, ...]:
-        """The attachments that hold something in some world, but for those of one model."""
+        """Return the active attachments, except those of one model."""
         columns = self._run.layout.attachments
         return tuple(
             pair
@@ -236,7 +236,7 @@ class MujocoEngine:
         )
 
     def update_world(self, world: World) -> None:
-        """Take over all of a world but its models: physics, gravity, air, lights, scene."""
+        """Update all of a world but its models: physics, gravity, air, lights, scene."""
         self._run.now()
         old, profile = self._run.recipe.world, world.profile
         check_world(world)
@@ -264,7 +264,10 @@ class MujocoEngine:
     # -- saving ------------------------------------------------------------------------
 
     def history(self) -> list[Call]:
-        """Calls that make a new engine of this ``world`` one like this, but for the state."""
+        """Return the calls that make a new engine of this ``world`` like this one.
+
+        The state is not included.
+        """
         self._run.now()
         recipe = self._run.recipe
         calls = [Call("make_kinematic", (name,)) for name in sorted(recipe.kinematic)]
@@ -276,7 +279,7 @@ class MujocoEngine:
         ]
 
     def adopt(self, history: Sequence[Call]) -> None:
-        """Become what the calls of a ``history`` make of this world; ``restore`` fits then."""
+        """Replay the calls of a ``history`` on this world; ``restore`` fits then."""
         kinematic = [call.arguments[0] for call in history if call.method == "make_kinematic"]
         motors = [motor_again(*call.arguments) for call in history if call.method == "add_motor"]
         pairs = [Attachment(*call.arguments) for call in history if call.method == "attach"]
@@ -294,7 +297,7 @@ class MujocoEngine:
                 self._run.set_parameter(*call.arguments)
 
     def snapshot(self) -> Floats:
-        """The whole dynamic state, shape (nworld, size)."""
+        """Return the whole dynamic state, shape (nworld, size)."""
         self._run.now()
         self._made.find_dropped()
         state: Floats = np.hstack((self._run.batch.state, self._run.overlaps.saved()))
@@ -304,7 +307,7 @@ class MujocoEngine:
         return state
 
     def restore(self, state: Floats) -> None:
-        """Put back what ``snapshot`` gave; the models must be the same."""
+        """Restore what ``snapshot`` returned; the models must be the same."""
         self._run.now()
         rows, width = self._run.batch.state.shape
         if state.shape not in ((rows, width), (rows, width + self._run.overlaps.size)):
@@ -321,7 +324,10 @@ class MujocoEngine:
         self._run.stale = True
 
     def peek(self) -> Floats:
-        """The whole dynamic state, shape (nworld, size), as a view that must not be kept."""
+        """Return the whole dynamic state, shape (nworld, size).
+
+        The array is a view and must not be kept.
+        """
         self._run.now()
         view: Floats = self._run.batch.state
         return view

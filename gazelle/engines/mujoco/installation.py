@@ -53,7 +53,7 @@ def check_installation() -> None:
 
 
 def _installed(name: str) -> str:
-    """The version of a distribution; empty if it is not there."""
+    """Return the version of a distribution; empty if it is not installed."""
     try:
         return version(name)
     except PackageNotFoundError:

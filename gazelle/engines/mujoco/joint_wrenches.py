@@ -58,7 +58,7 @@ class JointReactions:
         return Wrench(-force, -torque)
 
     def _compute_forces(self) -> Batch:
-        """Know the forces between bodies of the state as it is now."""
+        """Compute the forces between bodies for the present state."""
         batch = self._run.batch
         self._run.refresh()
         known = self._carried
@@ -84,7 +84,7 @@ class JointReactions:
         return batch
 
     def _weightless(self, body: int) -> list[int]:
-        """Bodies on a joint that gravity does not pull in some world.
+        """Return bodies on a joint that gravity does not pull in some world.
 
         MuJoCo takes their weight off at the joints, and forgets it in the forces it reports.
         """
@@ -100,7 +100,7 @@ class JointReactions:
         return found
 
     def _lifted(self, body: int, rows: slice | Worlds) -> Floats:
-        """The part of a body's weight that does not pull it, shape (n, 3)."""
+        """Return the part of a body's weight that does not pull it, shape (n, 3)."""
         nworld = self._run.nworld
         share = np.broadcast_to(self._run.of_worlds("body_gravcomp")[:, body], nworld)
         mass = np.broadcast_to(self._run.of_worlds("body_mass")[:, body], nworld)
@@ -108,7 +108,7 @@ class JointReactions:
         return np.broadcast_to(lifted, (nworld, 3))[rows]
 
     def _loop_wrench(self, slot: LoopSlot, worlds: Worlds | None) -> Wrench:
-        """The same of a joint that closes a loop, which constraints hold.
+        """Return the wrench of a joint that closes a loop, which constraints hold.
 
         MuJoCo keeps the forces of constraints for one world at a time.
         """
@@ -145,7 +145,7 @@ class JointReactions:
         )
 
     def probe(self, world: int) -> tuple[mujoco.MjModel, mujoco.MjData]:
-        """One world with all its forces computed, apart from the batch."""
+        """Return one world with all its forces computed, apart from the batch."""
         batch, known = self._run.batch, self._probed
         if known is None or known[0] is not batch:
             model = batch.get_model(world)
@@ -160,7 +160,7 @@ class JointReactions:
 
 
 def _read_pulls(slot: LoopSlot, data: mujoco.MjData, out: Floats) -> None:
-    """Forces of the constraints that hold a joint, shape (constraints, 6), where there are any."""
+    """Read the forces of the constraints that hold a joint, shape (constraints, 6)."""
     tied = data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY
     for row, equality in zip(out, slot.equalities, strict=True):
         pull = data.efc_force[tied & (data.efc_id == equality)]

@@ -139,7 +139,7 @@ class MujocoLayout:
     tyres: Mapping[str, TyreSlot]
 
     def link(self, name: str) -> LinkSlot:
-        """The slot of a link.
+        """Return the slot of a link.
 
         Raises:
             EngineError: There is none of that name.
@@ -147,7 +147,7 @@ class MujocoLayout:
         return look_up("link", name, self.links)
 
     def joint(self, name: str) -> tuple[Slot, ...]:
-        """The slots of a joint, one an axis.
+        """Return the slots of a joint, one an axis.
 
         Raises:
             EngineError: There is none of that name.
@@ -155,7 +155,7 @@ class MujocoLayout:
         return look_up("joint", name, self.joints)
 
     def model(self, name: str) -> ModelSlot:
-        """The slot of a model.
+        """Return the slot of a model.
 
         Raises:
             EngineError: There is none of that name.
@@ -172,7 +172,7 @@ class MujocoLayout:
 
 
 def look_up(kind: str, name: str, known: Mapping[str, T]) -> T:
-    """Look up a name.
+    """Return the entry of a name.
 
     Raises:
         EngineError: There is none of that name.

@@ -11,7 +11,7 @@ import mujoco
 
 @functools.cache
 def settle() -> None:
-    """Let MuJoCo write no log files and not time itself; once in a process.
+    """Disable MuJoCo's log files and timing; once in a process.
 
     It would write a log file into the working directory, while faults are raised here. And
     its Python module reads the clock at every stage of every step, for ``MjData.timer``,
@@ -35,7 +35,7 @@ def address_of(name: str) -> int:
 
 
 def _stop_timing() -> None:
-    """Take away the clock, which the Python module has no function for.
+    """Remove MuJoCo's clock, which the Python module has no function for.
 
     ``mjcb_time`` is a public variable of MuJoCo's C library; a null pointer means no timing.
     Where the library does not let it be found, MuJoCo goes on timing itself.

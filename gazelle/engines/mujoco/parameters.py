@@ -44,7 +44,7 @@ class _Target:
     layout: MujocoLayout
 
     def body(self, link: str) -> int:
-        """The body of a link that moves."""
+        """Return the body of a moving link."""
         if self.is_held(link):
             raise EngineError(f"link '{link}' does not move; it has no mass to change")
         return self.layout.link(link).body
@@ -55,15 +55,15 @@ class _Target:
         return slot.body == 0 or slot.mocap is not None
 
     def dofs(self, joint: str) -> list[slice]:
-        """Degrees of freedom of a joint, one slice an axis."""
+        """Return the degrees of freedom of a joint, one slice an axis."""
         return [slot.velocity for slot in self.layout.joint(joint)]
 
     def joint_ids(self, joint: str) -> list[int]:
-        """MuJoCo's joints, one an axis."""
+        """Return MuJoCo's joints, one an axis."""
         return [int(self.batch.model.dof_jntid[dofs.start]) for dofs in self.dofs(joint)]
 
     def geoms(self, collision: str) -> list[int]:
-        """MuJoCo's geoms of a collision."""
+        """Return MuJoCo's geoms of a collision."""
         return look_up("collision", collision, self.layout.collisions)
 
 
@@ -143,7 +143,7 @@ def _write_inertia(target: _Target, name: str, values: Floats) -> None:
 
 
 def _free_frames(target: _Target, body: int) -> None:
-    """Let no shape take its place from the inertial frame, as MuJoCo does where they agree."""
+    """Free shapes from the inertial frame, which MuJoCo uses for those that agree with it."""
     target.batch.expand("body_sameframe")[:, body] = 0
     of_body = target.batch.model.geom_bodyid == body
     target.batch.expand("geom_sameframe")[:, of_body] = 0
@@ -282,7 +282,7 @@ class ParameterStore:
         return self._values
 
     def read(self, batch: Batch, layout: MujocoLayout, kind: str, name: str) -> Floats:
-        """Values of all worlds, shape (nworld, width)."""
+        """Return values of all worlds, shape (nworld, width)."""
         if (kind, name) in self._values:
             return self._values[kind, name].copy()
         reader = look_up("parameter", kind, _READERS)
@@ -297,7 +297,7 @@ class ParameterStore:
         return self._compiled[kind, name].copy()
 
     def write(self, batch: Batch, layout: MujocoLayout, key: Key, values: Floats) -> None:
-        """Let worlds have these values from now on, shape (nworld, width)."""
+        """Set values of all worlds, shape (nworld, width)."""
         self.writes += 1
         _WRITERS[key[0]](_Target(batch, layout), key[1], values)
         self._values[key] = values
@@ -305,7 +305,7 @@ class ParameterStore:
             self._derive(batch, layout)
 
     def apply(self, batch: Batch, layout: MujocoLayout) -> None:
-        """Give a new batch all that was set."""
+        """Apply all values to a new batch."""
         target = _Target(batch, layout)
         for (kind, name), values in self._values.items():
             if not (kind.startswith("link_") and target.is_held(name)):
@@ -323,7 +323,7 @@ class ParameterStore:
             set_slip(batch, slot, self.read(batch, layout, "wheel_slip", link))
 
     def drop(self, model: str) -> None:
-        """Forget what was set for a model that is gone."""
+        """Discard the values of a deleted model."""
         inside = f"{model}::"
         self._values = {
             (kind, name): values
@@ -332,18 +332,18 @@ class ParameterStore:
         }
 
     def forget(self, kind: str, name: str) -> None:
-        """Forget one parameter; a batch made from now on has the description's."""
+        """Discard one parameter; a batch made from now on has the description's."""
         self._values.pop((kind, name), None)
 
     def copy(self) -> ParameterStore:
-        """The same, to be changed apart."""
+        """Return an independent copy."""
         other = ParameterStore(self._nworld)
         other._values = dict(self._values)  # its own class
         return other
 
 
 def as_rows(kind: str, name: str, shape: tuple[int, ...], values: ArrayLike) -> Floats:
-    """Values of some worlds, shape (n, width).
+    """Return values of some worlds, shape (n, width).
 
     Raises:
         EngineError: They are no numbers, or too many or too few.
@@ -359,7 +359,7 @@ def as_rows(kind: str, name: str, shape: tuple[int, ...], values: ArrayLike) -> 
 
 
 def check(kind: str, name: str, values: Floats) -> None:
-    """Refuse values that no world can have.
+    """Check values of a parameter.
 
     Raises:
         EngineError: A value is not finite, not positive where it must be, or no tensor.

@@ -86,7 +86,7 @@ class Overlaps:
         self._show(batch)
 
     def carry(self, batch: Batch, old: Overlaps) -> None:
-        """Go on as before a change of the model, and find what that brought with it."""
+        """Continue after a change of the model, and find new overlaps."""
         was = {name: column for column, name in enumerate(old._names)}
         known = np.array([name in was for name in self._names], np.bool_)
         before = [was[name] for name in self._names if name in was]
@@ -96,12 +96,12 @@ class Overlaps:
         self._show(batch)
 
     def clear(self, batch: Batch) -> None:
-        """Forget what does not overlap any more, because it was put elsewhere."""
+        """Discard overlaps that ended because a body was placed elsewhere."""
         np.maximum(self._margins, self._find(batch), out=self._margins)
         self._show(batch)
 
     def drop(self, batch: Batch, placed: Mapping[int, NDArray[np.bool_]]) -> None:
-        """Take up what free bodies were put into.
+        """Start the recovery of free bodies that were placed into others.
 
         Args:
             batch: The worlds.
@@ -117,7 +117,7 @@ class Overlaps:
             self._show(batch)
 
     def _deepest(self, batch: Batch, worlds: Worlds) -> Floats:
-        """The least distance of any contact in worlds [m]."""
+        """Return the least distance of any contact in worlds [m]."""
         column = int(self._model.sensor(DEEPEST).adr[0])
         found = batch.bind("sensordata")
         flags = batch.expand("opt.disableflags")
@@ -132,19 +132,19 @@ class Overlaps:
         return least
 
     def _find(self, batch: Batch) -> Floats:
-        """Margins at which nothing is too deep now, shape (nworld or 1, geoms + pairs)."""
+        """Return margins at which nothing is too deep now, shape (nworld or 1, geoms + pairs)."""
         alike = bool((batch.state == batch.state[0]).all())
         return np.stack([self._depths(state) for state in batch.state[: 1 if alike else None]])
 
     def reset(self, batch: Batch, worlds: Worlds | None) -> None:
-        """Take up the margins of the initial state again."""
+        """Restore the margins of the initial state."""
         if self.any or self._start.any():
             self._margins[slice(None) if worlds is None else worlds] = self._start
             self._marked[slice(None) if worlds is None else worlds] = False
             self._show(batch)
 
     def rise(self, batch: Batch, step: float) -> int:
-        """Let out what overlaps in the worlds whose turn it is.
+        """Advance penetration recovery in the worlds whose turn it is.
 
         Args:
             batch: The worlds.
@@ -165,7 +165,7 @@ class Overlaps:
     def advance_bounded(
         self, state: StateViews, count: int, advance: Callable[[int], set[int]]
     ) -> set[int]:
-        """Make steps in which what is let out gains no energy; returns the worlds that failed."""
+        """Advance so that recovering bodies gain no energy; returns the worlds that failed."""
         if not (self.any and self._speed_limit.concerns(self._marked)):
             return advance(count)
         failed: set[int] = set()
@@ -176,7 +176,7 @@ class Overlaps:
         return failed
 
     def _mark(self, batch: Batch, worlds: Worlds) -> None:
-        """Mark all pieces of what is let out, until nothing of it is deep in anything."""
+        """Mark all pieces of recovering bodies, until none of them is deep in anything."""
         ngeom = self._model.ngeom
         margins = self._margins[worlds]
         rising = margins < _MARK
@@ -189,7 +189,7 @@ class Overlaps:
         self._margins[worlds] = margins
 
     def _pieces(self) -> None:
-        """Take down which pieces belong to what is let out now."""
+        """Update which pieces belong to recovering bodies."""
         ngeom = self._model.ngeom
         self._marked |= self._margins[:, :ngeom] < 0.0
         for world, geom in np.argwhere(self._margins[:, :ngeom] < _MARK).tolist():
@@ -201,13 +201,13 @@ class Overlaps:
         return 2 * len(self._rates)
 
     def saved(self) -> Floats:
-        """All that ``take`` needs, shape (nworld, n); n is 0 while nothing overlaps."""
+        """Return all that ``take`` needs, shape (nworld, n); n is 0 while nothing overlaps."""
         if not self.any:
             return np.zeros((len(self._margins), 0))
         return np.hstack((self._margins, np.tile(self._rates, (len(self._margins), 1))))
 
     def take(self, batch: Batch, saved: Floats) -> None:
-        """Go on as when ``saved`` gave this."""
+        """Restore what ``saved`` returned."""
         self._marked[:] = False
         if saved.shape[1]:
             margins, rates = np.split(saved, 2, axis=1)
@@ -227,7 +227,7 @@ class Overlaps:
                 batch.expand("pair_margin")[:] = pairs
 
     def _depths(self, state: Floats, placed: AbstractSet[int] | None = None) -> Floats:
-        """Margins at which nothing of a state is too deep, shape (geoms + pairs,).
+        """Return margins at which nothing of a state is too deep, shape (geoms + pairs,).
 
         Args:
             state: Of a world.
@@ -256,7 +256,7 @@ class Overlaps:
         return margins
 
     def _column(self, one: int, two: int) -> int:
-        """The column of a contact between two geoms: of their pair, or of one that moves."""
+        """Return the column of a contact between two geoms: of the pair, or of the moving one."""
         pair = self._pairs.get((min(one, two), max(one, two)))
         if pair is not None:
             return int(self._model.ngeom) + pair
@@ -269,7 +269,7 @@ def _shown(margins: Floats, usual: float, other: float) -> Floats:
 
 
 def _contacts_of(compiled: Compiled) -> Iterator[tuple[int, Contact]]:
-    """Every geom of the description, and its terms of contact."""
+    """Yield every geom of the description with its terms of contact."""
     ids = geom_ids(compiled.model)
     for parts in compiled.bodies.values():
         for body in parts:
@@ -312,13 +312,13 @@ class RecoverySpeedLimit:
         return bool((marked.any(axis=0) & (self._place >= 0)).any())
 
     def before(self, state: StateViews) -> tuple[Floats, Floats]:
-        """Positions and velocities, to be given to ``after``."""
+        """Return positions and velocities, for ``after``."""
         return state.qpos.copy(), state.qvel.copy()
 
     def after(
         self, state: StateViews, marked: NDArray[np.bool_], before: tuple[Floats, Floats]
     ) -> None:
-        """Slow down what has become too fast since.
+        """Limit velocities that have become too fast since.
 
         Args:
             state: Of all worlds.
@@ -341,7 +341,7 @@ class RecoverySpeedLimit:
         state.qvel[rows, dofs] *= share[:, None]
 
     def _square(self, velocity: Floats, bodies: NDArray[np.intp]) -> Floats:
-        """Twice the energy over the mass [m²/s²]."""
+        """Return twice the energy over the mass [m²/s²]."""
         linear, angular = np.square(velocity[:, :3]), np.square(velocity[:, 3:])
         found: Floats = linear.sum(axis=1) + self._gyration[bodies] * angular.sum(axis=1)
         return found

@@ -11,12 +11,12 @@ _TO_WXYZ, _TO_XYZW = np.array([3, 0, 1, 2]), np.array([1, 2, 3, 0])
 
 
 def wxyz_from_xyzw(q: Floats) -> Floats:
-    """MuJoCo's order of many quaternions, shape (..., 4)."""
+    """Return quaternions in MuJoCo's order, shape (..., 4)."""
     return q.take(_TO_WXYZ, axis=-1)
 
 
 def xyzw_from_wxyz(q: Floats) -> Floats:
-    """The public order of many quaternions, shape (..., 4)."""
+    """Return quaternions in the public order, shape (..., 4)."""
     return q.take(_TO_XYZW, axis=-1)
 
 
@@ -26,13 +26,13 @@ _JOINT_TO_WXYZ = {4: np.array([3, 0, 1, 2]), 7: np.array([0, 1, 2, 6, 3, 4, 5])}
 
 
 def joint_from_mujoco(q: Floats) -> Floats:
-    """The public order of a joint's positions, shape (..., width)."""
+    """Return a joint's positions in the public order, shape (..., width)."""
     order = _JOINT_TO_XYZW.get(q.shape[-1])
     return q if order is None else q.take(order, axis=-1)
 
 
 def joint_to_mujoco(q: Floats) -> Floats:
-    """MuJoCo's order of a joint's positions, with quaternions as long as they must be."""
+    """Return a joint's positions in MuJoCo's order, with unit quaternions."""
     order = _JOINT_TO_WXYZ.get(q.shape[-1])
     if order is None:
         return q

@@ -34,7 +34,7 @@ class StateViews:
 
     @classmethod
     def of(cls, batch: Batch) -> StateViews:
-        """The views of a batch."""
+        """Return the views of a batch."""
         first, last = mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADCTRL
         return cls(
             qpos=batch.bind("qpos"),
@@ -49,5 +49,5 @@ class StateViews:
 
 
 def rows_of(worlds: Worlds | None) -> slice | Worlds:
-    """An index for these worlds, all if None."""
+    """Return an index for these worlds, all if None."""
     return slice(None) if worlds is None else worlds

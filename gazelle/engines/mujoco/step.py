@@ -114,7 +114,7 @@ class WorldSteps:
         return AHEAD
 
     def _advance(self, count: int) -> None:
-        """Make steps at whose beginning and end alone something may be changed."""
+        """Advance by steps between which nothing has to change."""
         run = self._run
         run.stale = True
         if run.dropped:
@@ -132,13 +132,13 @@ class WorldSteps:
             self._give_up(np.flatnonzero(bad), count)
 
     def find_dropped(self) -> None:
-        """Let out slowly, too, what free bodies were put into since the last step."""
+        """Start the recovery of free bodies that were placed into others since the last step."""
         if self._run.dropped:
             self._run.overlaps.drop(self._run.batch, self._run.dropped)
             self._run.dropped = {}
 
     def _recover(self, count: int) -> set[int]:
-        """Make the steps with what overlaps rising; returns those in which MuJoCo gave up."""
+        """Advance with penetration recovery; returns the worlds in which MuJoCo diverged."""
         if self._run.placed or self._run.moved[0]:
             self._run.overlaps.clear(self._run.batch)
         failed: set[int] = set()

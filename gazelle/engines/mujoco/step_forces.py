@@ -84,7 +84,7 @@ class ForcedSteps:
         return failed
 
     def _warn_of_spin(self) -> None:
-        """Say once that the physics step is too long for how fast something turns."""
+        """Warn once that the physics step is too long for how fast something turns."""
         if self._spun:
             return
         self._spun = True
@@ -102,7 +102,7 @@ class ForcedSteps:
 
     @contextmanager
     def forced(self) -> Iterator[None]:
-        """Let the forces of this moment act while it lasts; the state keeps what was commanded."""
+        """Apply the forces of this moment while it lasts; the state keeps what was commanded."""
         if not self._is_forced():
             yield
             return
@@ -132,7 +132,7 @@ class ForcedSteps:
 
     @contextmanager
     def _blown(self) -> Iterator[None]:
-        """Let the wind push the links that it is enabled for, in proportion to their mass."""
+        """Apply the wind to enabled links, in proportion to their mass, while it lasts."""
         if not self._is_windy():
             yield
             return

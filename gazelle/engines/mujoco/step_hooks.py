@@ -41,7 +41,7 @@ class Hooks:
         self.kept: Floats = np.zeros((nworld, 0))
 
     def limit(self, limits: EffortLimits) -> None:
-        """Let joints have velocity limits."""
+        """Set the velocity limits of joints."""
         self._dofs = np.ascontiguousarray(limits.dofs, np.int64)
         self._speeds = np.ascontiguousarray(limits.speed, np.float64)
         self.kept = np.zeros((len(self._times), len(self._dofs)))
@@ -50,7 +50,7 @@ class Hooks:
         self._numbers[8] = first_of_run(self._dofs)
 
     def show(self, state: StateViews, targets: Floats) -> None:
-        """Let systems have the velocities that motors hold, and the mocap bodies of a state."""
+        """Give systems access to the velocities of motors and the mocap bodies of a state."""
         position, quaternion = state.mocap_pos, state.mocap_quat
         self._numbers[12:] = (
             state.qpos.strides[0],
@@ -62,7 +62,7 @@ class Hooks:
         )
 
     def begin(self, loop: SystemLoop, now_ns: int) -> None:
-        """Let systems act in the steps that follow."""
+        """Start running systems in steps."""
         numbers = self._numbers
         if self._loop is not loop:
             self._loop = loop
@@ -72,7 +72,7 @@ class Hooks:
         numbers[0], numbers[2] = self._count, loop.step
 
     def end(self, applied: Floats) -> None:
-        """Let none act any more, and put back what was kept, shape (nworld, velocities)."""
+        """Stop running systems in steps, and restore what was kept, shape (nworld, velocities)."""
         self._numbers[0] = 0
         if self._numbers[4] and np.count_nonzero(self.kept):
             rows = np.nonzero(self.kept)

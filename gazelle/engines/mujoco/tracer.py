@@ -70,7 +70,7 @@ class MujocoTracer:
             self._visuals.append(visual)
 
     def place(self, poses: Mapping[str, Pose]) -> None:
-        """Put links, by scoped name, at poses in the world."""
+        """Set the poses of links in the world, by scoped name."""
         model = self._batch.model
         for name in self._names:
             if name in poses:
@@ -92,7 +92,7 @@ class MujocoTracer:
 
 
 def _bounded(shape: dict[str, Any], visual: Visual) -> dict[str, Any]:
-    """A visual plane ends where its size says; a colliding one never does."""
+    """Return a shape with its bounds: a visual plane has its size, a colliding one is infinite."""
     if isinstance(visual.geometry, Plane):
         x, y = visual.geometry.size
         return {**shape, "size": [x / 2, y / 2, 1.0]}

@@ -130,7 +130,7 @@ class RunningWorlds:
             return getattr(self, name)
 
     def _start(self, recipe: CompilerInput, compiled: Compiled) -> None:
-        """Go on with a compiled model, from its initial state."""
+        """Start a compiled model from its initial state."""
         keep_awake(compiled.model, recipe.world)
         batch = self._make_batch(compiled.model, recipe.world)
         self.sleepy = bool(batch.persistent)
@@ -181,13 +181,13 @@ class RunningWorlds:
     # -- compiling ---------------------------------------------------------------------
 
     def now(self) -> MujocoLayout:
-        """The layout of what runs, once pending changes have been made."""
+        """Return the layout of the running model, after pending changes."""
         if self.pending is not None:
             self.change(self.pending)
         return self.layout
 
     def bodies(self) -> Mapping[str, list[TreeLink]]:
-        """Of the models that run, or will, by name."""
+        """Return the bodies of running and pending models, by name."""
         if self.revision:
             return self.compiled.bodies
         latest, drafted = self.latest, self._drafted
@@ -198,7 +198,7 @@ class RunningWorlds:
         return drafted[2]
 
     def link_names(self) -> tuple[str, ...]:
-        """Scoped names; what is pending changes none."""
+        """Return scoped names of links; pending changes add none."""
         return tuple(body.name for parts in self.bodies().values() for body in parts)
 
     def model_names(self) -> tuple[str, ...]:
@@ -214,14 +214,14 @@ class RunningWorlds:
         return AXES.get(next(kinds, ""), 0)
 
     def joint_names(self) -> tuple[str, ...]:
-        """Scoped names of joints that can move."""
+        """Return scoped names of movable joints."""
         if self.revision:
             return tuple(self.known().joints)
         every = (body for parts in self.bodies().values() for body in parts)
         return tuple(b.joint_name for b in every if b.joint is not None and b.joint.type != "fixed")
 
     def change(self, recipe: CompilerInput) -> None:
-        """Go on with another model, with all states that both have."""
+        """Replace the model, and keep the states of what both have."""
         self.pending = None
         if recipe.motors and self._calls and not recipe.hooks:  # what drives motors acts in steps
             recipe = replace(recipe, hooks=self.hooks.address)
@@ -241,14 +241,14 @@ class RunningWorlds:
             self.__dict__.pop(name, None)
 
     def prepare(self, pair: Attachment) -> MujocoLayout:
-        """The layout of what runs, in which two links can be held together."""
+        """Return the layout of the running model, in which two links can be attached."""
         if pair not in self.recipe.attachments:
             others = (each for each in self.recipe.attachments if each.name != pair.name)
             self.change(replace(self.recipe, attachments=(*others, pair)))
         return self.layout
 
     def known(self) -> MujocoLayout:
-        """The layout to read states by, which motors that wait for the next step do not change."""
+        """Return the layout to read states by, which pending motors do not change."""
         pending = self.pending
         if pending is None or pending.kinematic == self.recipe.kinematic:
             return self.layout
@@ -262,7 +262,7 @@ class RunningWorlds:
             self.computed += 1
 
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
-        """Give a joint a motor that holds a velocity with limited effort; see the protocol."""
+        """Add a motor to a joint that holds a velocity with limited effort; see the protocol."""
         recipe = self.latest
         if self.revision:
             self.layout.joint(joint)  # motors do not change the layout of joints
@@ -275,7 +275,7 @@ class RunningWorlds:
         self.pending = replace(recipe, motors={**recipe.motors, joint: motor})
 
     def make_kinematic(self, model: str) -> None:
-        """Let a model move only by ``set_model_placement``; it pushes, nothing pushes it."""
+        """Make a model kinematic: ``set_model_placement`` moves it, nothing pushes it."""
         recipe = self.latest
         look_up("model", model, {name: parts for name, parts in self.bodies().items() if parts})
         refuse_motors(model, recipe.motors)
@@ -284,7 +284,7 @@ class RunningWorlds:
     # -- parameters --------------------------------------------------------------------
 
     def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
-        """A physical parameter, shape (n, width)."""
+        """Return a physical parameter, shape (n, width)."""
         layout = self.now()
         values = self.parameters.read(self.batch, layout, kind, name)
         return values[rows_of(worlds)]
@@ -292,7 +292,7 @@ class RunningWorlds:
     def set_parameter(
         self, kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Change a physical parameter, shape (width,) or (n, width); a reset does not undo it."""
+        """Set a physical parameter, shape (width,) or (n, width); a reset does not undo it."""
         layout = self.now()
         every = self.parameters.read(self.batch, layout, kind, name)
         rows = rows_of(worlds)
@@ -308,7 +308,7 @@ class RunningWorlds:
         self.stale = True
 
     def _fit_tyre(self, link: str) -> None:
-        """Let a link's shapes slip on it.
+        """Add a tyre to a link, on which its shapes slip.
 
         Raises:
             EngineError: The link is no wheel.
@@ -331,7 +331,7 @@ class RunningWorlds:
             self.change(replace(self.recipe, world=world))
 
     def of_worlds(self, field: str) -> NDArray[np.float64]:
-        """A field of the model, shape (nworld, ...), or (1, ...) where worlds share it."""
+        """Return a field of the model, shape (nworld, ...), or (1, ...) where worlds share it."""
         own = self.batch.expanded(field)
         if own is not None:
             return np.asarray(own)

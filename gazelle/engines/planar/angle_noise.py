@@ -49,5 +49,5 @@ class AngleNoiseScanner(Scanner):
             made.spread, made = self._spread, made.next
 
     def call(self) -> None:
-        """See ``Scanner.call``: its noise is another one in each scan."""
+        """Scan with new noise; see ``Scanner.call``."""
         return

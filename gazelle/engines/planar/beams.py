@@ -36,7 +36,10 @@ FEW = cython.declare(cython.int, 48)  # beams from which it pays to find out whi
 
 
 def angle_of(y: float, x: float) -> float:
-    """atan2 to 1e-5 rad: Abramowitz and Stegun, Handbook of Mathematical Functions, 4.4.47."""
+    """Return atan2 to 1e-5 rad.
+
+    See Abramowitz and Stegun, Handbook of Mathematical Functions, 4.4.47.
+    """
     ax, ay = fabs(x), fabs(y)
     low, high = (ax if ax < ay else ay), (ay if ax < ay else ax)
     q = low / (high if high > 1e-300 else 1e-300)
@@ -75,7 +78,7 @@ class Beams:
         self.best, self.who = np.zeros(self.count), np.zeros(self.count)
 
     def clear(self) -> None:
-        """Forget what beams met."""
+        """Clear the hits of beams."""
         nothing = 1.0 / self.reach
         for k in range(self.count):
             self.best[k] = nothing
@@ -85,7 +88,7 @@ class Beams:
         self, lo: int, hi: int, x0: float, y0: float, x1: float, y1: float, inverse: float,
         name: float,
     ) -> None:  # fmt: skip
-        """Beams lo to hi, each of which may pass a segment on either side."""
+        """Draw a segment, which may be missed on either side, into beams lo to hi."""
         near = self.near
         for k in range(lo, hi):
             dx, dy, best, who = self.dx[k], self.dy[k], self.best[k], self.who[k]
@@ -99,7 +102,10 @@ class Beams:
     def draw_circle(
         self, lo: int, hi: int, x: float, y: float, square: float, inverse: float, name: float
     ) -> None:
-        """Beams lo to hi, each of which may pass a circle; what is met from inside is negative."""
+        """Draw a circle, which may be missed, into beams lo to hi.
+
+        Hits from inside are negative.
+        """
         near = self.near
         for k in range(lo, hi):
             dx, dy, best, who = self.dx[k], self.dy[k], self.best[k], self.who[k]
@@ -118,7 +124,7 @@ class Beams:
     def draw_front(
         self, lo: int, hi: int, x0: float, y0: float, x1: float, y1: float, inverse: float
     ) -> None:
-        """A segment into beams lo to hi, however near it is and whatever its name."""
+        """Draw a segment into beams lo to hi, whatever its distance and name."""
         for k in range(lo, hi):
             dx, dy, best = self.dx[k], self.dy[k], self.best[k]
             c0 = dx * y0 - dy * x0
@@ -131,7 +137,7 @@ class Beams:
         self, ax: float, ay: float, bx: float, by: float, i: float, cx: float, cy: float,
         dx: float, dy: float, j: float,
     ) -> None:  # fmt: skip
-        """Two segments into all beams, as ``draw_front`` does with one."""
+        """Draw two segments into all beams, as ``draw_front`` does with one."""
         for k in range(self.count):
             x, y, best = self.dx[k], self.dy[k], self.best[k]
             c0 = x * ay - y * ax
@@ -146,7 +152,7 @@ class Beams:
             self.best[k] = v if met else best
 
     def draw_disc(self, x: float, y: float, radius: float, inverse: float) -> None:
-        """A disc that all beams begin outside of, however near it is and whatever its name."""
+        """Draw a disc that all beams begin outside of, whatever its distance and name."""
         square = radius * radius
         for k in range(self.count):
             dx, dy, best = self.dx[k], self.dy[k], self.best[k]
@@ -159,7 +165,7 @@ class Beams:
             self.best[k] = v if met else best
 
     def between(self, first: float, span: float, turn: int) -> tuple[int, int]:
-        """The beams among angles found by ``cover``, from the first to before the last.
+        """Return the beams among angles found by ``cover``, from the first to before the last.
 
         ``turn`` is 0 and -1: a fan may go once around.
         """

@@ -67,7 +67,7 @@ class ConvertedModels(Mapping[str, ConvertedModel]):
         return found
 
     def owners(self) -> dict[str, str]:
-        """The model of each link, by scoped name."""
+        """Return the model of each link, by scoped name."""
         found = {}
         for name, model in self._models.items():
             if model.stage is None:
@@ -87,7 +87,7 @@ class ConvertedModels(Mapping[str, ConvertedModel]):
 
 
 def convert_model(model: Model, *, kinematic: bool) -> ConvertedModel:
-    """Look at a model.
+    """Convert a model to planar parts.
 
     Raises:
         EngineError: A joint names a link that is not there.
@@ -104,7 +104,10 @@ def convert_model(model: Model, *, kinematic: bool) -> ConvertedModel:
 
 
 def _grounded(model: Model, skeleton: Skeleton, tilt: Pose) -> float:
-    """Height at which a model stands on its wheels; where it was put if it has none."""
+    """Return the height at which a model stands on its wheels.
+
+    Its initial height without wheels.
+    """
     bottoms = [
         (tilt * skeleton.bones[_child(skeleton, name)].rest).z - wheel.radius
         for name, wheel in skeleton.wheels.items()
@@ -123,7 +126,7 @@ def _child(skeleton: Skeleton, joint: str) -> str:
 
 
 def levels_of(models: Iterable[ConvertedModel], more: Iterable[float]) -> Levels:
-    """The heights at which to cut: of all lidars and of all that drives, and ``more`` rays."""
+    """Return the heights of sections: of all lidars and drives, and ``more`` rays."""
     rays, lows, highs = set(more), [], []
     for each in models:
         frame = Pose(z=each.z) * each.tilt
@@ -140,7 +143,7 @@ def levels_of(models: Iterable[ConvertedModel], more: Iterable[float]) -> Levels
 
 
 def statics_of(each: ConvertedModel, levels: Levels) -> list[PlanarPart]:
-    """The parts of a model that never moves, in the world."""
+    """Return the parts of a static model, in the world."""
     return [
         part
         for bone in each.skeleton.bones.values()
@@ -152,7 +155,7 @@ def statics_of(each: ConvertedModel, levels: Levels) -> list[PlanarPart]:
 
 
 def body_of(each: ConvertedModel, levels: Levels) -> Body:
-    """A model that moves as a body of a fleet."""
+    """Return a model that moves as a body of a fleet."""
     own = levels.lowered(each.z)
     parts = [
         _lifted(part)
@@ -165,7 +168,7 @@ def body_of(each: ConvertedModel, levels: Levels) -> Body:
 
 
 def _lifted(part: PlanarPart) -> PlanarPart:
-    """A part that does not bump into what its body can drive over."""
+    """Return a part that does not collide with what its body can drive over."""
     if not part.solid or part.high - part.low <= 2.0 * STEP:
         return part
     return replace(part, low=part.low + STEP)

@@ -41,7 +41,7 @@ class ClearSpaceGrid:
 
 
 def clear_space_grid_of(table: PrimitiveTable, *, solid: bool) -> ClearSpaceGrid:
-    """A grid with the cells of the table's bitmap, or some for each of the primitives.
+    """Return a grid with the cells of the table's bitmap, or some for each of the primitives.
 
     Args:
         table: What there is.
@@ -64,7 +64,7 @@ def clear_space_grid_of(table: PrimitiveTable, *, solid: bool) -> ClearSpaceGrid
 
 
 def _of_raster(table: PrimitiveTable, raster: Raster) -> ClearSpaceGrid | None:
-    """The cells of a bitmap, and more around them where there is more; None if too many."""
+    """Return the grid of a bitmap, extended to cover all primitives; None if too large."""
     (x, y, yaw), (wide, deep) = raster.pose, raster.cell
     if min(wide, deep) < _LEAST:
         return None
@@ -103,7 +103,7 @@ def _of_raster(table: PrimitiveTable, raster: Raster) -> ClearSpaceGrid | None:
 
 
 def turned(rows: Floats, cos: float, sin: float, x: float, y: float) -> None:
-    """Give primitives in a frame that is at (x, y), turned."""
+    """Transform primitives to a frame at (x, y), turned."""
     circle = (rows[:, c.KIND].astype(int) & 1) == 1
     radius = rows[circle, c.X1].copy()
     for first, second in ((c.X0, c.Y0), (c.X1, c.Y1)):
@@ -121,7 +121,7 @@ def _measured(
 
 
 def _bounds(rows: Floats) -> tuple[Floats, Floats]:
-    """Lower left and upper right corner of primitives [m]."""
+    """Return the lower left and upper right corner of primitives [m]."""
     found = corners_of(rows)
     if not len(found):
         found = np.zeros((1, 2))
@@ -129,7 +129,7 @@ def _bounds(rows: Floats) -> tuple[Floats, Floats]:
 
 
 def corners_of(rows: Floats) -> Floats:
-    """Points that bound primitives, shape (n, 2)."""
+    """Return points that bound primitives, shape (n, 2)."""
     circle = (rows[:, c.KIND].astype(int) & 1) == 1
     radius = np.where(circle, rows[:, c.X1], 0.0)[:, None]
     start, end = rows[:, [c.X0, c.Y0]], rows[:, [c.X1, c.Y1]]
@@ -138,7 +138,7 @@ def corners_of(rows: Floats) -> Floats:
 
 
 def listed(rows: Floats, grid: Floats, margin: float) -> tuple[Ints32, Ints32]:
-    """The primitives in each cell of a grid: where those of a cell begin, and their indices."""
+    """Return the primitives in each cell of a grid: the start of each cell's list, and indices."""
     start = np.zeros(int(grid[3] * grid[4]) + 1, np.int32)
     list_statics(rows, grid, start, np.zeros(0, np.int32), margin)
     counts = start[:-1].copy()

@@ -42,19 +42,19 @@ PI = 3.141592653589793
 
 
 def bounded(w: Bodies, value: float, k: int, axis: int) -> float:
-    """A velocity along an axis within the bounds of a drive."""
+    """Return a velocity along an axis within the bounds of a drive."""
     return min(max(value, w.drives[k, SLOWEST + axis]), w.drives[k, FASTEST + axis])
 
 
 def toward(w: Bodies, now: float, wanted: float, k: int, axis: int, dt: float) -> float:
-    """The velocity along an axis after a step, within a drive's bounds of acceleration."""
+    """Return the velocity along an axis after a step, within a drive's bounds of acceleration."""
     change = wanted - now
     least, most = w.drives[k, BRAKE + axis] * dt, w.drives[k, PUSH + axis] * dt
     return wanted if least <= change <= most else now + min(max(change, least), most)
 
 
 def turned(angle: float) -> tuple[float, float, float, float]:
-    """sin(a), cos(a), sin(a) / a and (1 - cos(a)) / a; by their series where a is small."""
+    """Return sin(a), cos(a), sin(a) / a and (1 - cos(a)) / a; by their series where a is small."""
     if abs(angle) > 0.5:
         s, c = sin(angle), cos(angle)
         return s, c, s / angle, (1.0 - c) / angle
@@ -101,7 +101,7 @@ def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
 
 
 def propose(w: Bodies, first: int, last: int, dt: float) -> float:
-    """Decide where the bodies first to last would go; returns the longest way of one [m].
+    """Propose moves of the bodies first to last; returns the longest distance of one [m].
 
     They are counted through all worlds. A state becomes STILL, MOVING, or BLOCKED if the command
     is no number.
@@ -148,7 +148,7 @@ def fastest(w: Bodies, b: int, k: int, axis: int) -> float:
 
 
 def looks_on_the_way(w: Bodies, first: int, last: int) -> int:
-    """Into how many equal parts a step is cut so that no body goes farther than its stride.
+    """Return the number of parts of a step such that no body moves farther than its stride.
 
     At most 1,000: a command may be anything, and what goes farther than that jumps.
     """
@@ -167,7 +167,7 @@ def looks_on_the_way(w: Bodies, first: int, last: int) -> int:
 
 
 def commit(w: Bodies, first: int, last: int) -> int:
-    """Let the bodies first to last be where they may go; remember who could not."""
+    """Move the bodies first to last where they may go; record the blocked ones."""
     moved = 0
     for b in range(first, last):
         if w.state[b] == MOVING:

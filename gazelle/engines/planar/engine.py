@@ -76,7 +76,7 @@ class PlanarEngine:
         self._take_over()
 
     def _take_over(self) -> None:
-        """Make the parts, and take over what they offer."""
+        """Make the parts, and expose their methods."""
         run = self._run
         self.make_kinematic = run.make_kinematic
         self.joints: Table[PlanarJointRow, PlanarJointRows] = Table(
@@ -137,11 +137,11 @@ class PlanarEngine:
         return self._run.revision
 
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
-        """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
+        """Add a motor to a single-axis joint that holds a velocity with unlimited effort."""
         self._run.add_motor(joint, max_effort)
 
     def surround(self, before: Sequence[System], after: Sequence[System]) -> None:
-        """Have systems updated at the beginning and the end of every step, until models change.
+        """Set systems to update at the beginning and the end of every step, until models change.
 
         Those that are given to ``run`` come before them.
         """
@@ -170,7 +170,7 @@ class PlanarEngine:
         )
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Put worlds back to their initial state: poses, rest, no commands."""
+        """Reset worlds to their initial state: poses, rest, no commands."""
         self._run.fleet.reset(worlds)
         if not self._run.layout.axes:
             return
@@ -191,7 +191,7 @@ class PlanarEngine:
         *,
         height: ArrayLike | None = None,
     ) -> None:
-        """Put a body somewhere, whatever is there; what it is told stays.
+        """Set the pose of a body, regardless of obstacles; its command stays.
 
         Args:
             body: Its index in the fleet.
@@ -205,7 +205,7 @@ class PlanarEngine:
             self._run.fleet.heights[rows_of(worlds), body] = height
 
     def place_bodies(self, which: Worlds, poses: ArrayLike) -> None:
-        """Put some bodies somewhere, at rest; they keep their heights.
+        """Set the poses of some bodies, at rest; they keep their heights.
 
         Args:
             which: Bodies, counted through all worlds, shape (n,).
@@ -229,7 +229,7 @@ class PlanarEngine:
         )
 
     def delete(self, model: str) -> None:
-        """Take a model out of every world; all else stays as it is."""
+        """Delete a model from every world; all else stays as it is."""
         world, known = self.world, self._run.layout.models
         if model not in known:
             raise EngineError(f"there is no model '{model}'", hint=did_you_mean(model, known))
@@ -246,24 +246,27 @@ class PlanarEngine:
         )
 
     def update_world(self, world: World) -> None:
-        """Take over all of a world but its models: physics, gravity, air, lights, scene."""
+        """Update all of a world but its models: physics, gravity, air, lights, scene."""
         self._run.update_world(world)
 
     # -- saving ------------------------------------------------------------------------
 
     def history(self) -> list[Call]:
-        """Calls that make a new engine of this ``world`` one like this, but for the state."""
+        """Return the calls that make a new engine of this ``world`` like this one.
+
+        The state is not included.
+        """
         calls = [Call("make_kinematic", (name,)) for name in sorted(self._run.recipe.kinematic)]
         return calls + [Call("add_motor", pair) for pair in self._run.recipe.motors.items()]
 
     def adopt(self, history: Sequence[Call]) -> None:
-        """Become what the calls of a ``history`` make of this world; ``restore`` fits then."""
+        """Replay the calls of a ``history`` on this world; ``restore`` fits then."""
         kinematic = [call.arguments[0] for call in history if call.method == "make_kinematic"]
         motors = dict(call.arguments for call in history if call.method == "add_motor")
         self._run.change(replace(self._run.recipe, kinematic=frozenset(kinematic), motors=motors))
 
     def snapshot(self) -> Floats:
-        """The whole dynamic state, shape (nworld, size)."""
+        """Return the whole dynamic state, shape (nworld, size)."""
         fleet = self._run.fleet
         rows = np.zeros((fleet.nworld, fleet.nbody, _BODY))
         rows[:, :, : c.BODY] = fleet.rows.reshape(fleet.nworld, fleet.nbody, c.BODY)
@@ -274,11 +277,11 @@ class PlanarEngine:
         return np.concatenate((flat, self._run.angles, self._run.rates, targets), axis=1)
 
     def peek(self) -> Floats:
-        """The same as ``snapshot``."""
+        """Return the same as ``snapshot``."""
         return self.snapshot()
 
     def restore(self, state: Floats) -> None:
-        """Put back what ``snapshot`` gave; the models must be the same."""
+        """Restore what ``snapshot`` returned; the models must be the same."""
         fleet, axes = self._run.fleet, self._run.layout.axes
         size = fleet.nbody * _BODY
         shape = (fleet.nworld, size + 3 * axes)
@@ -305,7 +308,7 @@ class PlanarEngine:
     # -- parameters --------------------------------------------------------------------
 
     def parameter(self, kind: str, name: str, worlds: Worlds | None = None) -> Floats:
-        """Gravity, as the world has it, shape (n, 3); the plane knows no other parameter."""
+        """Return the world's gravity, shape (n, 3); the plane has no other parameter."""
         if kind != "gravity" or name:
             raise unsupported.refuse(f"the parameter {kind}")
         count = self.nworld if worlds is None else len(worlds)
@@ -317,7 +320,7 @@ class PlanarEngine:
 
 
 def _at_pace(world: World) -> World:
-    """The world of a Stage file with Stage's time step, at the pace that the file asks for."""
+    """Return the world of a Stage file with Stage's time step, at the file's real-time factor."""
     if world.stage is None:
         return world
     profile, step = world.profile, world.stage.interval_sim

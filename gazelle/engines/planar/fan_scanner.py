@@ -123,7 +123,7 @@ class FanScanner(System):
             self.update(first, last, time)
 
     def work(self, owners: NDArray[np.int64], first: int, last: int, tick: int, part: int) -> None:
-        """See ``scan``."""
+        """Scan with some sensors; see ``scan``."""
         if part > 0:
             self.next.work(owners, first, last, tick, part - 1)
             return
@@ -139,7 +139,7 @@ class FanScanner(System):
             self.blur(owners, first, last, tick)
 
     def scan_all(self, owners: NDArray[np.int64], first: int, last: int) -> None:
-        """Draw all that is in view."""
+        """Draw everything in view."""
         for m in range(first, last):
             self.at.aim(self.mounts, m, owners[m])
             if self.front is not None and self.front.look(self.at, self.beams):
@@ -244,7 +244,7 @@ class FanScanner(System):
 
 
 def end_of(owners: NDArray[np.int64], first: int, last: int, most: int) -> int:
-    """Up to which sensor all go at once: not more than ``most``, a body's together if they can."""
+    """Return the end of a run of sensors: ``most`` at most, a body's together if possible."""
     end = min(last, first + most)
     if end < last:
         whole = end

@@ -59,7 +59,7 @@ class Fan:
 
     @classmethod
     def spread(cls, fov: float, count: int, reach: float, begin: float = 0.0) -> Fan:
-        """Beams over a field of view [rad] about the x axis, from edge to edge."""
+        """Return beams over a field of view [rad] about the x axis, from edge to edge."""
         step = fov / (count - 1) if count > 1 else 1.0
         return cls(-fov / 2.0 if count > 1 else 0.0, step, count, reach, begin)
 
@@ -167,7 +167,7 @@ class Scanner:
         return CROWDED if scene.cells > 1 and len(scene.items) > _MANY else ALL
 
     def _native_of(self, way: int, *, solid: bool = True) -> FanScanner:
-        """One native scanner for each thread, linked."""
+        """Return one native scanner for each thread, linked."""
         fleet, fan = self.fleet, self.fan
         there = None
         if way != ALL:
@@ -205,7 +205,9 @@ class Scanner:
         return self._flat
 
     def scan(self, worlds: Worlds | None = None) -> Floats:
-        """Distances now [m], shape (n, mounts, count); the fan's reach where nothing is met.
+        """Return distances now [m], shape (n, mounts, count).
+
+        The fan's reach where nothing is met.
 
         The array is used again by the next scan.
 
@@ -233,7 +235,10 @@ class Scanner:
     # -- what was met ------------------------------------------------------------------
 
     def bodies(self) -> NDArray[np.int64]:
-        """Index of the body that each beam met; -1 for a static or nothing, shape as ``ranges``."""
+        """Return the index of the body that each beam met.
+
+        -1 for a static or nothing, shape as ``ranges``.
+        """
         met = np.abs(self._named()) // c.NAMES
         return np.where(met > 0.0, (met - 1.0) % max(self.fleet.nbody, 1), -1.0).astype(np.int64)
 
@@ -249,7 +254,7 @@ class Scanner:
         return np.asarray(_look_up(names, table[:, c.GLOW], looks[:, c.GLOW]), np.float64)
 
     def tags(self) -> NDArray[np.int64]:
-        """Tag of the part that each beam met; 0 for nothing, shape as ``ranges``."""
+        """Return the tag of the part that each beam met; 0 for nothing, shape as ``ranges``."""
         found = _look_up(self._named(), self.fleet.scene.table.tags, self.fleet.tags)
         return np.asarray(found, np.int64)
 
@@ -284,14 +289,14 @@ def _check(fan: Fan, fleet: Fleet, mounts: Sequence[Mount]) -> None:
 
 
 def _middles_of(fan: Fan) -> Floats:
-    """Directions of the middles of bundles of beams, shape (2, n)."""
+    """Return the middle directions of bundles of beams, shape (2, n)."""
     first = np.arange(0, fan.count, _SIDE_BY_SIDE)
     angles = fan.start + fan.step * (first + 0.5 * (_SIDE_BY_SIDE - 1))
     return np.stack((np.cos(angles), np.sin(angles)))
 
 
 def _outline(fan: Fan) -> Floats:
-    """Corners of a convex polygon around all that a fan can see, in the sensor's frame."""
+    """Return corners of a convex polygon around all that a fan can see, in the sensor's frame."""
     span = fan.step * (fan.count - 1)
     if span > math.pi + _ANGLES:
         angles = np.arange(8) * (math.pi / 4.0)

@@ -180,7 +180,7 @@ class Fleet:
         self.memory = np.full((total, c.MEMORY), math.inf)
 
     def _tables(self, time_step: float, *, sweep: bool) -> Bodies:
-        """All of this as kernels see it."""
+        """Return all bodies as kernels see them."""
         scene = self.scene
         return Bodies(
             nbody=self.nbody, nworld=self.nworld, dt=time_step, widest=self._widest,
@@ -263,7 +263,7 @@ class Fleet:
         return self._widest
 
     def place(self, body: int, pose: ArrayLike, worlds: NDArray[np.intp] | None = None) -> None:
-        """Put a body somewhere, whatever is there.
+        """Set the pose of a body, regardless of obstacles.
 
         Args:
             body: Its index.
@@ -285,7 +285,7 @@ class Fleet:
     def put(
         self, pose: ArrayLike, heights: ArrayLike, which: NDArray[np.intp] | None = None
     ) -> None:
-        """Put bodies somewhere.
+        """Set the poses of bodies.
 
         Args:
             pose: x, y [m] and heading [rad], shape (nworld, nbody, 3), or (n, 3).
@@ -300,7 +300,7 @@ class Fleet:
         self._relink(slice(None))
 
     def put_rows(self, rows: ArrayLike) -> None:
-        """Put all bodies to where the ``rows`` of such a fleet had them, to the bit.
+        """Set all bodies to the ``rows`` of such a fleet, to the bit.
 
         Args:
             rows: Shape (nworld, nbody, columns.BODY).
@@ -315,20 +315,20 @@ class Fleet:
         self._relink(slice(None))
 
     def take_over(self, body: int, other: Fleet, its: int) -> None:
-        """Give a body the state that one of another fleet with as many worlds has."""
+        """Copy the state of a body from another fleet with as many worlds."""
         here, there = slice(body, None, self.nbody), slice(its, None, other.nbody)
         self.rows[here], self._command[here] = other.rows[there], other._command[there]
         self._velocity[here], self._stalled[here] = other._velocity[there], other._stalled[there]
         self._relink(here)
 
     def reset(self, worlds: NDArray[np.intp] | None = None) -> None:
-        """Put worlds back to how they were made: poses, rest, no commands."""
+        """Reset worlds to their initial state: poses, rest, no commands."""
         which = np.arange(self.nworld) if worlds is None else np.ascontiguousarray(worlds)
         put_back(self.bodies, which, self._initial)
         self.changes += 1
 
     def _relink(self, rows: slice | NDArray[np.intp]) -> None:
-        """Keep the lists of the grid right for some bodies, which were put somewhere."""
+        """Update the lists of the grid for some bodies that were placed."""
         self.changes += 1
         if isinstance(rows, slice):
             if rows == slice(None):
@@ -372,12 +372,12 @@ class Fleet:
         return self.pool.size == 1 or self.nworld * self.nbody < 2 * _SHARE
 
     def close(self) -> None:
-        """End the threads."""
+        """Stop the threads."""
         self.pool.close()
 
 
 def _rows_of(placed: Floats) -> Floats:
-    """Rows of bodies at x, y, heading and height, shape (n, 4)."""
+    """Return rows of bodies at x, y, heading and height, shape (n, 4)."""
     rows = np.zeros((len(placed), c.BODY))
     rows[:, c.X], rows[:, c.Y], rows[:, c.YAW], rows[:, c.Z] = placed.T
     rows[:, c.COS], rows[:, c.SIN] = np.cos(placed[:, 2]), np.sin(placed[:, 2])

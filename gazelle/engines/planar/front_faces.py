@@ -77,7 +77,7 @@ class FrontFaces:
         self, n: int, first: int, last: int, reach: float, height: float, x: float, y: float,
         cos: float, sin: float,
     ) -> int:  # fmt: skip
-        """Turn sides into the sensor's frame, and list those that can be seen.
+        """Transform sides to the sensor's frame, and list the visible ones.
 
         Those of closed outlines around the sensor, which pass the sensor's x axis once more from
         one side than from the other, are counted in ``inside``, as are sides that it is on.

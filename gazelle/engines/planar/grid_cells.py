@@ -21,14 +21,14 @@ INFINITE = float("inf")
 
 
 def place_in(value: float, corner: float, side: float, count: float) -> int:
-    """Column or row of a coordinate."""
+    """Return the column or row of a coordinate."""
     return cython.cast(
         cython.Py_ssize_t, min(max(floor((value - corner) / side), 0.0), count - 1.0)
     )
 
 
 def cell_of(grid: Floats, x: float, y: float) -> int:
-    """The cell of a point."""
+    """Return the cell of a point."""
     column = place_in(x, grid[0], grid[2], grid[3])
     row = place_in(y, grid[1], grid[2], grid[4])
     return row * cython.cast(cython.Py_ssize_t, grid[3]) + column
@@ -89,7 +89,7 @@ def list_statics(
 
 
 def link(w: Bodies, world: int, body: int, cell: int) -> None:
-    """Put a body into the sorted list of a cell."""
+    """Insert a body into the sorted list of a cell."""
     at = w.head[world, cell]
     if at < 0 or body < at:
         w.follow[body] = at
@@ -102,7 +102,7 @@ def link(w: Bodies, world: int, body: int, cell: int) -> None:
 
 
 def unlink(w: Bodies, world: int, body: int, cell: int) -> None:
-    """Take a body out of the list of a cell."""
+    """Remove a body from the list of a cell."""
     at = w.head[world, cell]
     if at == body:
         w.head[world, cell] = w.follow[body]
@@ -113,7 +113,7 @@ def unlink(w: Bodies, world: int, body: int, cell: int) -> None:
 
 
 def relink_one(w: Bodies, b: int) -> None:
-    """Keep the lists right for one body, counted through all worlds."""
+    """Update the lists for one body, counted through all worlds."""
     now = cell_of(w.grid, w.rows[b, X], w.rows[b, Y])
     before = w.cell[b]
     if now != before:
@@ -125,19 +125,19 @@ def relink_one(w: Bodies, b: int) -> None:
 
 
 def relink(w: Bodies, first: int, last: int) -> None:
-    """Keep the lists right for bodies first to last, counted through all worlds."""
+    """Update the lists for bodies first to last, counted through all worlds."""
     for b in range(first, last):
         relink_one(w, b)
 
 
 def relink_some(w: Bodies, which: Floats) -> None:
-    """The same for some bodies, shape (n,)."""
+    """Update the lists for some bodies, shape (n,)."""
     for i in range(which.shape[0]):
         relink_one(w, which[i])
 
 
 def put_back(w: Bodies, worlds: Worlds, initial: Floats) -> None:
-    """Put all bodies of some worlds, shape (n,), back to rows of a world, at rest, as if just made."""
+    """Reset all bodies of some worlds, shape (n,), to rows of a world, at rest."""
     for i in range(worlds.shape[0]):
         for k in range(w.nbody):
             b = worlds[i] * w.nbody + k

@@ -100,7 +100,7 @@ class Skeleton:
         return here if bone.parent is None else _compose(self.place(bone.parent, angles), here)
 
     def columns_of(self, name: str) -> NDArray[np.intp]:
-        """Columns of the hinges that a link hangs on, shape (n,); none if it is fixed."""
+        """Return columns of the hinges that a link hangs on, shape (n,); none if it is fixed."""
         found: list[int] = []
         above: str | None = name
         while above is not None:
@@ -139,7 +139,7 @@ class Skeleton:
 
 
 def skeleton_of(model: Model, tilt: Pose, *, kinematic: bool = False) -> Skeleton:
-    """The links and joints of a model.
+    """Return the links and joints of a model.
 
     Args:
         model: What it is.

@@ -130,7 +130,7 @@ class Lanes:
     # -- going on ----------------------------------------------------------------------
 
     def cell_of(self, i: int, columns: float, rows: float) -> tuple[float, float]:
-        """Column and row of the cell that lane i is in."""
+        """Return column and row of the cell that lane i is in."""
         at = self.table[LANE_AT + i]
         u = floor(self.table[LANE_U + i] + at * self.table[LANE_DU + i])
         v = floor(self.table[LANE_V + i] + at * self.table[LANE_DV + i])
@@ -163,7 +163,7 @@ class Lanes:
             self.table[LANE_FREE + i] = self.space.clear[cell]
 
     def march(self, count: int) -> None:
-        """Let lanes go on until each is at its end or at a cell with anything in it."""
+        """Advance lanes until each is at its end or at an occupied cell."""
         moving = 1
         while moving > 0:
             moving = 0
@@ -176,7 +176,7 @@ class Lanes:
                 moving += go
 
     def march_bundles(self, count: int, spread: float) -> None:
-        """Let lanes go on as long as all beams do that are beside them.
+        """Advance lanes as far as all beams beside them can follow.
 
         Args:
             count: How many lanes, each the middle of a bundle.
@@ -198,7 +198,7 @@ class Lanes:
     # -- meeting -----------------------------------------------------------------------
 
     def meet_segment(self, i: int, c0: float, c1: float, cross: float, name: float) -> None:
-        """Let lane i meet a segment whose ends are c0 and c1 aside of it."""
+        """Intersect lane i with a segment whose ends are c0 and c1 aside of it."""
         if c0 * c1 <= 0.0 and cross != 0.0:
             v = (c1 - c0) / cross
             if v > self.table[LANE_BEST + i] and v <= self.near:
@@ -208,7 +208,10 @@ class Lanes:
     def meet_disc(
         self, i: int, dx: float, dy: float, x: float, y: float, radius: float, name: float
     ) -> None:
-        """Let lane i, whose direction is (dx, dy), meet a circle about a point seen from it."""
+        """Intersect lane i with a circle about a point seen from it.
+
+        The lane's direction is (dx, dy).
+        """
         along, aside = dx * x + dy * y, dx * y - dy * x
         rest, cross = radius * radius - aside * aside, x * x + y * y - radius * radius
         if rest >= 0.0 and cross != 0.0:
@@ -221,7 +224,7 @@ class Lanes:
                 self.table[LANE_NAME + i] = name if facing else -name
 
     def meet_static(self, i: int, p: int) -> None:
-        """Let lane i meet a static primitive; what it meets from inside has a negative name."""
+        """Intersect lane i with a static primitive; hits from inside have a negative name."""
         height = self.table[LANE_HEIGHT + i]
         if (
             self.bodies.statics[p, GLOW] < 0.0
@@ -242,7 +245,7 @@ class Lanes:
         self.meet_segment(i, c0, c1, x0 * y1 - x1 * y0, p + 1.0)
 
     def meet_body(self, i: int, k: int, b: int) -> None:
-        """Let lane i meet body b, of kind k."""
+        """Intersect lane i with body b, of kind k."""
         c, s = self.bodies.rows[b, COS], self.bodies.rows[b, SIN]
         ox = self.table[LANE_X + i] - self.bodies.rows[b, X]
         oy = self.table[LANE_Y + i] - self.bodies.rows[b, Y]
@@ -272,7 +275,7 @@ class Lanes:
                 self.meet_segment(i, c0, c1, x0 * y1 - x1 * y0, name)
 
     def meet_statics(self, count: int) -> None:
-        """Let lanes go on until each has met the nearest static primitive, or is at its end."""
+        """Advance lanes until each has met the nearest static primitive, or is at its end."""
         for i in range(count):
             self.table[LANE_END + i] = self.table[LANE_OUT + i]
         self.march(count)
@@ -336,7 +339,10 @@ class Lanes:
     def meet_ahead(
         self, beams: Beams, dx: Floats, dy: Floats, begins: Floats, at: Viewpoint
     ) -> None:
-        """Let all beams of a fan meet the statics; arguments as ``begin_bundles`` has them."""
+        """Intersect all beams of a fan with the statics.
+
+        Arguments as ``begin_bundles`` has them.
+        """
         narrow = NARROW * beams.rate > SIDE_BY_SIDE
         if narrow:
             self.begin_bundles(dx, dy, begins, beams.rate, at, beams.reach)

@@ -83,7 +83,7 @@ class PlanarLayout:
 
 
 def build(recipe: FleetInput, nworld: int, threads: int | None) -> tuple[Fleet, PlanarLayout]:
-    """Make a fleet.
+    """Build a fleet.
 
     Raises:
         EngineError: The world cannot be simulated.
@@ -113,7 +113,7 @@ def build(recipe: FleetInput, nworld: int, threads: int | None) -> tuple[Fleet, 
 
 
 def _parted(models: Iterable[Model]) -> tuple[list[Model], list[Model]]:
-    """Models of Stage files, and all others."""
+    """Return models of Stage files, and all others."""
     parted: tuple[list[Model], list[Model]] = [], []
     for model in models:
         parted[model.stage is None].append(model)
@@ -121,7 +121,7 @@ def _parted(models: Iterable[Model]) -> tuple[list[Model], list[Model]]:
 
 
 def _heights_of(stage: StageLayout) -> frozenset[float]:
-    """At which the rangers of Stage's robots look [m]."""
+    """Return the heights of the rangers of Stage's robots [m]."""
     heights = [body.z for body in stage.bodies]
     return frozenset(
         round(heights[mount.body] + mount.z, 4)
@@ -132,7 +132,7 @@ def _heights_of(stage: StageLayout) -> frozenset[float]:
 
 
 def rolling_bases(layout: PlanarLayout, motors: Iterable[str]) -> list[RollingBase]:
-    """The bases with motors on their wheels, which are in the motors' order."""
+    """Return the bases with motors on their wheels, which are in the motors' order."""
     order = {name: place for place, name in enumerate(motors)}
     bases = []
     owners = {joint.split("::", 1)[0] for joint in order}

@@ -27,7 +27,7 @@ def plan(w: Bodies, first: int, last: int, dt: float) -> float:
 
 
 def screen(w: Bodies, first: int, last: int, reach: float) -> None:
-    """Mark bodies whose way depends on what others do, or is barred by one that stands."""
+    """Mark bodies whose move depends on others, or is blocked by one at rest."""
     if w.nbody < 2:
         return
     for b in range(first, last):
@@ -36,7 +36,7 @@ def screen(w: Bodies, first: int, last: int, reach: float) -> None:
 
 
 def settle(w: Bodies, first: int, last: int, reach: float) -> None:
-    """Decide the rest in order, and move; the bodies are those of whole worlds."""
+    """Resolve the remaining moves in order; the bodies are those of whole worlds."""
     for b in range(first, last):
         if w.state[b] == UNDECIDED:
             w.state[b] = BLOCKED if obstructed(w, b, reach) else MOVING
@@ -45,7 +45,7 @@ def settle(w: Bodies, first: int, last: int, reach: float) -> None:
 
 
 def advance_bodies(w: Bodies, first: int, last: int, count: int, dt: float) -> None:
-    """Make ``count`` steps with the bodies first to last, which are those of whole worlds."""
+    """Advance the bodies first to last, which are those of whole worlds, by ``count`` steps."""
     for _ in range(count):
         reach = w.widest + plan(w, first, last, dt)
         screen(w, first, last, reach)
@@ -53,7 +53,7 @@ def advance_bodies(w: Bodies, first: int, last: int, count: int, dt: float) -> N
 
 
 def advance_world(w: Bodies, world: int) -> None:
-    """Make a step in one world.
+    """Advance one world by a step.
 
     With ``sweep`` what is in the way is looked for so often that nothing is jumped over.
     """
@@ -75,7 +75,7 @@ class Moving(System):
         self.bodies = bodies
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
-        """Make a step in the worlds first to last."""
+        """Advance the worlds first to last by a step."""
         for world in range(first, last):
             advance_world(self.bodies, world)
 
@@ -111,7 +111,7 @@ class Screening(System):
         self.bodies = bodies
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
-        """Mark those of the bodies first to last whose way depends on others."""
+        """Mark those of the bodies first to last whose move depends on others."""
         b = first
         while b < last:
             end = min((b // self.bodies.nbody + 1) * self.bodies.nbody, last)

@@ -30,7 +30,7 @@ CLOSE = cython.declare(cython.double, 0.3)  # cells around a body from which oth
 
 
 def take_nearest(found: Candidates, count: int) -> int:
-    """The nearest of the bodies listed in ``span``, which is taken from there."""
+    """Remove and return the nearest of the bodies listed in ``span``."""
     pick = 0
     for c in range(1, count):
         here = cython.cast(cython.Py_ssize_t, found.table[C_SPAN + c])
@@ -45,7 +45,7 @@ def take_nearest(found: Candidates, count: int) -> int:
 
 
 def meet_some(lanes: Lanes, first: int, last: int, found: Candidates, n: int, base: int) -> None:
-    """Let lanes first to last meet the first n bodies found, each as a disc at first.
+    """Intersect lanes first to last with the first n bodies found, each as a disc at first.
 
     Args:
         lanes: Of which.
@@ -81,7 +81,7 @@ def meet_some(lanes: Lanes, first: int, last: int, found: Candidates, n: int, ba
 
 
 def cells_near(lanes: Lanes, first: int, last: int) -> tuple[int, int, int, int]:
-    """First and last column and row of bodies that lanes first to last may meet."""
+    """Return first and last column and row of bodies that lanes first to last may meet."""
     left, right, low, high = INF, -INF, INF, -INF
     for i in range(first, last):
         x, y = lanes.table[LANE_X + i], lanes.table[LANE_Y + i]
@@ -101,7 +101,7 @@ def cells_near(lanes: Lanes, first: int, last: int) -> tuple[int, int, int, int]
 
 
 def meet_bodies(lanes: Lanes, first: int, last: int, found: Candidates, me: int) -> None:
-    """Let lanes first to last, all of body ``me``, meet others up to what they met before.
+    """Intersect lanes first to last, all of body ``me``, with others up to their nearest hit.
 
     First those nearby, as in a crowd there are none to be seen behind them.
     """

@@ -33,7 +33,7 @@ class PathFollower(PathSystem):
         self.bodies, self.body, self.heading = bodies, body, heading
 
     def update(self, first: int, last: int, time: int) -> None:
-        """Put the body where its path says."""
+        """Move the body to the pose of its path."""
         for w in range(first, last):
             b = w * self.bodies.nbody + self.body
             elapsed = time / 1e9 - self.epoch[w]
@@ -54,7 +54,7 @@ class PathFollower(PathSystem):
 
 
 def put(w: Bodies, b: int, x: float, y: float, z: float, yaw: float) -> None:
-    """Put a body somewhere, whatever is there."""
+    """Set the pose of a body, regardless of obstacles."""
     w.rows[b, X], w.rows[b, Y], w.rows[b, Z] = x, y, z
     if abs(yaw) > PI:
         yaw -= 2.0 * PI * floor(yaw / (2.0 * PI) + 0.5)

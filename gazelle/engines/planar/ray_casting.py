@@ -48,7 +48,7 @@ class PlanarRays:
         return self.keep(RangeRays(link, origins, directions)).caster
 
     def keep(self, rays: RangeRays) -> KeptCaster:
-        """A caster that is kept, or one that is from now on."""
+        """Return a cached caster, or one that is cached from now on."""
         link, origins, directions = rays.link, rays.origins, rays.directions
         key = (link, origins.tobytes(), directions.tobytes(), rays.reach)
         kept = self._casters.get(key)
@@ -77,7 +77,7 @@ class PlanarRays:
         return PlanarRanges(self, self._run, rays)
 
     def rays_on_body(self, rays: RangeRays) -> RayFan:
-        """Rays of a link as a fan on its body; its model has one from then on."""
+        """Return rays of a link as a fan on its body; its model has one from then on."""
         link, origins, directions = rays.link, rays.origins, rays.directions
         model = self._run.owner(link)
         each = self._run.model(model)

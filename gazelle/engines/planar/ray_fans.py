@@ -35,12 +35,15 @@ class Caster:
     signed: Scanner
 
     def ranges(self, worlds: Worlds | None) -> Floats:
-        """Distance from where the scanner measures [m], shape (n, rays); see ``signed``."""
+        """Return distances from the scanner's origin [m], shape (n, rays); see ``signed``."""
         found = self.signed.scan(worlds)
         return found.reshape(len(found), math.prod(found.shape[1:]))
 
     def cast(self, worlds: Worlds | None) -> tuple[Floats, NDArray[np.bool_]]:
-        """Distance of what each ray meets [m], infinite for nothing, and whether from inside."""
+        """Return the distance of each ray's hit [m] and whether it is inside.
+
+        Infinite for none.
+        """
         ranges = self.scanner.scan(worlds)
         count = len(ranges)
         width = math.prod(ranges.shape[1:])
@@ -101,7 +104,7 @@ def check_level(origins: Floats, directions: Floats) -> None:
 
 
 def fan_of(body: int, origins: Floats, directions: Floats, reach: float) -> RayFan:
-    """The fan that rays are.
+    """Return the fan of rays.
 
     Args:
         body: Its index.
@@ -134,7 +137,7 @@ def caster_of(fleet: Fleet, rays: RayFan) -> Caster:
 
 
 def _centre_of(origins: Floats, directions: Floats) -> tuple[Floats | None, float | None]:
-    """The point that all rays start at one distance from, and the distance."""
+    """Return the point that all rays start at one distance from, and the distance."""
     away, turned = origins - origins[0], directions - directions[0]
     spread = float((turned * turned).sum())
     begin = float((away * turned).sum()) / spread if spread > 0.0 else 0.0

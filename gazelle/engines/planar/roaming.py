@@ -77,5 +77,5 @@ class Roaming:
         )
 
     def run(self, count: int) -> None:
-        """Make steps, and scan after each."""
+        """Advance by steps, and scan after each."""
         self._loop.run(self._loop.time + count, self.fleet.threads)

@@ -49,7 +49,7 @@ class RoamingLaw(System):
         self.keep, self.back, self.seed = keep, back, seed
 
     def choose(self, time: int) -> None:
-        """``update`` of all bodies."""
+        """Choose the commands of all bodies."""
         self.update(0, self.mood.shape[0], time)
 
     def update(self, first: int, last: int, time: int) -> None:
@@ -70,7 +70,7 @@ class RoamingLaw(System):
             self.mood[b, 1] -= 1
 
     def back_off(self, b: int, time: int) -> None:
-        """Let a body go on backing off from what stopped it."""
+        """Continue backing a body off from what stopped it."""
         self.mood[b, 0] -= 1
         if self.mood[b, 1] != -1:
             dice = stream(self.seed, b, time)
@@ -80,7 +80,7 @@ class RoamingLaw(System):
             self.mood[b, 1] = -1
 
     def turns_away(self, b: int) -> bool:
-        """Turn a body away from what is near, if anything is."""
+        """Turn a body away from near obstacles; returns whether there are any."""
         right, left = sides(self.ranges, self.sensor[b])
         if min(right, left) >= self.shy:
             return False
@@ -91,7 +91,10 @@ class RoamingLaw(System):
 
 
 def sides(ranges: Floats, m: int) -> tuple[float, float]:
-    """The shortest range on the right half and on the left half of a fan; the middle is left."""
+    """Return the shortest range on the right half and on the left half of a fan.
+
+    The middle is left.
+    """
     count = ranges.shape[1]
     right, left = ranges[m, 0], ranges[m, count - 1]
     for k in range(count // 2):

@@ -71,7 +71,7 @@ class Turning(System):
 
 
 def drive_joints(own: Joints, world: int) -> None:
-    """Let joints of a world turn as their motors want."""
+    """Turn joints of a world at the speeds of their motors."""
     for j in range(own.rates.shape[1]):
         speed = own.targets[world, j]
         if speed == speed:  # noqa: PLR0124  # no number: no motor

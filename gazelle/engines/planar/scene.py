@@ -76,7 +76,7 @@ def scene_of(
     nbody: int,
     nworld: int,
 ) -> StaticScene:
-    """Statics with a grid over them and over an extent.
+    """Return statics with a grid over them and over an extent.
 
     Args:
         parts: What stands still.
@@ -100,7 +100,7 @@ def scene_of(
 
 
 def _near(rows: Floats) -> tuple[Floats, Ints32, Ints32]:
-    """A grid over primitives, with small cells."""
+    """Return a grid over primitives, with small cells."""
     corners = corners_of(rows) if len(rows) else np.zeros((1, 2))
     low, high = corners.min(axis=0), corners.max(axis=0)
     width, height = np.maximum(high - low, 1e-3)

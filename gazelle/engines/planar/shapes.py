@@ -76,7 +76,7 @@ class PrimitiveTable:
 
 
 def joined(first: PrimitiveTable, second: PrimitiveTable) -> PrimitiveTable:
-    """The primitives of two tables; the raster is that of the first, if it has one."""
+    """Return the primitives of two tables; the raster is that of the first, if it has one."""
     if not len(second.rows):
         return first
     rows, tags = np.vstack((first.rows, second.rows)), np.concatenate((first.tags, second.tags))
@@ -103,7 +103,7 @@ class _Rows:
 
 
 def primitives_of(parts: Iterable[PlanarPart]) -> PrimitiveTable:
-    """The segments and circles of parts.
+    """Return the segments and circles of parts.
 
     Raises:
         EngineError: A part has too few corners, or a value is not finite.
@@ -129,7 +129,7 @@ def primitives_of(parts: Iterable[PlanarPart]) -> PrimitiveTable:
 
 
 def pieces_of(parts: Iterable[PlanarPart]) -> CollisionPieces:
-    """The convex pieces of the solid parts; lines that enclose nothing bump with nothing."""
+    """Return the convex pieces of the solid parts; open lines collide with nothing."""
     rows: list[list[float]] = []
     corners: list[Floats] = []
     for part in parts:
@@ -155,7 +155,7 @@ def pieces_of(parts: Iterable[PlanarPart]) -> CollisionPieces:
 
 
 def check(part: PlanarPart, points: Floats) -> None:
-    """Refuse a part that is no shape.
+    """Check the shape of a part.
 
     Raises:
         EngineError: It has too few corners, or a value is not finite.
@@ -166,7 +166,7 @@ def check(part: PlanarPart, points: Floats) -> None:
 
 
 def slimness(polygon: Floats) -> float:
-    """Distance from the mean corner of a convex polygon to its nearest side [m]."""
+    """Return the distance from the mean corner of a convex polygon to its nearest side [m]."""
     along = np.roll(polygon, -1, axis=0) - polygon
     arm = polygon.mean(axis=0) - polygon
     aside = np.abs(along[:, 0] * arm[:, 1] - along[:, 1] * arm[:, 0])

@@ -44,7 +44,7 @@ def _is_disc(rows: Floats) -> NDArray[np.bool_]:
 
 
 def _sides(rows: Floats) -> Floats:
-    """Ends of the segments that can be seen, whether from both sides, and heights, shape (n, 7)."""
+    """Return ends of visible segments, whether from both sides, and heights, shape (n, 7)."""
     rows = rows[~_is_disc(rows) & (rows[:, c.GLOW] >= 0.0)]
     is_open = (rows[:, c.KIND].astype(int) & int(c.OPEN)) != 0
     ends = rows[:, [c.X0, c.Y0, c.X1, c.Y1]]
@@ -52,6 +52,6 @@ def _sides(rows: Floats) -> Floats:
 
 
 def _discs(rows: Floats) -> Floats:
-    """Middles, radii and heights of the discs that can be seen, shape (n, 5)."""
+    """Return middles, radii and heights of visible discs, shape (n, 5)."""
     rows = rows[_is_disc(rows) & (rows[:, c.GLOW] >= 0.0)]
     return np.ascontiguousarray(rows[:, [c.X0, c.Y0, c.X1, c.LOW, c.HIGH]])

@@ -66,7 +66,7 @@ class StageLayout:
 def layout_of(
     models: Sequence[Model], *, kinematic: Collection[str] = (), others: int = 0
 ) -> StageLayout:
-    """Robots are the position models; all else stands still, waits for a gripper, or is moved.
+    """Return a Stage world's layout: position models are robots, others static or movable.
 
     Args:
         models: Those of Stage files.
@@ -115,7 +115,7 @@ def _grips(model: StageModel) -> bool:
 def _actuators(
     placed: PlacedStageModel,
 ) -> Iterator[tuple[PlacedStageModel, StageActuator, StagePose]]:
-    """The actuators on a model, but for those on others, and their places at position zero."""
+    """Yield the actuators on a model, except nested ones, and their poses at position zero."""
     model = placed.model
     for child in model.children:
         lift = model.size.z if model.stack_children else 0.0
@@ -260,7 +260,7 @@ def _all_parts(own: list[PlacedStageModel]) -> Iterator[PlanarPart]:
 
 
 def _drive_of(position: StagePosition) -> Drive:
-    """Stage bounds velocities; its bounds of acceleration hold in a mode that nobody can ask for."""
+    """Return the drive of a position model, with its velocity bounds."""
     (x0, x1), (y0, y1), _, (a0, a1) = position.velocity_bounds
     return Drive(
         position.drive,
@@ -271,6 +271,6 @@ def _drive_of(position: StagePosition) -> Drive:
 
 
 def _fan_of(sensor: StageSensor) -> Fan:
-    """Beams from edge to edge, counter-clockwise; a negative angle means as much as its opposite."""
+    """Return beams from edge to edge, counter-clockwise; the sign of the angle does not matter."""
     fov = min(max(abs(sensor.fov), _FINEST), 2.0 * math.pi)
     return Fan.spread(fov, sensor.samples, max(sensor.range[1], _FINEST))

@@ -29,17 +29,17 @@ class SystemSteps:
         self._kept: tuple[Sequence[System], SystemLoop, int] | None = None
 
     def forget(self) -> None:
-        """Joints or the step changed: put all together anew."""
+        """Discard the plan of a step after joints or the step changed."""
         self._kept = None
 
     def surround(self, before: Sequence[System], after: Sequence[System]) -> None:
-        """Have systems updated at the beginning and the end of every step, besides those given."""
+        """Set systems to update first and last in every step, besides those given."""
         around = tuple(before), tuple(after)
         if around != (self._before, self._after):
             (self._before, self._after), self._kept = around, None
 
     def make(self, systems: Sequence[System], count: int, now_ns: int) -> None:
-        """Make steps.
+        """Advance by steps.
 
         Args:
             systems: Updated whenever they are due, in this order.

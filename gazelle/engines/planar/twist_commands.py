@@ -36,7 +36,7 @@ class TwistCommands(System):
         first: NDArray[np.intp],
         width: NDArray[np.intp],
     ) -> None:
-        """Say what moves.
+        """Set the bodies that twists move.
 
         Args:
             bodies: Of all models.
@@ -49,7 +49,7 @@ class TwistCommands(System):
         self.body, self.first_joint, self.width = body, first, width
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002
-        """Give bodies their velocities."""
+        """Set the velocities of bodies."""
         for row in range(first, last):
             w, i = row // self.rows, row % self.rows
             if self.body[i] < 0:

@@ -14,14 +14,14 @@ from gazelle.errors import EngineError
 
 
 def refuse(what: str) -> EngineError:
-    """The error for something that the plane has not."""
+    """Return the error for a feature that the plane lacks."""
     return EngineError(
         f"the planar engine knows no forces, so it has not {what}", hint="use the engine mujoco"
     )
 
 
 def contacts(sets: Sequence[Sequence[str]], worlds: Worlds | None = None) -> ContactTable:
-    """Refused."""
+    """Raise an error: the plane has no contacts."""
     raise refuse("contact points")
 
 
@@ -31,15 +31,15 @@ def attach(
     worlds: Worlds | None = None,
     settling: float | None = None,
 ) -> None:
-    """Refused."""
+    """Raise an error: the plane has no attachments."""
     raise refuse(f"a joint between '{parent}' and '{child}'")
 
 
 def detach(parent: str, child: str, worlds: Worlds | None = None) -> None:
-    """Refused."""
+    """Raise an error: the plane has no attachments."""
     raise refuse(f"a joint between '{parent}' and '{child}'")
 
 
 def set_parameter(kind: str, name: str, values: ArrayLike, worlds: Worlds | None = None) -> None:
-    """Refused."""
+    """Raise an error: the plane's parameters are fixed."""
     raise refuse(f"the parameter {kind}")

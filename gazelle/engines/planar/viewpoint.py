@@ -56,7 +56,7 @@ class Viewpoint:
         self.stamp = np.zeros(len(bodies.statics) + 1, np.int64)
 
     def aim(self, mounts: Floats, m: int, owner: int) -> None:
-        """Go to where sensor m is: the mounts are on the bodies ``owner``, by turns."""
+        """Move the viewpoint to sensor m: the mounts are on the bodies ``owner``, by turns."""
         j = m % mounts.shape[0]
         c, s = self.bodies.rows[owner, col.COS], self.bodies.rows[owner, col.SIN]
         self.x = self.bodies.rows[owner, col.X] + c * mounts[j, col.S_X] - s * mounts[j, col.S_Y]
@@ -77,7 +77,7 @@ class Viewpoint:
             self.view[k, 1] = self.y + self.sin * x + self.cos * y
 
     def extent(self, low: float, high: float) -> tuple[float, float]:
-        """Least and greatest x of the view between two heights; (inf, -inf) if none."""
+        """Return least and greatest x of the view between two heights; (inf, -inf) without any."""
         left, right = INF, -INF
         count = self.view.shape[0]
         for k in range(count):
@@ -94,7 +94,7 @@ class Viewpoint:
         return left, right
 
     def rows_of(self, widest: float) -> tuple[int, int]:
-        """First and last row of cells that the view, widened by a radius, passes."""
+        """Return first and last row of cells that the view, widened by a radius, passes."""
         if self.bodies.grid[4] == 1.0:
             return 0, 0
         low, high = INF, -INF
@@ -108,7 +108,7 @@ class Viewpoint:
         )
 
     def cells_of(self, widest: float, r: int) -> tuple[int, int]:
-        """First and last cell of row r that the view, widened by a radius, passes."""
+        """Return first and last cell of row r that the view, widened by a radius, passes."""
         base = r * cython.cast(cython.Py_ssize_t, self.bodies.grid[3])
         if self.bodies.grid[3] == 1.0:
             return base, base
@@ -135,7 +135,7 @@ class Viewpoint:
     # -- drawing -----------------------------------------------------------------------
 
     def draw(self, drawn: bool) -> None:
-        """All that is in view, but for the owner's family; statics may be ``drawn`` already."""
+        """Draw everything in view except the owner's family; statics may be ``drawn`` already."""
         self.stamp[self.bodies.statics.shape[0]] += 1
         x = -self.cos * self.x - self.sin * self.y
         y = self.sin * self.x - self.cos * self.y
@@ -343,7 +343,7 @@ class Viewpoint:
     def draw_looks(
         self, lo: int, hi: int, k: int, height: float, i: int, away: bool, name: float,
     ) -> None:  # fmt: skip
-        """Primitives of the i-th body, of kind k, into beams lo to hi.
+        """Draw primitives of the i-th body, of kind k, into beams lo to hi.
 
         Of closed outlines that beams begin ``away`` from only the front is drawn.
         """

@@ -44,7 +44,7 @@ class Wheel:
 
 
 def wheel_of(joint: str, link: Link, pose: Pose, axis: Sequence[float]) -> Wheel | None:
-    """The wheel that a joint turns; None if it has no radius or no level axis.
+    """Return the wheel that a joint turns; None if it has no radius or no level axis.
 
     Args:
         joint: Its scoped name.
@@ -75,7 +75,7 @@ def rolling(wheels: Sequence[Wheel]) -> Floats:
 
 
 def _radius(collision: Collision) -> float:
-    """Of a wheel's shape [m]; 0 if it is none."""
+    """Return the radius of a wheel's shape [m]; 0 for another shape."""
     shape = collision.geometry
     if isinstance(shape, Cylinder | Sphere | Capsule):
         return shape.radius
@@ -88,6 +88,6 @@ def _radius(collision: Collision) -> float:
 
 
 def driven(wheels: Mapping[str, Wheel], motors: Mapping[str, int]) -> tuple[Wheel, ...]:
-    """The wheels that have motors, in the order of the numbers that those have."""
+    """Return the wheels with motors, in the order of the motors' numbers."""
     names = sorted((joint for joint in wheels if joint in motors), key=motors.__getitem__)
     return tuple(wheels[joint] for joint in names)

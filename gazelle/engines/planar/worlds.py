@@ -59,7 +59,7 @@ class RunningPlane:
         self._start(recipe, *build(recipe, nworld, threads))
 
     def _start(self, recipe: FleetInput, fleet: Fleet, layout: PlanarLayout) -> None:
-        """Go on with a fleet, from its initial state."""
+        """Start a fleet from its initial state."""
         self.recipe, self.fleet, self.layout = recipe, fleet, layout
         self.revision += 1
         shape = (fleet.nworld, layout.axes)
@@ -72,7 +72,7 @@ class RunningPlane:
             forget()
 
     def _joints(self) -> Joints:
-        """Joints and rolling bases as kernels see them."""
+        """Return joints and rolling bases as kernels see them."""
         layout = self.layout
         bases = rolling_bases(layout, self.recipe.motors)
         return Joints(
@@ -89,7 +89,7 @@ class RunningPlane:
     # -- change ------------------------------------------------------------------------
 
     def change(self, recipe: FleetInput) -> None:
-        """Go on with other models, with all states that both have."""
+        """Replace the models, and keep the states of what both have."""
         fleet, layout = self.fleet, self.layout
         angles, rates, targets = self.angles, self.rates, self.targets
         self._start(recipe, *build(recipe, fleet.nworld, self._threads))
@@ -106,14 +106,14 @@ class RunningPlane:
         fleet.close()
 
     def make_kinematic(self, model: str) -> None:
-        """Let a model move only by ``set_model_placement``."""
+        """Make a model kinematic: ``set_model_placement`` moves it."""
         self.model(model)
         if model not in self.recipe.kinematic:
             kinematic = self.recipe.kinematic | {model}
             self.change(replace(self.recipe, kinematic=kinematic))
 
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
-        """Give a joint of one axis a motor that holds a velocity, whatever that takes."""
+        """Add a motor to a single-axis joint that holds a velocity with unlimited effort."""
         axes = self.axes(joint)
         if axes.stop - axes.start != 1:
             raise EngineError(f"a motor needs a joint of one axis; '{joint}' has more")
@@ -137,7 +137,7 @@ class RunningPlane:
             self.change(replace(self.recipe, rays=self.recipe.rays | {round(height, 4)}))
 
     def update_world(self, world: World) -> None:
-        """Take over all of a world but its models: physics, gravity, air, lights, scene."""
+        """Update all of a world but its models: physics, gravity, air, lights, scene."""
         step = physics_step(world.profile.max_step_size)
         models = self.recipe.world.models
         self.recipe = replace(self.recipe, world=replace(world, models=models), time_step=step)
@@ -150,33 +150,33 @@ class RunningPlane:
     # -- finding -----------------------------------------------------------------------
 
     def own(self, model: str, worlds: Worlds | None) -> tuple[Floats, Floats]:
-        """Positions and velocities of a model's joints, shapes (n, axes)."""
+        """Return positions and velocities of a model's joints, shapes (n, axes)."""
         first = self.layout.columns[model]
         columns = slice(first, first + self.layout.models[model].skeleton.width)
         rows = rows_of(worlds)
         return self.angles[rows, columns], self.rates[rows, columns]
 
     def model(self, name: str) -> ConvertedModel:
-        """The model of a name."""
+        """Return the model of a name."""
         return _look_up("model", name, self.layout.models)
 
     def owner(self, link: str) -> str:
-        """The model of a link."""
+        """Return the model of a link."""
         return _look_up("link", link, self.layout.owners)
 
     def axes(self, joint: str) -> slice:
-        """The columns of a joint."""
+        """Return the columns of a joint."""
         first, count = _look_up("joint", joint, self.layout.joints)
         return slice(first, first + count)
 
     def rows(self, body: int, worlds: Worlds | None) -> slice | NDArray[np.intp]:
-        """Rows of a body in the fleet's tables."""
+        """Return rows of a body in the fleet's tables."""
         nbody = self.fleet.nbody
         return slice(body, None, nbody) if worlds is None else worlds * nbody + body
 
 
 def rows_of(worlds: Worlds | None) -> slice | Worlds:
-    """An index for these worlds, all if None."""
+    """Return an index for these worlds, all if None."""
     return slice(None) if worlds is None else worlds
 
 

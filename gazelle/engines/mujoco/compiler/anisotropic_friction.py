@@ -21,13 +21,13 @@ def is_directional(collision: Collision) -> bool:
 
 
 def friction_between(first: Collision, second: Collision) -> tuple[float, float]:
-    """Coefficients along the first and second direction: the smaller of each."""
+    """Return the coefficients along the first and second direction: the smaller of each."""
     along = min(friction_of(first), friction_of(second))
     return along, min(second_friction_of(first), second_friction_of(second))
 
 
 def directional_friction_of(collision: Collision, placed: Pose) -> DirectionalFriction | None:
-    """The directions of a surface; None where it has none.
+    """Return the friction directions of a surface; None without any.
 
     Args:
         collision: The description.

@@ -23,7 +23,7 @@ _LIKELY = 0.8
 
 
 def tighten_hierarchies(model: mujoco.MjModel) -> None:
-    """Give the bodies of a compiled model better trees."""
+    """Replace the bounding volume hierarchies of a compiled model's bodies by tighter ones."""
     model.vis.global_.bvactive = False  # or MuJoCo notes for viewers what it visits
     for start, count in zip(model.body_bvhadr, model.body_bvhnum, strict=True):
         nodes = slice(start, start + count)
@@ -42,7 +42,7 @@ def tighten_hierarchies(model: mujoco.MjModel) -> None:
 
 
 def _likely(tree: BoxTree) -> Bools:
-    """The nodes that it is faster not to compare with: those that nearly all that comes meets.
+    """Return the nodes whose test is better skipped: nearly everything that comes meets them.
 
     What has the ground below it is met by all; and next to 1e10 m numbers are exact to a
     micrometre only.

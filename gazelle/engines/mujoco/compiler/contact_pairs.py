@@ -176,7 +176,7 @@ def may_slide(solids: Iterable[ContactGeom]) -> bool:
 
 
 def recovery_velocities_of(solids: Iterable[ContactGeom], world: World) -> dict[str, float]:
-    """The velocities at which geoms leave what they overlap, by name [m/s]; none if none moves."""
+    """Return the velocities at which geoms leave what they overlap, by name [m/s]."""
     solids = list(solids)
     if not any(math.isfinite(each.mass) for each in solids):
         return {}
@@ -192,7 +192,7 @@ def _directional_frictions_of(solids: Iterable[ContactGeom]) -> dict[str, Direct
 
 
 def _with_shares(solids: list[ContactGeom]) -> list[ContactGeom]:
-    """The solids with the share of their mass that one of the springs below a model carries."""
+    """Return the geoms with the share of their mass that a spring below a model bears."""
     points: dict[str, int] = defaultdict(int)
     for solid in solids:
         if _is_soft(solid):
@@ -206,7 +206,10 @@ def _with_shares(solids: list[ContactGeom]) -> list[ContactGeom]:
 def _special_pairs(
     solids: list[ContactGeom], time_step: float
 ) -> Iterable[tuple[ContactGeom, ContactGeom]]:
-    """All pieces of a collision have one surface, so they are decided upon together."""
+    """Yield pairs of geoms that need their own terms.
+
+    All pieces of a collision share one surface.
+    """
     pieces = [list(each) for _, each in itertools.groupby(solids, _collision_of)]
     seen: set[tuple[str, str]] = set()
     for own in pieces:
@@ -238,7 +241,7 @@ def _is_special(first: ContactGeom, second: ContactGeom, time_step: float) -> bo
 
 
 def tune_springs(model: mujoco.MjModel, springs: Iterable[Spring]) -> None:
-    """Give springs the terms of ODE's implicit spring and damper.
+    """Set springs to the terms of ODE's implicit spring and damper.
 
     ODE solves, for the velocity v after a step of h, v = -erp / h * depth - cfm * force with
     erp = h kp / (h kp + kd) and cfm = 1 / (h kp + kd). In MuJoCo's terms that is a reference
@@ -263,7 +266,7 @@ def tune_springs(model: mujoco.MjModel, springs: Iterable[Spring]) -> None:
 
 
 def bouncing_terms(e: float, time_step: float, gravity: float) -> dict[str, list[float]]:
-    """Terms of a contact that bounces by a coefficient, in one step, as ODE's.
+    """Return the terms of a contact that bounces by a coefficient, in one step, as ODE's.
 
     MuJoCo's reference acceleration is -B v - K depth. With B = (1 + e) / h the velocity v of
     approach becomes -e v in the step h that finds the bodies in each other. How deep they are
@@ -307,7 +310,7 @@ def _may_touch(first: ContactGeom, second: ContactGeom) -> bool:
 def _spring_between(
     first: ContactGeom, second: ContactGeom, time_step: float
 ) -> tuple[float, float] | None:
-    """Stiffness and damping of a contact; None for one that is as good as rigid."""
+    """Return stiffness and damping of a contact; None for one that is practically rigid."""
     a, b = first.collision.surface.contact, second.collision.surface.contact
     (kp1, kd1), (kp2, kd2) = _stiffness_of(a, time_step), _stiffness_of(b, time_step)
     stiffness = 1.0 / (1.0 / max(kp1, 1e-9) + 1.0 / max(kp2, 1e-9))
@@ -319,7 +322,7 @@ def _spring_between(
 
 
 def _stiffness_of(contact: Contact, time_step: float) -> tuple[float, float]:
-    """Stiffness and damping of one surface, from its ERP and CFM if it gives those.
+    """Return stiffness and damping of one surface, from its ERP and CFM if it gives those.
 
     With erp = h kp / (h kp + kd) and cfm = 1 / (h kp + kd), ODE's manual, kp is erp / (h cfm)
     and kd is (1 - erp) / cfm.

@@ -12,7 +12,7 @@ from gazelle.description import Inertia, Inertial, Link, Model, Pose, World
 
 
 def with_inertial(world: World, scoped: str, kind: str, values: NDArray[np.float64]) -> World:
-    """The world with the centre of mass or the inertia of a link replaced.
+    """Return the world with the centre of mass or the inertia of a link replaced.
 
     Args:
         world: What is changed.
@@ -34,7 +34,7 @@ def with_inertial(world: World, scoped: str, kind: str, values: NDArray[np.float
 
 
 def with_link(world: World, scoped: str, change: Callable[[Link], Link]) -> World:
-    """The world with a link, by scoped name, replaced by what ``change`` makes of it."""
+    """Return the world with a link, by scoped name, replaced by the result of ``change``."""
     top, _, inside = scoped.partition("::")
     models = tuple(
         _changed(model, inside, change) if model.name == top else model for model in world.models
@@ -58,7 +58,7 @@ _FRAME = "__model__"
 
 
 def with_frame_link(model: Model) -> Model:
-    """The model; one without links with an empty one, which stands for its frame.
+    """Return the model; one without links gets an empty link, which stands for its frame.
 
     Nothing moves such a model, but it has a pose, and can be put elsewhere.
     """

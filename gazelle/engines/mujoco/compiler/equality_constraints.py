@@ -32,7 +32,7 @@ _LIGHTER, _RIGID = 0.01, [0.9999, 0.9999, 0.001, 0.5, 2.0]
 
 
 def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[TreeLink], time_step: float) -> None:
-    """Tie together what the joints of a model tie: screws and mimics.
+    """Add equality constraints for the screws and mimics of a model.
 
     Raises:
         EngineError: A screw has no thread, or a mimic nothing to follow.
@@ -56,7 +56,7 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[TreeLink], time_step: fl
 
 
 def _tie_screw(spec: mujoco.MjSpec, name: str, joint: Joint, time_step: float) -> Any:
-    """Let a screw advance as it turns; SDF's pitch is in rad/m and left-handed."""
+    """Couple translation and rotation of a screw. SDF's pitch is in rad/m and left-handed."""
     pitch = joint.thread_pitch
     if pitch == 0.0:
         raise EngineError(
@@ -96,7 +96,7 @@ def add_closure(
 
 
 def _warn_of_loss(closure: Closure) -> None:
-    """Say what of a joint is lost because it closes a loop."""
+    """Warn of features of a joint that are lost because it closes a loop."""
     joint = closure.joint
     if joint.type == "universal":
         lost = "it is held as a ball joint"
@@ -120,7 +120,7 @@ def _ball(spec: mujoco.MjSpec, closure: Closure, _: list[TreeLink], time_step: f
 
 
 def _hinge(spec: mujoco.MjSpec, closure: Closure, bodies: list[TreeLink], time_step: float) -> None:
-    """Two points on the axis held together leave only the turn about it."""
+    """Close a loop by a hinge: two points on the axis are held together."""
     _ball(spec, closure, bodies, time_step)
     axis = closure.joint.axes[0].xyz if closure.joint.axes else (0.0, 0.0, 1.0)
     far = closure.pose.apply(tuple(_ARM * a for a in axis))
@@ -132,7 +132,9 @@ def _hinge(spec: mujoco.MjSpec, closure: Closure, bodies: list[TreeLink], time_s
 def _through_a_link(
     spec: mujoco.MjSpec, closure: Closure, bodies: list[TreeLink], time_step: float
 ) -> None:
-    """Give the parent another link, which moves as the joint says, and weld the child to that.
+    """Close a loop by a link of the parent, which moves as the joint says.
+
+    The child is welded to it.
 
     MuJoCo has no constraint that lets two bodies slide along an axis. The link is where the child
     is and like it, but lighter; it weighs nothing, and the child is held nearly rigidly.
@@ -165,7 +167,7 @@ def _through_a_link(
 
 
 def at_rest(body: TreeLink, by_name: Mapping[str, TreeLink]) -> Pose:
-    """The pose of a body in the world with all joints at zero."""
+    """Return the pose of a body in the world with all joints at zero."""
     pose = body.pose
     while body.parent is not None:
         body = by_name[body.parent]
@@ -176,7 +178,10 @@ def at_rest(body: TreeLink, by_name: Mapping[str, TreeLink]) -> Pose:
 def _gearbox(
     spec: mujoco.MjSpec, closure: Closure, bodies: list[TreeLink], time_step: float
 ) -> None:
-    """The child turns -ratio times as far as the parent, both against the reference body."""
+    """Add a gearbox: the child turns -ratio times as far as the parent.
+
+    Both are relative to the reference body.
+    """
     joint = closure.joint
     driving = _turning(closure, joint.parent, bodies, 0)
     driven = _turning(closure, joint.child, bodies, 1)
@@ -194,7 +199,7 @@ def _gearbox(
 def _turning(
     closure: Closure, link: str, bodies: list[TreeLink], axis: int
 ) -> tuple[str, float] | None:
-    """The hinge that a link turns on, and whether it turns with or against the gear's axis."""
+    """Return the hinge of a link, and whether it turns with or against the gear's axis."""
     joint = closure.joint
     for body in bodies:
         if body.name == link and body.joint is not None and body.joint.axes:
@@ -225,7 +230,7 @@ def _tie(
     line: tuple[float, float],
     time_step: float,
 ) -> Any:
-    """Hold follower = line[0] + line[1] * leader."""
+    """Add the constraint follower = line[0] + line[1] * leader."""
     equality = spec.add_equality(type=mujoco.mjtEq.mjEQ_JOINT, name1=follower, name2=leader)
     equality.objtype = mujoco.mjtObj.mjOBJ_JOINT
     equality.data[:5] = [line[0], line[1], 0.0, 0.0, 0.0]

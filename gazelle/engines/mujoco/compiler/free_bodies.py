@@ -57,7 +57,7 @@ def uses_speculative_contacts(
 
 
 def limit_speculative_contacts(model: mujoco.MjModel, world: World) -> None:
-    """Seek no contacts on the way of a step where that takes longer than the step."""
+    """Disable speculative contacts where finding them takes longer than a step."""
     ahead = int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
     if world.profile.speculative_contacts is not None or not model.opt.enableflags & ahead:
         return
@@ -88,7 +88,7 @@ def has_free_bodies(world: World, kinematic: Collection[str] = ()) -> bool:
 
 
 def _moving(world: World, kinematic: Collection[str]) -> list[Model]:
-    """Models that forces move."""
+    """Return the dynamic models."""
     return [model for model in world.models if not model.static and model.name not in kinematic]
 
 
@@ -97,7 +97,7 @@ def _collides(model: Model) -> bool:
 
 
 def keep_awake(model: mujoco.MjModel, world: World) -> None:
-    """Let only free bodies sleep that the description allows to.
+    """Allow sleep only for free bodies whose description allows it.
 
     Something with joints may stand still for a moment in the middle of a motion.
     """
@@ -119,7 +119,7 @@ def _is_free(model: Model) -> bool:
 
 
 def _half_thickness(model: Model) -> float:
-    """Half the least extent of all shapes of a model [m]; infinite if there are none."""
+    """Return half the least extent of all shapes of a model [m]; infinite without any."""
     return min(
         (
             _half(collision.geometry)

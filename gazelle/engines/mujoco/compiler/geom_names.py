@@ -6,12 +6,12 @@ import mujoco
 
 
 def geom_names(model: mujoco.MjModel) -> list[str]:
-    """The names of all geoms, by number."""
+    """Return the names of all geoms, by number."""
     text = bytes(model.names)
     starts: list[int] = model.name_geomadr.tolist()
     return [text[start : text.index(b"\0", start)].decode() for start in starts]
 
 
 def geom_ids(model: mujoco.MjModel) -> dict[str, int]:
-    """The numbers of all geoms, by name."""
+    """Return the ids of all geoms, by name."""
     return {name: number for number, name in enumerate(geom_names(model))}

@@ -19,7 +19,7 @@ _TOLERANCE = 0.02
 
 
 def tumbling(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> list[str]:
-    """Free links that turn about changing axes, to whose spin Euler's method would add.
+    """Return the free links that turn about changing axes, to whose spin Euler's method would add.
 
     Args:
         world: The description.
@@ -53,7 +53,7 @@ def swings(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> bool:
 
 
 def unbalanced_dofs(model: mujoco.MjModel) -> tuple[list[int], list[int]]:
-    """Angular velocities of trees with joints: of hinges but balanced wheels, and of spins.
+    """Return the angular velocities of trees with joints: hinges but balanced wheels, and spins.
 
     A wheel may turn as fast as it likes: it is the same from all sides, and what it does to
     the body that carries it depends on how fast that turns. A tree of one axis has no such

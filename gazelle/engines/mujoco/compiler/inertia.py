@@ -24,7 +24,7 @@ _ROUNDING = 1e-9
 
 
 def principal(tensors: Floats) -> tuple[Floats, Floats]:
-    """Moments, shape (n, 3), and axes (w, x, y, z), shape (n, 4), of tensors, shape (n, 3, 3)."""
+    """Return moments, shape (n, 3), and axes (w, x, y, z) of tensors, shape (n, 3, 3)."""
     moments, axes = np.linalg.eigh(tensors)
     axes[np.linalg.det(axes) < 0.0, :, 0] *= -1.0
     quaternions = np.zeros((len(tensors), 4))
@@ -34,14 +34,14 @@ def principal(tensors: Floats) -> tuple[Floats, Floats]:
 
 
 def possible(moments: Floats) -> Floats:
-    """Moments in ascending order, (3,), with the smaller ones raised just enough for a body."""
+    """Return moments in ascending order, (3,), the smaller ones raised just enough to be valid."""
     lack = max(0.0, moments[2] - moments[0] - moments[1])
     raised: Floats = moments + lack / 2.0 * (1.0 + 1e-9) * np.array((1.0, 1.0, 0.0))
     return raised
 
 
 def inertia_of(body: TreeLink) -> tuple[Floats, Floats]:
-    """A link's moments, (3,), and axes (w, x, y, z), (4,).
+    """Return a link's moments, (3,), and axes (w, x, y, z), (4,).
 
     Raises:
         EngineError: The inertia is not positive definite, or too large.
@@ -65,7 +65,7 @@ def inertia_of(body: TreeLink) -> tuple[Floats, Floats]:
 
 
 def give_inertias(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
-    """Let links have the moments of the file where those that were compiled had to be raised."""
+    """Restore the file's moments of links whose compiled ones had to be raised."""
     changed = False
     for body in bodies:
         found = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, body.name)
@@ -80,7 +80,7 @@ def give_inertias(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
 
 
 def tensor(moments: Floats, quaternion: Floats) -> Floats:
-    """The tensor (xx, yy, zz, xy, xz, yz) of moments, (3,), about axes (w, x, y, z)."""
+    """Return the tensor (xx, yy, zz, xy, xz, yz) of moments, (3,), about axes (w, x, y, z)."""
     matrix = np.zeros(9)
     mujoco.mju_quat2Mat(matrix, quaternion)
     axes = matrix.reshape(3, 3)
@@ -89,7 +89,7 @@ def tensor(moments: Floats, quaternion: Floats) -> Floats:
 
 
 def matrices(values: Floats) -> Floats:
-    """Tensors (xx, yy, zz, xy, xz, yz), shape (n, 6), as matrices, shape (n, 3, 3)."""
+    """Return tensors (xx, yy, zz, xy, xz, yz), shape (n, 6), as matrices, shape (n, 3, 3)."""
     rows = [[0, 3, 4], [3, 1, 5], [4, 5, 2]]
     full: Floats = values[:, rows]
     return full

@@ -26,7 +26,7 @@ _LEAST, _MOST = 1e-4, 0.9999
 
 
 def tune_stops(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
-    """Give limits with a spring the terms of ODE's implicit spring and damper.
+    """Set limits with a spring to the terms of ODE's implicit spring and damper.
 
     They are those of a springy contact (see ``contact_pairs.tune_springs``): erp = h k / (h k + c)
     and cfm = 1 / (h k + c) become a reference acceleration of -v / h - erp / h² * overshoot and
@@ -45,7 +45,7 @@ def tune_stops(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
 
 
 def _spring_of(axis: JointAxis, physics: JointPhysics, h: float) -> tuple[float, float]:
-    """Stiffness and damping of a stop, from its ERP and CFM if only those are given.
+    """Return stiffness and damping of a stop, from its ERP and CFM if only those are given.
 
     With erp = h k / (h k + c) and cfm = 1 / (h k + c), ODE's manual, k is erp / (h cfm) and c
     is (1 - erp) / cfm.

@@ -33,7 +33,7 @@ _HOLDING = 0.9999
 
 
 def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
-    """Let a MuJoCo body move in its parent as the joint says.
+    """Add the joint of a MuJoCo body in its parent.
 
     Raises:
         EngineError: The joint's type is not simulated.
@@ -49,7 +49,7 @@ def add_joint(body: Any, name: str, joint: Joint, time_step: float) -> None:
 
 
 def _fixed(_: Any, __: str, ___: Joint, ____: float) -> None:
-    """A body without a joint is welded to its parent."""
+    """Add nothing: a body without a joint is welded to its parent."""
 
 
 def _hinge(body: Any, name: str, joint: Joint, time_step: float) -> None:
@@ -81,7 +81,7 @@ def _screw(body: Any, name: str, joint: Joint, time_step: float) -> None:
 
 
 def _planar(body: Any, name: str, joint: Joint, time_step: float) -> None:
-    """Slides in the plane across the axis, then a turn about it."""
+    """Add two slides in the plane across the axis, then a hinge about it."""
     axis = _axis(joint, 0)
     first, second = across(np.asarray(axis.xyz))
     damping = [axis.damping, 0.0, 0.0]
@@ -101,7 +101,7 @@ def _floating(body: Any, name: str, joint: Joint, _: float) -> None:
 
 
 def dry_friction(time_step: float) -> tuple[list[float], list[float]]:
-    """MuJoCo's reference and impedance of a friction that stops within a step and holds.
+    """Return MuJoCo's reference and impedance of a friction that stops within a step and holds.
 
     What it holds creeps by 1e-4 of the acceleration that it holds back, times the step.
     """

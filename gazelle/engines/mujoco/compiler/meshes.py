@@ -15,7 +15,7 @@ _SIDES = 24
 
 
 def cone_mesh(shape: Cone) -> tuple[Floats, NDArray[np.int64]]:
-    """Vertices, shape (n, 3) [m], and faces, shape (m, 3), of a cone along z about its middle."""
+    """Return vertices [m], (n, 3), and faces, (m, 3), of a cone along z about its middle."""
     angles = np.arange(_SIDES) * (2.0 * np.pi / _SIDES)
     rim = np.stack(
         (

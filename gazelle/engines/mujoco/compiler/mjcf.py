@@ -21,7 +21,7 @@ _GREY = (0.7, 0.7, 0.7, 1.0)
 
 
 def to_mjcf(world: World, *, time_step: float | None = None, visuals: bool = True) -> str:
-    """The MJCF text of a world, that MuJoCo loads and steps as the engine does.
+    """Return the MJCF text of a world, which MuJoCo steps as the engine does.
 
     Names are scoped as in the engine: ``model::link``, ``model::joint``. Meshes stand in the
     text itself, so it needs no other file. Plugins, sensors and controllers have no
@@ -92,7 +92,7 @@ def _add_visual(handle: Any, visual: Visual, body: TreeLink, draft: Draft) -> No
 
 @contextmanager
 def _exact_numbers() -> Iterator[None]:
-    """Numbers with all their digits while it lasts; MuJoCo writes six unless told otherwise.
+    """Write numbers with all their digits while it lasts; MuJoCo's default is six.
 
     Its Python package has no word for that, but the library exports the functions that its
     own tests use.
@@ -116,7 +116,7 @@ def _exact_numbers() -> Iterator[None]:
 
 
 def _library() -> ctypes.CDLL | None:
-    """MuJoCo's own library, which is loaded already."""
+    """Return MuJoCo's own library, which is loaded already."""
     for file in Path(mujoco.__file__).parent.iterdir():
         name = file.name.removeprefix("lib")
         if name.startswith("mujoco.") and not name.endswith(".py"):

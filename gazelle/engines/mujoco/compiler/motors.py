@@ -75,7 +75,7 @@ def motor_of(
     parts: Mapping[str, Sequence[TreeLink]],
     kinematic: Container[str] = (),
 ) -> Motor:
-    """A motor on a joint of a world.
+    """Return a motor on a joint of a world.
 
     Args:
         joint: Scoped name.
@@ -112,12 +112,12 @@ def motor_of(
 
 
 def motor_again(joint: str, max_effort: ArrayLike) -> Motor:
-    """The motor that another engine of the same world had."""
+    """Return the motor that another engine of the same world had."""
     return Motor(joint, tuple(np.atleast_1d(np.asarray(max_effort, np.float64)).tolist()))
 
 
 def refuse_motors(model: str, motors: Iterable[str]) -> None:
-    """Say so if a model that is to move only when it is placed has motors.
+    """Raise an error if a kinematic model has motors.
 
     Args:
         model: Name.
@@ -142,7 +142,7 @@ def _type_of(joint: str, parts: Iterable[Sequence[TreeLink]]) -> str:
 
 
 def add_motors(spec: mujoco.MjSpec, motors: Iterable[Motor], time_step: float) -> None:
-    """Give a MuJoCo model the tendons of motors; nothing else in it has tendons."""
+    """Add the tendons of motors to a MuJoCo model; nothing else in it has tendons."""
     count = 0
     for motor in motors:
         for axis, effort in enumerate(motor.max_effort):
@@ -162,12 +162,12 @@ def motor_count(motors: Mapping[str, Motor]) -> int:
 
 
 def stiffen(model: mujoco.MjModel) -> None:
-    """Let the motors of a compiled model give way by as little as they should."""
+    """Set the motors of a compiled model to their least compliance."""
     model.tendon_invweight0 *= _SHARE
 
 
 def stiffen_worlds(batch: Batch) -> None:
-    """The same where worlds have inertias of their own, ``set_const`` being done."""
+    """Set the motors of worlds with their own inertias likewise, after ``set_const``."""
     if batch.expanded("tendon_invweight0") is not None:
         batch.expand("tendon_invweight0")[:] *= _SHARE
 

@@ -76,7 +76,7 @@ def set_options(
 
 
 def _cone(world: World, kinematic: Collection[str]) -> mujoco.mjtCone:
-    """MuJoCo's form of friction: as asked for by name, by SDF's friction model, or by the world.
+    """Return MuJoCo's friction cone: by name, by SDF's friction model, or by the world.
 
     In a cone what is held does not creep. A pyramid is faster for robots that drive.
 
@@ -96,7 +96,7 @@ def _cone(world: World, kinematic: Collection[str]) -> mujoco.mjtCone:
 
 
 def damp_implicitly(spec: mujoco.MjSpec) -> None:
-    """Let Euler's method damp joints implicitly, constraints included.
+    """Set Euler's method to damp joints implicitly, constraints included.
 
     With the damping D and the step h, implicit Euler is (M + h D) a = f - D v. MuJoCo's own way
     (``eulerdamp``) solves constraints with M, and finds the acceleration anew with M + h D from their
@@ -112,13 +112,13 @@ def damp_implicitly(spec: mujoco.MjSpec) -> None:
 
 
 def skip_idle_forces(model: mujoco.MjModel) -> None:
-    """Leave out springs, dampers and lifts against gravity where nothing has any: 2 % faster."""
+    """Disable springs, dampers and gravity compensation where nothing has any: 2 % faster."""
     if not (model.jnt_stiffness.any() or model.dof_damping.any() or model.body_gravcomp.any()):
         model.opt.disableflags |= PASSIVE_OFF
 
 
 def _integrator(name: str | None) -> mujoco.mjtIntegrator:
-    """MuJoCo's integrator of a name.
+    """Return MuJoCo's integrator of a name.
 
     Raises:
         EngineError: There is none.
@@ -132,7 +132,7 @@ def _integrator(name: str | None) -> mujoco.mjtIntegrator:
 
 
 def add_probes(spec: mujoco.MjSpec) -> None:
-    """Let the depth of the deepest contact, and the forces between bodies, be read on demand.
+    """Add sensors for the depth of the deepest contact and the forces between bodies.
 
     MuJoCo computes forces between bodies only for sensors that need them; one stands for all.
     Sensors are switched off in every step.

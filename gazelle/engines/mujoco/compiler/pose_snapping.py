@@ -22,7 +22,7 @@ _LAYER = 1e-4
 
 
 def straight_pose(collision: Collision, body: TreeLink, bodies: Mapping[str, TreeLink]) -> Pose:
-    """The pose of a collision in its link, put straight if it is askew by rounding.
+    """Return the pose of a collision in its link, snapped if it is off-axis by rounding error.
 
     Args:
         collision: Of the link.
@@ -45,7 +45,7 @@ def straight_pose(collision: Collision, body: TreeLink, bodies: Mapping[str, Tre
 
 
 def _in_carrier(body: TreeLink, bodies: Mapping[str, TreeLink]) -> Pose:
-    """The pose of a link in the first above it that a joint moves, or that nothing carries."""
+    """Return the pose of a link in the first link above it that a joint moves, or in the root."""
     pose = Pose()
     while body.joint is not None and body.joint.type == "fixed" and body.parent is not None:
         pose = body.pose * pose

@@ -18,12 +18,12 @@ _LEAST = 1e-5
 
 
 def soften_rotors(model: mujoco.MjModel) -> None:
-    """Give balanced rotors of a compiled model the mobility of their rim."""
+    """Set balanced rotors of a compiled model to the mobility of their rim."""
     model.body_invweight0[:] = _mobility(model, model.body_invweight0)
 
 
 def soften_rotors_of_worlds(batch: Batch) -> None:
-    """Do the same where worlds have inertias of their own, ``set_const`` being done."""
+    """Set balanced rotors of worlds with their own inertias likewise, after ``set_const``."""
     own = batch.expanded("body_invweight0")
     if own is not None:
         batch.expand("body_invweight0")[:] = _mobility(batch.model, own)

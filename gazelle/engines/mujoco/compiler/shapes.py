@@ -81,7 +81,7 @@ class ShapeBuilder:
     def options(
         self, shape: Geometry, pose: Pose, source: Source | None, *, static: bool = False
     ) -> list[dict[str, Any]]:
-        """Arguments of ``add_geom`` for a shape at a pose; none if there is nothing to hit.
+        """Return the arguments of ``add_geom`` for a shape at a pose; none without a surface.
 
         A static mesh is followed closely, by as many geoms as that takes.
         """
@@ -92,7 +92,7 @@ class ShapeBuilder:
     def _pieces(
         self, shape: Mesh, pose: Pose, source: Source | None, *, static: bool
     ) -> list[dict[str, Any]]:
-        """One geom for each convex piece: MuJoCo fills a mesh's hull, hollows and all."""
+        """Return one geom for each convex piece: MuJoCo fills a mesh's hull, hollows and all."""
         if shape.path is None:
             return []
         from gazelle.formats.convex import decompose
@@ -108,14 +108,20 @@ class ShapeBuilder:
         return self._piece_geoms(key, pieces, pose)
 
     def data_options(self, data: MeshData, pose: Pose, *, static: bool) -> list[dict[str, Any]]:
-        """Arguments of ``add_geom`` for a mesh that is in no file; ``static`` as in ``options``."""
+        """Return the arguments of ``add_geom`` for a mesh without a file.
+
+        ``static`` as in ``options``.
+        """
         from gazelle.formats.convex import decompose
 
         key = ("data", len(self.meshes), static)
         return self._piece_geoms(key, decompose(data, static=static), pose)
 
     def _piece_geoms(self, key: Any, pieces: ConvexPieces, pose: Pose) -> list[dict[str, Any]]:
-        """A geom of each piece, with its middle as origin: far from it MuJoCo's hull rounds."""
+        """Return a geom of each piece.
+
+        Its origin is its middle: far from it MuJoCo's hull rounds.
+        """
         if not pieces.solids:
             return []
         if key not in self.pieces:
@@ -144,7 +150,7 @@ class ShapeBuilder:
         return names, middles
 
     def _ground(self, shape: Mesh) -> Ground | None:
-        """The heights of a mesh that is ground, if they are near enough or it is too large."""
+        """Return the height field of a mesh; None if it has none that is fine enough."""
         from gazelle.formats.convex import PROMISED
         from gazelle.formats.ground import ground_of
         from gazelle.formats.mesh import load_mesh
@@ -160,7 +166,7 @@ class ShapeBuilder:
     def _ground_geom(
         self, shape: Mesh, ground: Ground, pose: Pose, source: Source | None
     ) -> dict[str, Any]:
-        """Ground as a height field, whose cells MuJoCo splits from (0, 0) to (1, 1).
+        """Return ground as a height field, whose cells MuJoCo splits from (0, 0) to (1, 1).
 
         Where the mesh has them split the other way, it is turned by a right angle.
         """
@@ -189,7 +195,7 @@ class ShapeBuilder:
         return {"type": kind, "hfieldname": self.meshes[key], **_placed(placed)}
 
     def seen(self, shape: Geometry, pose: Pose, *, static: bool) -> dict[str, Any] | None:
-        """Arguments of ``add_geom`` for what rays meet, where that is not what collides.
+        """Return the arguments of ``add_geom`` for rays, where their shape is not the collision's.
 
         Raises:
             FormatError: A mesh cannot be read.
@@ -210,7 +216,7 @@ class ShapeBuilder:
         return {"group": CLOSED_GROUP if closed else OPEN_GROUP, **untouched, **geom}
 
     def visible(self, shape: Geometry, pose: Pose, source: Source | None) -> list[dict[str, Any]]:
-        """Arguments of ``add_geom`` for a shape that is looked at and never touched.
+        """Return the arguments of ``add_geom`` for a visual shape without contacts.
 
         Raises:
             FormatError: A mesh cannot be read.
@@ -225,7 +231,7 @@ class ShapeBuilder:
         return [self._sheet_geom((_key_of(shape), "visible"), data.vertices, data.faces, pose)]
 
     def _sheet_geom(self, key: Any, vertices: Any, faces: Any, pose: Pose) -> dict[str, Any]:
-        """A mesh geom that need not have a volume."""
+        """Return a mesh geom that need not have a volume."""
         lacking = max(0, _FEWEST - len(vertices))
         padded = np.concatenate([vertices, vertices[:1].repeat(lacking, axis=0)])
         return self.mesh_geom(key, padded, faces, pose, SHELL)
@@ -233,7 +239,7 @@ class ShapeBuilder:
     def mesh_geom(
         self, key: Any, vertices: Any, faces: Any, pose: Pose, inertia: Any = None
     ) -> dict[str, Any]:
-        """A mesh geom; its vertices are stored on first use of the key."""
+        """Return a mesh geom; its vertices are stored on first use of the key."""
         return {
             "type": mujoco.mjtGeom.mjGEOM_MESH,
             "meshname": self._store(key, vertices, faces, inertia),
@@ -379,7 +385,7 @@ _READERS: dict[type, Callable[..., list[dict[str, Any]]]] = {
 
 
 def _from_z_to(normal: Vector3) -> tuple[float, float, float, float]:
-    """The shortest rotation (x, y, z, w) that turns the z axis into a direction."""
+    """Return the shortest rotation (x, y, z, w) that turns the z axis into a direction."""
     n = np.asarray(normal, dtype=np.float64)
     length = float(np.linalg.norm(n))
     if length == 0.0:

@@ -136,7 +136,7 @@ class Draft:
     slips: Mapping[str, Slip]
 
     def compile(self, *, as_written: bool = True) -> mujoco.MjModel:
-        """The MuJoCo model.
+        """Compile the MuJoCo model.
 
         Args:
             as_written: Give links the inertias of the file also where those are no body's, which
@@ -162,7 +162,7 @@ class Draft:
         return compiled
 
     def _solve_at_once(self, compiled: mujoco.MjModel) -> None:
-        """Look for no islands of constraints where there can be one only: 5 % faster."""
+        """Disable the search for constraint islands where there can be one only: 5 % faster."""
         if compiled.ntree <= 1 and not compiled.opt.enableflags & mujoco.mjtEnableBit.mjENBL_SLEEP:
             flags = compiled.opt.disableflags | int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
             compiled.opt.disableflags = self.spec.option.disableflags = flags
@@ -188,7 +188,7 @@ def compile_world(recipe: CompilerInput) -> Compiled:
 
 
 def trees_of(recipe: CompilerInput) -> dict[str, KinematicTree]:
-    """The models of a world taken apart, by name.
+    """Return the kinematic trees of a world's models, by name.
 
     Raises:
         EngineError: A joint names a link that is not there.
@@ -200,7 +200,7 @@ def trees_of(recipe: CompilerInput) -> dict[str, KinematicTree]:
 
 
 def draft_world(recipe: CompilerInput) -> Draft:
-    """All that the model of a world is compiled from.
+    """Return the draft that the model of a world is compiled from.
 
     Raises:
         EngineError: Something in the description cannot be simulated.
@@ -350,7 +350,7 @@ class _SpecBuilder:
         return ContactGeom(name, where, model, mass, body.self_collide, collision, placed)
 
     def _exclude_own(self, bodies: list[TreeLink]) -> None:
-        """Links of one model collide only if both say so, as in Gazebo."""
+        """Exclude contacts between links of one model unless both ask for them, as in Gazebo."""
         solid = [body for body in bodies if body.link.collisions and body.root != "static"]
         for first, second in itertools.combinations(solid, 2):
             neighbours = second.name in self._tyres and second.parent == first.name
@@ -359,7 +359,7 @@ class _SpecBuilder:
                 self._spec.add_exclude(bodyname1=one, bodyname2=two)
 
     def _solid_body(self, body: TreeLink) -> str:
-        """MuJoCo's body that has the shapes of a link."""
+        """Return MuJoCo's body that has the shapes of a link."""
         return tyre_name(body.name) if body.name in self._tyres else body.name
 
 

@@ -53,12 +53,12 @@ _TIME_CONSTANT_STEPS = 3.0
 
 
 def friction_of(collision: Collision) -> float:
-    """The sliding friction coefficient of a collision, along its first direction."""
+    """Return the sliding friction coefficient of a collision, along its first direction."""
     return min(collision.surface.friction.mu, LARGEST_FRICTION)
 
 
 def second_friction_of(collision: Collision) -> float:
-    """That along its second direction; the same where nothing slips in either."""
+    """Return the friction coefficient along the second direction; the first one's by default."""
     friction = collision.surface.friction
     if min(friction.mu, friction.mu2) >= _NEVER_SLIPS:
         return friction_of(collision)
@@ -66,7 +66,7 @@ def second_friction_of(collision: Collision) -> float:
 
 
 def torsional_friction_of(collision: Collision) -> float:
-    """Largest torque about the normal of a contact over its force [m].
+    """Return the largest torque about the normal of a contact over its force [m].
 
     That of a round patch of radius a under Hertz's pressure, 3 pi / 16 mu a, as in Gazebo's
     tutorial on torsional friction. A patch that grows with the depth is not known here.
@@ -86,7 +86,7 @@ def rigid_terms(time_step: float) -> dict[str, list[float]]:
 
 
 def hold_fast(model: mujoco.MjModel) -> None:
-    """Let what is held by friction creep as little as the solver can do."""
+    """Set friction to creep as little as the solver can do."""
     if model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL:
         model.opt.impratio = _RATIO_IN_A_PYRAMID
         return
@@ -97,7 +97,7 @@ def hold_fast(model: mujoco.MjModel) -> None:
 
 
 def friction_ranks(collisions: Iterable[Collision]) -> dict[float, int]:
-    """A contact priority for each friction coefficient in use, the slipperiest the highest.
+    """Return a contact priority for each friction coefficient, the slipperiest the highest.
 
     ODE takes the smaller coefficient of two surfaces, MuJoCo that of the geom with the
     higher priority, so the order by slipperiness makes the second do what the first does.
@@ -121,14 +121,14 @@ def needs_cone(moving: Iterable[float], resting: Iterable[float]) -> bool:
 
 
 def condim_of(mu: float, spin: float) -> int:
-    """The directions that a contact acts in, for sliding and torsional friction."""
+    """Return the number of contact directions, by sliding and torsional friction."""
     return 4 if spin > 0.0 else 3 if mu > LEAST_FRICTION else 1
 
 
 def surface_options(
     collision: Collision, time_step: float, ranks: dict[float, int]
 ) -> dict[str, Any]:
-    """Arguments of ``add_geom`` that hold the surface."""
+    """Return the arguments of ``add_geom`` that hold the surface."""
     surface = collision.surface
     mu, spin = friction_of(collision), torsional_friction_of(collision)
     touches = not surface.contact.collide_without_contact
@@ -145,6 +145,6 @@ def surface_options(
 
 
 def _signed(mask: int) -> int:
-    """The lower 32 bits of a mask as MuJoCo's signed integer."""
+    """Return the lower 32 bits of a mask as MuJoCo's signed integer."""
     low = mask & 0xFFFFFFFF
     return low - (1 << 32) if low >> 31 else low

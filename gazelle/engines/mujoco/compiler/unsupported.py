@@ -18,7 +18,7 @@ _NAMED = 5
 
 
 def warn_of_links(models: Iterable[Sequence[TreeLink]]) -> None:
-    """Say which links have an inertia too small to simulate, or what has no effect here."""
+    """Warn of links with too small an inertia to simulate, or with tags without effect."""
     moving = [body for bodies in models for body in bodies if body.root != "static"]
     _warn(
         [body for body in moving if _is_tiny(body)],
@@ -35,7 +35,7 @@ def warn_of_links(models: Iterable[Sequence[TreeLink]]) -> None:
 
 
 def warn_of_plane(body: TreeLink, collision: Collision) -> None:
-    """Say that the plane of a link that moves does not move with it."""
+    """Warn that the plane of a moving link does not move with it."""
     text = f"the plane '{collision.name}' of the link '{body.name}' stays where it is, as ODE's do"
     warnings.warn(EngineWarning(located(text, collision.source)), stacklevel=2)
 

@@ -49,7 +49,7 @@ def add_attachments(
     attachments: tuple[Attachment, ...],
     bodies: Mapping[str, list[TreeLink]],
 ) -> None:
-    """Put a weld, switched off, into the model for every pair.
+    """Add a weld, inactive at first, to the model for every pair.
 
     One that settles is critically damped: after that time constant a gap is down to 74 %, after
     three of them to 20 %. A static link is part of MuJoCo's world body, which is what the other is then held to.

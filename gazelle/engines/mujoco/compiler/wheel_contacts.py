@@ -29,7 +29,7 @@ _LIMITLESS = 100.0
 def possible_treads(
     models: Iterable[Sequence[TreeLink]], geoms: Mapping[str, Sequence[str]]
 ) -> dict[str, str]:
-    """Geoms that may be treads, and the joints that they turn on, by MuJoCo's names.
+    """Return geoms that may be wheel surfaces, by MuJoCo's names, with their wheels' joints.
 
     Args:
         models: The bodies of each.
@@ -78,7 +78,7 @@ def middle_of(model: mujoco.MjModel, geom: int, joint: int) -> float | None:
 def _middle(
     vertices: NDArray[np.floating], axis: NDArray[np.float64], off: NDArray[np.float64]
 ) -> float | None:
-    """The same for the vertices of a mesh, by how far they reach in directions about the axis."""
+    """Return the middle of a mesh's vertices, by their extent in directions about the axis."""
     along = vertices @ axis
     one = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
     one /= np.linalg.norm(one)

@@ -62,12 +62,12 @@ class TyreSlot:
 
 
 def tyre_name(link: str) -> str:
-    """The name of MuJoCo's body of a tyre."""
+    """Return the name of MuJoCo's body of a tyre."""
     return f"{link}#tyre"
 
 
 def add_tyre(wheel: Any, body: TreeLink) -> Any:
-    """Put a tyre on a wheel; returns MuJoCo's body of it, in the same place as the wheel's.
+    """Add a tyre to a wheel; returns MuJoCo's body of it, at the wheel's pose.
 
     Raises:
         EngineError: The link does not turn on an axle.
@@ -99,7 +99,7 @@ def add_tyre(wheel: Any, body: TreeLink) -> Any:
 
 
 def hold_tyres(spec: mujoco.MjSpec, links: Iterable[str], time_step: float) -> None:
-    """Hold tyres on their wheels, rigidly until ``set_slip``."""
+    """Constrain tyres to their wheels, rigidly until ``set_slip``."""
     for link in sorted(links):
         for name in (_slide(link), _turn(link)):
             held = spec.add_equality(name=name, type=mujoco.mjtEq.mjEQ_JOINT, name1=name)
@@ -124,7 +124,7 @@ def tyre_slot(model: mujoco.MjModel, link: str) -> TyreSlot | None:
 
 
 def set_slip(batch: Batch, slot: TyreSlot, slip: Floats) -> None:
-    """Let a tyre slip by so much a force, shape (nworld, 2): [m/s/N] and [rad/s/(N m)]."""
+    """Set the slip of a tyre per force, shape (nworld, 2): [m/s/N] and [rad/s/(N m)]."""
     step, dofs = float(batch.model.opt.timestep), list(slot.dofs)
     own = batch.expanded("dof_invweight0")
     mobility = batch.model.dof_invweight0[dofs] if own is None else own[:, dofs]
@@ -135,7 +135,7 @@ def set_slip(batch: Batch, slot: TyreSlot, slip: Floats) -> None:
 
 
 def tune_slips(model: mujoco.MjModel, slips: Mapping[str, tuple[float, float]]) -> None:
-    """Let the tyres of a compiled model slip by so much: [m/s/N] and [rad/s/(N m)]."""
+    """Set the slip of tyres of a compiled model: [m/s/N] and [rad/s/(N m)]."""
     step = float(model.opt.timestep)
     for link, slip in slips.items():
         slot = tyre_slot(model, link)
@@ -147,7 +147,7 @@ def tune_slips(model: mujoco.MjModel, slips: Mapping[str, tuple[float, float]]) 
 
 
 def compiled_slip(model: mujoco.MjModel, slot: TyreSlot) -> Floats:
-    """By how much a tyre of a compiled model slips a force: [m/s/N] and [rad/s/(N m)]."""
+    """Return the slip of a tyre of a compiled model per force: [m/s/N] and [rad/s/(N m)]."""
     share = model.eq_solimp[list(slot.equalities), 0]
     mobility = model.dof_invweight0[list(slot.dofs)]
     slip: Floats = (1.0 / share - 1.0) * float(model.opt.timestep) * mobility
@@ -155,7 +155,7 @@ def compiled_slip(model: mujoco.MjModel, slot: TyreSlot) -> Floats:
 
 
 def _share(slip: Floats, step: float, mobility: Floats) -> Floats:
-    """The impedance of a slip, which is R = slip / step."""
+    """Return the impedance of a slip, which is R = slip / step."""
     return np.clip(1.0 / (1.0 + slip / (step * mobility)), _LEAST, _MOST)
 
 
@@ -168,7 +168,7 @@ def _turn(link: str) -> str:
 
 
 def _moment_about(axis: Floats, inertial: Inertial) -> float:
-    """A wheel's moment of inertia about its axle [kg m²]."""
+    """Return a wheel's moment of inertia about its axle [kg m²]."""
     turned = np.asarray(inertial.pose.matrix())[:3, :3].T @ axis
     return float(turned @ inertial.inertia.matrix() @ turned)
 
@@ -180,7 +180,7 @@ _ALONG, _ACROSS = 0.99, 0.14
 
 
 def described_slips(models: Iterable[Sequence[TreeLink]]) -> dict[str, Slip]:
-    """Wheels that slip as their collisions say: by scoped link, [m/s/N] and [rad/s/(N m)].
+    """Return the slip of wheels by their collisions: by scoped link, [m/s/N] and [rad/s/(N m)].
 
     The first number is along the axle, the second about it. Without ``fdir1`` the first
     direction is world y, as ODE's on level ground, with the wheel as it stands at the start.
@@ -199,7 +199,7 @@ def described_slips(models: Iterable[Sequence[TreeLink]]) -> dict[str, Slip]:
 
 
 def warn_of_losses(models: Iterable[Sequence[TreeLink]], known: Collection[str]) -> None:
-    """Say what friction of some surface is not simulated: slip of what is no wheel, and patches.
+    """Warn of friction that is not simulated: slip of anything but wheels, and patches.
 
     Args:
         models: The bodies of each.
@@ -243,7 +243,7 @@ def _is_lost(torsional: TorsionalFriction | None) -> bool:
 
 
 def _placed(bodies: Sequence[TreeLink]) -> Iterator[tuple[TreeLink, Pose]]:
-    """Bodies with their poses in the world at the start."""
+    """Yield bodies with their initial poses in the world."""
     poses: dict[str, Pose] = {}
     for body in bodies:
         poses[body.name] = body.pose if body.parent is None else poses[body.parent] * body.pose
@@ -257,7 +257,7 @@ def _has_slip(collision: Collision) -> bool:
 
 
 def _slip_of(collision: Collision, body: TreeLink, pose: Pose) -> Slip | None:
-    """The slip of a wheel's shape; None if it cannot be told."""
+    """Return the slip of a wheel's shape; None if it is undetermined."""
     friction = collision.surface.friction
     if not _has_slip(collision):
         return 0.0, 0.0
@@ -291,5 +291,5 @@ def _first_is_along(collision: Collision, body: TreeLink, pose: Pose) -> bool | 
 
 
 def slipping(slips: Mapping[str, Slip], tyres: Collection[str]) -> dict[str, Slip]:
-    """All tyres of a world with their slips: none where only the run may set one."""
+    """Return all tyres of a world with their slips: none where only the run may set one."""
     return {name: slips.get(name, (0.0, 0.0)) for name in sorted({*slips, *tyres})}

@@ -54,7 +54,7 @@ class WorldGeoms:
         return name
 
     def name_later(self, element: Any, name: str) -> None:
-        """Have an element of the model get its name by ``finish``."""
+        """Queue a name for an element of the model; ``finish`` sets it."""
         self._later.append((element, "name", name))
 
     def finish(self) -> None:

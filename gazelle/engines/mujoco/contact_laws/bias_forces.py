@@ -37,7 +37,7 @@ _ROUNDS = cython.declare(cython.int, 3)
 def take_bias_midway(
     model: cython.size_t, data: cython.size_t, numbers: cython.size_t, told: cython.size_t
 ) -> cython.bint:
-    """Let the step use the forces of its middle, where something turns fast enough.
+    """Set the step to use the forces of its middle, where something turns fast enough.
 
     Args:
         model: Address of the ``mjModel``.

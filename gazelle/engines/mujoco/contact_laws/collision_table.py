@@ -23,7 +23,7 @@ _FIELDS = ("dist", "pos", "normal", "tangent")
 
 @functools.cache
 def replace_plane_cylinder() -> Any:
-    """Let MuJoCo find contacts of cylinders and planes so, from now on.
+    """Replace MuJoCo's contact function of cylinders and planes from now on.
 
     Returns:
         What keeps the function alive; None if this MuJoCo keeps its functions to itself, or
@@ -45,7 +45,7 @@ def replace_plane_cylinder() -> Any:
 
 
 def _function() -> Any:
-    """The compiled function, as C calls it."""
+    """Return the compiled function, as C calls it."""
     fill(offsets())
     made = ctypes.CFUNCTYPE(
         ctypes.c_int, *[ctypes.c_size_t] * 3, *[ctypes.c_int] * 2, ctypes.c_double

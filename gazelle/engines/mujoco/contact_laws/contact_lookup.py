@@ -17,7 +17,7 @@ _ELLIPTIC = cython.declare(cython.int, 1)  # mjCONE_ELLIPTIC
 def begin_step(
     touch: cython.pointer[Touch], model: cython.size_t, data: cython.size_t
 ) -> cython.void:
-    """Look up what holds for all contacts of a step."""
+    """Look up the data of all contacts of a step."""
     gravity = floats(model + AT.model_gravity)
     touch.model, touch.data = model, data
     touch.users = word(model + AT.model_geom_user)
@@ -35,7 +35,7 @@ def begin_step(
 @cython.nogil
 @cython.exceptval(check=False)
 def begin_contact(touch: cython.pointer[Touch], contact: cython.size_t) -> cython.bint:
-    """Look up what laws need of a contact; returns whether it has any rows."""
+    """Look up the data of a contact for the laws; returns whether it has any rows."""
     row: cython.int = integers(contact + AT.contact_address)[0]
     if row < 0:
         return False

@@ -16,7 +16,7 @@ from gazelle.errors import EngineError, EngineWarning
 
 
 def install(*, vital: bool) -> None:
-    """Let MuJoCo call it, from now on.
+    """Install MuJoCo's control callback.
 
     Args:
         vital: Whether there is need of more than that what slides stays down.
@@ -44,7 +44,7 @@ def install(*, vital: bool) -> None:
 
 @lru_cache(maxsize=1)
 def _function() -> Any:
-    """The compiled function, as MuJoCo takes it: of the addresses of a model and its data."""
+    """Return the compiled function in MuJoCo's form: of the addresses of a model and its data."""
     fill(offsets())
     made = ctypes.CFUNCTYPE(None, ctypes.c_size_t, ctypes.c_size_t)
     return made(kernel.address() or kernel.apply)

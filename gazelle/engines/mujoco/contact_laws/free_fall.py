@@ -14,7 +14,7 @@ _FREE = cython.declare(cython.int, 0)  # mjJNT_FREE
 @cython.nogil
 @cython.exceptval(check=False)
 def fall(touch: cython.pointer[Touch], way: cython.int) -> cython.double:
-    """The acceleration at which free bodies would part along an axis of a contact's frame.
+    """Return the acceleration at which free bodies would part along an axis of a contact's frame.
 
     Args:
         touch: The contact.
@@ -53,7 +53,10 @@ def never_moved(touch: cython.pointer[Touch]) -> cython.bint:
 @cython.nogil
 @cython.exceptval(check=False)
 def _free_velocity(touch: cython.pointer[Touch], body: cython.int) -> cython.int:
-    """The first of the six velocities of the free body that carries a body; -1 if none does."""
+    """Return the first of the six velocities of the free body that carries a body.
+
+    -1 without one.
+    """
     model = touch.model
     root = integers(word(model + AT.model_rootid))[body]
     if integers(word(model + AT.model_jntnum))[root] == 0:

@@ -127,7 +127,7 @@ def exchange(
     world: cython.Py_ssize_t,
     time: cython.longlong,
 ) -> cython.void:
-    """Let a system of joints look at them and act on them."""
+    """Exchange measurements and commands with a system of joints."""
     qpos, qvel = floats(word(data + AT.qpos)), floats(word(data + AT.qvel))
     applied, user = floats(word(data + AT.applied)), floats(word(data + AT.userdata))
     if cython.compiled:

@@ -61,7 +61,7 @@ _ROUNDS = cython.declare(cython.int, 8)
 @cython.nogil
 @cython.exceptval(check=False)
 def apply(model: cython.size_t, data: cython.size_t) -> cython.void:
-    """Change what MuJoCo is about to solve for; of other models, nothing.
+    """Apply the contact laws to what MuJoCo is about to solve; other models stay unchanged.
 
     Args:
         model: Address of the ``mjModel``.
@@ -102,7 +102,7 @@ def apply(model: cython.size_t, data: cython.size_t) -> cython.void:
 @cython.nogil
 @cython.exceptval(check=False)
 def _correct(touch: cython.pointer[Touch], head: cython.p_double) -> cython.void:
-    """Change the rows of a contact."""
+    """Apply the laws to the rows of a contact."""
     if head[4] > 0.0:
         _direct(touch)
     if head[5] > 0.0:
@@ -120,7 +120,7 @@ def _correct(touch: cython.pointer[Touch], head: cython.p_double) -> cython.void
 @cython.nogil
 @cython.exceptval(check=False)
 def _bounce(touch: cython.pointer[Touch]) -> cython.void:
-    """Let two bodies part so that e² of the height is reached, in the step of the impact."""
+    """Set the bounce of two bodies in the step of the impact, to reach e² of the height."""
     step, reference, contact = touch.step, touch.reference, touch.contact
     pull = -fall(touch, 0)
     speed, late = -touch.velocity[0], 0.5 * pull * step
@@ -143,7 +143,7 @@ def _bounce(touch: cython.pointer[Touch]) -> cython.void:
 @cython.nogil
 @cython.exceptval(check=False)
 def _direct(touch: cython.pointer[Touch]) -> cython.void:
-    """Turn the two directions in which a contact rubs to those that its surfaces have."""
+    """Turn the two friction directions of a contact to those of its surfaces."""
     if touch.dim < 3 or not touch.cone:
         return
     frame = touch.frame
@@ -185,7 +185,7 @@ def _turn(
 @cython.nogil
 @cython.exceptval(check=False)
 def _first_direction(touch: cython.pointer[Touch], found: cython.p_double) -> cython.void:
-    """ODE's first direction of a contact in the world; zeros remain where it does not matter."""
+    """Compute ODE's first direction of a contact in the world; zeros where it does not matter."""
     chosen, least, kind = -1, _FAR_MORE, NO_DIRECTION
     for side in range(2):
         geom = touch.geoms[side]
@@ -217,7 +217,7 @@ def _first_direction(touch: cython.pointer[Touch], found: cython.p_double) -> cy
 def _keep_turning(
     model: cython.size_t, data: cython.size_t, count: cython.int, told: cython.size_t
 ) -> cython.void:
-    """Take the gyroscopic torque of loose bodies at the middle of the step, not its beginning."""
+    """Set the gyroscopic torque of free bodies to that of the middle of the step."""
     step = floats(model + AT.model_timestep)[0]
     numbers = floats(word(model + AT.model_numeric))
     spin = cython.declare(cython.double[3])
@@ -257,7 +257,7 @@ def _keep_turning(
 @cython.nogil
 @cython.exceptval(check=False)
 def _gyration(spin: cython.p_double, moments: cython.p_double, out: cython.p_double) -> cython.void:
-    """The gyroscopic torque, -w x I w, along principal axes."""
+    """Compute the gyroscopic torque, -w x I w, along principal axes."""
     out[0] = (moments[1] - moments[2]) * spin[1] * spin[2]
     out[1] = (moments[2] - moments[0]) * spin[2] * spin[0]
     out[2] = (moments[0] - moments[1]) * spin[0] * spin[1]

@@ -93,7 +93,7 @@ class LawSelection:
 
 
 def prepare(spec: mujoco.MjSpec, extras: LawSelection) -> None:
-    """Make room in a model for what ``finish`` writes."""
+    """Allocate room in a model for the data of ``finish``."""
     if not extras.any:
         return
     size = HEAD + 2 * len(extras.tumbling)
@@ -161,7 +161,7 @@ def finish(model: mujoco.MjModel, extras: LawSelection) -> None:
 
 
 def _write_treads(model: mujoco.MjModel, treads: Mapping[str, str]) -> bool:
-    """Mark the geoms that are treads; returns whether there are any."""
+    """Mark the geoms that are wheel surfaces; returns whether there are any."""
     found = False
     for name, on in treads.items():
         geom, joint = model.geom(name).id, model.joint(on).id

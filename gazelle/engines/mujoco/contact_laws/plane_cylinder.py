@@ -100,7 +100,7 @@ def plane_cylinder(
 def _across(
     rim: cython.p_double, down: cython.p_double, radius: cython.double, side: cython.p_double
 ) -> cython.void:
-    """The way from the middle of a triangle's base on the rim to its corners."""
+    """Compute the way from the middle of a triangle's base on the rim to its corners."""
     side[0] = rim[1] * down[2] - rim[2] * down[1]
     side[1] = rim[2] * down[0] - rim[0] * down[2]
     side[2] = rim[0] * down[1] - rim[1] * down[0]

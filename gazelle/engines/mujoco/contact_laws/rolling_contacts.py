@@ -28,7 +28,7 @@ _RATIO = cython.declare(cython.double, 10.0)
 @cython.nogil
 @cython.exceptval(check=False)
 def hold_loosely(touch: cython.pointer[Touch]) -> cython.void:
-    """Let the friction of a contact in a cone give way the more, the faster it rolls."""
+    """Set the friction of a contact in a cone to creep more, the faster it rolls."""
     if touch.dim < 3 or not touch.cone:
         return
     rate = _rolling(touch)

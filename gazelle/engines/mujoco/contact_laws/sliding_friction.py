@@ -68,7 +68,7 @@ _DAMPED = cython.declare(cython.double, 0.25)
 @cython.nogil
 @cython.exceptval(check=False)
 def stay_down(touch: cython.pointer[Touch]) -> cython.void:
-    """Let a contact that slides want no other normal velocity than one that holds."""
+    """Set a sliding contact's normal velocity to that of one that holds."""
     if touch.dim < 3:
         return
     if touch.cone:
@@ -103,7 +103,7 @@ def _on_a_cone(touch: cython.pointer[Touch]) -> cython.void:
 @cython.nogil
 @cython.exceptval(check=False)
 def _on_a_pyramid(touch: cython.pointer[Touch]) -> cython.void:
-    """Do the same for the edges n ± mu t of a pyramid, two for each direction.
+    """Set the edges n ± mu t of a pyramid likewise, two for each direction.
 
     It is turned first so that one direction is that of the slip; else friction would be up to
     a factor of sqrt(2) too small, and aslant.
@@ -170,7 +170,7 @@ def _is_level(touch: cython.pointer[Touch]) -> cython.bint:
 @cython.nogil
 @cython.exceptval(check=False)
 def _first_parting(touch: cython.pointer[Touch], mu: cython.double) -> cython.double:
-    """The normal acceleration that MuJoCo would add in the first step of what will slide.
+    """Return the normal acceleration that MuJoCo would add in the first step of sliding.
 
     Nothing is known of a last step. Gravity alone pulls, though: what that exceeds friction by
     is how much faster the slip will get.
@@ -220,7 +220,7 @@ def _is_alike(touch: cython.pointer[Touch]) -> cython.bint:
 def _parting(
     touch: cython.pointer[Touch], left: cython.double, lacking: cython.double, mu: cython.double
 ) -> cython.double:
-    """The normal acceleration that MuJoCo would add to what slides.
+    """Return the normal acceleration that MuJoCo would add to sliding bodies.
 
     Args:
         touch: The contact.
@@ -240,7 +240,7 @@ def _parting(
 def _turn_pyramid(
     touch: cython.pointer[Touch], one: cython.double, two: cython.double
 ) -> cython.void:
-    """Turn a pyramid's first direction to (one, two), with all that is known of its edges."""
+    """Turn a pyramid's first direction to (one, two), with all data of its edges."""
     frame = touch.frame
     for axis in range(3):
         a, b = frame[3 + axis], frame[6 + axis]
@@ -255,7 +255,7 @@ def _turn_pyramid(
 @cython.nogil
 @cython.exceptval(check=False)
 def _blunt_pyramid(touch: cython.pointer[Touch]) -> cython.void:
-    """Give a pyramid a narrow side where an edge was: n ± mu (t ± _BLUNT s), as far from its axis.
+    """Blunt an edge of a pyramid to a narrow side: n ± mu (t ± _BLUNT s), as far from its axis.
 
     An edge bears nothing across itself. So what slides along one is steered by the direction of its
     slip, which rounding decides: where that is slow, by more in a step than all of the slip. A side
@@ -304,7 +304,7 @@ def _turn_edges(
 @cython.nogil
 @cython.exceptval(check=False)
 def _last(touch: cython.pointer[Touch], row: cython.int) -> cython.double:
-    """The acceleration of the last step along one of the contact's rows."""
+    """Return the acceleration of the last step along one of the contact's rows."""
     found = 0.0
     first = row * touch.width
     if touch.sparse:

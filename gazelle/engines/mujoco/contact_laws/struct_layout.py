@@ -118,7 +118,7 @@ class Offsets(NamedTuple):
 
 @lru_cache(maxsize=1)
 def offsets() -> Offsets:
-    """The offsets in the MuJoCo that runs.
+    """Return the offsets in the running MuJoCo.
 
     Raises:
         EngineError: MuJoCo is not laid out as it says.
@@ -208,7 +208,7 @@ def offsets() -> Offsets:
 
 @lru_cache(maxsize=32)
 def _struct(name: str) -> Any:
-    """A struct of MuJoCo's as ``ctypes`` lays it out."""
+    """Return a struct of MuJoCo's as ``ctypes`` lays it out."""
     return _lay_out(name, structs.STRUCTS[name].fields)
 
 

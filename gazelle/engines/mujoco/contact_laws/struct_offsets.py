@@ -14,7 +14,7 @@ if not cython.compiled:
 
 
 def fill(found: Offsets) -> None:
-    """Say where they are, before MuJoCo calls any law."""
+    """Store the offsets, before MuJoCo calls any law."""
     if cython.compiled:
         global AT  # noqa: PLW0603  # a structure of C, which has no other owner
         AT = found._asdict()

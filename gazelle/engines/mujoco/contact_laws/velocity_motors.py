@@ -22,7 +22,7 @@ _FRICTION_OF_TENDON = cython.declare(cython.int, 2)  # mjCNSTR_FRICTION_TENDON
 @cython.nogil
 @cython.exceptval(check=False)
 def drive_motors(model: cython.size_t, data: cython.size_t, count: cython.int) -> cython.void:
-    """Let motors hold their velocities rather than stand still.
+    """Set motors to hold their velocities rather than rest.
 
     Args:
         model: Address of the ``mjModel``.

@@ -166,7 +166,7 @@ def _column(touch: cython.pointer[Touch], dof: cython.int) -> cython.int:
 @cython.nogil
 @cython.exceptval(check=False)
 def _last_dof(model: cython.size_t, body: cython.int) -> cython.int:
-    """The last velocity that moves a body; -1 if none does."""
+    """Return the last velocity that moves a body; -1 without one."""
     while body > 0:
         count = integers(word(model + AT.model_dofnum))[body]
         if count > 0:

@@ -117,7 +117,7 @@ class JointColumns:
 
     @classmethod
     def find(cls, layout: MujocoLayout, names: tuple[str, ...]) -> JointColumns:
-        """Look joints up.
+        """Return look joints up.
 
         Raises:
             EngineError: There is no such joint, or it has no axis.
@@ -188,7 +188,7 @@ class MujocoJointRows:
         return self._in_step()
 
     def bind(self, system: JointSystem, *, in_step: bool = False) -> None:
-        """Tell a system where the joints are, good for one revision."""
+        """Set a system's columns of the joints, valid for one revision."""
         recipe = self._run.latest
         if in_step and not recipe.hooks:
             self._run.change(replace(recipe, hooks=self._run.hooks.address))
@@ -202,7 +202,7 @@ class MujocoJointRows:
         )
 
     def read(self, system: JointSystem) -> None:
-        """Let a bound system read positions and velocities now."""
+        """Update positions and velocities of a bound system."""
         system.read(self._run.state.qpos, self._run.state.qvel)
 
     def act(self, system: JointSystem) -> None:

@@ -131,7 +131,7 @@ class MujocoLinkRow(MujocoLinkRows):
     def set_motion(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give the link a velocity, or its joint the speed that suits it."""
+        """Set the velocity of the link, or the speed of its joint that suits it."""
         slot = self._run.now().link(self._name)
         motion = self.motion(worlds)
         speed = np.broadcast_to(np.asarray(linear, np.float64), motion.linear.shape)

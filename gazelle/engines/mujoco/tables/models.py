@@ -76,7 +76,7 @@ class MujocoModelRow:
         self._run.stale = True
 
     def _freed(self, slot: ModelSlot) -> ModelSlot:
-        """Make a static model one that can be placed.
+        """Return the slot of a static model, made placeable.
 
         Raises:
             EngineError: A joint holds the model to the world.
@@ -95,7 +95,7 @@ class MujocoModelRow:
     def _put_only(
         self, slot: ModelSlot, position: Floats, quaternion: Floats, worlds: Worlds | None
     ) -> None:
-        """Place a model that one link carries, whose pose before does not matter."""
+        """Place a model with a single root, whose previous pose does not matter."""
         if slot.back is not None:
             quaternion = unit(quaternion)
             position = position + rotate(quaternion, np.asarray(slot.back.position))
@@ -105,7 +105,7 @@ class MujocoModelRow:
     def _put_all(
         self, slot: ModelSlot, goal_p: Floats, goal_q: Floats, worlds: Worlds | None
     ) -> None:
-        """Place a model that several links carry, keeping them as they are to each other."""
+        """Place a model with several roots, which keep their relative poses."""
         before = self.placement(worlds)
         turn = multiply(goal_q, conjugate(before.quaternion))
         for root in slot.roots:
@@ -133,7 +133,7 @@ class MujocoModelRow:
     def set_motion(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give all links of the model the velocity of one rigid body, joints at rest."""
+        """Set the velocity of all links of the model to that of one rigid body, joints at rest."""
         slot = self._run.now().model(self._name)
         rows = rows_of(worlds)
         origin = self.placement(worlds)
@@ -153,7 +153,7 @@ class MujocoModelRow:
         self._run.stale = True
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Give all links of the model a level velocity along and across its heading."""
+        """Set a level velocity of all links of the model, along and across its heading."""
         heading = from_yaw(yaw_of(self.placement(worlds).quaternion))
         wanted = np.atleast_2d(np.asarray(twist, np.float64))
         level, spin = wanted * (1.0, 1.0, 0.0), wanted * (0.0, 0.0, 1.0)
@@ -178,7 +178,7 @@ class _Frames:
 
     @classmethod
     def find(cls, layout: MujocoLayout, models: Sequence[str]) -> _Frames:
-        """Look models up.
+        """Look up models.
 
         Raises:
             EngineError: There is no such model.
@@ -213,7 +213,7 @@ class _Roots:
 
     @classmethod
     def find(cls, layout: MujocoLayout, models: Sequence[str]) -> _Roots:
-        """Look models up.
+        """Look up models.
 
         Raises:
             EngineError: There is no such model.
@@ -263,7 +263,7 @@ class MujocoModelRows:
         return Placement(position, turned)
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Give the models level velocities along and across their headings, joints at rest."""
+        """Set level velocities of the models along and across their headings, joints at rest."""
         roots = self._roots.within(self._run.now())
         origin = self.placement(worlds)
         wanted = np.broadcast_to(np.asarray(twist, np.float64), origin.position.shape)

@@ -47,13 +47,13 @@ class LevelMotion(System):
         self.start = np.searchsorted(owners, np.arange(linear.shape[1] + 1)).astype(np.intp)
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002
-        """Give bodies their velocities."""
+        """Set the velocities of bodies."""
         self.changed[0] = 1.0
         for row in range(first, last):
             self.move(row // self.rows, row % self.rows)
 
     def move(self, world: int, i: int) -> None:
-        """Give a body of a world its velocity."""
+        """Set the velocity of a body of a world."""
         place, dof = self.places[i, 0] + 3, self.places[i, 1]
         w, x = self.qpos[world, place], self.qpos[world, place + 1]
         y, z = self.qpos[world, place + 2], self.qpos[world, place + 3]

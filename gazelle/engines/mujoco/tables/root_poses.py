@@ -43,7 +43,7 @@ def put_root(
 
 
 def note_moves(run: RunningWorlds, before: Floats) -> None:
-    """Note which bodies were placed, by positions before and now.
+    """Record which bodies were placed, by positions before and now.
 
     Args:
         run: Worlds that run.

@@ -41,18 +41,18 @@ class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
         self._touched = False
 
     def expand(self, name: str) -> NDArray[Any]:
-        """A field of the model for each world, to be written; see MuJoCo's."""
+        """Return a field of the model for each world, to be written; see MuJoCo's."""
         self._touched = True
         found: NDArray[Any] = super().expand(name)
         return found
 
     def set_const(self, *args: Any, **kwargs: Any) -> None:
-        """Work out what follows from masses; see MuJoCo's."""
+        """Compute the constants that depend on masses; see MuJoCo's."""
         self._touched = True
         super().set_const(*args, **kwargs)
 
     def step(self, ids: Any = None, nstep: int = 1, stage: int = 0) -> None:
-        """Make steps on the device; ``stage`` is computed here after them, as MuJoCo's does."""
+        """Advance on the device; ``stage`` is computed here after the steps, as MuJoCo's does."""
         self._share()
         rows = _ALL if ids is None else np.asarray(ids)
         written = self._device.step(self._fields(), nstep)
@@ -89,7 +89,7 @@ class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
         return tuple(each[rows] for each in found[: 3 if normal else 2])
 
     def on_device(self, name: str) -> Any:
-        """A field of the state as the device has it, float32, shape (nworld, n)."""
+        """Return a field of the state on the device, float32, shape (nworld, n)."""
         self._share()
         return self._device.field(self._fields(), name)
 
@@ -98,7 +98,7 @@ class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
         return {name: self.bind(name) for name in (*WRITTEN, *names)}
 
     def _share(self) -> None:
-        """Tell the device what worlds have of their own, if that was touched."""
+        """Send fields that differ between worlds to the device, if they changed."""
         if self._touched:
             fields = {name: self.expanded(name) for name in MODEL_FIELDS}
             self._device.share({n: v for n, v in fields.items() if v is not None})

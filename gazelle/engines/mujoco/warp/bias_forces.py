@@ -51,7 +51,7 @@ def sum_forces(
     bias: wp.array2d[float],
     force: wp.array2d[float],
 ) -> None:
-    """All that accelerates joints but contacts and constraints."""
+    """Sum the forces on joints except contacts and constraints."""
     world, dof = wp.tid()
     force[world, dof] = passive[world, dof] + applied[world, dof] - bias[world, dof]
 
@@ -64,7 +64,7 @@ def go_half_way(
     gained: wp.array2d[float],
     qvel: wp.array2d[float],
 ) -> None:
-    """Velocities of the middle of the step where something swings."""
+    """Compute the velocities of the middle of the step where something swings."""
     world, dof = wp.tid()
     if swings[world] != 0:
         step = timestep[world % timestep.shape[0]]
@@ -82,7 +82,7 @@ def keep_turning(
     passive: wp.array2d[float],
     told: wp.array[int],
 ) -> None:
-    """Take the gyroscopic torque of free bodies at the middle of the step, not its beginning."""
+    """Compute the gyroscopic torque of free bodies at the middle of the step."""
     world, place = wp.tid()
     body = bodies[place][0]
     dof = bodies[place][1] + 3
@@ -108,7 +108,7 @@ def keep_turning(
 
 @wp.func
 def _gyration(spin: wp.vec3, moments: wp.vec3) -> wp.vec3:
-    """The gyroscopic torque, -w x I w, along principal axes."""
+    """Return the gyroscopic torque, -w x I w, along principal axes."""
     return wp.vec3(
         (moments[1] - moments[2]) * spin[1] * spin[2],
         (moments[2] - moments[0]) * spin[2] * spin[0],

@@ -42,7 +42,7 @@ def row_dof(rows: ConstraintRows, world: int, row: int, place: int) -> int:
 
 @wp.func
 def row_entry(rows: ConstraintRows, world: int, row: int, place: int) -> float:
-    """A number of a row's Jacobian."""
+    """Return a number of a row's Jacobian."""
     if rows.sparse != 0:
         return rows.jacobian[world, 0, rows.address[world, row] + place]
     return rows.jacobian[world, row, place]
@@ -59,7 +59,7 @@ def set_row_entry(rows: ConstraintRows, world: int, row: int, place: int, value:
 
 @wp.func
 def last_acceleration(rows: ConstraintRows, world: int, row: int) -> float:
-    """The acceleration of the step before along a row."""
+    """Return the acceleration of the step before along a row."""
     found = float(0.0)
     for place in range(row_width(rows, world, row)):
         dof = row_dof(rows, world, row, place)
@@ -104,7 +104,7 @@ def turn_edges(edges: wp.vec4, one: float, two: float) -> wp.vec4:
 
 @wp.func
 def turn_pyramid(rows: ConstraintRows, world: int, row: wp.vec4i, one: float, two: float) -> None:
-    """Turn a pyramid's first direction, with all that is known of its four edges."""
+    """Turn a pyramid's first direction, with all data of its four edges."""
     turned = turn_edges(_four(rows.velocity, world, row), one, two)
     wanted = turn_edges(_four(rows.reference, world, row), one, two)
     for edge in range(4):

@@ -77,7 +77,10 @@ class ContactLaws:
 
 @wp.func
 def damping_of(laws: ContactLaws, solref: wp.vec2, share: float, step: float) -> float:
-    """The damping B of a contact's reference, -B v - K d, by the largest share of its force [1/s]."""
+    """Return the damping B of a contact's reference, -B v - K d.
+
+    It is for the largest share of its force [1/s].
+    """
     most = wp.clamp(share, 1.0e-4, 0.9999)
     if solref[1] <= 0.0:
         return -solref[1] / most

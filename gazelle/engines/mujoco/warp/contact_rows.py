@@ -35,7 +35,7 @@ SLIDING = wp.constant(3)  # directions of a contact with friction
 
 @wp.kernel
 def correct_contacts(rows: ConstraintRows, found: ContactList, laws: ContactLaws) -> None:
-    """Change the rows of contacts before MuJoCo Warp solves for their forces."""
+    """Apply the laws to contacts before MuJoCo Warp solves for their forces."""
     contact = wp.tid()
     if contact >= found.total[0]:
         return
@@ -58,7 +58,7 @@ def correct_contacts(rows: ConstraintRows, found: ContactList, laws: ContactLaws
 
 @wp.func
 def _direct(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
-    """Turn the two directions in which a contact rubs to those that its surfaces have."""
+    """Turn the two friction directions of a contact to those of its surfaces."""
     if found.dim[contact] >= SLIDING and laws.cone != 0:
         world = found.world[contact]
         frame = found.frame[contact]
@@ -79,7 +79,7 @@ def _direct(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact
 
 @wp.func
 def _first_direction(found: ContactList, laws: ContactLaws, contact: int) -> wp.vec3:
-    """ODE's first direction of a contact in the world; zeros where it does not matter."""
+    """Return ODE's first direction of a contact in the world; zeros where it does not matter."""
     geoms = found.geom[contact]
     normal = found.frame[contact][0]
     chosen = int(-1)
@@ -187,7 +187,7 @@ def _by_rows(found: ContactList, laws: ContactLaws, contact: int, ways: wp.vec3)
 
 @wp.func
 def _last_dof(laws: ContactLaws, body: int) -> int:
-    """The last velocity that moves a body; -1 if none does."""
+    """Return the last velocity that moves a body; -1 without one."""
     part = int(body)
     while part > 0:
         count = laws.body_dofnum[part]
@@ -226,7 +226,7 @@ def _leave_slowly(
 
 @wp.func
 def _bounce(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
-    """Let two bodies part so that e² of the height is reached, in the step of the impact."""
+    """Set the bounce of two bodies in the step of the impact, to reach e² of the height."""
     world = found.world[contact]
     row = found.address[contact, 0]
     step = laws.step[world % laws.step.shape[0]]

@@ -101,7 +101,7 @@ class DeviceLaws:
         return laws
 
     def share(self, model: Any) -> None:
-        """Take over what worlds have of their own now."""
+        """Set time step, gravity and gravity compensation to those of the model."""
         self._laws.step, self._laws.gravity = model.opt.timestep, model.opt.gravity
         self._laws.body_gravcomp = model.body_gravcomp
 
@@ -151,7 +151,7 @@ class DeviceLaws:
         )
 
     def _take_bias_midway(self, model: Any, data: Any) -> None:
-        """Let the step use the forces of its middle, where something turns fast enough."""
+        """Set the step to use the forces of its middle, where something turns fast enough."""
         shape = (data.nworld, self._host.nv)
         wp.launch(
             find_swings,

@@ -31,7 +31,7 @@ _UNUSED = frozenset({"dof_length"})
 
 @cache
 def _fields() -> Mapping[str, bool]:
-    """Names of the fields of a model that MuJoCo Warp has, and whether it keeps them for each world."""
+    """Return the fields of MuJoCo Warp's model, and whether each has values per world."""
     found = {}
     for prefix, kind in (("", mujoco_warp.Model), ("opt.", mujoco_warp.Option)):
         for field in dataclasses.fields(kind):
@@ -46,7 +46,7 @@ def _is_read(name: str) -> bool:
 
 
 def put_model(host: mujoco.MjModel, own: Mapping[str, Floats]) -> Any:
-    """A model on the device.
+    """Return a model on the device.
 
     Args:
         host: As compiled.
@@ -74,7 +74,7 @@ def put_model(host: mujoco.MjModel, own: Mapping[str, Floats]) -> Any:
 
 
 def share_field(model: Any, name: str, values: Floats) -> None:
-    """Let worlds have their own values of a field, shape (nworld, ...)."""
+    """Set the values of a field in each world, shape (nworld, ...)."""
     if name not in _fields():
         return
     holder, _, attribute = name.rpartition(".")
@@ -89,7 +89,7 @@ def can_share(name: str) -> bool:
 
 
 def _common(host: mujoco.MjModel, name: str, values: Floats) -> Floats:
-    """The values of a field that the model as such has, shape (...).
+    """Return the common values of a field, shape (...).
 
     Raises:
         EngineError: Worlds differ, and there are no such values.

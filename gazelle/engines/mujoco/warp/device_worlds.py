@@ -58,7 +58,7 @@ class DeviceWorlds:
         self._make()
 
     def _make(self) -> None:
-        """Make the model, and room for the worlds."""
+        """Build the model, and allocate the worlds."""
         self._graph = None
         self._model = put_model(self._host, self._own)
         self._make_data()
@@ -72,7 +72,7 @@ class DeviceWorlds:
         self._laws = DeviceLaws(self._host, self._model, self._data)
 
     def share(self, own: Mapping[str, Floats]) -> None:
-        """Take over what worlds have of their own now, by field, shapes (nworld, ...).
+        """Send values that differ between worlds, by field, shapes (nworld, ...).
 
         Raises:
             EngineError: They cannot differ in that.
@@ -94,7 +94,7 @@ class DeviceWorlds:
             raise
 
     def step(self, state: Mapping[str, Floats], count: int) -> Mapping[str, Floats]:
-        """Make steps from a state; what they write of it comes back, by field.
+        """Advance from a state; returns the fields that changed.
 
         Raises:
             EngineError: There are more contacts than memory could hold.
@@ -115,7 +115,7 @@ class DeviceWorlds:
         return found
 
     def field(self, state: Mapping[str, Floats], name: str) -> Any:
-        """A field of a state on the device."""
+        """Return a field of a state on the device."""
         self._put(state)
         return getattr(self._data, name)
 
@@ -127,7 +127,7 @@ class DeviceWorlds:
                 target.assign(np.ascontiguousarray(values))
 
     def _launch(self, count: int) -> None:
-        """Make steps: on a graphics card one captured graph each, else kernel by kernel."""
+        """Launch steps: on a graphics card one captured graph each, else kernel by kernel."""
         one: Callable[[], Any] = lambda: mujoco_warp.step(self._model, self._data)  # noqa: E731
         if self._data.qpos.device.is_cuda and count:
             if self._graph is None:
@@ -139,7 +139,7 @@ class DeviceWorlds:
             one()
 
     def _enlarge(self, overflow: NDArray[np.int32]) -> bool:
-        """Make more room where there was too little; returns whether there was."""
+        """Allocate more memory after an overflow; returns whether there was one."""
         rows = bool((overflow & int(_TOO_MANY_ROWS)).any())
         contacts = bool((overflow & int(_TOO_MANY_CONTACTS)).any())
         if not rows and not contacts:

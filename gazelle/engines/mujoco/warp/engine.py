@@ -34,7 +34,7 @@ class WarpEngine(MujocoEngine):
     _calls_systems = False  # they are not on the device, and act between steps
 
     def on_device(self, kind: str, joint: str) -> Any:
-        """A joint's positions or velocities in all worlds where the device has them, without a copy.
+        """Return a joint's positions or velocities in all worlds on the device, without a copy.
 
         Args:
             kind: ``position`` or ``velocity``.
@@ -59,7 +59,7 @@ class WarpEngine(MujocoEngine):
 
     @staticmethod
     def _batch_of(nworld: int, threads: int, model: mujoco.MjModel, world: World) -> WarpBatch:
-        """The worlds of a compiled model; nothing sleeps in them, and contacts are not foreseen."""
+        """Return the worlds of a compiled model; without sleep and speculative contacts."""
         _say_if_slow()
         if model.opt.enableflags & _SPECULATIVE:
             _miss_foresight(world)
@@ -80,7 +80,7 @@ class WarpEngine(MujocoEngine):
 
 @functools.cache
 def _say_if_slow() -> None:
-    """Say, once in a process, that there is no graphics card."""
+    """Warn, once in a process, that there is no graphics card."""
     if not wp.is_cuda_available():
         warnings.warn(
             EngineWarning(
@@ -92,7 +92,7 @@ def _say_if_slow() -> None:
 
 
 def _miss_foresight(world: World) -> None:
-    """Say that contacts are not sought on the way of a step.
+    """Warn that speculative contacts are not computed.
 
     Raises:
         EngineError: The world asks for it.

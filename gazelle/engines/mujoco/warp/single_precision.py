@@ -17,6 +17,6 @@ _RATIO = 10.0
 
 
 def soften(model: mujoco.MjModel) -> None:
-    """Let the friction of a compiled model be as stiff as single precision bears."""
+    """Set the friction of a compiled model as stiff as single precision bears."""
     model.opt.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     model.opt.impratio = min(float(model.opt.impratio), _RATIO)

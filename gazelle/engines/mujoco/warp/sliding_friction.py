@@ -23,7 +23,7 @@ DAMPED = wp.constant(0.25)
 
 @wp.func
 def stay_down(rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int) -> None:
-    """Let a contact that slides want no other normal velocity than one that holds."""
+    """Set a sliding contact's normal velocity to that of one that holds."""
     if found.dim[contact] >= 3:
         if laws.cone != 0:
             _on_a_cone(rows, found, laws, contact)
@@ -59,7 +59,7 @@ def _on_a_cone(rows: ConstraintRows, found: ContactList, laws: ContactLaws, cont
 def _on_a_pyramid(
     rows: ConstraintRows, found: ContactList, laws: ContactLaws, contact: int
 ) -> None:
-    """Do the same for the edges n ± mu t, turned so that one direction is that of the slip."""
+    """Set the edges n ± mu t likewise, turned so that one direction is that of the slip."""
     world = found.world[contact]
     mu = found.friction[contact][0]
     row = wp.vec4i(
@@ -137,7 +137,10 @@ def _share(laws: ContactLaws, world: int, slip: float, friction: float, alike: i
 
 @wp.func
 def _parting(laws: ContactLaws, world: int, left: float, lacking: float, mu: float) -> float:
-    """The normal acceleration that MuJoCo would add to what slides; see ``contact_laws.sliding_friction``."""
+    """Return the normal acceleration that MuJoCo would add.
+
+    See ``contact_laws.sliding_friction``.
+    """
     square = mu * mu
     if wp.abs(lacking) < wp.max(IMPACT * _weight(laws, world), IMPACT):
         square = wp.min(square, DAMPED)

@@ -20,7 +20,7 @@ def drive_motors(
     wanted: wp.array2d[float],
     reference: wp.array2d[float],
 ) -> None:
-    """Let motors hold their velocities rather than stand still; the model's tendons are theirs."""
+    """Set motors to hold their velocities rather than rest; the model's tendons are theirs."""
     world, row = wp.tid()
     if row >= used[world] or kind[world, row] != FRICTION_OF_TENDON:
         return

@@ -39,7 +39,7 @@ class PlanarJointRow:
         return np.zeros_like(self.position(worlds))
 
     def wrench(self, worlds: Worlds | None = None) -> Wrench:
-        """Refuse: the plane knows no forces."""
+        """Raise an error: the plane has no forces."""
         del worlds
         raise refuse(f"what '{self._name}' carries")
 
@@ -52,7 +52,7 @@ class PlanarJointRow:
         self._run.rates[rows_of(worlds), self._run.axes(self._name)] = velocity
 
     def set_effort(self, effort: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Refuse: the plane knows no forces."""
+        """Raise an error: the plane has no forces."""
         del effort, worlds
         raise refuse(f"an effort on '{self._name}'")
 
@@ -99,7 +99,7 @@ class PlanarJointRows:
         """Do nothing: the plane's steps call no systems of joints."""
 
     def read(self, system: JointSystem) -> None:
-        """Let a system read positions and velocities now."""
+        """Update positions and velocities of a system."""
         system.position_in[:], system.velocity_in[:] = self.position(), self.velocity()
 
     def act(self, system: JointSystem) -> None:

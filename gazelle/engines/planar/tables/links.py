@@ -116,7 +116,7 @@ class PlanarLinkRow:
     def set_motion(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give the link's model or joint the velocity with which the link moves so."""
+        """Set the velocity of the link's model or joint so that the link moves as given."""
         model = self._run.owner(self._name)
         arm = self.placement(worlds).position - self._model(model).placement(worlds).position
         spin = np.broadcast_to(np.asarray(angular, np.float64), arm.shape)
@@ -128,7 +128,7 @@ class PlanarLinkRow:
         self._model(model).set_motion(origin, spin, worlds)
 
     def set_wrench(self, force: ArrayLike, torque: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Refuse: the plane knows no forces."""
+        """Raise an error: the plane has no forces."""
         del force, torque, worlds
         raise refuse(f"a push on '{self._name}'")
 
@@ -157,7 +157,7 @@ class _LinkColumns:
 
     @classmethod
     def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _LinkColumns:
-        """Look links up.
+        """Look up links.
 
         Raises:
             EngineError: There is no such link.

@@ -80,7 +80,7 @@ class PlanarModelRow:
     def set_placement(
         self, position: ArrayLike, quaternion: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Put the model somewhere in the plane; a static model becomes kinematic for it.
+        """Set the pose of the model in the plane; a static model becomes kinematic.
 
         It keeps the way it leans; a robot on wheels stays on the ground.
         """
@@ -107,7 +107,7 @@ class PlanarModelRow:
     def set_motion(
         self, linear: ArrayLike, angular: ArrayLike, worlds: Worlds | None = None
     ) -> None:
-        """Give the model a velocity, which it keeps in its own frame, joints at rest."""
+        """Set the velocity of the model, constant in its own frame, joints at rest."""
         each = self._run.model(self._name)
         if not each.loose:
             return
@@ -121,7 +121,7 @@ class PlanarModelRow:
         self.set_ground_motion(twist, worlds)
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Give the model a velocity along and across its heading, which it keeps, joints at rest."""
+        """Set a lasting velocity of the model along and across its heading, joints at rest."""
         each = self._run.model(self._name)
         if not each.loose:
             return
@@ -171,7 +171,7 @@ class _ModelColumns:
 
     @classmethod
     def find(cls, run: RunningPlane, names: tuple[str, ...]) -> _ModelColumns:
-        """Look models up.
+        """Look up models.
 
         Raises:
             EngineError: There is no such model.
@@ -214,7 +214,7 @@ class PlanarModelRows:
         return Placement(at, turned)
 
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Give the models velocities along and across their headings, which they keep."""
+        """Set lasting velocities of the models along and across their headings."""
         columns, fleet = self._columns.within(self._run.layout), self._run.fleet
         shape = (fleet.nworld if worlds is None else len(worlds), len(self._names), 3)
         given, which = np.broadcast_to(twist, shape), np.flatnonzero(columns.loose)
