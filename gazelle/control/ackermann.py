@@ -63,15 +63,15 @@ class AckermannSteeringController(BaseController):
         self._turned[rows] = self._wheel.position[rows, 0]
 
     def stand(self, rows: Worlds) -> None:
-        """Do not roll, steer straight ahead."""
+        """Set the wheel to rest and the steering straight ahead."""
         self._wheel.set_command(0.0, None, rows)
         self._front.set_command(0.0, None, rows)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """With how far the wheel has turned."""
+        """Return all mutable state, with the wheel's rotation."""
         return {**super().state(), "turned": self._turned.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         super().restore(state)
         self._turned[:] = state["turned"]

@@ -55,7 +55,7 @@ class AckermannLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def advance(self, world: cython.Py_ssize_t, period: cython.double) -> cython.bint:
-        """Go on by what the wheel has rolled, in the direction that the front is steered to."""
+        """Update the odometry by the wheel's rotation and the steering angle."""
         turned: cython.double = self.position[world, self.wheel]
         angle: cython.double = self.position[world, self.front]
         if not (isfinite(turned) and isfinite(angle)):
@@ -70,6 +70,6 @@ class AckermannLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def drive(self, world: cython.Py_ssize_t, old: cython.bint) -> cython.void:  # noqa: ARG002
-        """Roll, and steer to the angle that stands in the turning rate's place."""
+        """Command the wheel, and the steering angle given as the turning rate."""
         self.speed[world, self.wheel_column] = self.last[world, 0] / self.sizes[0]
         self.angle[world, self.front_column] = self.last[world, 2]

@@ -144,7 +144,7 @@ class ActuatorStateInterface(HardwareInterface):
         return np.concatenate([nothing, *parts], axis=1)
 
     def handles(self, names: Sequence[str]) -> ActuatorHandles:
-        """Some actuators, to be read."""
+        """Return handles to read some actuators."""
         self.check(names)
         columns = np.array([self.resources.index(name) for name in names], np.intp)
         return ActuatorHandles(tuple(names), self, columns)

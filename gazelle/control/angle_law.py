@@ -12,14 +12,14 @@ _TURN: Final = 2.0 * math.pi
 
 
 def shorter(turn: float) -> float:
-    """The shorter way round of a turn that is less than a whole one [rad]; pi stays pi."""
+    """Return the shorter way round of a turn of less than a revolution [rad]; pi stays pi."""
     if turn < 0.0:
         turn += _TURN
     return turn - _TURN if turn > math.pi else turn
 
 
 def shortest(start: float, end: float) -> float:
-    """By how much to turn from one angle to another, the shorter way round [rad]; pi stays pi."""
+    """Return the turn from one angle to another, the shorter way round [rad]; pi stays pi."""
     turn = end - start
     if not -_TURN < turn < _TURN:
         turn = math.fmod(turn, _TURN) if math.isfinite(turn) else math.nan
@@ -27,7 +27,7 @@ def shortest(start: float, end: float) -> float:
 
 
 def within(start: float, short: float, lower: float, upper: float) -> float:
-    """A turn if that stays within limits, or the one the other way round if only that does."""
+    """Return a turn within limits, or the one the other way round if only that is within them."""
     if lower <= start + short <= upper:
         return short
     other = short - _TURN if short > 0.0 else short + _TURN
@@ -35,6 +35,6 @@ def within(start: float, short: float, lower: float, upper: float) -> float:
 
 
 def distance(start: float, end: float, continuous: bool, lower: float, upper: float) -> float:  # noqa: FBT001  as in C
-    """By how much to turn: the shorter way round if that stays within limits, or if neither does."""
+    """Return a joint's turn: the shorter way round, unless only the other is within limits."""
     short = shortest(start, end)
     return short if continuous else within(start, short, lower, upper)

@@ -12,18 +12,18 @@ _TURN = 2.0 * math.pi
 
 
 def normalized(angle: Floats) -> Floats:
-    """The same angle in -pi to pi [rad]; pi stays pi."""
+    """Return the same angle in -pi to pi [rad]; pi stays pi."""
     positive = np.mod(angle, _TURN)
     return np.where(positive > math.pi, positive - _TURN, positive)
 
 
 def shortest(start: Floats, end: Floats) -> Floats:
-    """By how much to turn from one angle to another, the shorter way round [rad]."""
+    """Return the turn from one angle to another, the shorter way round [rad]."""
     return normalized(end - start)
 
 
 def distance(start: Floats, end: Floats, continuous: Bools, lower: Floats, upper: Floats) -> Floats:
-    """By how much joints have to turn: the shorter way round, if that stays within their limits.
+    """Return the turns of joints: the shorter way round, if it stays within their limits.
 
     If it does not the other way round is taken, and the shorter one again if neither does; limits may be
     of more than a turn.

@@ -74,7 +74,7 @@ class BaseController(Controller):
             )
 
     def drive_by(self, law: BaseLaw) -> None:
-        """Be updated by native code, made of ``law_arguments`` and ``open_loop``."""
+        """Set the native law, made of ``law_arguments`` and ``open_loop``."""
         self._law = law
 
     def publish_with_odometry(self, port: StatePort[Any]) -> None:
@@ -107,7 +107,7 @@ class BaseController(Controller):
         """Count from where the wheels are now in some worlds."""
 
     def command_speed(self, speed: float, rows: Worlds) -> None:
-        """Be told to go forward at a speed [m/s] from now on."""
+        """Command a forward speed [m/s]."""
         self.memory.wanted[rows] = (speed, 0.0, 0.0)
         self.memory.stamps[rows] = self.now_ns
 
@@ -140,7 +140,7 @@ class BaseController(Controller):
     # -- the loop ----------------------------------------------------------------------
 
     def starting(self, time: float) -> None:  # noqa: ARG002  the manager's clock is exact
-        """Stand still."""
+        """Stop the base."""
         self._begin(np.arange(self.nworld))
         self.odometry.forget_velocity()
         self.schedule.start(self.now_ns, at_once=False)
@@ -152,7 +152,7 @@ class BaseController(Controller):
         self.measure_anew(rows)
 
     def stopping(self, time: float) -> None:  # noqa: ARG002  at any time
-        """Stand still."""
+        """Stop the base."""
         self._brake(np.arange(self.nworld))
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
@@ -168,11 +168,11 @@ class BaseController(Controller):
             port.publish()
 
     def law(self) -> ControlLaw:
-        """All but publishing."""
+        """Return the native law, which does all but publishing."""
         return self._law
 
     def wake_ns(self) -> float:
-        """When it publishes what somebody listens to."""
+        """Return the next time to publish, if there are subscribers."""
         for port in self._prompt:
             if port.wanted:
                 return 0.0
@@ -182,7 +182,7 @@ class BaseController(Controller):
         return math.inf
 
     def catch_up(self, updates: int, period: float) -> None:
-        """Nobody listened."""
+        """Advance the schedule past native updates: nothing had subscribers."""
         self.period = period
         self.schedule.skip(self.now_ns, updates)
 
@@ -222,7 +222,7 @@ class BaseController(Controller):
     # -- beginning anew --------------------------------------------------------------------
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Stand still at the origin of the odometry."""
+        """Reset the odometry to its origin, at rest."""
         rows = self.rows(worlds)
         self.memory.last[rows] = self.memory.earlier[rows] = 0.0
         self.odometry.reset(worlds)
@@ -232,7 +232,7 @@ class BaseController(Controller):
             self._begin(rows)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Odometry and commands."""
+        """Return odometry and commands."""
         kept = {name: getattr(self.memory, name).copy() for name in _KEPT}
         return {
             **kept,
@@ -241,7 +241,7 @@ class BaseController(Controller):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         for name in _KEPT:
             getattr(self.memory, name)[:] = state[name]
         self.schedule.restore(state)
@@ -250,7 +250,7 @@ class BaseController(Controller):
 
 
 def _variance(parameters: ControllerParameters, name: str) -> SixNumbers:
-    """Six floats; ints are refused, as the original ends its process at one."""
+    """Return six floats; ints are rejected, as the original ends its process at one."""
     given = parameters.get(name)
     if given is None:
         raise ControlError(

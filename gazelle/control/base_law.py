@@ -38,7 +38,7 @@ class BaseMemory:
 
     @classmethod
     def empty(cls, nworld: int) -> BaseMemory:
-        """Of a base that stands and was told nothing."""
+        """Return the memory of a base at rest without a command."""
         zero = np.zeros((3, nworld, 3))
         stamps, lost = np.zeros(nworld, np.int64), np.zeros(nworld, bool)
         return cls(zero[0], stamps, zero[1], zero[2], lost)
@@ -78,7 +78,7 @@ class BaseLaw(ControlLaw):
     def control(
         self, world: cython.Py_ssize_t, now: cython.longlong, period: cython.double
     ) -> cython.void:
-        """Odometry, then the command, its limits, and the wheels."""
+        """Update the odometry, then apply the limited command to the wheels."""
         if self.open_loop:
             self.odometry.drive(
                 world, self.last[world, 0], self.last[world, 1], self.last[world, 2], period
@@ -103,7 +103,7 @@ class BaseLaw(ControlLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def advance(self, world: cython.Py_ssize_t, period: cython.double) -> cython.bint:  # noqa: ARG002
-        """Go on with the odometry by what wheels did; False where they cannot be measured."""
+        """Update the odometry from the wheels; False where they cannot be measured."""
         return True
 
     @cython.cfunc
@@ -154,7 +154,7 @@ def limited(
 def clipped(
     value: cython.double, low: cython.double, high: cython.double, factor: cython.double
 ) -> cython.double:
-    """A value within bounds times a factor; infinite ones stay infinite also in no time."""
+    """Return a value within bounds times a factor; infinite bounds stay infinite for factor 0."""
     held: cython.double = value
     if isfinite(low):
         held = max(held, low * factor)
@@ -167,12 +167,12 @@ def clipped(
 @cython.nogil
 @cython.exceptval(check=False)
 def tangent(angle: cython.double) -> cython.double:
-    """Of an angle [rad]."""
+    """Return the tangent of an angle [rad]."""
     return sin(angle) / cos(angle)
 
 
 def limit_speeds(speeds: Sequence[Floats], dt: float, bounds: Floats) -> Floats:
-    """``limited`` of many at once, for callers in Python.
+    """Return ``limited`` of many values at once, for callers in Python.
 
     Args:
         speeds: Wanted, before and earlier, shape (n,) each.

@@ -33,11 +33,14 @@ class BaseOdometry:
         self.law = OdometryLaw((self.pose, self.twist, self._recent, self._kept, self._place))
 
     def move(self, forward: Floats, sideways: Floats, turned: Floats) -> None:
-        """Go on by distances in the base's frame [m] and an angle [rad], each of shape (nworld,)."""
+        """Advance by distances in the base's frame [m] and an angle [rad].
+
+        Each has shape (nworld,).
+        """
         self.law.move_all(np.stack((forward, sideways, turned), axis=1))
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Be at the origin, at rest."""
+        """Reset the odometry to the origin, at rest."""
         rows = slice(None) if worlds is None else worlds
         self.pose[rows] = self.twist[rows] = 0.0
         self._kept[rows] = 0
@@ -47,7 +50,7 @@ class BaseOdometry:
         self._kept[:] = 0
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes."""
+        """Return all mutable state."""
         return {
             "pose": self.pose.copy(),
             "twist": self.twist.copy(),
@@ -57,7 +60,7 @@ class BaseOdometry:
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.pose[:], self.twist[:] = state["pose"], state["twist"]
         self._recent[:], self._kept[:] = state["recent"], state["kept"]
         self._place[:] = state["place"]

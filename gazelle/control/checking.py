@@ -99,7 +99,7 @@ class _Checker:
         self._manager = ControllerManager(_hardware_of(model), model=model)
 
     def check(self, root: yaml.Node | None) -> list[Problem]:
-        """All problems, errors first."""
+        """Return all problems, errors first."""
         entries = list(_entries(root))
         found = [problem for node in _gains(root) for problem in self._unknown(node)]
         for entry in entries:
@@ -109,13 +109,13 @@ class _Checker:
         return sorted(found, key=lambda each: (each.severity != "error", each.line or 0))
 
     def _unknown(self, gains: yaml.MappingNode) -> Iterator[Problem]:
-        """Gains of joints that are not there."""
+        """Yield problems with gains of unknown joints."""
         for key, _ in gains.value:
             if key.value not in self._joints:
                 yield self._missing(key, f"'{_GAINS}'")
 
     def _of_joints(self, entry: _Entry) -> Iterator[Problem]:
-        """Joints that are not there, and those that no controller can command."""
+        """Yield problems with unknown joints, and with joints that no controller can command."""
         reads_only = str(entry.values["type"]).startswith(("joint_state", "imu_", "force_torque"))
         for node in _joint_names(entry.node):
             if node.value not in self._joints:
@@ -151,7 +151,7 @@ class _Checker:
         return self._weak(entry)
 
     def _line_of(self, entry: _Entry, message: str) -> int:
-        """The line of what a message names: a parameter, or a value."""
+        """Return the line of what a message names: a parameter, or a value."""
         if _rule_of(message) == "controller-type":
             return _line(_child(entry.node, "type") or entry.node)
         named = (name for name in re.findall(r"'([^']+)'", message))
@@ -166,7 +166,7 @@ class _Checker:
         return line
 
     def _weak(self, entry: _Entry) -> list[Problem]:
-        """Joints that no effort may move."""
+        """Return problems with joints that have no effort."""
         claimed = self._manager[entry.name].claimed
         return [
             Problem(
@@ -183,7 +183,7 @@ class _Checker:
         ]
 
     def _conflicts(self, entries: list[_Entry]) -> Iterator[Problem]:
-        """Controllers that cannot run at once."""
+        """Yield problems with controllers that cannot run at once."""
         lines = {entry.name: entry.line for entry in entries}
         owner: dict[str, str] = {}
         for entry in self._manager.loaded:
@@ -216,7 +216,7 @@ def _rule_of(message: str) -> str:
 
 
 def _hardware_of(model: Model) -> RobotHardware:
-    """A robot that nobody moves, with the interfaces that transmissions and sensors say."""
+    """Return an idle robot with the interfaces of its transmissions and sensors."""
     hardware = RobotHardware()
     offered: dict[str, list[str]] = {}
     for each in model.transmissions:
@@ -244,7 +244,7 @@ def _root(file: Path) -> yaml.Node | None:
 
 
 def _entries(node: yaml.Node | None) -> Iterator[_Entry]:
-    """Controllers, in namespaces or not."""
+    """Yield controllers, in namespaces or not."""
     if not isinstance(node, yaml.MappingNode):
         return
     for key, value in node.value:
@@ -270,7 +270,7 @@ def _gains(node: yaml.Node | None) -> Iterator[yaml.MappingNode]:
 
 
 def _joint_names(node: yaml.MappingNode) -> Iterator[yaml.ScalarNode]:
-    """Names of joints among the parameters of a controller."""
+    """Yield the names of joints among the parameters of a controller."""
     for key, value in node.value:
         if not _NAMES.match(str(key.value)):
             continue

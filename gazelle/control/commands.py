@@ -10,7 +10,7 @@ from gazelle.errors import ControlError
 
 
 def rows_of(what: str, given: ArrayLike, width: int, count: int) -> Floats:
-    """Numbers for so many worlds, shape (count, width).
+    """Return numbers for so many worlds, shape (count, width).
 
     NaN and infinity pass, as in ros_control's forwarding controllers.
 

@@ -36,7 +36,7 @@ class ControlCycle(JointSystem):
         self.laws: list[ControlLaw] = []
 
     def run(self, hardware: JointLaw, laws: Sequence[ControlLaw], period: int, step: int) -> None:
-        """Say what is done in an update.
+        """Set the tasks of an update.
 
         Args:
             hardware: Reads joints and writes commands.
@@ -49,20 +49,23 @@ class ControlCycle(JointSystem):
         self.period, self.step = period, step
 
     def begin(self, updated: int, written: int) -> None:
-        """Say when controllers were updated and commands written last, in all worlds [ns]; -1 for never."""
+        """Set the times of the last controller update and last write, in all worlds [ns].
+
+        -1 for never.
+        """
         last_update, last_write = updated, written
         for w in range(self.nworld):
             self.updated[w], self.written[w] = last_update, last_write
 
     def times(self) -> tuple[int, int]:
-        """When controllers were updated and commands written last, in any world [ns]; -1 for never."""
+        """Return the times of the last update and write, in any world [ns]; -1 for never."""
         updated, written = self.updated[0], self.written[0]
         for w in range(1, self.nworld):
             updated, written = max(updated, self.updated[w]), max(written, self.written[w])
         return updated, written
 
     def advance(self, world: int, measured: Any, rates: Any, time: int) -> None:
-        """Bring a world to a time: controllers once a period, limits always."""
+        """Advance a world to a time: controllers once a period, limits always."""
         before, written = self.updated[world], self.written[world]
         passed = self.period if before < 0 else time - before
         if before < 0 or passed >= self.period:

@@ -31,7 +31,7 @@ class ControlLaw:
         """
 
     def act(self, now: int, period: float) -> None:
-        """``control`` in all worlds, for callers in Python."""
+        """Call ``control`` in all worlds, for callers in Python."""
         when, passed = now, period
         with cython.nogil:
             for w in range(self.nworld):

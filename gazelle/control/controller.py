@@ -136,7 +136,7 @@ class Controller:
         """
 
     def starting(self, time: float) -> None:
-        """It is updated from now on [s]: command what keeps the robot as it is."""
+        """Start at a time [s]: command what holds the robot."""
 
     def update(self, time: float, period: float) -> None:
         """Control.
@@ -155,7 +155,7 @@ class Controller:
         return None
 
     def wake_ns(self) -> float:
-        """When ``update`` has to be called all the same, as somebody listens [ns].
+        """Return the time [ns] at which ``update`` must be called for subscribers.
 
         What it says holds until then, or until something comes through a port or the manager.
         """
@@ -167,7 +167,7 @@ class Controller:
         return True
 
     def catch_up(self, updates: int, period: float) -> None:
-        """It was updated in native code, the last time at ``now_ns``.
+        """Update the state after native updates, the last one at ``now_ns``.
 
         Args:
             updates: How often.
@@ -175,10 +175,10 @@ class Controller:
         """
 
     def stopping(self, time: float) -> None:
-        """It is not updated any more from now on [s]; the last commands stay in the joints."""
+        """Stop at a time [s]; the last commands stay in the joints."""
 
     def reset(self, worlds: Worlds | None) -> None:
-        """The robot was put back to its initial state in these worlds, all if None: hold it there.
+        """Reset the controller in these worlds, all if None, and hold the robot there.
 
         A controller that does not say otherwise starts anew, in all worlds.
         """
@@ -187,16 +187,18 @@ class Controller:
             self.starting(self.now_ns * 1e-9)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return {}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
 
     # -- for subclasses ----------------------------------------------------------------
 
     def claim(self, interface: str, names: Sequence[str]) -> JointHandles:
-        """Joints of the robot, for this controller alone if they are to be commanded.
+        """Return joints of the robot.
+
+        They are claimed for this controller alone if they are to be commanded.
 
         Args:
             interface: Such as ``hardware_interface/EffortJointInterface``.
@@ -208,7 +210,7 @@ class Controller:
         return cast("JointHandles", self.resources(interface, names))
 
     def resources(self, interface: str, names: Sequence[str]) -> Any:
-        """The same of an interface of any kind: what its ``handles`` gives."""
+        """Return the resources of an interface of any kind: what its ``handles`` returns."""
         found = self.hardware.interface(interface)
         handles = found.handles(names)
         if found.claims:
@@ -241,17 +243,17 @@ class Controller:
         return self._setup.model
 
     def topic(self, name: str) -> str:
-        """A name in this controller's namespace."""
+        """Return a name in this controller's namespace."""
         return f"{self.name}/{name}"
 
     def rows(self, worlds: Worlds | None) -> Worlds:
-        """Indices of worlds, shape (n,)."""
+        """Return indices of worlds, shape (n,)."""
         return np.arange(self.nworld) if worlds is None else np.asarray(worlds, np.intp)
 
     def add_input(
         self, name: str, kind: type[T], receive: Callable[[T, Worlds | None], None]
     ) -> CommandPort[T]:
-        """Take commands of a kind in this controller's namespace."""
+        """Add an input for commands in this controller's namespace."""
         port = CommandPort(self.topic(name), kind, receive, self._setup.call)
         self.inputs[name] = port
         return port
@@ -274,7 +276,7 @@ class Controller:
     def add_query(
         self, name: str, request: type[Q], response: type[R], answer: Callable[[Q], R]
     ) -> QueryPort[Q, R]:
-        """Answer questions."""
+        """Add a query with an answer."""
         port = QueryPort(self.topic(name), request, response, answer, self._setup.call)
         self.queries[name] = port
         return port
@@ -286,18 +288,18 @@ class Controller:
         values: Callable[[], Mapping[str, bool | float]],
         change: Callable[[Mapping[str, Any]], None],
     ) -> TuningPort:
-        """Let values be changed; an empty name is the controller's own namespace."""
+        """Add values that can be changed; an empty name is the controller's own namespace."""
         where = self.topic(name).rstrip("/")
         port = TuningPort(where, tunables, values, change, self._setup.call)
         self.tunings[name] = port
         return port
 
     def add_action(self, name: str, port: Callable[[str, Serializer], ActionPort[T]]) -> None:
-        """Take goals: ``port`` makes the port for a topic."""
+        """Add an action; ``port`` makes the port for a topic."""
         self.actions[name] = port(self.topic(name), self._setup.call)
 
 
 def law_of(controller: Controller) -> ControlLaw | None:
-    """The native code of a controller; None where Python has to update it."""
+    """Return the native law of a controller; None where Python has to update it."""
     whose = next(kind for kind in type(controller).__mro__ if {"law", "update"} & set(vars(kind)))
     return controller.law() if "law" in vars(whose) else None

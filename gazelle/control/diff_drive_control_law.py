@@ -58,7 +58,7 @@ class DiffDriveControlLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def advance(self, world: cython.Py_ssize_t, period: cython.double) -> cython.bint:
-        """Go on by what both sides have rolled."""
+        """Update the odometry by the rotation of both sides."""
         left: cython.double = self.side(world, 0)
         right: cython.double = self.side(world, 1)
         if not (isfinite(left) and isfinite(right)):
@@ -76,7 +76,7 @@ class DiffDriveControlLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def drive(self, world: cython.Py_ssize_t, old: cython.bint) -> cython.void:  # noqa: ARG002
-        """Turn both sides."""
+        """Command the wheels of both sides."""
         half: cython.double = self.last[world, 2] * self.sizes[2] * 0.5
         left: cython.double = (self.last[world, 0] - half) / self.sizes[0]
         right: cython.double = (self.last[world, 0] + half) / self.sizes[1]

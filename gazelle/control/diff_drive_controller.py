@@ -62,7 +62,7 @@ class DiffDriveController(BaseController):
         self.add_tuning("", _TUNABLES, self._tuned, self._tune)
 
     def _read_sizes(self, given: ControllerParameters, left: str, right: str) -> Floats:
-        """Radius and separation [m], as given or as in the URDF."""
+        """Return radius and separation [m], as given or as in the URDF."""
         if "wheel_separation" in given:
             separation = given.number("wheel_separation")
         else:
@@ -99,7 +99,7 @@ class DiffDriveController(BaseController):
         self._turned[rows] = self._sides.measure()[rows]
 
     def stand(self, rows: Worlds) -> None:
-        """Turn no wheel."""
+        """Stop the wheels."""
         self._wheels.set_command(0.0, None, rows)
 
     def _tell(self) -> TrajectoryState:
@@ -116,10 +116,10 @@ class DiffDriveController(BaseController):
         )
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """With how far the wheels have turned."""
+        """Return all mutable state, with the wheels' rotation."""
         return {**super().state(), "turned": self._turned.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         super().restore(state)
         self._turned[:] = state["turned"]

@@ -37,7 +37,7 @@ class Forwarding(Controller):
         self._commands[rows] = rows_of(what, values, self._commands.shape[1], len(rows))  # type: ignore[arg-type]
 
     def starting(self, time: float) -> None:  # noqa: ARG002  it begins anyway
-        """Hold positions; no effort, no velocity."""
+        """Set commands to the present positions; efforts and velocities to zero."""
         self._begin(None)
 
     def _begin(self, worlds: Worlds | None) -> None:
@@ -46,23 +46,23 @@ class Forwarding(Controller):
         self._commands[rows] = self._joints.position[rows] if held else 0.0
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
-        """Hand the commands on."""
+        """Forward the commands."""
         self._law.act(self.now_ns, period)
 
     def law(self) -> ControlLaw:
-        """All that it does."""
+        """Return the native law, which does everything."""
         return self._law
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Hold what is now."""
+        """Hold the present positions."""
         self._begin(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The commands."""
+        """Return the commands."""
         return {"commands": self._commands.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._commands[:] = state["commands"]
 
 

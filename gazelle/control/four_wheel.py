@@ -106,7 +106,7 @@ class FourWheelSteeringController(BaseController):
             self._by_twist[self.rows(worlds)] = True
 
     def stand(self, rows: Worlds) -> None:
-        """Do not roll, steer straight ahead."""
+        """Set the wheels to rest and the steering straight ahead."""
         self._angles[rows] = 0.0
         self._by_twist[rows] = False
         self._wheels.set_command(0.0, None, rows)
@@ -119,12 +119,12 @@ class FourWheelSteeringController(BaseController):
         return FourWheelOdometry(self.now_ns, front.copy(), rear.copy(), signed)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """With the angles that are wanted."""
+        """Return all mutable state, with the commanded angles."""
         own = {"angles": self._angles.copy(), "by_twist": self._by_twist.copy()}
         return {**super().state(), **own}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         super().restore(state)
         self._angles[:] = state["angles"]
         self._by_twist[:] = state["by_twist"]

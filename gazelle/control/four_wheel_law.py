@@ -70,7 +70,7 @@ class FourWheelLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def drive(self, world: cython.Py_ssize_t, old: cython.bint) -> cython.void:
-        """Steer and roll."""
+        """Command steering and wheels."""
         forward: cython.double = self.last[world, 0]
         by_twist: cython.bint = self.by_twist[world] != 0
         front: cython.double = 0.0 if old else tangent(self.angles[world, 0])
@@ -120,7 +120,7 @@ class FourWheelLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def advance(self, world: cython.Py_ssize_t, period: cython.double) -> cython.bint:
-        """Go on by how fast wheels roll and where they are steered to."""
+        """Update the odometry by wheel speeds and steering angles."""
         i: cython.Py_ssize_t
         for i in range(4):
             known: cython.bint = isfinite(self.velocity[world, self.wheels[i]])
@@ -169,7 +169,7 @@ class FourWheelLaw(BaseLaw):
         bend: cython.double,
         angle: cython.double,
     ) -> cython.double:
-        """Of the middle of an axle [m/s], from those of its two wheels."""
+        """Return the speed of the middle of an axle [m/s], from those of its two wheels."""
         turn: cython.double = self.track * bend
         total: cython.double = 0.0
         squares: cython.double = 0.0

@@ -83,7 +83,7 @@ class Goal(Generic[G]):
         return self._ended.wait(timeout)
 
     def cancel(self) -> None:
-        """End it where it is active; the controller holds still then."""
+        """Cancel the goal where it is active; the controller holds still then."""
         self._port.cancel(self)
 
     def subscribe(
@@ -91,7 +91,7 @@ class Goal(Generic[G]):
         changed: Callable[[Goal[G]], None],
         feedback: Callable[[Any], None] | None = None,
     ) -> None:
-        """Be told of every change of state, and of what the controller says on the way.
+        """Subscribe to changes of state and to feedback.
 
         Functions are called by the thread that updates.
 
@@ -121,19 +121,19 @@ class Goal(Generic[G]):
         return bool(self._feedback or self._listeners)
 
     def tell(self, value: Any) -> None:
-        """Give feedback."""
+        """Publish feedback."""
         for listener in tuple(self._feedback):
             listener(value)
 
     def accept(self) -> None:
-        """It is worked on from now on, in all its worlds."""
+        """Mark the goal as active in all its worlds."""
         self.states[:] = GoalState.ACTIVE
         self._tell_state()
 
     def end(
         self, state: GoalState, worlds: Worlds | None = None, result: Any = None, text: str = ""
     ) -> None:
-        """It has come to an end in some of its worlds; where it has ended before nothing happens.
+        """Set the goal's terminal state in some worlds, where it has none yet.
 
         Args:
             state: How.
@@ -193,7 +193,7 @@ class ActionPort(Generic[G]):
         self._begin, self._stop, self._nworld = begin, stop, nworld
 
     def send(self, value: G, worlds: Worlds | None = None) -> Goal[G]:
-        """Give a goal; it takes the place of the one that is active in these worlds.
+        """Send a goal; it replaces the active one in these worlds.
 
         Args:
             value: What is wanted.
@@ -208,5 +208,5 @@ class ActionPort(Generic[G]):
         return goal
 
     def cancel(self, goal: Goal[G]) -> None:
-        """End a goal where it is active."""
+        """Cancel a goal where it is active."""
         self.call(lambda: self._stop(goal))

@@ -105,7 +105,7 @@ class GripperActionController(Controller):
         self._end(rows, GoalState.PREEMPTED, why)
 
     def _end(self, rows: Worlds, state: GoalState, text: str = "", **told: bool) -> None:
-        """End the goals that are active in some worlds."""
+        """End the active goals in some worlds."""
         self._active[rows] = False
         for goal in tuple(self._goals):
             for world in np.intersect1d(goal.worlds, rows).tolist():
@@ -133,7 +133,7 @@ class GripperActionController(Controller):
     # -- the loop ----------------------------------------------------------------------
 
     def starting(self, time: float) -> None:  # noqa: ARG002  at any time
-        """Hold the joint where it is."""
+        """Hold the joint at its position."""
         self._feedback_due.start(self.now_ns, at_once=False)
         self._begin(np.arange(self.nworld))
 
@@ -164,7 +164,7 @@ class GripperActionController(Controller):
         return self._law
 
     def wake_ns(self) -> float:
-        """Always, while a goal may end."""
+        """Return 0 while a goal may end: update always."""
         return 0.0 if self._goals else math.inf
 
     def _push(self, error: Floats, period: float) -> None:
@@ -187,7 +187,7 @@ class GripperActionController(Controller):
         self._preempt(np.arange(self.nworld), "the controller was stopped")
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Hold the joint where it was put."""
+        """Hold the joint at its reset position."""
         rows = self.rows(worlds)
         self._preempt(rows, "the simulation was reset")
         if self.running:
@@ -204,7 +204,7 @@ class GripperActionController(Controller):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave; goals end."""
+        """Restore what ``state`` returned; goals end."""
         self._preempt(np.arange(self.nworld), "a snapshot was restored")
         self._position[:], self._max_effort[:] = state["position"], state["max_effort"]
         self._moved_ns[:] = state["moved"]

@@ -38,7 +38,7 @@ class GripperLaw(ControlLaw):
         self.pid, self.by_pid = pid, True
 
     def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
-        """Push, or hand on."""
+        """Control the gripper: apply an effort, or forward the command."""
         most = fabs(self.most[world])
         if not self.by_pid:
             self.command[world, self.column] = self.wanted[world]

@@ -58,7 +58,7 @@ class RobotHardware:
         self.interfaces: dict[str, HardwareInterface] = {}
 
     def register(self, interface: HardwareInterface) -> None:
-        """Offer an interface.
+        """Register an interface.
 
         Raises:
             ControlError: There is one of that name.
@@ -70,7 +70,7 @@ class RobotHardware:
     def register_joints(
         self, names: Sequence[str], commands: Mapping[str, Sequence[str]] | None = None
     ) -> JointStateInterface:
-        """Offer joints by the common interfaces.
+        """Register joints with the common interfaces.
 
         Args:
             names: Of all joints.
@@ -86,7 +86,7 @@ class RobotHardware:
         return states
 
     def interface(self, name: str) -> HardwareInterface:
-        """An interface by its name, with ``/`` or ``::``.
+        """Return an interface by its name, with ``/`` or ``::``.
 
         Raises:
             ControlError: The robot has none of that name.
@@ -109,7 +109,7 @@ class RobotHardware:
         """
 
     def write(self, time: float, period: float) -> None:
-        """Act on the commands; called after controllers are updated.
+        """Apply the commands; called after controllers are updated.
 
         Args:
             time: Now [s].
@@ -124,7 +124,7 @@ class RobotHardware:
         return True
 
     def do_switch(self, start: Sequence[ControllerInfo], stop: Sequence[ControllerInfo]) -> None:
-        """Begin to switch joints over."""
+        """Start to switch joints over."""
 
     def switch_result(self, controller: ControllerInfo | None = None) -> SwitchResult:
         """Return the progress of a switch, of the joints of one controller, or of all."""
@@ -132,10 +132,10 @@ class RobotHardware:
         return SwitchResult.DONE
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget everything about these worlds (all if None), as if just loaded."""
+        """Reset these worlds (all if None) to the state after loading."""
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         kept: dict[str, NDArray[np.generic]] = {}
         for name, interface in self.interfaces.items():
             if isinstance(interface, JointStateInterface):
@@ -147,7 +147,7 @@ class RobotHardware:
         return kept
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         for name, interface in self.interfaces.items():
             if isinstance(interface, JointStateInterface):
                 for field in ("position", "velocity", "effort"):

@@ -36,7 +36,7 @@ COMMAND_FIELDS: Mapping[str, tuple[str, ...]] = {
 
 
 def cpp_name(interface: str) -> str:
-    """An interface's name as C++ has it: ``hardware_interface::EffortJointInterface``."""
+    """Return an interface's name in C++: ``hardware_interface::EffortJointInterface``."""
     return interface.replace("/", "::")
 
 
@@ -53,7 +53,7 @@ class HardwareInterface:
         self.name, self.resources, self.claims = name, tuple(resources), claims
 
     def check(self, names: Sequence[str]) -> None:
-        """See that there are such resources.
+        """Check that resources exist.
 
         Raises:
             ControlError: There is none of a name.
@@ -125,7 +125,7 @@ class JointStateInterface(HardwareInterface):
         return np.array([self.resources.index(name) for name in names], np.intp)
 
     def handles(self, names: Sequence[str]) -> JointHandles:
-        """Some joints, to be read."""
+        """Return handles to read some joints."""
         return JointHandles(tuple(names), self, self.columns(names), {})
 
 
@@ -156,7 +156,7 @@ class JointCommandInterface(HardwareInterface):
         self.commands = {field: np.zeros((nworld, len(self.resources))) for field in wanted}
 
     def handles(self, names: Sequence[str]) -> JointHandles:
-        """Some joints, to be read and commanded."""
+        """Return handles to read and command some joints."""
         self.check(names)
         own = np.array([self.resources.index(name) for name in names], np.intp)
         commands = {field: (values, own) for field, values in self.commands.items()}
@@ -251,6 +251,6 @@ class SensorInterface(HardwareInterface):
         self._sensors = dict(sensors)
 
     def handles(self, names: Sequence[str]) -> Any:
-        """The functions that measure, in this order."""
+        """Return the functions that measure, in this order."""
         self.check(names)
         return [self._sensors[name] for name in names]

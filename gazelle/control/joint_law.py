@@ -48,7 +48,7 @@ class JointMemory:
 
     @classmethod
     def empty(cls, nworld: int, joints: int) -> JointMemory:
-        """Of joints that nobody commanded."""
+        """Return the memory of joints without commands."""
         zero, nothing = np.zeros((2, nworld, joints)), np.full((2, nworld, joints), np.nan)
         return cls(zero[0], nothing[0], nothing[1], zero[1], np.zeros(nworld, bool))
 
@@ -130,7 +130,7 @@ class JointLaw:
                     self.velocity[world, i] = self.placed_speed[world, i]
 
     def write(self, world: int, period: float) -> None:
-        """Hold commands within limits, and act on them."""
+        """Apply commands within limits."""
         if self.by_effort:
             self.write_efforts(world)
             return
@@ -147,7 +147,7 @@ class JointLaw:
                 self.push(world, i, clamp(out, -most, most))
 
     def write_efforts(self, world: int) -> None:
-        """``write`` of joints that are all commanded by efforts."""
+        """Apply the commands of joints that all have effort commands."""
         first, stopped = world * self.count, self.stopped[world]
         command = offset(self.command_at, world * self.width + self.first)
         at, rate = offset(self.position_at, first), offset(self.velocity_at, first)
@@ -165,7 +165,7 @@ class JointLaw:
             self.push(world, i, wanted[i])
 
     def hold(self, world: int, i: int, period: float) -> float:
-        """A command within limits, and what the emergency stop makes of it."""
+        """Return a command within limits, as modified by the emergency stop."""
         kind, c = self.kinds[i], self.columns[i]
         at, rate = self.position[world, i], self.velocity[world, i]
         if kind == BY_EFFORT:
@@ -196,18 +196,18 @@ class JointLaw:
         return distance(self.position[world, i], wanted, self.endless[i], low, high)
 
     def push(self, world: int, i: int, effort: float) -> None:
-        """Let an effort act; what acts already, whoever makes it, stays."""
+        """Apply an effort, added to what acts already."""
         safe = effort if isfinite(effort) else 0.0  # what is no number would end the world
         if safe != self.applied[world, i]:
             self.applied[world, i], self.pushed[world, i] = safe, 1.0
 
     def drive(self, world: int, i: int, speed: float) -> None:
-        """Let a motor hold a velocity."""
+        """Set the velocity of a joint's motor."""
         if isfinite(speed) and speed != self.speed[world, i]:
             self.speed[world, i], self.driven[world, i] = speed, 1
 
     def read_all(self) -> None:
-        """``read`` in all worlds, for callers in Python."""
+        """Call ``read`` in all worlds, for callers in Python."""
         with cython.nogil:
             for w in range(self.position.shape[0]):
                 first = w * self.count
@@ -218,7 +218,7 @@ class JointLaw:
                 self.read(w, measured, rates)
 
     def write_all(self, period: float) -> None:
-        """``write`` in all worlds, for callers in Python."""
+        """Call ``write`` in all worlds, for callers in Python."""
         since = period
         with cython.nogil:
             for w in range(self.position.shape[0]):
@@ -243,7 +243,7 @@ def write_within(
     count: int, stopped: bool, command: Floats, position: Floats, velocity: Floats, wanted: Floats,  # noqa: FBT001
     applied: Floats, pushed: Floats, lower: Floats, upper: Floats, fastest: Floats, strongest: Floats,
 ) -> None:  # fmt: skip
-    """Hold efforts within hard limits (``LimitLaw.hold_effort``) and push, for several joints at a time."""
+    """Apply efforts within hard limits, several joints at a time; see ``LimitLaw.hold_effort``."""
     for i in range(count):
         low = 0.0 if velocity[i] < -fastest[i] else -strongest[i]
         low = 0.0 if position[i] < lower[i] else low

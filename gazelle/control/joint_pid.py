@@ -55,17 +55,17 @@ class PidControl(Controller):
             self._statuses.append(port)
 
     def open_state(self) -> None:
-        """Tell of the one joint now and then."""
+        """Open the state topic of a single joint."""
         self._states = self.add_output("state", JointControlState, self._tell)
 
     def take(self, values: ArrayLike, worlds: Worlds | None) -> None:
-        """Steer to other targets from the next update on."""
+        """Set targets from the next update on."""
         rows = self.rows(worlds)
         what = f"command of '{self.name}'"
         self._targets[rows] = rows_of(what, values, self._targets.shape[1], len(rows))
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
-        """Push towards the targets."""
+        """Compute and apply efforts towards the targets."""
         self._period = period
         self._law.act(self.now_ns, period)
         for port in self._statuses:
@@ -79,7 +79,7 @@ class PidControl(Controller):
         return self._law
 
     def wake_ns(self) -> float:
-        """Always, while somebody listens."""
+        """Return 0 while there are subscribers: update always."""
         heard = any(port.wanted for port in self._statuses)
         heard = heard or (self._states is not None and self._states.wanted)
         return 0.0 if heard else math.inf
@@ -93,17 +93,17 @@ class PidControl(Controller):
         return self._joints.position, self._joints.velocity
 
     def begin(self, rows: Worlds) -> None:
-        """Begin anew in some worlds."""
+        """Restart the PID in some worlds."""
         self._targets[rows] = 0.0
         self._pid.reset(rows)
 
     def starting(self, time: float) -> None:  # noqa: ARG002  at any time
-        """Keep the joints as they are."""
+        """Hold the joints at their positions."""
         self._updates = 0
         self.begin(np.arange(self.nworld))
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Keep the joints as they were put."""
+        """Hold the joints at their reset positions."""
         self.begin(self.rows(worlds))
 
     def _tell(self) -> JointControlState:
@@ -144,12 +144,12 @@ class PidControl(Controller):
         )
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Targets and sums."""
+        """Return targets and integrals."""
         kept = {f"pid/{name}": value for name, value in self._pid.state().items()}
         return {"targets": self._targets.copy(), "updates": np.array(self._updates), **kept}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._targets[:] = state["targets"]
         self._updates = int(state["updates"])
         self._pid.restore({name: state[f"pid/{name}"] for name in ("p", "i", "last")})
@@ -168,7 +168,7 @@ class PositionTargets(PidControl):
         self._law.hold_positions((self._lower, self._upper), turning)
 
     def begin(self, rows: Worlds) -> None:
-        """Hold positions, within limits."""
+        """Set targets to positions, within limits."""
         super().begin(rows)
         self._targets[rows] = np.clip(self._joints.position[rows], self._lower, self._upper)
 
@@ -215,5 +215,5 @@ class JointVelocityController(PidControl):
         self.take(target.value, worlds)
 
     def measured(self) -> tuple[Floats, Floats]:
-        """Velocities; of accelerations nothing is known, and efforts are told as in the original."""
+        """Return velocities; accelerations are unknown, and efforts are as in the original."""
         return self._joints.velocity, self._joints.effort

@@ -47,7 +47,7 @@ class JointPidLaw(ControlLaw):
         self.error_at, self.command_at = start(self.error), start(self.command)
 
     def hold_positions(self, limits: Sequence[Floats], turning: Bools) -> None:
-        """Bring joints to positions instead, within limits.
+        """Control positions instead, within limits.
 
         Args:
             limits: Lower and upper ones [m or rad], shape (joints,) each.
@@ -59,7 +59,10 @@ class JointPidLaw(ControlLaw):
         self.lower_at, self.upper_at = column(self.lower), column(self.upper)
 
     def control(self, world: int, now: int, period: float) -> None:  # noqa: ARG002  as of others
-        """Push towards the targets; positions the way round that limits allow."""
+        """Compute and apply efforts towards the targets.
+
+        Positions turn the way that limits allow.
+        """
         count, first = self.count, world * self.count
         at, targets = self.measured(world), offset(self.targets_at, first)
         error, near = offset(self.error_at, first), False

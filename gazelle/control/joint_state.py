@@ -38,7 +38,7 @@ class JointStateController(Controller):
         self._schedule = PublishingSchedule(rate)
 
     def _extra(self, parameters: ControllerParameters) -> dict[str, tuple[float, ...]]:
-        """Joints that the robot does not have, and what is said of them."""
+        """Return the states of extra joints, which the robot does not have."""
         given = parameters.get("extra_joints", [])
         known = set(self.hardware.interface(JOINT_STATE).resources)
         found: dict[str, tuple[float, ...]] = {}
@@ -65,16 +65,16 @@ class JointStateController(Controller):
             self._output.publish()
 
     def law(self) -> ControlLaw:
-        """It does nothing to joints."""
+        """Return a law without effect on joints."""
         return ControlLaw(self.nworld)
 
     def wake_ns(self) -> float:
-        """When it publishes."""
+        """Return the next time to publish."""
         fresh = self._schedule.next_ns == 0.0
         return self._schedule.next_ns if fresh or self._output.wanted else math.inf
 
     def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its schedule knows
-        """Nobody listened."""
+        """Advance the schedule past native updates: nothing had subscribers."""
         self._schedule.skip(self.now_ns, updates)
 
     def _measure(self) -> JointStates:
@@ -91,11 +91,11 @@ class JointStateController(Controller):
             self._schedule.start(self.now_ns)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """When it is due."""
+        """Return the next due time."""
         return self._schedule.state()
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._schedule.restore(state)
 
 

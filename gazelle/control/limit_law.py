@@ -16,7 +16,7 @@ from gazelle.array_types import Floats
 
 
 def clamp(value: float, low: float, high: float) -> float:
-    """Of an interval that is empty the upper end."""
+    """Return a value within an interval; of an empty one the upper end."""
     return min(max(value, low), high)
 
 
@@ -49,7 +49,7 @@ class LimitLaw:
         self.velocity_at, self.effort_at = column(self.velocity), column(self.effort)
 
     def soft_bound(self, i: int, position: float, high: bool) -> float:  # noqa: FBT001  native code
-        """The least or the greatest velocity that soft limits let a joint have at a position."""
+        """Return the least or the greatest velocity within soft limits at a position."""
         if not self.bounded[i]:
             return self.velocity[i] if high else -self.velocity[i]
         end = self.soft_upper[i] if high else self.soft_lower[i]
@@ -91,7 +91,7 @@ class LimitLaw:
         return clamp(command, low, high)
 
     def hold_efforts(self, command: Floats, position: Floats, velocity: Floats) -> Floats:
-        """``hold_effort`` of all, shape (nworld, n)."""
+        """Return ``hold_effort`` of all, shape (nworld, n)."""
         held = np.empty(command.shape)
         a, b, c, out = command, position, velocity, held
         with cython.nogil:
@@ -103,7 +103,7 @@ class LimitLaw:
     def hold_positions(
         self, command: Floats, position: Floats, previous: Floats, dt: float
     ) -> Floats:
-        """``hold_position`` of all, from ``previous``, or where there is none from ``position``."""
+        """Return ``hold_position`` of all, from ``previous``, or without one from ``position``."""
         held = np.empty(command.shape)
         before = np.where(np.isnan(previous), position, previous)
         a, b, out, period = command, before, held, dt
@@ -116,7 +116,7 @@ class LimitLaw:
     def hold_velocities(
         self, command: Floats, position: Floats, velocity: Floats, previous: Floats, dt: float
     ) -> Floats:
-        """``hold_velocity`` of all."""
+        """Return ``hold_velocity`` of all."""
         held = previous.copy("C")
         a, b, c, out, period = command, position, velocity, held, dt
         with cython.nogil:

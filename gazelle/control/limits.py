@@ -59,7 +59,7 @@ class JointLimits:
     def overridden(
         self, given: Mapping[str, Any], place: str, *, soft: bool = False
     ) -> JointLimits:
-        """The same with the parameters of ``joint_limits/JOINT``.
+        """Return the limits with the parameters of ``joint_limits/JOINT``.
 
         Each ``has_X`` that is true needs its values, and false takes a limit away.
 
@@ -93,7 +93,7 @@ def _with(limits: JointLimits, name: str, value: float) -> JointLimits:
 
 
 def _with_positions(limits: JointLimits, values: ControllerParameters) -> JointLimits:
-    """With limits of the position, as given; a joint that wraps has none."""
+    """Return limits with the given position limits; a continuous joint has none."""
     if "has_position_limits" not in values:
         return limits
     if not values.flag("has_position_limits"):
@@ -113,7 +113,7 @@ def _with_soft(limits: JointLimits, values: ControllerParameters) -> JointLimits
 
 
 def limit_law(limits: Sequence[JointLimits]) -> LimitLaw:
-    """Limits of several joints, for native code."""
+    """Return the limits of several joints, for native code."""
     soft = [each.soft or SafetyController(0.0) for each in limits]
     columns: dict[str, Any] = {
         name: [getattr(each, name) for each in limits]

@@ -66,7 +66,7 @@ class LoadedControllers(dict[str, LoadedController]):
         return found
 
     def wake_ns(self) -> float:
-        """When one has to be updated although all are native code [ns]."""
+        """Return the time [ns] at which one must be updated although all are native code."""
         soonest = math.inf
         for entry in self.values():
             if entry.controller.running:
@@ -79,20 +79,20 @@ class LoadedControllers(dict[str, LoadedController]):
         return all(entry.controller.patient for entry in self.running)
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
-        """They were updated in native code; see ``ControllerManager.catch_up``."""
+        """Update the state after native updates; see ``ControllerManager.catch_up``."""
         for entry in self.values():
             if entry.controller.running:
                 entry.controller.now_ns = now_ns
                 entry.controller.catch_up(updates, period)
 
     def reset(self, now_ns: int, worlds: Worlds | None) -> None:
-        """The robot was put back to its initial state in these worlds; all if None."""
+        """Reset the controllers in these worlds; all if None."""
         for entry in self.values():
             entry.controller.now_ns = now_ns
             entry.controller.reset(worlds)
 
     def states(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return {
             f"{name}/{key}": value
             for name, entry in self.items()
@@ -103,7 +103,7 @@ class LoadedControllers(dict[str, LoadedController]):
         }
 
     def restore(self, now_ns: int, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``states`` gave; controllers loaded since stay as they are."""
+        """Restore what ``states`` returned; controllers loaded since stay as they are."""
         for name, entry in self.items():
             own = {
                 k.removeprefix(f"{name}/"): v for k, v in state.items() if k.startswith(f"{name}/")

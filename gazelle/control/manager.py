@@ -91,7 +91,7 @@ class ControllerManager:
     # -- what services offer -----------------------------------------------------------
 
     def load(self, name: str, parameters: Mapping[str, Any] | None = None) -> Controller:
-        """Make a controller; it does not run yet.
+        """Load a controller; it does not run yet.
 
         Args:
             name: Its name.
@@ -104,7 +104,7 @@ class ControllerManager:
         return self.call(lambda: self._load(name, parameters))
 
     def unload(self, name: str) -> None:
-        """Take a controller away.
+        """Unload a controller.
 
         Raises:
             ControlError: There is none of that name, or it is running.
@@ -156,7 +156,7 @@ class ControllerManager:
         return self.call(lambda: [*self._loaded.values()])
 
     def types(self) -> list[str]:
-        """Types that can be loaded; the base class of each is ``BASE_CLASS``."""
+        """Return the types that can be loaded; the base class of each is ``BASE_CLASS``."""
         return registry.types()
 
     def reload(self, *, force_kill: bool = False) -> bool:
@@ -176,7 +176,7 @@ class ControllerManager:
         return self._switch is not None or bool(self._loaded.running)
 
     def __getitem__(self, name: str) -> Controller:
-        """A loaded controller.
+        """Return a loaded controller.
 
         Raises:
             ControlError: There is none of that name.
@@ -187,7 +187,7 @@ class ControllerManager:
         return name in self._loaded
 
     def state_of(self, name: str) -> str:
-        """``initialized``, ``running``, ``stopped``, ``waiting`` or ``aborted``.
+        """Return ``initialized``, ``running``, ``stopped``, ``waiting`` or ``aborted``.
 
         Raises:
             ControlError: There is none of that name.
@@ -197,7 +197,7 @@ class ControllerManager:
     def watch(
         self, loaded: Callable[[Controller], None], unloaded: Callable[[Controller], None]
     ) -> Callable[[], None]:
-        """Be told of controllers that come, at once of those there are, and of those that go.
+        """Call functions for loaded controllers, at once for present ones, and for unloaded ones.
 
         Functions are called by the thread that loads. Returns what ends it.
         """
@@ -224,7 +224,7 @@ class ControllerManager:
         self._now_ns = time
 
     def update(self, now_ns: int, period: float, *, restart: Worlds | None = None) -> None:
-        """Let all running controllers act; for the thread that owns the robot.
+        """Update all running controllers; for the thread that owns the robot.
 
         Args:
             now_ns: Time [ns].
@@ -241,7 +241,7 @@ class ControllerManager:
         return None if self._switch is not None else self._loaded.laws()
 
     def wake_ns(self) -> float:
-        """When ``update`` has to be called although all is native code [ns]."""
+        """Return the time [ns] at which ``update`` must be called although all is native code."""
         return self._loaded.wake_ns()
 
     @property
@@ -250,7 +250,7 @@ class ControllerManager:
         return self._loaded.patient
 
     def catch_up(self, now_ns: int, updates: int, period: float) -> None:
-        """Controllers were updated in native code.
+        """Update the state after native updates.
 
         Args:
             now_ns: The last time [ns].
@@ -261,15 +261,15 @@ class ControllerManager:
         self._loaded.catch_up(now_ns, updates, period)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """The robot was put back to its initial state in these worlds; all if None."""
+        """Reset the controllers in these worlds; all if None."""
         self._loaded.reset(self.now_ns, worlds)
 
     def states(self) -> Mapping[str, NDArray[np.generic]]:
-        """Everything that changes in controllers, for a snapshot."""
+        """Return all mutable state of controllers, for a snapshot."""
         return self._loaded.states()
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``states`` gave; controllers loaded since stay as they are."""
+        """Restore what ``states`` returned; controllers loaded since stay as they are."""
         self._loaded.restore(self.now_ns, state)
 
     # -- one thing at a time -----------------------------------------------------------

@@ -61,14 +61,14 @@ class MecanumDriveController(BaseController):
         self._turned[rows] = self._wheels.position[rows]
 
     def stand(self, rows: Worlds) -> None:
-        """Turn no wheel."""
+        """Stop the wheels."""
         self._wheels.set_command(0.0, None, rows)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """With how far the wheels have turned."""
+        """Return all mutable state, with the wheels' rotation."""
         return {**super().state(), "turned": self._turned.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         super().restore(state)
         self._turned[:] = state["turned"]

@@ -53,7 +53,7 @@ class MecanumLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def advance(self, world: cython.Py_ssize_t, period: cython.double) -> cython.bint:
-        """Go on by what the wheels have rolled."""
+        """Update the odometry by the wheels' rotation."""
         i: cython.Py_ssize_t
         for i in range(4):
             if not isfinite(self.position[world, self.joints[i]]):
@@ -75,7 +75,7 @@ class MecanumLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def drive(self, world: cython.Py_ssize_t, old: cython.bint) -> cython.void:  # noqa: ARG002
-        """Turn the wheels."""
+        """Command the wheels."""
         i: cython.Py_ssize_t
         for i in range(4):
             tread: cython.double = (

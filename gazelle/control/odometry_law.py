@@ -44,7 +44,7 @@ class OdometryLaw:
         sideways: cython.double,
         turned: cython.double,
     ) -> cython.void:
-        """Go on by distances in the base's frame [m] and an angle [rad], along an arc."""
+        """Advance by distances in the base's frame [m] and an angle [rad], along an arc."""
         heading: cython.double = self.pose[world, 2]
         # Over an arc the mean direction is shorter than one by the chord's ratio.
         along: cython.double = cos(heading + 0.5 * turned)
@@ -67,7 +67,7 @@ class OdometryLaw:
         turned: cython.double,
         dt: cython.double,
     ) -> cython.void:
-        """``move`` in some time [s], from which velocities follow: the mean of the last ones."""
+        """Advance in some time [s] and compute velocities: the mean of the last ones."""
         self.move(world, forward, sideways, turned)
         if dt < _SHORT:
             return
@@ -99,14 +99,14 @@ class OdometryLaw:
         turning: cython.double,
         dt: cython.double,
     ) -> cython.void:
-        """Go on as if a velocity [m/s, rad/s] were driven exactly."""
+        """Advance as if a velocity [m/s, rad/s] were driven exactly."""
         self.twist[world, 0] = forward
         self.twist[world, 1] = sideways
         self.twist[world, 2] = turning
         self.move(world, forward * dt, sideways * dt, turning * dt)
 
     def move_all(self, moved: Floats) -> None:
-        """``move`` of all worlds by rows of forward, sideways and turned, shape (nworld, 3)."""
+        """Advance all worlds by rows of forward, sideways and turned, shape (nworld, 3)."""
         by: cython.double[:, ::1] = np.ascontiguousarray(moved, np.float64)
         w: cython.Py_ssize_t
         for w in range(by.shape[0]):

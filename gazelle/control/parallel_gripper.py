@@ -88,7 +88,7 @@ class ParallelGripperController(GripperActionController):
         return {**super().state(), "set_point": self._set_point.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave; goals end."""
+        """Restore what ``state`` returned; goals end."""
         super().restore(state)
         self._set_point[:] = state["set_point"]
 

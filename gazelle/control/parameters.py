@@ -35,7 +35,7 @@ class ControllerParameters(Mapping[str, Any]):
         return len(self._values)
 
     def part(self, path: str) -> ControllerParameters:
-        """The parameters below a name; none if there are none.
+        """Return the parameters below a name; empty if there are none.
 
         Raises:
             ControlError: It is a value.
@@ -46,7 +46,7 @@ class ControllerParameters(Mapping[str, Any]):
         return ControllerParameters(found, f"{self.place}/{path}")
 
     def number(self, path: str, default: float | None = None) -> float:
-        """An int or a float.
+        """Return an int or a float.
 
         Raises:
             ControlError: It is something else, or missing without a default.
@@ -58,7 +58,7 @@ class ControllerParameters(Mapping[str, Any]):
         return number
 
     def flag(self, path: str, *, default: bool | None = None) -> bool:
-        """A bool.
+        """Return a bool.
 
         Raises:
             ControlError: As ``number``.
@@ -69,7 +69,7 @@ class ControllerParameters(Mapping[str, Any]):
         return found
 
     def text(self, path: str, default: str | None = None) -> str:
-        """A str.
+        """Return a str.
 
         Raises:
             ControlError: As ``number``.
@@ -80,7 +80,7 @@ class ControllerParameters(Mapping[str, Any]):
         return found
 
     def names(self, path: str, default: str | tuple[str, ...] | None = None) -> tuple[str, ...]:
-        """One name or a list of names, at least one.
+        """Return one name or a list of names, at least one.
 
         Raises:
             ControlError: As ``number``, or the list is empty.
@@ -94,7 +94,7 @@ class ControllerParameters(Mapping[str, Any]):
         return tuple(listed)
 
     def wrong(self, path: str, wanted: str, found: object) -> ControlError:
-        """The error for a value of a wrong type."""
+        """Return the error for a value of a wrong type."""
         return ControlError(f"the parameter '{self.place}/{path}' must be {wanted}, not {found!r}")
 
     def _find(self, path: str, default: Any) -> Any:

@@ -44,7 +44,9 @@ class PidGains:
 
     @classmethod
     def read(cls, given: ControllerParameters) -> PidGains:
-        """From ``p``, ``i``, ``d``, ``i_clamp``, ``i_clamp_min``, ``i_clamp_max`` and ``antiwindup``.
+        """Read ``p``, ``i``, ``d``, the clamps and ``antiwindup``.
+
+        The clamps are ``i_clamp``, ``i_clamp_min`` and ``i_clamp_max``.
 
         Raises:
             ControlError: There is no ``p``, or one is of a wrong type.
@@ -88,7 +90,7 @@ class Pid:
         return self._gains
 
     def set_gains(self, gains: Sequence[PidGains]) -> None:
-        """Go on with other gains.
+        """Set the gains.
 
         Raises:
             ControlError: A lower bound is above the upper one.
@@ -115,7 +117,7 @@ class Pid:
         self._term = (i, term_least, term_most)
 
     def compute(self, error: Floats, dt: float, error_dot: Floats | None = None) -> Floats:
-        """The outputs for errors now.
+        """Return the outputs for errors now.
 
         Args:
             error: What is wanted less what is, shape (nworld, n).
@@ -132,7 +134,7 @@ class Pid:
         return output
 
     def _whole(self, values: Floats) -> Floats:
-        """Values for every loop of every world."""
+        """Return values for every loop of every world."""
         return np.array(np.broadcast_to(values, self.output.shape), np.float64, order="C")
 
     @property
@@ -143,21 +145,21 @@ class Pid:
         return terms
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Forget errors and sums."""
+        """Discard errors and integrals."""
         rows = slice(None) if worlds is None else worlds
         for kept in (self.p_error, self.i_error, self.d_error, self.output, self._last):
             kept[rows] = 0.0
 
     def forget_rates(self, loops: Indices, worlds: Worlds) -> None:
-        """Let some loops count the error before as 0 in some worlds; their sums stay."""
+        """Set the previous error of some loops to 0 in some worlds; their integrals stay."""
         self._last[np.ix_(worlds, loops)] = 0.0
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, gains apart."""
+        """Return all mutable state except gains."""
         return {"p": self.p_error.copy(), "i": self.i_error.copy(), "last": self._last.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.p_error[:], self.i_error[:] = state["p"], state["i"]
         self._last[:] = state["last"]
 
@@ -174,7 +176,7 @@ PID_TUNABLES = (
 
 
 def pid_values(pid: Pid, loop: int = 0) -> dict[str, bool | float]:
-    """The gains of a loop, by the names of ``PID_TUNABLES``."""
+    """Return the gains of a loop, by the names of ``PID_TUNABLES``."""
     gains = pid.gains[loop]
     return {
         "p": gains.p,

@@ -29,7 +29,7 @@ class PidLaw:
         self.memory_at = block_start(self.memory)
 
     def tune(self, columns: Floats) -> None:
-        """Go on with other gains.
+        """Set the gains.
 
         Args:
             columns: p, i, d, and least and greatest values of the integral and of its term, shape
@@ -50,7 +50,7 @@ class PidLaw:
         rated: bool,  # noqa: FBT001  native code
         given: float,
     ) -> float:
-        """The output for an error now; 0 in no time, or for one that is not finite.
+        """Return the output for an error now; 0 in no time, or for one that is not finite.
 
         Args:
             world: Which.
@@ -85,7 +85,7 @@ class PidLaw:
         rates: Floats,
         out: Floats,
     ) -> None:
-        """``push`` of all loops of a world.
+        """Compute ``push`` of all loops of a world.
 
         Args:
             world: Which.
@@ -127,7 +127,7 @@ class PidLaw:
         )
 
     def compute(self, error: Floats, dt: float, rate: Floats | None, into: Floats) -> None:
-        """``push`` of all loops in all worlds; all shapes are (nworld, loops)."""
+        """Compute ``push`` of all loops in all worlds; all shapes are (nworld, loops)."""
         if not into.size:
             return
         rated = rate is not None
@@ -155,7 +155,7 @@ def are_finite(count: int, values: Floats) -> bool:
 
 
 def differentiate(count: int, dt: float, errors: Floats, last: Floats, rates: Floats) -> None:
-    """Rates of errors since the last time."""
+    """Compute rates of errors since the last time."""
     for k in range(count):
         rates[k] = (errors[k] - last[k]) / dt
         last[k] = errors[k]

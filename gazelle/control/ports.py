@@ -24,7 +24,7 @@ class Serializer(Protocol):
     """Does work between two updates, whichever thread asks, and returns its result."""
 
     def __call__(self, work: Callable[[], R], /) -> R:
-        """Do it."""
+        """Run the work."""
 
 
 class CommandPort(Generic[T]):
@@ -56,7 +56,7 @@ class CommandPort(Generic[T]):
         self._receive, self._call = receive, call
 
     def send(self, value: T, worlds: Worlds | None = None) -> None:
-        """Hand over a value.
+        """Send a value.
 
         Args:
             value: Of the port's kind.
@@ -147,7 +147,7 @@ class QueryPort(Generic[Q, R]):
         self._answer, self._call = answer, call
 
     def ask(self, question: Q) -> R:
-        """The answer.
+        """Return the answer.
 
         Raises:
             ControlError: There is none.
@@ -174,7 +174,7 @@ class TunableValue:
     description: str = ""
 
     def clamp(self, value: Any) -> bool | float:
-        """The allowed value that is nearest."""
+        """Return the nearest allowed value."""
         if isinstance(self.default, bool):
             return bool(value)
         return float(min(max(float(value), self.least), self.most))
@@ -209,7 +209,7 @@ class TuningPort:
         return self._call(lambda: dict(self._values()))
 
     def send(self, /, **wanted: Any) -> dict[str, bool | float]:
-        """Change some values, each to the nearest that is allowed; returns what holds then.
+        """Set some values, each to the nearest allowed one; returns the values in effect.
 
         Raises:
             ControlError: There is no such value.

@@ -23,14 +23,14 @@ class PublishingSchedule:
         self._last_ns: int | None = None
 
     def set_rate(self, rate: float) -> None:
-        """Go on at another rate [Hz]."""
+        """Set the rate [Hz]."""
         self.rate = rate
         self._period_ns = 0
         if rate > 0.0:  # a nanosecond at least, and some thirty years at most
             self._period_ns = max(1, round(min(_NANOSECONDS / rate, _NANOSECONDS**2)))
 
     def start(self, now_ns: int, *, at_once: bool = True) -> None:
-        """Begin at a time: it is due at the next update, or a period later."""
+        """Start at a time: it is due at the next update, or a period later."""
         self._last_ns = None if at_once else now_ns
 
     def is_due(self, now_ns: int) -> bool:
@@ -68,6 +68,6 @@ class PublishingSchedule:
         return {"published": np.array(-1 if self._last_ns is None else self._last_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         last = int(state["published"])
         self._last_ns = None if last == -1 else last

@@ -25,13 +25,13 @@ _registered: dict[str, type[Controller]] = {}
 
 
 def register(controller_type: str, controller: C) -> C:
-    """Let configurations name a controller class by a type, such as ``my_controllers/Spring``."""
+    """Register a controller class under a type, such as ``my_controllers/Spring``."""
     _registered[controller_type] = controller
     return controller
 
 
 def types() -> list[str]:
-    """All types that are known by name, sorted."""
+    """Return all types that are known by name, sorted."""
     return sorted({*_registered, *entry_points_of_others(_GROUP), *CONTROLLERS})
 
 
@@ -46,7 +46,7 @@ def purpose(name: str) -> str:
 
 
 def make(setup: ControllerSetup) -> Controller:
-    """A controller of the type that is asked for, not initialised yet.
+    """Create a controller of the requested type, not initialised yet.
 
     Raises:
         ControlError: There is no such type.
@@ -62,7 +62,7 @@ def make(setup: ControllerSetup) -> Controller:
 
 
 def _beside(name: str) -> list[str]:
-    """The types of the same package, among which a name that nearly fits is found; all if it has none."""
+    """Return the types of the same package, to suggest a similar name; all if it has none."""
     package = name.partition("/")[0]
     return [each for each in types() if each.startswith(f"{package}/")] or types()
 
@@ -88,7 +88,7 @@ def _find(name: str) -> type[Controller] | None:
 
 @functools.cache
 def _own(name: str) -> type[Controller]:
-    """A class of the table, with the interface that the type is for."""
+    """Return a class of the table, with the interface that the type is for."""
     found: type[Controller] = pkgutil.resolve_name(f"gazelle.control.{CONTROLLERS[name].code}")
     interfaces = CONTROLLERS[name].interfaces
     return type(found.__name__, (found,), {"interfaces": interfaces, "__doc__": found.__doc__})

@@ -43,17 +43,17 @@ class SensorController(Controller):
                 port.publish()
 
     def law(self) -> ControlLaw:
-        """It does nothing to joints."""
+        """Return a law without effect on joints."""
         return ControlLaw(self.nworld)
 
     def wake_ns(self) -> float:
-        """When it publishes."""
+        """Return the next time to publish."""
         fresh = self._schedule.next_ns == 0.0
         heard = fresh or any(port.wanted for port in self._ports)
         return self._schedule.next_ns if heard else math.inf
 
     def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its schedule knows
-        """Nobody listened."""
+        """Advance the schedule past native updates: nothing had subscribers."""
         self._schedule.skip(self.now_ns, updates)
 
     def reset(self, worlds: Worlds | None) -> None:
@@ -62,11 +62,11 @@ class SensorController(Controller):
             self._schedule.start(self.now_ns)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """When it is due."""
+        """Return the next due time."""
         return self._schedule.state()
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._schedule.restore(state)
 
 

@@ -29,7 +29,7 @@ class SpeedLimiter:
 
     @classmethod
     def read(cls, given: ControllerParameters) -> SpeedLimiter:
-        """From ``has_X_limits``, ``max_X`` and ``min_X``, which is ``-max_X`` if missing.
+        """Read ``has_X_limits``, ``max_X`` and ``min_X``, which is ``-max_X`` if missing.
 
         Raises:
             ControlError: There are limits without a ``max_X``, or the wrong way round.

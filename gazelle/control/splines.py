@@ -12,7 +12,7 @@ from gazelle.array_types import Bools, Floats
 def coefficients(
     duration: Floats, start: tuple[Floats, Floats, Floats], end: tuple[Floats, Floats, Floats]
 ) -> Floats:
-    """Polynomials of rising powers of the time since the start, shape (..., 6).
+    """Return polynomials of rising powers of the time since the start, shape (..., 6).
 
     They are linear where an end has no velocity, cubic where both have, quintic where both have
     accelerations too; missing values are NaN. One that lasts no time holds its start.
@@ -56,7 +56,7 @@ def coefficients(
 
 
 def evaluate(polynomials: Floats, time: Floats, inside: Bools) -> tuple[Floats, Floats, Floats]:
-    """Positions, velocities and accelerations, each of shape (...).
+    """Return positions, velocities and accelerations, each of shape (...).
 
     Args:
         polynomials: From ``coefficients``, powers first, shape (6, ...).

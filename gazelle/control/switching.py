@@ -26,7 +26,7 @@ class LoadedController:
     law: ControlLaw | None = field(init=False)
 
     def __post_init__(self) -> None:
-        """Look for native code, once."""
+        """Look up native code, once."""
         self.law = law_of(self.controller)
 
     @property
@@ -59,7 +59,7 @@ class Switch:
     failed: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
-        """All is still to be started."""
+        """Mark all controllers as still to be started."""
         self.waiting = set(self.start)
 
     @property
@@ -152,7 +152,7 @@ def _possible(
     strict: bool,
     running: bool,
 ) -> list[str]:
-    """Those of the names that are running, or not running, or among some others."""
+    """Return the names that are running, not running, or among some others."""
     found: list[str] = []
     for name in names:
         entry = loaded.get(name)

@@ -28,7 +28,7 @@ class TrajectoryTolerances:
 
     @classmethod
     def read(cls, parameters: ControllerParameters, joints: Sequence[str]) -> TrajectoryTolerances:
-        """From ``constraints``."""
+        """Read ``constraints``."""
         given = parameters.part("constraints")
         path, goal = np.zeros((2, len(joints), 3))
         goal[:, 1] = given.number("stopped_velocity_tolerance", 0.01)
@@ -38,7 +38,7 @@ class TrajectoryTolerances:
         return cls(path, goal, given.number("goal_time", 0.0))
 
     def with_goal(self, goal: TrajectoryGoal, joints: Sequence[str]) -> TrajectoryTolerances:
-        """With what a goal asks for: more than 0 takes the place of a bound, less takes it away."""
+        """Return a goal's tolerances. Positive values replace a bound, negative ones remove it."""
         wait = goal.goal_time_tolerance
         return TrajectoryTolerances(
             _changed(self.path, goal.path_tolerance, joints),

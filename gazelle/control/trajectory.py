@@ -82,13 +82,16 @@ class TrajectoryTable:
         self.followers: list[Callable[[Floats, Floats, Floats, Ints64], None]] = []
 
     def tell(self) -> None:
-        """Hand all segments to those that follow them."""
+        """Send all segments to their followers."""
         self._kept = None
         for each in self.followers:
             each(self.start, self.duration, self.polynomials, self.goal)
 
     def _active(self, time: float, rows: Worlds | slice) -> Indices:
-        """Columns of the segments that act, shape (n, joints); the first one before its time."""
+        """Return columns of the active segments, shape (n, joints).
+
+        The first one before its time.
+        """
         start = self.start[rows]
         begun = np.where(start <= time, start, -math.inf)
         latest = start.shape[2] - 1 - np.argmax(begun[:, :, ::-1], axis=2)
@@ -98,7 +101,10 @@ class TrajectoryTable:
         return column
 
     def _acting(self, time: float, rows: Worlds | None) -> _Acting:
-        """The segments that act at a time; those of all worlds are kept until others do."""
+        """Return the active segments at a time.
+
+        Those of all worlds are cached until others start.
+        """
         kept = self._kept
         if rows is None and kept is not None and kept.since <= time < kept.until:
             return kept
@@ -139,12 +145,12 @@ class TrajectoryTable:
         return TrajectorySample(*moments, acting.end, acting.last, acting.goal)
 
     def begins(self) -> Floats:
-        """When the first segment of each world begins [s], shape (nworld,)."""
+        """Return the start of each world's first segment [s], shape (nworld,)."""
         earliest: Floats = self.start.min(axis=(1, 2))
         return earliest
 
     def hold(self, time: float, position: Floats, rows: Worlds) -> None:
-        """Stand still from now on.
+        """Hold positions from now on.
 
         Args:
             time: Now [s].
@@ -158,7 +164,7 @@ class TrajectoryTable:
         self._store(rows, zero + time, zero, polynomials, np.zeros(shape, np.int64))
 
     def ramp(self, time: float, duration: float, rows: Worlds) -> None:
-        """Come to rest from what is wanted now, on the first half of a way there and back.
+        """Ramp to rest: start at the present command, on the first half of a way there and back.
 
         Args:
             time: Now [s].
@@ -188,7 +194,7 @@ class TrajectoryTable:
         )
 
     def follow(self, points: Waypoints, now: float, begin: float, goal: int, rows: Worlds) -> None:
-        """Let other points take over.
+        """Follow other points.
 
         What was followed goes on until they begin; a segment leads from there to the first point.
         Joints that the points are not of go on as before.
@@ -218,7 +224,7 @@ class TrajectoryTable:
         self._join(points, _New(times, lasts, polynomials, goal), now, change, rows)
 
     def _join(self, points: Waypoints, new: _New, now: float, change: float, rows: Worlds) -> None:
-        """Put what is left of the old segments before the new ones."""
+        """Append the new segments to what is left of the old ones."""
         count, joints = len(rows), self.start.shape[1]
         old, added = self.start.shape[2], len(points.times)
         first = self._active(now, rows)
@@ -250,7 +256,7 @@ class TrajectoryTable:
     def _store(
         self, rows: Worlds, start: Floats, duration: Floats, polynomials: Floats, goal: Ints64
     ) -> None:
-        """Take over the segments of some worlds, with as many columns as all of them need."""
+        """Store the segments of some worlds, with as many columns as all of them need."""
         if len(rows) < len(self.start):
             width = max(start.shape[2], self.start.shape[2])
             start = _merged(self.start, rows, start, width, math.inf)
@@ -266,12 +272,12 @@ class TrajectoryTable:
         return (self.start, self.duration, self.polynomials, self.goal)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """All segments."""
+        """Return all segments."""
         names = ("start", "duration", "polynomials", "goal")
         return {name: each.copy() for name, each in zip(names, self._arrays(), strict=True)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.start = np.array(state["start"], np.float64)
         self.duration = np.array(state["duration"], np.float64)
         self.polynomials = np.array(state["polynomials"], np.float64)
@@ -311,7 +317,7 @@ def _three(each: tuple[Floats, ...]) -> tuple[Floats, Floats, Floats]:
 def _merged(
     all_rows: NDArray[N], rows: Worlds, given: NDArray[N], width: int, filler: float
 ) -> NDArray[N]:
-    """All rows with some of them new, each with free columns before its own."""
+    """Return all rows with some of them new, each with free columns before its own."""
     merged = _widened(all_rows, width, filler)
     merged[rows] = _widened(given, width, filler)
     return merged

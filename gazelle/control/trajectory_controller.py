@@ -138,14 +138,14 @@ class JointTrajectoryController(Controller):
         return float(self._memory.period[0])
 
     def starting(self, time: float) -> None:  # noqa: ARG002  it counts its own time
-        """Hold the joints where they are."""
+        """Hold the joints at their positions."""
         self._memory.uptime[:] = 0.0
         self._begin(np.arange(self.nworld))
         self._state_due.start(self.now_ns, at_once=False)
         self._feedback_due.start(self.now_ns, at_once=False)
 
     def _begin(self, rows: Worlds) -> None:
-        """Hold the joints of some worlds where they are."""
+        """Hold the joints of some worlds at their positions."""
         position = self._joints.position[rows]
         self._table.hold(self._uptime, position, rows)
         if self._pid is not None:
@@ -173,7 +173,7 @@ class JointTrajectoryController(Controller):
         return self._law
 
     def wake_ns(self) -> float:
-        """Always while somebody wants to know how goals do, else when it publishes."""
+        """Return 0 while goals have subscribers, else the next time to publish."""
         if any(goal.watched for goal in self._goals.values()):
             return 0.0
         return self._state_due.next_ns if self._state_port.wanted else math.inf
@@ -184,7 +184,7 @@ class JointTrajectoryController(Controller):
         return not self._goals
 
     def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its memory has it
-        """End goals that ended meanwhile."""
+        """End goals that ended in native updates."""
         self._followed = True
         self._state_due.skip(self.now_ns, updates)
         if self._goals:
@@ -192,13 +192,13 @@ class JointTrajectoryController(Controller):
         self._look_back()
 
     def stopping(self, time: float) -> None:  # noqa: ARG002  at any time
-        """End what is followed; the joints keep their last commands."""
+        """End the trajectory; the joints keep their last commands."""
         self._preempt(np.arange(self.nworld), "the controller was stopped")
 
     # -- goals ---------------------------------------------------------------------------
 
     def _look_back(self) -> None:
-        """End goals that are reached, or missed."""
+        """End goals that are reached or failed."""
         memory = self._memory
         if not self._goals or not memory.event.any():
             return
@@ -222,7 +222,7 @@ class JointTrajectoryController(Controller):
     def _end_goals(
         self, rows: Worlds, state: GoalState, result: TrajectoryResult | None, text: str
     ) -> None:
-        """End the goals that are active in some worlds."""
+        """End the active goals in some worlds."""
         numbers = self._memory.goal[rows]
         self._memory.goal[rows] = 0
         for number in np.unique(numbers[numbers > 0]).tolist():
@@ -259,7 +259,7 @@ class JointTrajectoryController(Controller):
         memory.patience[rows] = bounds.goal_time
 
     def _stop_goal(self, goal: Goal[TrajectoryGoal]) -> None:
-        """Hold where it is active; elsewhere nothing happens."""
+        """Hold the joints where the goal is active."""
         number = next((n for n, each in self._goals.items() if each is goal), None)
         if number is None:
             return
@@ -270,7 +270,7 @@ class JointTrajectoryController(Controller):
     # -- trajectories --------------------------------------------------------------------
 
     def _receive(self, given: JointTrajectory, worlds: Worlds | None) -> None:
-        """A trajectory without a goal."""
+        """Follow a trajectory without a goal."""
         rows = self.rows(worlds)
         self._take(given, rows, 0)
         self._preempt(rows, "another trajectory took its place")
@@ -299,7 +299,7 @@ class JointTrajectoryController(Controller):
         self._table.follow(points, now, begin, goal, rows)
 
     def _hold(self, rows: Worlds) -> None:
-        """Stand still: at once where the joints are, or after a ramp."""
+        """Hold: at once at the joints' positions, or after a ramp."""
         if self._stop_duration > 0.0:
             self._table.ramp(self._uptime, self._stop_duration, rows)
         else:
@@ -341,7 +341,7 @@ class JointTrajectoryController(Controller):
     # -- beginning anew --------------------------------------------------------------------
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Hold the joints where they were put."""
+        """Hold the joints at their reset positions."""
         rows = self.rows(worlds)
         self._preempt(rows, "the simulation was reset")
         if worlds is None:
@@ -361,7 +361,7 @@ class JointTrajectoryController(Controller):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave; goals end."""
+        """Restore what ``state`` returned; goals end."""
         self._preempt(np.arange(self.nworld), "a snapshot was restored")
         self._memory.uptime[:], self._memory.period[:] = state["uptime"]
         self._table.restore(_part("table/", state))

@@ -59,7 +59,7 @@ class TrajectoryMemory:
 
     @classmethod
     def empty(cls, nworld: int, joints: int) -> TrajectoryMemory:
-        """Of a controller that was never started."""
+        """Return the memory of a controller that was never started."""
         shapes: dict[str, tuple[int, ...]] = {
             field.name: (nworld, joints)
             for field in fields(cls)
@@ -119,7 +119,7 @@ class TrajectoryLaw(ControlLaw):
         self.pid, self.forward, self.effort_command, self.by_pid = pid, forward, command, True
 
     def follow(self, start: Floats, duration: Floats, polynomials: Floats, goals: Ints64) -> None:
-        """Go by other segments, the arrays of a ``TrajectoryTable``."""
+        """Set the segments, the arrays of a ``TrajectoryTable``."""
         self.start, self.duration = start, duration
         self.polynomials, self.goals = polynomials, goals
         self.at = np.full(start.shape[:2], -1, np.intp)
@@ -127,7 +127,7 @@ class TrajectoryLaw(ControlLaw):
         self.acting = np.zeros((*start.shape[:2], 9))
 
     def segment(self, world: int, joint: int, time: float) -> int:
-        """The segment that acts: the last that has begun, or the first before its time."""
+        """Return the active segment: the last that has started, or the first before its time."""
         c, last = self.at[world, joint], self.start.shape[2] - 1
         if c >= 0 and self.acting[world, joint, 0] <= time < self.acting[world, joint, 2]:
             return c
@@ -190,7 +190,7 @@ class TrajectoryLaw(ControlLaw):
     def check_tolerances(
         self, world: int, i: int, c: int, time: float, lack: float, slow: float
     ) -> None:
-        """See whether a joint is where the goal wants it."""
+        """Check whether a joint is within the goal's tolerances."""
         if self.goals[world, i, c] != self.goal[world]:
             return
         end = self.acting[world, i, 0] + self.acting[world, i, 1]
@@ -205,7 +205,7 @@ class TrajectoryLaw(ControlLaw):
                 self.tell(world, LATE, i, lack)
 
     def tell(self, world: int, code: int, joint: int, error: float) -> None:
-        """Note how a goal ended: by what is worst, of the first joint."""
+        """Record the outcome of a goal: its worst violation, of the first joint."""
         if self.event[world] == NOTHING or code < self.event[world]:
             self.event[world], self.event_joint[world] = code, joint
             self.event_error[world] = error

@@ -56,7 +56,7 @@ def columns_of(given: JointTrajectory, names: Sequence[str], *, partial: bool) -
 
 
 def check_points(given: JointTrajectory, width: int) -> None:
-    """See that the points can be followed.
+    """Check that the points can be followed.
 
     Raises:
         TrajectoryRefusedError: Times do not rise, or there are more or fewer values than joints.
@@ -84,7 +84,7 @@ def check_points(given: JointTrajectory, width: int) -> None:
 def waypoints(
     given: JointTrajectory, joints: Indices, begin: float, now: float, who: str
 ) -> Waypoints:
-    """The points that are still to come.
+    """Return the points that are still to come.
 
     Args:
         given: Checked.

@@ -30,30 +30,30 @@ class LinearTransmission:
         self._offset = np.asarray(offset, np.float64)
 
     def joint_position(self, actuators: Floats) -> Floats:
-        """Of the joints, from the actuators'; shape (..., n) each."""
+        """Return positions of the joints, from the actuators'; shape (..., n) each."""
         return self.joint_velocity(actuators) + self._offset
 
     def joint_velocity(self, actuators: Floats) -> Floats:
-        """Of the joints, from the actuators'; shape (..., n) each."""
+        """Return velocities of the joints, from the actuators'; shape (..., n) each."""
         found: Floats = actuators @ self._velocity.T
         return found
 
     def joint_effort(self, actuators: Floats) -> Floats:
-        """Of the joints, from the actuators'; shape (..., n) each."""
+        """Return efforts of the joints, from the actuators'; shape (..., n) each."""
         found: Floats = actuators @ self._effort.T
         return found
 
     def actuator_position(self, joints: Floats) -> Floats:
-        """Of the actuators, from the joints'; shape (..., n) each."""
+        """Return positions of the actuators, from the joints'; shape (..., n) each."""
         return self.actuator_velocity(joints - self._offset)
 
     def actuator_velocity(self, joints: Floats) -> Floats:
-        """Of the actuators, from the joints'; shape (..., n) each."""
+        """Return velocities of the actuators, from the joints'; shape (..., n) each."""
         found: Floats = joints @ self._back.T
         return found
 
     def actuator_effort(self, joints: Floats) -> Floats:
-        """Of the actuators, from the joints'; shape (..., n) each."""
+        """Return efforts of the actuators, from the joints'; shape (..., n) each."""
         found: Floats = joints @ self._effort_back.T
         return found
 

@@ -9,7 +9,7 @@ from gazelle.errors import ControlError, did_you_mean
 
 
 def wheel_distance(model: Model | None, first: str, second: str) -> float:
-    """Between the origins of two joints [m].
+    """Return the distance between the origins of two joints [m].
 
     Raises:
         ControlError: There is no URDF, or no such joint in it.
@@ -30,7 +30,7 @@ def joint_origin(model: Model | None, joint: str) -> Vector3:
 def wheel_radius(
     model: Model | None, joint: str, shapes: tuple[type[Cylinder | Sphere], ...] = (Cylinder,)
 ) -> float:
-    """Of the wheel on a joint: of the first collision of its link [m].
+    """Return the radius of the wheel on a joint: of the first collision of its link [m].
 
     Args:
         model: The robot.

@@ -63,7 +63,7 @@ class ActorWalk(ModelPlugin):
         self._place()
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
-        """Turn and walk."""
+        """Turn and move the actor."""
         now_ns = self._simulation.clock.now_ns
         interval = (now_ns - self._last_ns) / NANOSECONDS
         self._last_ns[:] = now_ns
@@ -81,7 +81,7 @@ class ActorWalk(ModelPlugin):
         self._walk(way, interval)
 
     def _walk(self, way: Floats, interval: Floats) -> None:
-        """Turn towards a way, and go along it when it is ahead."""
+        """Turn towards a direction, and move along it once it is ahead."""
         angle = np.arctan2(way[:, 1], way[:, 0]) + math.pi / 2.0 - self._yaw
         angle = (angle + math.pi) % (2.0 * math.pi) - math.pi
         turning = np.abs(angle) > _TURNS_FROM
@@ -94,7 +94,7 @@ class ActorWalk(ModelPlugin):
         self._place()
 
     def _choose(self, worlds: Worlds) -> None:
-        """Draw targets that are far from the last one and from all models."""
+        """Sample targets that are far from the last one and from all models."""
         models = [place[worlds] for place in self._obstacles({self._robot.name})]
         last = self._target[worlds]
         pending = np.arange(len(worlds))
@@ -121,7 +121,7 @@ class ActorWalk(ModelPlugin):
         engine.models[self._robot.name].set_placement(self._position, quaternion)
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Draw other targets."""
+        """Set the seed of the targets."""
         self._stream.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None) -> None:
@@ -142,14 +142,14 @@ class ActorWalk(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._position[:], self._yaw[:] = state["position"], state["yaw"]
         self._target[:], self._last_ns[:] = state["target"], state["time"]
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]
 
 
 def _directions(vectors: Floats) -> Floats:
-    """Vectors of length one; zero stays zero."""
+    """Return vectors of length one; zero stays zero."""
     size = np.linalg.norm(vectors, axis=1, keepdims=True)
     one: Floats = vectors / np.where(size > 0.0, size, 1.0)
     return one

@@ -66,7 +66,7 @@ class LinearBattery(ModelPlugin):
         return np.asarray(self._full + self._slope * (1.0 - self.charge / self._capacity))
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
-        """Lose charge."""
+        """Discharge the battery."""
         interval = self._watch.lap()
         taken = sum(
             entry.plugin.power
@@ -82,7 +82,7 @@ class LinearBattery(ModelPlugin):
         self.voltage = self._open_voltage() - self._resistance * self.current
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Charge."""
+        """Charge the battery."""
         rows = slice(None) if worlds is None else worlds
         self.charge[rows], self.current[rows] = self._first, 0.0
         self.voltage[rows] = self._open_voltage()[rows]
@@ -90,7 +90,7 @@ class LinearBattery(ModelPlugin):
             self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Charge, current, voltage."""
+        """Return charge, current and voltage."""
         return {
             "charge": self.charge.copy(),
             "current": self.current.copy(),
@@ -99,7 +99,7 @@ class LinearBattery(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.charge[:], self.current[:] = state["charge"], state["current"]
         self.voltage[:] = state["voltage"]
         self._watch.start_ns = int(np.asarray(state["time"]))

@@ -57,7 +57,7 @@ class Contain(WorldPlugin):
         return self._enabled and self._output.wanted
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it looks at every step
-        """Tell if something changed."""
+        """Publish a change of contents."""
         inside = self._look()
         if self._told is None or (inside != self._told).any():
             self._told = inside
@@ -78,7 +78,7 @@ class Contain(WorldPlugin):
         return np.asarray(within.all(axis=1))
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Tell anew."""
+        """Publish again after a reset."""
         self._told = None
         if worlds is None:
             self._enabled = self._starts_enabled
@@ -88,7 +88,7 @@ class Contain(WorldPlugin):
         return {"enabled": np.array(self._enabled)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave, and tell anew."""
+        """Restore what ``state`` returned, and publish again."""
         self._enabled, self._told = bool(state["enabled"]), None
 
 
@@ -151,7 +151,7 @@ class Transporter(WorldPlugin):
         return any(pad.automatic for pad in self._pads.values()) or bool(self._called.any())
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it looks at every step
-        """Take what is on pads elsewhere."""
+        """Move what is on pads to their targets."""
         engine = self._simulation.engine
         for robot in self._simulation.robots.values():
             if robot.description.static or not robot.links:
@@ -167,7 +167,7 @@ class Transporter(WorldPlugin):
                     gone[rows], called[rows] = True, False
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget calls."""
+        """Discard calls."""
         self._called[:, slice(None) if worlds is None else worlds] = False
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
@@ -175,7 +175,7 @@ class Transporter(WorldPlugin):
         return {"called": self._called.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._called[:] = state["called"]
 
 

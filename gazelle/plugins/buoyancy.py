@@ -41,7 +41,7 @@ class Buoyancy(ModelPlugin):
             self._bodies[link.name] = (link, volume, centre)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
-        """Lift."""
+        """Apply buoyancy."""
         engine = self._simulation.engine
         gravity = engine.parameter("gravity", "")
         for name, (link, volume, centre) in self._bodies.items():
@@ -53,7 +53,7 @@ class Buoyancy(ModelPlugin):
 
 
 def _displaced(link: LinkHandle) -> tuple[float, np.ndarray[Any, np.dtype[np.float64]]]:
-    """Volume [m³] and its centre in the link frame [m]."""
+    """Return the volume [m³] and its centre in the link frame [m]."""
     volumes = [volume_of(each.geometry) for each in link.description.collisions]
     if any(math.isnan(volume) for volume in volumes):
         warnings.warn(
@@ -73,7 +73,7 @@ def _displaced(link: LinkHandle) -> tuple[float, np.ndarray[Any, np.dtype[np.flo
 
 @singledispatch
 def volume_of(geometry: object) -> float:
-    """Volume of a shape [m³]; NaN for one that is not known."""
+    """Return the volume of a shape [m³]; NaN for an unknown one."""
     del geometry
     return math.nan
 

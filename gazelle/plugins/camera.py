@@ -93,7 +93,7 @@ class PublishedCamera:
         self._last_info_ns: int | None = None
 
     def open(self) -> None:
-        """Offer picture and lens."""
+        """Open outputs of picture and lens."""
         image = self.settings.image_topic
         self.add(image, ImageValue, self._image)
         self.add(f"{image}/compressed", CompressedImageValue, self._compressed)
@@ -106,7 +106,7 @@ class PublishedCamera:
         read: Callable[[], Any],
         may_tell: Callable[[], bool] | None = None,
     ) -> None:
-        """Offer something under a name."""
+        """Add an output under a name."""
         name = self.settings.topic(topic).removeprefix(self.settings.namespace).strip("/")
         self.sensor.robot.outputs[name] = CameraTopic(
             self.sensor, self.settings, topic, kind, read, may_tell or self._may_tell
@@ -157,7 +157,7 @@ class CameraPlugin(SensorPlugin):
         PublishedCamera(self._sensor, camera, settings, self.look).open()
 
     def look(self) -> CameraImage:
-        """The camera's picture now."""
+        """Return the camera's picture now."""
         image: CameraImage = self._sensor.reading(self._sensor.current())
         return image
 
@@ -251,5 +251,5 @@ class TriggeredMultiCameraPlugin(MultiCameraPlugin):
     def trigger(
         self, sensor: SensorUnit, settings: CameraSettings, side: str
     ) -> Callable[[], bool] | None:
-        """A message on the topic of the trigger, for each picture."""
+        """Return a condition for pictures: one for each message on the topic of the trigger."""
         return PictureTrigger(sensor, settings, f"{side}/").is_pulled

@@ -78,7 +78,7 @@ class CameraSettings:
         )
 
     def topic(self, name: str) -> str:
-        """The full name of a topic that the file names."""
+        """Return the full name of a topic from the file."""
         return name if name.startswith("/") else f"{self.prefix.rstrip('/')}/{name}"
 
     def info(self, camera: Camera, stamp: int) -> CameraInfoValue:
@@ -98,7 +98,7 @@ class CameraSettings:
 
 
 def _distortion(camera: Camera, parameters: Parameters) -> tuple[float, float, float, float, float]:
-    """k1, k2, p1, p2, k3: the plugin's, or with ``autoDistortion`` the sensor's."""
+    """Return k1, k2, p1, p2, k3: the plugin's, or with ``autoDistortion`` the sensor's."""
     if parameters.get("autoDistortion", False):
         k1, k2, k3, p1, p2 = camera.distortion
         return (k1, k2, p1, p2, k3)

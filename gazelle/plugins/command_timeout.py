@@ -34,12 +34,12 @@ class CommandTables:
 
     @classmethod
     def empty(cls, nworld: int, count: int) -> CommandTables:
-        """Tables of ``count`` bases, all zero."""
+        """Return tables of ``count`` bases, all zero."""
         linear, angular = np.zeros((2, nworld, count, 3))
         return cls(linear, angular, *np.zeros((3, count), np.int64))
 
     def clear_old(self, now_ns: int, longest: Floats) -> None:
-        """Let those stand that were told nothing for too long.
+        """Stop those whose last command is too old.
 
         Args:
             now_ns: Simulated time [ns].
@@ -83,17 +83,17 @@ class CommandTimeout:
         return int(self._tables.since_ns[0])
 
     def restart(self, since_ns: int | None = None) -> None:
-        """See the command as it is, as one of a time [ns]; of now if None."""
+        """Set the time [ns] of the present command; now if None."""
         self._tables.seen[:] = self._tables.revision
         self._tables.since_ns[:] = self._clock.now_ns if since_ns is None else since_ns
 
     def clear_old(self) -> None:
-        """Stand if nothing was told for too long."""
+        """Stop if the last command is too old."""
         if self._ends:
             self._tables.clear_old(self._clock.now_ns, self._longest)
 
     def join(self, tables: CommandTables, part: int) -> None:
-        """Keep all that in a column of other tables from now on."""
+        """Store the state in a column of other tables from now on."""
         own, old = slice(part, part + 1), self._tables
         self._tables = CommandTables(
             tables.linear[:, own],
@@ -132,6 +132,6 @@ class CommandGroup:
         self._ends = bool(np.isfinite(self._longest).any())
 
     def clear_old(self) -> None:
-        """Let those stand that were told nothing for too long."""
+        """Stop those whose last command is too old."""
         if self._ends:
             self._tables.clear_old(self._clock.now_ns, self._longest)

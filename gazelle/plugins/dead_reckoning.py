@@ -34,12 +34,12 @@ class ReckoningTables:
 
     @classmethod
     def empty(cls, nworld: int, count: int) -> ReckoningTables:
-        """Tables of ``count`` pairs, all zero."""
+        """Return tables of ``count`` pairs, all zero."""
         twist, angles = np.zeros((2, nworld, count, 2))
         return cls(np.zeros((nworld, count, 3)), twist, angles, np.zeros(count, np.int64))
 
     def column(self, part: int) -> ReckoningTables:
-        """The same memory, of one pair."""
+        """Return a view of the same memory, of one pair."""
         own = slice(part, part + 1)
         return ReckoningTables(
             self.pose[:, own], self.twist[:, own], self.angles[:, own], self.last_ns[own]
@@ -51,7 +51,7 @@ class ReckoningTables:
         self.angles[:], self.last_ns[:] = other.angles, other.last_ns
 
     def interval(self, now_ns: int) -> Floats:
-        """Time since wheels were looked at [s], shape (n,)."""
+        """Return the time since the last wheel measurement [s], shape (n,)."""
         return np.asarray((now_ns - self.last_ns) / NANOSECONDS)
 
     def advance(
@@ -62,7 +62,7 @@ class ReckoningTables:
         radius: Floats,
         rates: Floats | None = None,
     ) -> None:
-        """Go on to other wheel angles, with the heading at the middle of the interval.
+        """Advance to other wheel angles, with the heading at the middle of the interval.
 
         Args:
             angles: Now [rad], shape (nworld, n, 2).
@@ -114,23 +114,23 @@ class DeadReckoning:
         self.restart()
 
     def join(self, tables: ReckoningTables) -> None:
-        """Keep all that in other tables of one pair from now on."""
+        """Store the state in other tables of one pair from now on."""
         tables.take_over(self.tables)
         self.tables = tables
 
     def restart(self) -> None:
-        """Let the next interval begin now."""
+        """Start the next interval now."""
         self.tables.last_ns[:] = self.clock.now_ns
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Back to the origin, with the wheels as they are now."""
+        """Reset the odometry to the origin, at the present wheel angles."""
         rows = slice(None) if worlds is None else worlds
         tables = self.tables
         tables.pose[rows], tables.twist[rows] = 0.0, 0.0
         tables.angles[rows, 0] = self._angles()[rows]
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes but the time."""
+        """Return all mutable state except the time."""
         tables = self.tables
         return {
             "pose": tables.pose[:, 0].copy(),
@@ -139,7 +139,7 @@ class DeadReckoning:
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         tables = self.tables
         tables.pose[:, 0], tables.twist[:, 0] = state["pose"], state["twist"]
         tables.angles[:, 0] = state["angles"]
@@ -177,15 +177,15 @@ class ReckoningGroup:
         self._joints = JointArray([wheel for each in reckonings for wheel in each.wheels])
 
     def interval(self) -> Floats:
-        """Time since they were advanced or began anew [s], shape (n,)."""
+        """Return the time since the last advance or restart [s], shape (n,)."""
         return self.tables.interval(self._clock.now_ns)
 
     def restart(self) -> None:
-        """Let the next interval begin now."""
+        """Start the next interval now."""
         self.tables.last_ns[:] = self._clock.now_ns
 
     def advance(self, rates: Floats | None = None) -> None:
-        """Go on to now; see ``ReckoningTables.advance``."""
+        """Advance to now; see ``ReckoningTables.advance``."""
         angles = self._joints.positions().reshape(self.tables.angles.shape)
         self.tables.advance(angles, self._clock.now_ns, self._separation, self._radius, rates)
 
@@ -209,12 +209,12 @@ class RolledOdometry(OdometrySource):
     signed: bool = True
 
     def __call__(self) -> Odometry:
-        """The odometry now."""
+        """Return the odometry now."""
         return _measured([self])[0]
 
     @classmethod
     def measure_all(cls, sources: Sequence[RolledOdometry]) -> list[Odometry]:
-        """The odometry of many robots."""
+        """Return the odometry of many robots."""
         return _measured(sources)
 
 

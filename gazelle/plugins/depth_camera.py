@@ -44,7 +44,7 @@ class DepthCameraPlugin(CameraPlugin):
         super().load(sensor, parameters)
 
     def farthest(self, parameters: Parameters) -> float:
-        """Depth above which nothing is told [m]."""
+        """Return the depth above which nothing is reported [m]."""
         del parameters
         return math.inf
 
@@ -60,7 +60,7 @@ class DepthCameraPlugin(CameraPlugin):
         topics.add(points, PixelPoints, self._points)
 
     def _depths(self) -> ImageValue:
-        """Metres, NaN for what is not told; or millimetres, 0 for that."""
+        """Return depths in metres, NaN for unknown; or in millimetres, 0 for unknown."""
         seen = self.look()
         depth, told = self._told(seen.depth)
         if not self._millimetres:
@@ -70,7 +70,7 @@ class DepthCameraPlugin(CameraPlugin):
         return ImageValue(seen.stamp, whole.astype(np.uint16), "16UC1")
 
     def _points(self) -> PixelPoints:
-        """Along the rays through the middles of pixels, about the middle of the picture."""
+        """Return points along the rays of pixels, about the middle of the picture."""
         seen = self.look()
         depth, told = self._told(seen.depth)
         focal = self._settings.info(self._camera, seen.stamp).focal_length
@@ -82,7 +82,7 @@ class DepthCameraPlugin(CameraPlugin):
         return PixelPoints(seen.stamp, points, self._picture(seen.color))
 
     def _picture(self, color: NDArray[Any]) -> NDArray[Any]:
-        """Bytes as the image has them: the original copies them as they come."""
+        """Return bytes in the order of the image: the original copies them as they come."""
         coloured = self._encoding in ("rgb8", "bgr8")
         return pixels_of(color, self._encoding if coloured else "rgb8")
 
@@ -97,5 +97,5 @@ class KinectPlugin(DepthCameraPlugin):
     """The same of a Kinect, which sees nothing that is too far."""
 
     def farthest(self, parameters: Parameters) -> float:
-        """Depth above which nothing is told [m]."""
+        """Return the depth above which nothing is reported [m]."""
         return parameters.get("pointCloudCutoffMax", 5.0)

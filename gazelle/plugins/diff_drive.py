@@ -136,7 +136,7 @@ class DiffDrive(ModelPlugin):
         return JointStates(now, self.wheel_joints[::-1], self._angles()[:, ::-1], nothing)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Stand still at the origin of the odometry."""
+        """Reset the odometry to its origin, at rest."""
         rows = slice(None) if worlds is None else worlds
         tables = self.motors.tables
         tables.speeds[:, 0][rows] = 0.0
@@ -148,7 +148,7 @@ class DiffDrive(ModelPlugin):
             tables.last_ns[:, 0][:] = self.reckoning.last_ns
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Wheel speeds, odometry and times of the last update."""
+        """Return wheel speeds, odometry and times of the last update."""
         rolled = {f"encoder_{name}": value for name, value in self.reckoning.state().items()}
         tables = self.motors.tables
         times = {
@@ -158,7 +158,7 @@ class DiffDrive(ModelPlugin):
         return {"speeds": tables.speeds[:, 0].copy(), **rolled, **times}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         tables = self.motors.tables
         tables.speeds[:, 0][:], tables.last_ns[:, 0][:] = state["speeds"], state["last_ns"]
         self.motors.forget(None)  # the motors are given their speeds anew

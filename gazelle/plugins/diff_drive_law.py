@@ -41,13 +41,13 @@ class WheelTables:
 
     @classmethod
     def empty(cls, nworld: int, count: int) -> WheelTables:
-        """Tables of ``count`` drives, all zero, with nothing sent."""
+        """Return tables of ``count`` drives, all zero, with nothing sent."""
         linear, angular = np.zeros((2, nworld, count, 3))
         speeds, last_ns = np.zeros((nworld, count, 2)), np.zeros((nworld, count), np.int64)
         return cls(linear, angular, speeds, np.full_like(speeds, np.nan), last_ns)
 
     def column(self, part: int) -> WheelTables:
-        """The same memory, of one drive."""
+        """Return a view of the same memory, of one drive."""
         own = slice(part, part + 1)
         return WheelTables(
             self.linear[:, own],
@@ -58,7 +58,7 @@ class WheelTables:
         )
 
     def take_over(self, other: WheelTables) -> None:
-        """Remember what other tables of as many drives do."""
+        """Copy the memory of other tables of as many drives."""
         self.linear[:], self.angular[:] = other.linear, other.angular
         self.speeds[:], self.sent[:], self.last_ns[:] = other.speeds, other.sent, other.last_ns
 
@@ -111,7 +111,7 @@ class DiffDriveLaw(System):
         self.start = np.searchsorted(sides // 2, np.arange(self.rows + 1)).astype(np.intp)
 
     def update(self, first: int, last: int, time: int) -> None:
-        """Change wheel speeds towards what is commanded, and give motors those that are new."""
+        """Ramp wheel speeds towards the command, and set the motors' changed ones."""
         for row in range(first, last):
             w, i = row // self.rows, row % self.rows
             turning = self.angular[w, i, 2] * self.half[i]

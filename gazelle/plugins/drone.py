@@ -103,14 +103,14 @@ class Drone(ModelPlugin):
     def _begin(
         self, phase: FlightPhase, after: tuple[FlightPhase, ...], worlds: Worlds | None
     ) -> None:
-        """Let those begin a phase that are in one before it."""
+        """Start a phase in worlds that are in an earlier one."""
         may = np.zeros(len(self._phase), np.bool_)
         may[slice(None) if worlds is None else worlds] = True
         begins = may & np.isin(self._phase, after)
         self._phase[begins], self._since[begins] = phase, 0.0
 
     def fly(self, worlds: Worlds | None = None) -> None:
-        """Let drones be in the air already, as after a take-off."""
+        """Set drones to flying, as after a take-off."""
         rows = slice(None) if worlds is None else worlds
         self._phase[rows], self._since[rows] = FlightPhase.FLYING, 0.0
 
@@ -122,7 +122,7 @@ class Drone(ModelPlugin):
     # -- what it does ----------------------------------------------------------------------
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
-        """Push, and tell the truth."""
+        """Apply the wrench, and publish ground truth."""
         engine = self._simulation.engine
         step = engine.time_step
         self._go_on(step)
@@ -162,17 +162,17 @@ class Drone(ModelPlugin):
         return self._turned(self._acceleration)
 
     def _turned(self, vector: Floats) -> Motion:
-        """A vector turned by the drone's attitude; the original means to turn it back."""
+        """Return a vector turned by the drone's attitude; the original means the inverse."""
         return Motion(rotate(self._link.placement().quaternion, vector), np.zeros_like(vector))
 
     # -- forgetting and saving -----------------------------------------------------------------
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Use the random numbers of another seed."""
+        """Set the seed of the random numbers."""
         self._command.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """On the ground, and nothing was said."""
+        """Reset to the ground, without commands."""
         rows = slice(None) if worlds is None else worlds
         self._phase[rows], self._since[rows] = FlightPhase.LANDED, 0.0
         self._places[rows] = self._speeds[rows] = False
@@ -182,14 +182,14 @@ class Drone(ModelPlugin):
         self._command.reset(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Phases, modes, what was seen in the last step, sums and noise."""
+        """Return phases, modes, the last step's measurements, integrals and noise."""
         return {
             **{name: array.copy() for name, array in self._arrays().items()},
             **states_of({**self._law.pids, "noise": self._command}),
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         for name, array in self._arrays().items():
             array[:] = state[name]
         restore_all({**self._law.pids, "noise": self._command}, state)

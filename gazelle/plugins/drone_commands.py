@@ -63,7 +63,7 @@ class DroneCommands(TwistInput):
         self.angular[rows] += noise[:, 1:]
 
     def _drawn(self, rows: Worlds) -> Floats:
-        """Noise of a command in some worlds, shape (n, 4)."""
+        """Return noise of a command in some worlds, shape (n, 4)."""
         drawn = 2.0 * self._stream.uniform(2 * _AXES, rows) - 1.0
         old = self._age[rows] > self._drift_time
         self._drifts[rows[old]] = self._drift * drawn[old, _AXES:]
@@ -75,18 +75,18 @@ class DroneCommands(TwistInput):
         return noise
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Use the random numbers of another seed."""
+        """Set the seed of the random numbers."""
         self._stream.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget the drift; of all worlds, also which numbers were drawn."""
+        """Discard the drift; for all worlds, also the count of random numbers."""
         rows = slice(None) if worlds is None else worlds
         self._drifts[rows], self._age[rows], self._heard_ns[rows] = 0.0, 0.0, -1
         if worlds is None:
             self._stream.rewind()
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Drifts and random numbers; the commands themselves are the port's."""
+        """Return drifts and random numbers; the commands themselves are the port's."""
         return {
             "drifts": self._drifts.copy(),
             "age": self._age.copy(),
@@ -96,7 +96,7 @@ class DroneCommands(TwistInput):
         }
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._drifts[:], self._age[:] = state["drifts"], state["age"]
         self._heard_ns[:] = state["heard"]
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]

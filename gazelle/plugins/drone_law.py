@@ -84,7 +84,7 @@ class DroneLaw:
         }
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget sums and filtered commands."""
+        """Discard sums and filtered commands."""
         for each in self.pids.values():
             each.reset(worlds)
 
@@ -124,7 +124,7 @@ class DroneLaw:
     def _tilt_and_climb(
         self, now: DroneMoment, orders: DroneOrders, back: Floats, weight: Floats
     ) -> tuple[Floats, Floats]:
-        """Roll and pitch [rad], shape (nworld, 2), and velocity upwards [m/s], (nworld, 1), to reach."""
+        """Return roll and pitch [rad], (nworld, 2), and upward velocity [m/s], (nworld, 1)."""
         pids, step = self.pids, now.step
         velocity, change = rotate(back, now.motion.linear), rotate(back, now.acceleration)
         wanted = np.where(orders.flying[:, None], orders.linear[:, :2], orders.angular[:, :2])
@@ -148,7 +148,7 @@ class DroneLaw:
 
 
 def _load(place: Placement, gravity: Floats, weight: Floats) -> Floats:
-    """By how much a tilted drone has to push harder, shape (nworld,)."""
+    """Return the factor of a tilted drone's thrust, shape (nworld,)."""
     cosine = (gravity * rotate(place.quaternion, gravity)).sum(axis=1) / weight**2
     kept = np.where(cosine < 0.0, -1.0, 1.0) * np.maximum(np.abs(cosine), _STEEPEST)
     load: Floats = 1.0 / kept

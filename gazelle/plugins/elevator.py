@@ -53,7 +53,7 @@ class Elevator(ModelPlugin):
         )
 
     def _call(self, text: str, worlds: Worlds | None) -> None:
-        """Go to a floor.
+        """Call the elevator to a floor.
 
         Raises:
             SimulationError: The text is no number.
@@ -68,7 +68,7 @@ class Elevator(ModelPlugin):
         self._floor[chosen], self._phase[chosen] = floor, _CLOSING
 
     def on_update(self, time: float) -> None:
-        """Push lift and door to where they have to be."""
+        """Apply forces to lift and door towards their targets."""
         interval = self._watch.lap()
         lift = self._lift.positions()[:, 0] - self._floor * self._height
         opened = (self._phase == _OPENING) | (self._phase == _WAITING)
@@ -110,7 +110,7 @@ class Elevator(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         restore_all(self._pids, state)
         self._phase[:], self._floor[:] = state["phase"], state["floor"]
         self._until[:] = state["until"]
@@ -118,5 +118,5 @@ class Elevator(ModelPlugin):
 
 
 def _own(name: str) -> str:
-    """A joint's name without its model's."""
+    """Return a joint's name without its model's."""
     return name.rpartition("::")[2]

@@ -31,7 +31,7 @@ class FilteredGains:
 
     @classmethod
     def read(cls, parameters: Parameters, prefix: str) -> FilteredGains:
-        """From the tags that begin with a prefix, such as ``yawProportionalGain``."""
+        """Read the tags that begin with a prefix, such as ``yawProportionalGain``."""
         own = cls()
         return cls(
             parameters.get(f"{prefix}ProportionalGain", own.proportional),
@@ -86,14 +86,14 @@ class FilteredPids:
         return asked
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget filtered commands and sums."""
+        """Discard filtered commands and sums."""
         rows = slice(None) if worlds is None else worlds
         self._command[rows] = self._sum[rows] = 0.0
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Filtered commands and sums."""
+        """Return filtered commands and integrals."""
         return {"command": self._command.copy(), "sum": self._sum.copy()}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._command[:], self._sum[:] = state["command"], state["sum"]

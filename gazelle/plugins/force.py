@@ -37,7 +37,7 @@ class Force(ModelPlugin):
         self._loads.hold(self._name, self._link.name, self._force, self._torque)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Let go."""
+        """Remove the force."""
         self._push(Push(np.zeros(3), np.zeros(3)), worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
@@ -45,5 +45,5 @@ class Force(ModelPlugin):
         return {"force": self._force.copy(), "torque": self._torque.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave; that it acts is in the simulation's state."""
+        """Restore what ``state`` returned; that it acts is in the simulation's state."""
         self._force[:], self._torque[:] = state["force"], state["torque"]

@@ -61,7 +61,7 @@ class ForceBasedMove(ModelPlugin):
         self._start = robot.placement()
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  forces act at every step
-        """Push, and publish when it is time to."""
+        """Apply force and torque, and publish when it is due."""
         place, motion = self._robot.placement(), self._robot.motion()
         step = self._simulation.engine.time_step
         own = rotate(conjugate(place.quaternion), motion.linear)
@@ -77,7 +77,7 @@ class ForceBasedMove(ModelPlugin):
             self._odometry.publish()
 
     def _weight(self, place: Placement) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Mass of the model, and its least inertia about the vertical, shape (nworld,)."""
+        """Return the model's mass and its least inertia about the vertical, shape (nworld,)."""
         engine = self._simulation.engine
         mass, inertia = np.zeros((2, len(place.position)))
         for link in self._robot.links.values():
@@ -109,7 +109,7 @@ class ForceBasedMove(ModelPlugin):
         )
 
     def reset(self, worlds: Worlds | None) -> None:
-        """The odometry starts anew."""
+        """Reset the odometry."""
         rows = slice(None) if worlds is None else worlds
         place = self._robot.placement(worlds)
         self._start.position[rows], self._start.quaternion[rows] = place.position, place.quaternion
@@ -124,7 +124,7 @@ class ForceBasedMove(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._start.position[:], self._start.quaternion[:] = state["position"], state["quaternion"]
         if self._schedule is not None:
             self._schedule.done(self._clock.now_ns)

@@ -38,7 +38,7 @@ def relative(parent: Placement, child: Placement) -> Placement:
 
 
 def transform(parent: Frame, child: Frame, parent_name: str, child_name: str) -> Transform:
-    """The transform between two frames of a robot."""
+    """Return the transform between two frames of a robot."""
     seen = relative(placed(parent), placed(child))
     return Transform(parent_name, child_name, seen.position, seen.quaternion)
 
@@ -48,12 +48,12 @@ def frames_output(
     namespace: str | None = None,
     prefix: FramePrefix = FramePrefix.NEAREST,
 ) -> Output[Transforms]:
-    """An output on ``/tf``, with the queue of tf's own broadcasters: many publish there at once."""
+    """Return an output on ``/tf``, with the queue size of tf's own broadcasters."""
     return Output("/tf", Transforms, produce, queue_size=_QUEUE, namespace=namespace, prefix=prefix)
 
 
 def joint_transforms(robot: Robot, joints: Iterable[Joint]) -> Transforms:
-    """The child link of each joint, as it is now from the joint's parent."""
+    """Return the pose of each joint's child link in the joint's parent now."""
     return Transforms(
         robot.simulation.clock.now_ns,
         tuple(

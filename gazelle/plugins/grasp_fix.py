@@ -68,7 +68,7 @@ class GraspFix(ModelPlugin):
             )
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it counts its updates
-        """Look at what the fingers touch; hold or let go."""
+        """Check the contacts of the fingers; attach or detach."""
         for arm in self._arms:
             free = [world for world in range(self._simulation.nworld) if world not in arm.held]
             self._let_go_if_open(arm)
@@ -95,7 +95,7 @@ class GraspFix(ModelPlugin):
             arm.held |= {world: (link, gap) for world, gap in zip(rows.tolist(), gaps, strict=True)}
 
     def _squeezed(self, where: Worlds, contacts: Contacts) -> set[tuple[int, str]]:
-        """Worlds, and links of other, movable models in them, pushed from opposite sides."""
+        """Return worlds, and movable links in them that are pushed from opposite sides."""
         pushes: dict[tuple[int, str], list[Floats]] = {}
         sizes = np.linalg.norm(contacts.force, axis=1)
         directions = -contacts.force / np.maximum(sizes, _LEAST_FORCE)[:, None]
@@ -135,7 +135,7 @@ class GraspFix(ModelPlugin):
                 arm.counts.pop((world, link), None)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Hold nothing; the engine's reset let go."""
+        """Discard grasps; the engine's reset detached them."""
         chosen = range(self._simulation.nworld) if worlds is None else worlds.tolist()
         for arm in self._arms:
             arm.held = {world: held for world, held in arm.held.items() if world not in chosen}
@@ -156,7 +156,7 @@ class GraspFix(ModelPlugin):
         return state
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave; that it is held is in the engine's state."""
+        """Restore what ``state`` returned; that it is held is in the engine's state."""
         for i, arm in enumerate(self._arms):
             pairs = zip(state[f"{i} counted"], state[f"{i} counts"], strict=True)
             arm.counts = {(int(n[0]), str(link)): int(n[1]) for link, n in pairs}
@@ -167,7 +167,7 @@ class GraspFix(ModelPlugin):
 
 
 def _by_link(links: Mapping[int, str]) -> dict[str, Worlds]:
-    """The worlds of each link, in order."""
+    """Return the worlds of each link, in order."""
     return {
         link: np.array(sorted(world for world, each in links.items() if each == link))
         for link in sorted(set(links.values()))
@@ -186,5 +186,5 @@ def _arm(robot: Robot, tags: Parameters) -> _Arm:
 
 
 def _own(name: str) -> str:
-    """A link's name without its model's."""
+    """Return a link's name without its model's."""
     return name.rpartition("::")[2]

@@ -16,7 +16,7 @@ class GravityCompensation(ModelPlugin):
     """
 
     def load(self, robot: Robot, parameters: Parameters) -> None:  # noqa: ARG002  its one tag names the model
-        """Make the links weightless; say so if the model is held by nothing."""
+        """Compensate gravity on the links; warn if nothing holds the model."""
         held = any(
             joint.parent == "world"
             for placed in robot.description.walk()

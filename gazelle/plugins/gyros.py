@@ -79,7 +79,7 @@ class Gyros:
             self.values[:, column] = unit.current()
 
     def _sort(self) -> None:
-        """See who sleeps."""
+        """Update which gyros sleep."""
         self._sorted = self._lock.changes
         self._awake = [(i, unit) for i, unit in enumerate(self._units) if unit.awake]
         asleep = [(i, unit) for i, unit in enumerate(self._units) if not unit.awake]

@@ -50,7 +50,7 @@ class HandOfGod(ModelPlugin):
         self._frames.hear(transforms, worlds, static=True)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it draws at every step
-        """Draw, and tell where the link is."""
+        """Pull the link, and publish its pose."""
         if self._frames.any:
             known, position, quaternion = self._frames.find(f"{self._name}_desired", "world")
             self._draw(known[:, None], position, quaternion)
@@ -82,9 +82,9 @@ class HandOfGod(ModelPlugin):
         self._frames.forget(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The frames that are known."""
+        """Return the frames that are known."""
         return self._frames.state()
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._frames.restore(state)

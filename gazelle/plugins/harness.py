@@ -79,7 +79,7 @@ class Harness(ModelPlugin):
         self._unsubscribe = robot.simulation.events.deleted.subscribe(self._end)
 
     def _rig(self, parameters: Parameters, winch: Parameters | None) -> None:
-        """Make the joints, and hang the model on them."""
+        """Make the joints, and attach the model to them."""
         for rope in _ropes(self._robot, parameters):
             self._ropes.append(rope)
         if not self._ropes:
@@ -89,7 +89,7 @@ class Harness(ModelPlugin):
         self._hang(None)
 
     def _named(self, tag: Parameters | None) -> _Rope:
-        """The rope that a tag names; the first if none does."""
+        """Return the rope that a tag names; the first by default."""
         if tag is None or not tag.text:
             return self._ropes[0]
         for rope in self._ropes:
@@ -112,7 +112,7 @@ class Harness(ModelPlugin):
         )
 
     def _wind(self, speed: Number, worlds: Worlds | None) -> None:
-        """Turn the winch; standing still it holds where it is."""
+        """Set the winch's speed; at rest it holds its position."""
         if not np.isfinite(speed.value):
             raise SimulationError(f"the speed of a winch must be finite, not {speed.value}")
         rows = slice(None) if worlds is None else worlds
@@ -124,7 +124,7 @@ class Harness(ModelPlugin):
             self._pids["pos_pid"].reset(worlds)
 
     def _let_go(self, wanted: bool, worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
-        """Let the model go for good, and stop the winch."""
+        """Detach the model for good, and stop the winch."""
         if not wanted:
             return
         chosen = np.zeros(len(self._held), np.bool_)
@@ -142,7 +142,7 @@ class Harness(ModelPlugin):
         return bool(self._held.any())
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
-        """Pull at the winch: by its speed, and where it shall hold by its place too."""
+        """Control the winch: by its speed, and at rest by its position too."""
         interval = self._watch.lap()
         engine, joint = self._simulation.engine, self._winch.joint
         holds = np.abs(self._speed) <= _STILL
@@ -158,7 +158,7 @@ class Harness(ModelPlugin):
         self._held[slice(None) if worlds is None else worlds] = True
 
     def _end(self, gone: Robot) -> None:
-        """Take the carriages away with the model."""
+        """Delete the carriages with the model."""
         if gone is self._robot:
             self._drop()
             self._unsubscribe()
@@ -168,7 +168,7 @@ class Harness(ModelPlugin):
             self._simulation.engine.delete(self._ropes.pop().carriage.partition("::")[0])
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Hang the model up again, the winch at rest."""
+        """Attach the model again, the winch at rest."""
         rows = slice(None) if worlds is None else worlds
         self._speed[rows], self._place[rows] = 0.0, 0.0
         for pid in self._pids.values():
@@ -187,7 +187,7 @@ class Harness(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave; that it hangs is in the engine's state."""
+        """Restore what ``state`` returned; that it hangs is in the engine's state."""
         restore_all(self._pids, state)
         self._held[:] = state["held"]
         self._speed[:], self._place[:] = state["speed"], state["place"]
@@ -195,7 +195,7 @@ class Harness(ModelPlugin):
 
 
 def _ropes(robot: Robot, parameters: Parameters) -> Iterator[_Rope]:
-    """Make the carriages of a harness's joints."""
+    """Yield the carriages of a harness's joints."""
     mass = _SHARE * sum(
         (link.description.inertial or Inertial()).mass for link in robot.links.values()
     )
@@ -211,7 +211,7 @@ def _ropes(robot: Robot, parameters: Parameters) -> Iterator[_Rope]:
 
 
 def _carriage(owner: str, joint: Parameters, mass: float) -> Model:
-    """A model of one link on a joint of a harness, read as SDF reads a joint."""
+    """Return a model of one link on a joint of a harness, read as SDF reads a joint."""
     ends = (Parameters("parent", "world"), Parameters("child", "carriage"))
     kept = tuple(child for child in joint.children if child.tag not in {"parent", "child"})
     link = Parameters("link", attributes={"name": "carriage"}, source=joint.source)

@@ -49,7 +49,7 @@ class HeardFrames:
         return bool(self._steps)
 
     def hear(self, told: Transforms, worlds: Worlds | None, *, static: bool = False) -> None:
-        """Take transforms in."""
+        """Store received transforms."""
         rows = slice(None) if worlds is None else worlds
         for each in told.transforms:
             child, parent = each.child_frame.lstrip("/"), each.frame.lstrip("/")
@@ -78,7 +78,7 @@ class HeardFrames:
         return found
 
     def turn(self, target: str, source: str) -> Floats | None:
-        """The orientation of a source frame seen from a target, shape (nworld, 4).
+        """Return the orientation of a source frame in a target frame, shape (nworld, 4).
 
         None if no way leads from one to the other. In worlds that nobody told of a frame it is
         as its parent.
@@ -95,7 +95,7 @@ class HeardFrames:
         return known & also, rotate(back, position - origin), multiply(back, quaternion)
 
     def _climb(self, frame: str) -> tuple[str, NDArray[np.bool_], Floats, Floats]:
-        """The root above a frame, and where the frame is in it."""
+        """Return the root above a frame, and the frame's pose in it."""
         known = np.ones(self._nworld, np.bool_)
         position = np.zeros((self._nworld, 3))
         quaternion = np.tile([0.0, 0.0, 0.0, 1.0], (self._nworld, 1))
@@ -109,14 +109,14 @@ class HeardFrames:
         return frame, known, position, quaternion
 
     def forget(self, worlds: Worlds | None) -> None:
-        """Forget all but what was told once and for all."""
+        """Discard all but static transforms."""
         rows = slice(None) if worlds is None else worlds
         for step in self._steps.values():
             if not step.static:
                 step.known[rows] = False
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that was heard."""
+        """Return all received transforms."""
         steps = list(self._steps.values())
         shape = (len(steps), self._nworld)
         return {
@@ -129,7 +129,7 @@ class HeardFrames:
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._steps = {
             str(frame): _HeardTransform(
                 str(state["parents"][i]),

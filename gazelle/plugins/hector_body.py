@@ -26,7 +26,7 @@ class OnBody(Noisy, Publishing):
         return body
 
     def errors(self, parameters: Parameters, prefix: str, axes: int) -> SensorErrors:
-        """The errors that the tags of a prefix give."""
+        """Return the errors from the tags of a prefix."""
         simulation = self._simulation
         name = f"{self._name}::{prefix}"
         made = SensorErrors(parameters, prefix, axes, simulation.seed, name, simulation.nworld)
@@ -34,11 +34,11 @@ class OnBody(Noisy, Publishing):
         return made
 
     def full(self, parameters: Parameters, name: str) -> str:
-        """The full name of a topic or service."""
+        """Return the full name of a topic or service."""
         return absolute(namespace_of(self._robot, parameters), name)
 
     def tune(self, parameters: Parameters, name: str, errors: SensorErrors) -> None:
-        """Let others change the errors."""
+        """Open the tuning of the errors."""
         made = errors.tuning(self.full(parameters, name))
         self._robot.tunings[name.strip("/")] = made
 

@@ -80,7 +80,7 @@ class SensorErrors:
         return self.offset + self._drifted + self._noise
 
     def apply(self, values: Floats, interval: float) -> Floats:
-        """Measured values, from true ones of shape (nworld, axes).
+        """Return measured values, from true ones of shape (nworld, axes).
 
         Args:
             values: True.
@@ -97,7 +97,7 @@ class SensorErrors:
         return values * self._scale + self.error
 
     def set_drift(self, values: ArrayLike, worlds: Worlds | None) -> None:
-        """Be wrong by this much from now on, and drift on."""
+        """Set the present error, from which it drifts on."""
         self._drifted[slice(None) if worlds is None else worlds] = values
 
     @property
@@ -106,7 +106,7 @@ class SensorErrors:
         return self._drifted
 
     def tuning(self, topic: str) -> Tuning:
-        """Lets others change the numbers; all axes get the same, and tell their mean."""
+        """Return the tuning of the numbers; axes share what is set, and report their mean."""
         return Tuning(topic, _TUNABLES, self._tune, self._tuned)
 
     def _tune(self, values: Mapping[str, float]) -> None:
@@ -128,17 +128,17 @@ class SensorErrors:
         self._noise[slice(None) if worlds is None else worlds] = 0.0
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Use the random numbers of another seed."""
+        """Set the seed of the random numbers."""
         self._stream.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Let drift begin anew; with all worlds, the random numbers start over too."""
+        """Restart the drift; for all worlds, also the random numbers."""
         if worlds is None:
             self._stream.rewind()
         self._begin(worlds)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes."""
+        """Return all mutable state."""
         return {
             "keys": self._stream.keys.copy(),
             "counters": self._stream.counters.copy(),
@@ -148,7 +148,7 @@ class SensorErrors:
         }
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]
         self._drifted[:], self._noise[:] = state["drifted"], state["noise"]
         self._numbers[:] = state["numbers"]
@@ -161,12 +161,12 @@ class Interval:
         self._last_ns: int | None = None
 
     def since(self, now_ns: int) -> float:
-        """The time since the last call [s]; 0 at the first and when time went back."""
+        """Return the time since the last call [s]; 0 at the first and when time went back."""
         last, self._last_ns = self._last_ns, now_ns
         return max(0, now_ns - last) / NANOSECONDS if last is not None else 0.0
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """It has no random numbers."""
+        """Do nothing: there are no random numbers."""
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Start over when all worlds do."""
@@ -174,11 +174,11 @@ class Interval:
             self._last_ns = None
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """The last time [ns]; -1 for none."""
+        """Return the last time [ns]; -1 for none."""
         return {"last": np.array(-1 if self._last_ns is None else self._last_ns)}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         last = int(np.asarray(state["last"]))
         self._last_ns = None if last < 0 else last
 

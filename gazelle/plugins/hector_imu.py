@@ -97,7 +97,7 @@ class HectorImu(Noisy, Publishing):
         )
 
     def _misled(self, orientation: Floats) -> Floats:
-        """By how much the biases turn what is believed to be up and ahead."""
+        """Return the rotation by which the biases tilt up and ahead."""
         heading = from_yaw(self._yaw.bias[:, 0])
         if self._gravity <= 0.0:
             return heading
@@ -117,7 +117,7 @@ class HectorImu(Noisy, Publishing):
 
 
 def rate_of(parameters: Parameters, default: float) -> float:
-    """Updates a second [Hz] that ``updateRate`` or ``updatePeriod`` ask for."""
+    """Return the update rate [Hz] of ``updateRate`` or ``updatePeriod``."""
     period = parameters.get("updatePeriod", 0.0)
     if "updateRate" not in parameters and period > 0.0:
         return 1.0 / period

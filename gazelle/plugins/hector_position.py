@@ -78,7 +78,7 @@ class HectorGps(SampledOnBody):
         )
 
     def _refer(self, reference: GeoReference, worlds: Worlds | None) -> None:
-        """Take another reference; drifts begin anew, as the original's do."""
+        """Set another reference; drifts start again, as the original's do."""
         self._reference[slice(None) if worlds is None else worlds] = (
             reference.latitude,
             reference.longitude,
@@ -130,12 +130,12 @@ class HectorGps(SampledOnBody):
         return VectorValue(now_ns, np.stack((north, west, z), axis=1))
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The errors, where the origin is, and what the receiver says of itself."""
+        """Return the errors, the origin, and the receiver's status."""
         kept = np.array([self._status, self._service])
         return {**super().state(), "reference": self._reference.copy(), "status": kept}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         super().restore(state)
         self._reference[:] = state["reference"]
         self._status, self._service = (int(x) for x in np.asarray(state["status"], np.int64))

@@ -17,6 +17,6 @@ class HectorReset(ModelPlugin):
         robot.outputs["syscommand"] = self._output
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Tell."""
+        """Publish the reset."""
         del worlds
         self._output.publish()

@@ -105,7 +105,7 @@ class HectorServo(ModelPlugin):
         self._wanted[rows], self._frames[rows] = command.quaternion, command.frame.lstrip("/")
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it counts in nanoseconds
-        """Turn the servos, and tell where they are."""
+        """Turn the servos, and publish their angles."""
         if self._schedule.is_due(self._clock.now_ns):
             self._schedule.done(self._clock.now_ns)
             self._aim()
@@ -117,7 +117,7 @@ class HectorServo(ModelPlugin):
                 servo.velocity = speeds
 
     def _aim(self) -> None:
-        """Decide how fast to turn."""
+        """Compute the speeds of the servos."""
         self._speeds[:] = 0.0
         p, d = self._gains
         for frame in np.unique(self._frames):
@@ -156,13 +156,13 @@ class HectorServo(ModelPlugin):
         )
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget the command."""
+        """Discard the command."""
         self._forget(worlds)
         if worlds is None:
             self._schedule.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The command, what was heard, and how fast the servos turn."""
+        """Return the command, the received frames and the speeds of the servos."""
         return {
             **self._heard.state(),
             "wanted": self._wanted.copy(),
@@ -171,7 +171,7 @@ class HectorServo(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._heard.restore(state)
         self._wanted[:], self._speeds[:] = state["wanted"], state["speeds"]
         self._frames[:] = state["wanted frames"]
@@ -183,7 +183,7 @@ def _axis(parameters: Parameters, place: str) -> str:
 
 
 def angles_of(quaternion: Floats, order: str) -> Floats:
-    """Angles about three axes, each in the frame that the one before left [rad], shape (n, 3).
+    """Return angles about three axes, each in the frame after the one before [rad], shape (n, 3).
 
     Args:
         quaternion: (x, y, z, w), shape (n, 4).

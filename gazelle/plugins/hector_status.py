@@ -27,7 +27,7 @@ FLAGS = tuple(
 
 
 def status_of(flags: Mapping[str, bool]) -> tuple[int, int]:
-    """Status and service of a ``NavSatStatus``."""
+    """Return status and service of a ``NavSatStatus``."""
     status = sum(bit for name, bit in _STATUS.items() if flags[name])
     service = sum(bit for name, bit in _SERVICE.items() if flags[name])
     return (status if flags["STATUS_FIX"] else _NO_FIX), service

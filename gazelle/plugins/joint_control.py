@@ -60,7 +60,7 @@ class JointControl(ModelPlugin):
         self._watch = Stopwatch(robot.simulation.clock)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
-        """Turn the joints."""
+        """Control the joints."""
         interval = self._watch.lap()
         efforts: dict[str, Floats] = {}
         joints: dict[str, JointHandle] = {}
@@ -71,18 +71,18 @@ class JointControl(ModelPlugin):
             joint.effort = efforts[name]
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget sums and errors."""
+        """Discard sums and errors."""
         for pid in self._pids.values():
             pid.reset(worlds)
         if worlds is None:
             self._watch.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Sums and errors."""
+        """Return integrals and errors."""
         return {**states_of(self._pids), "time": np.array(self._watch.start_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._watch.start_ns = int(np.asarray(state["time"]))
         restore_all(self._pids, state)
 
@@ -110,7 +110,7 @@ def _controllers(robot: Robot, tags: Parameters) -> list[_Controller]:
 
 
 def _joints(robot: Robot, tag: Parameters) -> list[JointHandle]:
-    """The joint of a name, or those whose whole names a regular expression fits."""
+    """Return the joint of a name, or those that a regular expression matches in full."""
     name = tag.text
     try:
         matching = [joint for known, joint in robot.joints.items() if re.fullmatch(name, known)]

@@ -55,7 +55,7 @@ class JointPoseTrajectory(ModelPlugin):
         return bool(self._plays)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it counts in nanoseconds
-        """Go to the last waypoint that is due."""
+        """Set the joints to the last due waypoint."""
         for play in self._plays:
             elapsed = (self._clock.now_ns - play.start_ns) * 1e-9
             # A waypoint is due on the step nearest to it.
@@ -104,7 +104,7 @@ class JointPoseTrajectory(ModelPlugin):
         self._plays = [play for play in self._plays if play.worlds.size]
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The paths on their way."""
+        """Return the active paths."""
         state: dict[str, NDArray[np.generic]] = {}
         for i, play in enumerate(self._plays):
             state[f"{i} names"] = np.asarray(play.path.names, np.str_)
@@ -115,7 +115,7 @@ class JointPoseTrajectory(ModelPlugin):
         return state
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._plays = []
         for i in range(len(state) // 5):
             path = JointPath(

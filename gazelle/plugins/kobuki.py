@@ -107,7 +107,7 @@ class Kobuki(ModelPlugin):
         )
 
     def _name_topics(self, prefix: str) -> None:
-        """Put the base's own topics below a prefix."""
+        """Set the prefix of the base's own topics."""
         base = absolute(self._namespace, prefix).rstrip("/")
         inputs, outputs = self._robot.inputs, self._robot.outputs
         inputs["cmd_vel"].topic = f"{base}/commands/velocity"
@@ -123,7 +123,7 @@ class Kobuki(ModelPlugin):
         self.power[slice(None) if worlds is None else worlds] = power.on
 
     def join(self, power: Bools, felt: Floats) -> None:
-        """Keep in which worlds motors turn, and what the gyro measured, in other arrays."""
+        """Store the motors' power and the gyro's measurement in other arrays."""
         power[:], felt[:] = self.power, self.felt
         self.power, self.felt = power, felt
 
@@ -149,7 +149,7 @@ class Kobuki(ModelPlugin):
         return JointStates(self._clock.now_ns, self._names, angles, speeds, np.zeros_like(angles))
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Power on, odometry at its origin, nothing touched."""
+        """Reset power to on, the odometry to its origin, and contacts to none."""
         self.power[slice(None) if worlds is None else worlds] = True
         self.reckoning.reset(worlds)
         self._cliffs.reset(worlds)
@@ -159,7 +159,7 @@ class Kobuki(ModelPlugin):
             self.reckoning.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Odometry, power, what is touched, and the times."""
+        """Return odometry, power, contacts and times."""
         return {
             **self.reckoning.state(),
             "power": self.power.copy(),
@@ -169,7 +169,7 @@ class Kobuki(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.reckoning.restore(state)
         self.power[:] = state["power"]
         self._cliffs.deep[:], self._bumpers.pressed[:] = state["deep"], state["pressed"]
@@ -198,7 +198,7 @@ class KobukiSystem(OdometrySystem[Kobuki]):
         self._wheels = JointArray([wheel for each in plugins for wheel in each.wheels])
 
     def update(self, time: float) -> None:  # noqa: ARG002  the clock knows it exactly
-        """Feel, count and drive."""
+        """Update contacts, counters and drive."""
         self._gyros.measure()
         self._rolled.advance(self._gyros.values[..., 6])
         self._commands.clear_old()

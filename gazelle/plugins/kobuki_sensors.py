@@ -46,7 +46,7 @@ class Cliffs:
         self._outputs: list[Output[CliffValue]] = []
 
     def open(self, robot: Robot) -> None:
-        """Offer what changes; the topic is given later."""
+        """Open the output of changes; the topic is given later."""
         for place, name in enumerate(_PLACES):
             made = Output("", CliffValue, self._value_of(place), queue_size=10, event=True)
             robot.outputs[f"cliff_{name}"] = made
@@ -65,7 +65,7 @@ class Cliffs:
         return any(output.wanted for output in self._outputs)
 
     def publish(self) -> None:
-        """Look, and publish where something changed."""
+        """Measure, and publish changes."""
         if not self.wanted:
             return
         for place, sensor in enumerate(self._sensors):
@@ -77,7 +77,7 @@ class Cliffs:
                 self._outputs[place].publish()
 
     def _look(self, sensor: SensorUnit) -> Floats:
-        """Distance to the floor [m]; the base's own hull, which the sensors are in, is no floor."""
+        """Return the distance to the floor [m], without the base's own hull around the sensors."""
         model: LidarModel = sensor.model  # type: ignore[assignment]  # seen to in sensor_of
         pose, least = sensor.description.pose, model.lidar.range_min
         rays = directions_of(model.angles, model.vertical_angles) @ pose.matrix()[:3, :3].T
@@ -87,7 +87,7 @@ class Cliffs:
         return np.asarray(np.minimum(hits.distance.min(axis=1) + least, _FAR), np.float64)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """There is a floor."""
+        """Reset to a floor below all sensors."""
         self.deep[slice(None) if worlds is None else worlds] = False
 
 
@@ -105,7 +105,7 @@ class Bumpers:
         self._outputs: list[Output[BumperValue]] = []
 
     def open(self, robot: Robot) -> None:
-        """Offer what changes; the topic is given later."""
+        """Open the output of changes; the topic is given later."""
         for place, name in enumerate(_PLACES):
             made = Output("", BumperValue, self._value_of(place), queue_size=10, event=True)
             robot.outputs[f"bumper_{name}"] = made
@@ -120,7 +120,7 @@ class Bumpers:
         return any(output.wanted for output in self._outputs)
 
     def publish(self) -> None:
-        """Feel, and publish what changed."""
+        """Update contacts, and publish changes."""
         if not self.wanted:
             return
         touched = self._touched()
@@ -145,12 +145,12 @@ class Bumpers:
         return np.stack([(counts & side).any(axis=1) for side in sides], axis=1)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Nothing is touched."""
+        """Reset to no contacts."""
         self.pressed[slice(None) if worlds is None else worlds] = False
 
 
 def sensor_of(robot: Robot, parameters: Parameters, tag: str, model: type[object]) -> SensorUnit:
-    """The sensor that a tag names, of the kind that it must be."""
+    """Return the sensor that a tag names, of the required kind."""
     sensor = robot.sensors[parameters.require(tag, str)]
     if not isinstance(sensor.model, model):
         raise SimulationError(

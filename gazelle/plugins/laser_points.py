@@ -33,7 +33,7 @@ class PointLaser(Noisy, SensorPlugin):
     prefix = FramePrefix.NEAREST
 
     def watch(self, sensor: SensorUnit, parameters: Parameters, *, channels: int = 1) -> LidarModel:
-        """Take hold of the sensor.
+        """Use a sensor.
 
         Args:
             sensor: With rays.
@@ -61,7 +61,7 @@ class PointLaser(Noisy, SensorPlugin):
         return model
 
     def open(self, kind: type[LaserPoints], parameters: Parameters, topic: str, frame: str) -> None:
-        """Offer the points."""
+        """Open the output of points."""
         robot = self._sensor.robot
         namespace = namespace_of(robot, parameters)
         robot.outputs[topic.strip("/")] = SensorOutput(
@@ -75,7 +75,7 @@ class PointLaser(Noisy, SensorPlugin):
         )
 
     def read(self) -> LaserPoints:
-        """The points now."""
+        """Return the points now."""
         raise NotImplementedError
 
 
@@ -96,7 +96,7 @@ class BlockLaser(PointLaser):
         self.open(ChannelPoints, parameters, topic, parameters.get("frameName", "/world"))
 
     def read(self) -> ChannelPoints:
-        """The points now."""
+        """Return the points now."""
         ranges = np.clip(self._sensor.current(), self._least, self._most)
         points = ranges[:, :, None] * self._directions
         noisy = self._noise.apply(points.reshape(len(points), -1), 0.0).reshape(points.shape)
@@ -126,7 +126,7 @@ class Velodyne(PointLaser):
         self.open(LaserPoints, parameters, topic, parameters.get("frameName", "/world"))
 
     def read(self) -> LaserPoints:
-        """The points now."""
+        """Return the points now."""
         ranges = self._sensor.current()
         kept = np.isfinite(ranges) & (ranges >= self._least) & (ranges <= self._most)
         distance = self._noise.apply(np.where(kept, ranges, 0.0), 0.0)

@@ -46,7 +46,7 @@ class LiftDrag(ModelPlugin):
         self._name = f"lift_drag {self._centre.tolist()} {self._forward.tolist()} {joint}"
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
-        """Push."""
+        """Apply lift and drag."""
         place, motion = self._link.placement(), self._link.motion()
         arm = rotate(place.quaternion, np.broadcast_to(self._centre, place.position.shape))
         velocity = motion.linear + cross(motion.angular, arm)
@@ -56,7 +56,7 @@ class LiftDrag(ModelPlugin):
         self._simulation.loads.hold(self._name, self._link.name, force, cross(lever, force))
 
     def _force(self, quaternion: Floats, velocity: Floats) -> Floats:
-        """Lift and drag [N], in the world frame, shape (nworld, 3)."""
+        """Return lift and drag [N], in the world frame, shape (nworld, 3)."""
         forward = rotate(quaternion, np.broadcast_to(self._forward, velocity.shape))
         if self._radial:
             upward = _unit(-cross(forward, cross(forward, velocity)))
@@ -79,7 +79,10 @@ class LiftDrag(ModelPlugin):
         return along - (pressure * drag)[:, None] * _unit(flow)
 
     def _coefficient(self, name: str, angle: Floats) -> Floats:
-        """Linear up to stall, with another slope beyond it; lift never turns its sign there."""
+        """Return a coefficient: linear up to stall, with another slope beyond.
+
+        Lift keeps its sign there.
+        """
         slope, beyond = self._slopes[name]
         over = np.maximum(np.abs(angle) - self._stall, 0.0)
         size = slope * np.minimum(np.abs(angle), self._stall) + beyond * over

@@ -51,7 +51,7 @@ class MimicJoint(ModelPlugin):
             robot.settings[name] = Setting(full, {}, self._take_gains)
 
     def _take_gains(self, given: Mapping[str, Any]) -> None:
-        """Push by PID from now on."""
+        """Control by PID from now on."""
         gains = Gains.of_ros_control(given, self._effort)
         self._pid = GazeboPid(gains, self._nworld)
         self._mimic.set_properties(motor_effort=0.0)
@@ -79,15 +79,15 @@ class MimicJoint(ModelPlugin):
             self._engine.joints[name].set_velocity(pace[chosen], chosen)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget sums."""
+        """Discard integrals."""
         if self._pid is not None:
             self._pid.reset(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The sums."""
+        """Return the integrals."""
         return {} if self._pid is None else self._pid.state()
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         if self._pid is not None:
             self._pid.restore(state)

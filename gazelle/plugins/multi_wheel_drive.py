@@ -37,7 +37,7 @@ class MultiWheelDrive(WheeledDrive):
         self.tell(OdometryOutputs(robot, topic, measure, namespace, told=told, framed=framed))
 
     def _joints(self, parameters: Parameters) -> list[tuple[str, Side]]:
-        """Names of the joints, and their sides."""
+        """Return names of the joints, and their sides."""
         found = []
         for tag, side in (("leftJoints", Side.LEFT), ("rightJoints", Side.RIGHT)):
             names = parameters.require(tag, str).split()

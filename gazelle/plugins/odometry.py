@@ -29,12 +29,12 @@ class OdometrySource(ABC):
 
     @abstractmethod
     def __call__(self) -> Odometry:
-        """The odometry now."""
+        """Return the odometry now."""
 
     @classmethod
     @abstractmethod
     def measure_all(cls, sources: Sequence[Any]) -> Sequence[Odometry]:
-        """The odometry of many robots of one simulation.
+        """Return the odometry of many robots of one simulation.
 
         Args:
             sources: Of this class, at least one.
@@ -60,18 +60,18 @@ class TrueOdometry(OdometrySource):
     twist_variance: SixNumbers = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
     def __call__(self) -> Odometry:
-        """The odometry now."""
+        """Return the odometry now."""
         place, motion = self.robot.placement(), self.robot.motion()
         linear = seen_on_ground(place.quaternion, motion.linear)
         return self.of(place.position, place.quaternion, linear, motion.angular * _ABOUT_Z)
 
     @classmethod
     def measure_all(cls, sources: Sequence[TrueOdometry]) -> list[Odometry]:
-        """The odometry of many robots of one simulation; at once where its engine can."""
+        """Return the odometry of many robots of one simulation; at once where its engine can."""
         return _measured_together(sources)
 
     def of(self, position: Floats, quaternion: Floats, linear: Floats, angular: Floats) -> Odometry:
-        """The odometry of what was measured."""
+        """Return the odometry of a measurement."""
         return Odometry(
             self.robot.simulation.clock.now_ns,
             self.frame,
@@ -130,12 +130,15 @@ class OdometryOutputs:
         return (odom is not None and odom.wanted) or (frame is not None and frame.wanted)
 
     def publish(self, measured: Odometry | None = None) -> None:
-        """Hand the odometry to all who listen, if anybody does; it is measured unless given."""
+        """Publish the odometry to all subscribers, if there are any.
+
+        It is measured unless given.
+        """
         if self.wanted:
             self.hand(measured or self._measure())
 
     def hand(self, odometry: Odometry) -> None:
-        """Hand an odometry that was measured to all who listen."""
+        """Publish a measured odometry to all subscribers."""
         if self._odom is not None and self._odom.wanted:
             self._odom.hand(odometry)
         if self._frame is not None and self._frame.wanted:
@@ -185,7 +188,7 @@ def measure_wanted(outputs: Sequence[OdometryOutputs | None]) -> list[Odometry |
 
 
 def _measured_together(sources: Sequence[TrueOdometry]) -> list[Odometry]:
-    """The odometry of many robots of one simulation; at once where its engine can."""
+    """Return the odometry of many robots of one simulation; at once where its engine can."""
     links = [each.robot.first_link for each in sources]
     if len(sources) == 1 or None in links:
         return [each() for each in sources]
@@ -202,6 +205,6 @@ def _measured_together(sources: Sequence[TrueOdometry]) -> list[Odometry]:
 
 
 def as_transforms(odometry: Odometry) -> Transforms:
-    """The same pose as a frame of tf."""
+    """Return the same pose as a frame of tf."""
     place = Transform(odometry.frame, odometry.child_frame, odometry.position, odometry.quaternion)
     return Transforms(odometry.stamp, (place,))

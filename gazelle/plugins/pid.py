@@ -43,7 +43,10 @@ class Gains:
 
     @classmethod
     def read(cls, parameters: Parameters | None) -> Gains:
-        """From tags ``p``, ``i``, ``d``, ``i_max``, ``i_min``, ``cmd_max``, ``cmd_min``; 0 each."""
+        """Read the tags ``p``, ``i``, ``d``, ``i_max``, ``i_min``, ``cmd_max``, ``cmd_min``.
+
+        0 each.
+        """
         if parameters is None:
             return cls(most=0.0, least=0.0)
         tags = ("p", "i", "d", "i_max", "i_min", "cmd_max", "cmd_min")
@@ -51,7 +54,7 @@ class Gains:
 
     @classmethod
     def of_ros_control(cls, given: Mapping[str, Any], most: float) -> Gains:
-        """From the parameters of ros_control's PID: without ``i_clamp`` there are no sums.
+        """Read the parameters of ros_control's PID: without ``i_clamp`` there are no integrals.
 
         Args:
             given: ``p``, ``i``, ``d``, ``i_clamp``, ``i_clamp_max`` and ``i_clamp_min``.
@@ -83,7 +86,7 @@ class GazeboPid:
         self._last: Floats = np.zeros(nworld)
 
     def update(self, error: Floats, interval: float) -> Floats:
-        """The output, from measured less wanted, both of shape (nworld,)."""
+        """Return the output, from measured less target, both of shape (nworld,)."""
         gains = self.gains
         if interval <= 0.0:
             return np.zeros_like(error)
@@ -100,14 +103,14 @@ class GazeboPid:
         return output
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Forget sums and errors."""
+        """Discard sums and errors."""
         rows = slice(None) if worlds is None else worlds
         self._sum[rows], self._last[rows] = 0.0, 0.0
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes."""
+        """Return all mutable state."""
         return {"sum": self._sum.copy(), "last": self._last.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._sum[:], self._last[:] = state["sum"], state["last"]

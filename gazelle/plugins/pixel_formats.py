@@ -55,7 +55,7 @@ def encoding_of(format_: str, name: str) -> str:
 
 
 def pixels_of(color: Bytes, encoding: str) -> NDArray[Any]:
-    """Pixels in an encoding.
+    """Return pixels in an encoding.
 
     Args:
         color: Red, green, blue, shape (n, height, width, 3).

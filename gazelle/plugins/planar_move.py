@@ -79,17 +79,17 @@ class PlanarMove(ModelPlugin):
             self.odometry.publish(measured)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Begin anew."""
+        """Reset the odometry and commands."""
         self.command.restart()
         if worlds is None and self._schedule is not None:
             self._schedule.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The time of the last command."""
+        """Return the time of the last command."""
         return {"heard_at": np.array(self.command.since_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.command.restart(int(state["heard_at"]))
         if self._schedule is not None:
             self._schedule.done(self._clock.now_ns)
@@ -136,7 +136,7 @@ class PatientSystem(SlidingSystem):
         self._law, self.kernel = self.kernel, None
 
     def update(self, time: float) -> None:
-        """Forget old commands, and move."""
+        """Stop those whose last command is too old, and move."""
         self.commands.clear_old()
         if self._law is None:
             super().update(time)

@@ -49,7 +49,7 @@ class RaySensor(PointLaser):
         )
 
     def read(self) -> LaserPoints:
-        """The points now."""
+        """Return the points now."""
         ranges = self._sensor.current()
         kept = np.isfinite(ranges)
         points = np.where(kept, ranges, 0.0)[:, :, None] * self._directions

@@ -65,7 +65,7 @@ class RegionEvents(WorldPlugin):
             self._regions.append(_region(event, volume))
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  what is occupied is so now
-        """Tell who listens."""
+        """Publish events to subscribers."""
         places = [
             robot.placement().position
             for robot in self._simulation.robots.values()

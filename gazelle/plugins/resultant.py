@@ -52,7 +52,7 @@ class ResultantForce(Publishing):
         return WrenchValue(self._clock.now_ns, force, torque)
 
     def _spun(self, quaternion: Floats, vector: Floats) -> Floats:
-        """The inertia about the centre of mass times a vector, all in the world frame."""
+        """Return the inertia about the centre of mass times a vector, all in the world frame."""
         inertia = self._engine.parameter("link_inertia", self._link.name)
         rows = inertia[:, [0, 3, 4, 3, 1, 5, 4, 5, 2]].reshape(-1, 3, 3)
         inner = rotate(conjugate(quaternion), vector)

@@ -57,7 +57,7 @@ class RosControl(ControlLoop):
         robot.add_manager(_free(namespace, robot.managers), self.manager)
 
     def _open(self, robot: Robot, parameters: Parameters) -> None:
-        """Ports: the emergency stop, and what stands on a parameter server."""
+        """Open ports: the emergency stop, and parameters of the parameter server."""
         topic = parameters.get("eStopTopic", "")
         if topic:
             full = absolute(self._namespace, topic)
@@ -87,12 +87,12 @@ class RosControl(ControlLoop):
     # -- what parameters say -----------------------------------------------------------
 
     def take_gains(self, given: Mapping[str, Any]) -> None:
-        """Gains by joint, as ``gazebo_ros_control/pid_gains`` holds them."""
+        """Set gains by joint, as in ``gazebo_ros_control/pid_gains``."""
         self._gains = given
         self._make_again()
 
     def take_limits(self, given: Mapping[str, Any]) -> None:
-        """Limits by joint, as ``joint_limits`` holds them."""
+        """Set limits by joint, as in ``joint_limits``."""
         self._limits = given
         self._make_again()
 
@@ -106,13 +106,16 @@ class RosControl(ControlLoop):
         self._make_again()
 
     def take_description(self, text: str) -> None:
-        """The URDF of the parameter ``robotParam``, where the model's own file has no transmissions."""
+        """Set the URDF of the parameter ``robotParam``.
+
+        It holds if the model's own file has no transmissions.
+        """
         self._model = formats.load_model_string(text) if text else self._owner.description
         self.manager.model = self._model
         self._make_again()
 
     def _make_again(self) -> None:
-        """Go by what parameters say, as long as nothing is loaded."""
+        """Make the hardware again from the parameters, unless controllers are loaded."""
         if self.manager.loaded:
             text = (
                 f"parameters of the joints of '{self._owner.name}' changed after controllers were "
@@ -128,7 +131,7 @@ class RosControl(ControlLoop):
     # -- making the robot's side ---------------------------------------------------------
 
     def transmissions_of(self, model: Model) -> Sequence[Transmission]:
-        """Those of a model whose joints are controlled."""
+        """Return the transmissions of controlled joints of a model."""
         return model.transmissions
 
     def _make(self) -> SimulatedHardware:
@@ -192,7 +195,7 @@ class RosControl(ControlLoop):
 
 
 def _fault_of(transmission: Transmission, *, several: bool) -> str:
-    """Why a transmission cannot be used; empty if it can.
+    """Return the reason why a transmission cannot be used; empty if it can.
 
     Args:
         transmission: Which.
@@ -217,7 +220,7 @@ def _fault_of(transmission: Transmission, *, several: bool) -> str:
 
 
 def _unused(name: str, full: str, taken: Mapping[str, object]) -> str:
-    """The short name of a port, or its full one where another of these plugins has the short one."""
+    """Return the short name of a port, or its full one if another plugin uses the short one."""
     return full if name in taken else name
 
 

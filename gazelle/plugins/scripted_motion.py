@@ -77,7 +77,7 @@ class ScriptedMotion(ModelPlugin):
         return engine.models[self.robot.name].path(path)
 
     def _rates(self) -> tuple[Floats, Floats]:
-        """Change of position and quaternion a second on each leg, shapes (k, 3) and (k, 4)."""
+        """Return changes of position and quaternion per second on each leg, (k, 3) and (k, 4)."""
         if len(self.times) < 2:
             return np.zeros_like(self.positions), np.zeros_like(self.quaternions)
         span = np.diff(self.times)[:, None]
@@ -95,20 +95,20 @@ class ScriptedMotion(ModelPlugin):
         return 2.0 * np.pi / rate if rate > 0.0 else 0.0
 
     def begin_at(self, elapsed: Floats, worlds: Worlds) -> None:
-        """Go on in these worlds as if the script had begun so long ago [s], shape (n,)."""
+        """Continue in these worlds as if the script had started so long ago [s], shape (n,)."""
         self._epoch[worlds] = self.robot.simulation.time - elapsed
         self.robot.simulation.engine.models[self.robot.name].set_placement(
             *self._placed(elapsed), worlds
         )
 
     def move(self, time: float) -> None:
-        """Put the model where the script says at a time [s]."""
+        """Set the pose of the model to the script's at a time [s]."""
         self.robot.simulation.engine.models[self.robot.name].set_placement(
             *self._placed(time - self._epoch)
         )
 
     def _placed(self, elapsed: Floats) -> tuple[Floats, Floats]:
-        """Positions [m] and quaternions after some times, shapes (n, 3) and (n, 4)."""
+        """Return positions [m] and quaternions after some times, shapes (n, 3) and (n, 4)."""
         if self.splines:
             return self._on_splines(elapsed)
         if self.times.size:
@@ -144,11 +144,11 @@ class ScriptedMotion(ModelPlugin):
         self._epoch[rows] = self.robot.simulation.time
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """When each world's script started."""
+        """Return the start of each world's script."""
         return {"epoch": self._epoch.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._epoch[:] = state["epoch"]
 
 
@@ -166,12 +166,12 @@ class ScriptSystem(PluginSystem[ScriptedMotion]):
         self.kernel = plugins[0].bind()
 
     def update(self, time: float) -> None:
-        """Put the model where its script says."""
+        """Set the pose of the model to its script's."""
         self.plugins[0].move(time)
 
 
 def _waypoints(parameters: Parameters) -> tuple[Floats, Floats, Floats]:
-    """Times (k,), positions (k, 3) and quaternions (k, 4), neighbours on the same half."""
+    """Return times (k,), positions (k, 3) and quaternions (k, 4), neighbours on the same half."""
     times, poses = [], []
     for waypoint in parameters.find_all("waypoint"):
         times.append(waypoint.require("time", float))
@@ -187,7 +187,7 @@ def _waypoints(parameters: Parameters) -> tuple[Floats, Floats, Floats]:
 
 
 def _spline(tag: Parameters) -> tuple[float, PoseSpline]:
-    """When a trajectory starts, and its path."""
+    """Return the start of a trajectory, and its path."""
     times, poses = [], []
     for waypoint in tag.find_all("waypoint"):
         times.append(waypoint.require("time", float))
@@ -209,7 +209,7 @@ def _spline(tag: Parameters) -> tuple[float, PoseSpline]:
 
 
 def _turned(spin: Floats, elapsed: Floats) -> Floats:
-    """Quaternions of an even turn after some times, shape (n, 4)."""
+    """Return quaternions of a uniform turn after some times, shape (n, 4)."""
     rate = float(np.linalg.norm(spin))
     axis = spin / rate if rate > 0.0 else np.array([0.0, 0.0, 1.0])
     half = rate * elapsed / 2.0

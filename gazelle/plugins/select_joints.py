@@ -22,7 +22,7 @@ class SelectedRosControl(RosControl):
     """
 
     def transmissions_of(self, model: Model) -> Sequence[Transmission]:
-        """Those whose joint is named."""
+        """Return the transmissions of named joints."""
         if "joints" not in self._parameters:
             return model.transmissions
         wanted = self._parameters.get("joints", "").split()

@@ -51,7 +51,7 @@ class PoseSpline:
         return float(self._times[-1])
 
     def at(self, moments: Floats) -> tuple[Floats, Floats]:
-        """Positions (n, 3) and quaternions (n, 4) at some times [s], shape (n,).
+        """Return positions (n, 3) and quaternions (n, 4) at some times [s], shape (n,).
 
         Before the first pose it is there, after the last it stays there.
         """
@@ -86,7 +86,7 @@ def _neighbours(points: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 def _log(q: Floats) -> Floats:
-    """Half the turn of unit quaternions as vectors, shape (n, 3)."""
+    """Return half the turn of unit quaternions as vectors, shape (n, 3)."""
     size = np.linalg.norm(q[:, :3], axis=1)
     angle = np.arccos(np.clip(q[:, 3], -1.0, 1.0))
     scale = np.where(size >= _NEAR, angle / np.maximum(size, _NEAR), 1.0)
@@ -94,13 +94,13 @@ def _log(q: Floats) -> Floats:
 
 
 def _exp(half: Floats) -> Floats:
-    """Unit quaternions of half turns, shape (n, 4)."""
+    """Return unit quaternions of half turns, shape (n, 4)."""
     angle = np.linalg.norm(half, axis=1, keepdims=True)
     return np.concatenate((half * np.sinc(angle / np.pi), np.cos(angle)), axis=1)
 
 
 def _slerp(t: Floats, first: Floats, last: Floats, *, shortest: bool = False) -> Floats:
-    """Evenly from one orientation to another, on the great circle; ``t`` has shape (n, 1)."""
+    """Return the slerp between two orientations, on the great circle; ``t`` has shape (n, 1)."""
     cosine = np.einsum("ni,ni->n", first, last)[:, None]
     if shortest:
         last = np.where(cosine < 0.0, -last, last)

@@ -17,10 +17,10 @@ class Stateful(Restorable, Protocol):
     """Noise or a sensor: something with random numbers and drifts."""
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Use the random numbers of another seed."""
+        """Set the seed of the random numbers."""
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Forget drifts."""
+        """Discard drifts."""
 
 
 class Noisy(BasePlugin):
@@ -29,19 +29,19 @@ class Noisy(BasePlugin):
     _noises: dict[str, Stateful]
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Use the random numbers of another seed."""
+        """Set the seed of the random numbers."""
         for each in self._noises.values():
             each.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Forget drifts of noise."""
+        """Discard drifts of noise."""
         for each in self._noises.values():
             each.reset(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The noise."""
+        """Return the noise."""
         return states_of(self._noises)
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         restore_all(self._noises, state)

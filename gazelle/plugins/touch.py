@@ -64,7 +64,7 @@ class Touch(ModelPlugin):
         return bool(self._enabled.any())
 
     def on_update(self, time: float) -> None:
-        """Look at what is touched."""
+        """Check contacts."""
         found = self._engine.contacts([self._collisions], np.flatnonzero(self._enabled))
         where, others = found.worlds, found.named().others
         hits = np.array([self._target in name for name in others], np.bool_)
@@ -86,7 +86,7 @@ class Touch(ModelPlugin):
         self._since[rows] = np.nan
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Since when it touches, and where it told."""
+        """Return the start of contacts, and where they were published."""
         return {
             "enabled": self._enabled.copy(),
             "touched": self._touched.copy(),
@@ -94,6 +94,6 @@ class Touch(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._enabled[:], self._touched[:] = state["enabled"], state["touched"]
         self._since[:] = state["since"]

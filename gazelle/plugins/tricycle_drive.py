@@ -153,7 +153,7 @@ class TricycleDrive(ModelPlugin):
         return RolledOdometry(self.reckoning, frame, base, POSE_VARIANCE)
 
     def keep_in(self, linear: Floats, angular: Floats) -> None:
-        """Keep commands in other arrays, shape (nworld, 3) each."""
+        """Store commands in other arrays, shape (nworld, 3) each."""
         self._command.keep_in(linear, angular)
 
     def _wheel_frames(self) -> Transforms:
@@ -170,17 +170,17 @@ class TricycleDrive(ModelPlugin):
         )
 
     def reset(self, worlds: Worlds | None) -> None:
-        """The odometry starts at its origin."""
+        """Reset the odometry to its origin."""
         self.reckoning.reset(worlds)
         if worlds is None:
             self.reckoning.restart()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Odometry and time of the last update."""
+        """Return odometry and time of the last update."""
         return {**self.reckoning.state(), "last_time": np.array(self.reckoning.last_ns)}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.reckoning.restore(state)
         self.reckoning.last_ns = int(state["last_time"])
 
@@ -216,7 +216,7 @@ class TricycleSystem(OdometrySystem[TricycleDrive]):
         self._steer()
 
     def _count(self) -> None:
-        """Let the next interval begin."""
+        """Start the next interval."""
         self._rolled.restart()
 
     def _drive(self, interval: Floats) -> None:

@@ -51,7 +51,7 @@ class UsvDynamics(ModelPlugin):
         self._before: Floats = np.zeros((simulation.nworld, 6))
 
     def _read_resistance(self, parameters: Parameters) -> None:
-        """Added mass and drag along and about x, y and z, six each."""
+        """Read added mass and drag along and about x, y and z, six each."""
         surge, sway = parameters.get("xDotU", 5.0), parameters.get("yDotV", 5.0)
         yaw = parameters.get("nDotR", 1.0)
         self._added: Floats = np.array((surge, sway, _LITTLE, _LITTLE, _LITTLE, yaw))
@@ -69,7 +69,7 @@ class UsvDynamics(ModelPlugin):
         self._quadratic: Floats = np.array((surge, sway, 0.0, 0.0, 0.0, parameters.get("nRR", 0.0)))
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
-        """Carry and resist."""
+        """Apply buoyancy and drag."""
         place, motion = self._link.placement(), self._link.motion()
         back = conjugate(place.quaternion)
         own = np.hstack((rotate(back, motion.linear), rotate(back, motion.angular)))
@@ -92,7 +92,10 @@ class UsvDynamics(ModelPlugin):
         self._loads.hold("usv_dynamics", self._link.name, force, torque)
 
     def _lift(self, depth: Floats) -> Floats:
-        """Weight of the water that slices displace at depths [N]; half their circle at most."""
+        """Return the weight of water that slices displace at depths [N].
+
+        Half their circle at most.
+        """
         radius = self._radius
         sunk = np.clip(depth, 0.0, radius)
         off = radius - sunk
@@ -101,13 +104,13 @@ class UsvDynamics(ModelPlugin):
         return np.asarray(self._weight * segment, np.float64)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """At rest."""
+        """Reset the velocity to rest."""
         self._before[slice(None) if worlds is None else worlds] = 0.0
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The velocity in the last step."""
+        """Return the velocity in the last step."""
         return {"before": self._before.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._before[:] = state["before"]

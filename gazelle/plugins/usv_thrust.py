@@ -58,7 +58,7 @@ class ThrustCurve:
 
     @classmethod
     def read(cls, parameters: Parameters, ahead: float) -> ThrustCurve:
-        """From the tags of a plugin or a thruster.
+        """Read the tags of a plugin or a thruster.
 
         Raises:
             SimulationError: The mapping is neither 0 nor 1.
@@ -77,7 +77,7 @@ class ThrustCurve:
         )
 
     def force(self, command: Floats) -> Floats:
-        """Thrust of commands [N], of their shape."""
+        """Return the thrust of commands [N], of their shape."""
         if self.logistic:
             ahead, astern = _AHEAD(command), _ASTERN(command)
             thrust = np.where(command > _IDLE, ahead, np.where(command < -_IDLE, astern, 0.0))
@@ -149,7 +149,7 @@ class UsvThrust(ModelPlugin):
     # -- what it does ----------------------------------------------------------------------
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
-        """Push."""
+        """Apply thrust."""
         if self._timeout > 0.0:
             silent = self._clock.now_ns - self._heard_ns > self._timeout * NANOSECONDS
             self._commands[silent] = 0.0
@@ -183,16 +183,16 @@ class UsvThrust(ModelPlugin):
     # -- forgetting and saving -------------------------------------------------------------
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Nothing was said."""
+        """Discard commands."""
         rows = slice(None) if worlds is None else worlds
         self._commands[rows], self._heard_ns[rows] = 0.0, _NEVER
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Commands, and when they came."""
+        """Return commands and their times."""
         return {"commands": self._commands.copy(), "heard": self._heard_ns.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._commands[:], self._heard_ns[:] = state["commands"], state["heard"]
 
 

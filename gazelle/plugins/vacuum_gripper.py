@@ -63,7 +63,7 @@ class VacuumGripper(ModelPlugin):
         return bool(self._on.any()) or bool(self._drawn) or self._output.wanted
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
-        """Draw what is near, and tell whether anything is."""
+        """Attract near links, and publish whether there are any."""
         self._grasping[:] = False
         drawn: set[str] = set()
         if self._on.any():
@@ -91,7 +91,7 @@ class VacuumGripper(ModelPlugin):
         self._output.publish()
 
     def _others(self) -> Iterator[LinkHandle]:
-        """Links of models that move, but for its own."""
+        """Yield links of other dynamic models."""
         for robot in self._simulation.robots.values():
             if robot is not self._robot and not robot.description.static:
                 yield from robot.links.values()
@@ -102,7 +102,7 @@ class VacuumGripper(ModelPlugin):
             self._simulation.loads.hold(name, link, force, np.zeros_like(force))
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Switch off."""
+        """Switch the gripper off."""
         self._on[slice(None) if worlds is None else worlds] = False
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
@@ -114,6 +114,6 @@ class VacuumGripper(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._on[:], self._grasping[:] = state["on"], state["grasping"]
         self._drawn = {str(name) for name in state["drawn"]}

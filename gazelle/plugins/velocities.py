@@ -56,7 +56,7 @@ class RandomVelocity(ModelPlugin):
         self._link.set_twist(self._velocity, self._link.motion().angular)
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Use the random numbers of another seed."""
+        """Set the seed of the random numbers."""
         self._stream.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None) -> None:
@@ -67,7 +67,7 @@ class RandomVelocity(ModelPlugin):
             self._stream.rewind()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Velocities, when they were drawn, and the random numbers."""
+        """Return velocities, when they were drawn, and the random numbers."""
         return {
             "velocity": self._velocity.copy(),
             "drawn": self._drawn.copy(),
@@ -76,7 +76,7 @@ class RandomVelocity(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._velocity[:], self._drawn[:] = state["velocity"], state["drawn"]
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]
 
@@ -92,5 +92,5 @@ class InitialVelocity(ModelPlugin):
         self.reset(None)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Push anew."""
+        """Set the initial velocities again."""
         self._robot.set_twist(self._linear, self._angular, worlds)

@@ -46,13 +46,13 @@ class WheelMotors:
         self.tables.last_ns[:] = robot.simulation.clock.now_ns
 
     def join(self, tables: WheelTables) -> None:
-        """Keep what was told and is remembered in other tables of one drive from now on."""
+        """Store commands and memory in other tables of one drive from now on."""
         tables.take_over(self.tables)
         self.tables = tables
         self._command.keep_in(tables.linear[:, 0], tables.angular[:, 0])
 
     def forget(self, worlds: Worlds | None) -> None:
-        """The motors forgot what they were told in some worlds; all if None."""
+        """Discard the motors' commands in some worlds; all if None."""
         self.tables.sent[slice(None) if worlds is None else worlds] = np.nan
 
 

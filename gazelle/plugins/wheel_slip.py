@@ -91,7 +91,7 @@ class WheelSlip(ModelPlugin):
         return self._slips or any(any(wheel.compliance) for wheel in self._wheels)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
-        """Let wheels slip by their speeds."""
+        """Set the slip of wheels by their speeds."""
         engine = self._simulation.engine
         self._slips = any(any(wheel.compliance) for wheel in self._wheels)
         # All are looked at before one is changed: the engine computes where links are once.
@@ -100,7 +100,7 @@ class WheelSlip(ModelPlugin):
             engine.set_parameter("wheel_slip", name, slip)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """The compliances."""
+        """Return the compliances."""
         return {
             "compliance": np.array([wheel.compliance for wheel in self._wheels]),
             "tuned": np.array(list(self._tuned.values())),
@@ -108,7 +108,7 @@ class WheelSlip(ModelPlugin):
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         for wheel, compliance in zip(self._wheels, state["compliance"], strict=True):
             wheel.compliance[:] = (float(each) for each in compliance)
         for name, value in zip(self._tuned, state["tuned"], strict=True):
@@ -117,7 +117,7 @@ class WheelSlip(ModelPlugin):
 
 
 def _slip(wheel: _Wheel) -> Floats:
-    """Velocities for each unit of force, along the axle and about it, shape (nworld, 2)."""
+    """Return velocities for each unit of force, along the axle and about it, shape (nworld, 2)."""
     axle = rotate(wheel.link.placement().quaternion, wheel.axle[None])
     spin = np.einsum("ni,ni->n", wheel.link.motion().angular, axle)
     speed = wheel.radius * np.abs(spin)[:, None]
@@ -128,7 +128,7 @@ def _slip(wheel: _Wheel) -> Floats:
 
 
 def _wheel(robot: Robot, tag: Parameters) -> _Wheel:
-    """A wheel as its element describes it.
+    """Return a wheel as its element describes it.
 
     Raises:
         SimulationError: The link is no wheel, or its radius is not known.
@@ -156,7 +156,7 @@ def _wheel(robot: Robot, tag: Parameters) -> _Wheel:
 
 
 def _axle(robot: Robot, link: LinkHandle, tag: Parameters) -> Floats:
-    """The direction of a wheel's axle in its frame."""
+    """Return the direction of a wheel's axle in its frame."""
     own = link.name.removeprefix(f"{robot.name}::")
     joints = [
         joint

@@ -45,7 +45,7 @@ class WheeledDrive(ModelPlugin):
         torque: float,
         source: Source | None,
     ) -> None:
-        """Put motors on the wheels.
+        """Add motors to the wheels.
 
         Args:
             robot: Has them.
@@ -86,10 +86,10 @@ class WheeledDrive(ModelPlugin):
         self.published = (odometry,)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Give the motors the command again: they forgot their speeds."""
+        """Send the command to the motors again, which lost their speeds."""
         self.motors.forget(worlds)
 
     def restore(self, state: Any) -> None:
-        """Give the motors the command again."""
+        """Send the command to the motors again."""
         del state
         self.reset(None)

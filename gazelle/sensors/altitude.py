@@ -20,7 +20,7 @@ _GRAVITY, _MOLAR_MASS, _GAS_CONSTANT = 9.80665, 0.0289644, 8.31432
 
 
 def air_pressure(atmosphere: Atmosphere, altitude: Floats) -> Floats:
-    """Pressure of still air [Pa] at altitudes [m], by the barometric formula.
+    """Return the pressure of still air [Pa] at altitudes [m], by the barometric formula.
 
     With a temperature T that changes by a gradient L with height it is
     p0 (T / T0)^(-g M / (R L)), and p0 exp(-g M h / (R T0)) where it does not change (U.S.
@@ -43,7 +43,7 @@ class Altimeter:
 
     @classmethod
     def read(cls, settings: Parameters) -> Altimeter:
-        """From the ``settings`` of a sensor, which hold ``<altimeter>``."""
+        """Read the ``settings`` of a sensor, which hold ``<altimeter>``."""
         parts = ("vertical_position", "vertical_velocity")
         return cls(*(read_noise(settings.find(f"altimeter/{part}/noise")) for part in parts))
 
@@ -86,7 +86,7 @@ class AltimeterModel(NoisySensor):
         self._reference = self._point.position()[:, 2]
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
-        """Height, velocity upwards and reference now, shape (n, 3).
+        """Return height, velocity upwards and reference now, shape (n, 3).
 
         Args:
             worlds: Which worlds; all if None.
@@ -99,15 +99,15 @@ class AltimeterModel(NoisySensor):
         return np.column_stack((measured, reference))
 
     def reading(self, values: Floats, stamp: int) -> AltimeterReading:
-        """A measurement by name."""
+        """Return a measurement by name."""
         return AltimeterReading(stamp, values[..., 0], values[..., 1], values[..., 2])
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """The noise, and where heights are counted from."""
+        """Return the noise and the reference of heights."""
         return {**super().state(), "reference": self._reference.copy()}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         super().restore(state)
         self._reference[:] = state["reference"]
 
@@ -126,7 +126,7 @@ class AirPressure:
 
     @classmethod
     def read(cls, settings: Parameters) -> AirPressure:
-        """From the ``settings`` of a sensor, which hold ``<air_pressure>``."""
+        """Read the ``settings`` of a sensor, which hold ``<air_pressure>``."""
         inner = settings.find("air_pressure")
         if inner is None:
             return cls()
@@ -169,7 +169,7 @@ class AirPressureModel(NoisySensor):
         self._point = CarriedPoint(engine, link, np.asarray(pose.position))
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
-        """Pressure now [Pa], shape (n, 1).
+        """Return the pressure now [Pa], shape (n, 1).
 
         Args:
             worlds: Which worlds; all if None.
@@ -180,5 +180,5 @@ class AirPressureModel(NoisySensor):
         return self.noisy(pressure, interval, worlds)
 
     def reading(self, values: Floats, stamp: int) -> PressureReading:
-        """A measurement by name."""
+        """Return a measurement by name."""
         return PressureReading(stamp, values[..., 0], float(self.noises[0].stddev[0]) ** 2)

@@ -88,7 +88,7 @@ class CameraModel:
         ]
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Bytes:
-        """Draw what is seen now, shape (n, bytes).
+        """Render the present view, shape (n, bytes).
 
         Args:
             worlds: Which worlds; all if None.
@@ -128,7 +128,7 @@ class CameraModel:
         return optics.look(self._scene, at, turned, worlds, depth=depth)
 
     def _noisy(self, number: int, color: Bytes, worlds: Worlds | None) -> Bytes:
-        """The same normal number on red, green and blue of a pixel, as Gazebo's shader adds it."""
+        """Add the same normal number to red, green and blue of a pixel, as Gazebo does."""
         noise = self.cameras[number].noise
         if noise.type == "none" or (noise.mean == 0.0 and noise.stddev == 0.0):
             return color
@@ -138,7 +138,7 @@ class CameraModel:
         return np.asarray(np.clip(np.rint(color + added), 0.0, 255.0), np.uint8)
 
     def reading(self, values: Bytes, stamp: int) -> Any:
-        """A measurement as arrays: a ``CameraImage``; of a multicamera a tuple of them."""
+        """Return a measurement as arrays: a ``CameraImage``; of a multicamera a tuple of them."""
         images, begin = [], 0
         for camera in self.cameras:
             shape = (*values.shape[:-1], camera.height, camera.width)
@@ -153,19 +153,19 @@ class CameraModel:
         return images[0] if len(images) == 1 else tuple(images)
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Use the random numbers of another seed, from their start."""
+        """Set the seed of the random numbers and start them again."""
         for stream in self._noises:
             stream.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Nothing drifts."""
+        """Do nothing: nothing drifts."""
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return states_of(self._streams())
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         restore_all(self._streams(), state)
 
     def _streams(self) -> dict[str, _StreamState]:
@@ -179,10 +179,10 @@ class _StreamState:
     stream: Stream
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes."""
+        """Return all mutable state."""
         return {"counters": self.stream.counters.copy(), "keys": self.stream.keys.copy()}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self.stream.counters[:] = state["counters"]
         self.stream.keys[:] = state["keys"]

@@ -24,12 +24,12 @@ class CarriedPoint:
     offset: Floats
 
     def position(self, worlds: Worlds | None = None) -> Floats:
-        """In the world frame [m], shape (n, 3)."""
+        """Return the position in the world frame [m], shape (n, 3)."""
         place = self.engine.links[self.link].placement(worlds)
         return place.position + rotate(place.quaternion, self.offset)
 
     def position_and_velocity(self, worlds: Worlds | None = None) -> tuple[Floats, Floats]:
-        """Position [m] and velocity [m/s] in the world frame, shapes (n, 3)."""
+        """Return position [m] and velocity [m/s] in the world frame, shapes (n, 3)."""
         place = self.engine.links[self.link].placement(worlds)
         motion = self.engine.links[self.link].motion(worlds)
         arm = rotate(place.quaternion, self.offset)

@@ -80,7 +80,7 @@ class ContactModel(NoisySensor):
         return self._most
 
     def reading(self, values: Floats, stamp: int) -> ContactReading:
-        """The contacts of one world's measurement, shape (most * 15,)."""
+        """Return the contacts of one world's measurement, shape (most * 15,)."""
         table = values.reshape(-1, _WIDTH)
         table = table[~np.isnan(table[:, 0])]
         names = [[self._names[int(i)] for i in table[:, column]] for column in (0, 1)]
@@ -102,12 +102,12 @@ class ContactModel(NoisySensor):
         return {"names": np.asarray(self._names, np.str_)}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._names = [str(name) for name in state["names"]]
         self._alone = ContactGroup((self,))  # it has the numbers of the former names
 
     def number(self, name: str) -> float:
-        """A name as a number that a measurement can hold."""
+        """Return the number of a name, for a measurement."""
         if name not in self._names:
             self._names.append(name)
         return float(self._names.index(name))
@@ -149,7 +149,7 @@ class ContactGroup(FromPython):
         return values.reshape(*shape[:2], -1)
 
     def _named(self, found: ContactTable) -> tuple[Indices, Indices]:
-        """The numbers by which each sensor knows its collisions, and what touches them."""
+        """Return each sensor's numbers of its collisions, and of what touches them."""
         if self._names is not found.names:
             self._names = found.names
             self._codes = self._numbers = np.zeros(0, np.intp)
@@ -162,7 +162,7 @@ class ContactGroup(FromPython):
         return numbers[: len(found.sets)], numbers[len(found.sets) :]
 
     def _learn(self, codes: Indices) -> None:
-        """Have sensors number names that they meet for the first time."""
+        """Add numbers of names that sensors meet for the first time."""
         given = dict(zip(self._codes.tolist(), self._numbers.tolist(), strict=True))
         for code in codes.tolist():
             owner, name = divmod(code, len(self._names))

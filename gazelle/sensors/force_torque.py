@@ -36,7 +36,7 @@ class ForceTorque:
 
     @classmethod
     def read(cls, settings: Parameters) -> ForceTorque:
-        """From the ``settings`` of a sensor, which hold ``<force_torque>``.
+        """Read the ``settings`` of a sensor, which hold ``<force_torque>``.
 
         Raises:
             FormatError: There is no such frame or direction.
@@ -109,7 +109,7 @@ class ForceTorqueModel(NoisySensor):
         self._turn = np.asarray(pose.quaternion)
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
-        """Force and torque in the coming physics step, shape (n, 6).
+        """Return force and torque in the coming physics step, shape (n, 6).
 
         Args:
             worlds: Which worlds; all if None.
@@ -127,7 +127,7 @@ class ForceTorqueModel(NoisySensor):
         return self.noisy(values, interval, worlds)
 
     def _axes(self, worlds: Worlds | None) -> Floats | None:
-        """Orientation of the frame of the values; None for the world's."""
+        """Return the orientation of the frame of the values; None for the world's."""
         parent, child = self._links
         if self.settings.frame == "parent":
             if parent == "world":
@@ -137,5 +137,5 @@ class ForceTorqueModel(NoisySensor):
         return multiply(carried, self._turn) if self.settings.frame == "sensor" else carried
 
     def reading(self, values: Floats, stamp: int) -> WrenchReading:
-        """A measurement by name."""
+        """Return a measurement by name."""
         return WrenchReading(stamp, values[..., :3], values[..., 3:])

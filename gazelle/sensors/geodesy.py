@@ -27,7 +27,7 @@ _ROUNDS = 3
 
 
 def to_geocentric(latitude: Floats, longitude: Floats, altitude: Floats) -> Floats:
-    """Earth-centred, Earth-fixed coordinates [m], shape (..., 3).
+    """Return Earth-centred, Earth-fixed coordinates [m], shape (..., 3).
 
     Args:
         latitude: Geodetic [rad], shape (...).
@@ -42,7 +42,7 @@ def to_geocentric(latitude: Floats, longitude: Floats, altitude: Floats) -> Floa
 
 
 def to_geodetic(place: Floats) -> tuple[Floats, Floats, Floats]:
-    """Latitude [rad], longitude [rad] and altitude [m] of geocentric places, shape (..., 3)."""
+    """Return latitude [rad], longitude [rad] and altitude [m] of places, shape (..., 3)."""
     x, y, z = place[..., 0], place[..., 1], place[..., 2]
     across = np.hypot(x, y)
     reduced = np.arctan2(z * EQUATORIAL_RADIUS, across * _POLAR_RADIUS)
@@ -94,11 +94,11 @@ class TangentPlane:
         )
 
     def east_north_up(self, vectors: Floats) -> Floats:
-        """Vectors of the world along east, north and up at its origin, shape (..., 3)."""
+        """Return vectors of the world along east, north and up at its origin, shape (..., 3)."""
         return apply_matrix(self._turn, vectors)
 
     def geodetic(self, positions: Floats) -> tuple[Floats, Floats, Floats]:
-        """Latitude [deg], longitude [deg], altitude [m] of positions in the world [m]."""
+        """Return latitude [deg], longitude [deg], altitude [m] of positions in the world [m]."""
         place = self._origin + apply_matrix(self._axes.T, self.east_north_up(positions))
         latitude, longitude, altitude = to_geodetic(place)
         return np.degrees(latitude), np.degrees(longitude), altitude

@@ -34,7 +34,7 @@ class Gps:
 
     @classmethod
     def read(cls, settings: Parameters) -> Gps:
-        """From the ``settings`` of a sensor, which hold ``<gps>`` or ``<navsat>``."""
+        """Read the ``settings`` of a sensor, which hold ``<gps>`` or ``<navsat>``."""
         inner = settings.find("gps") or settings.find("navsat")
         if inner is None:
             return cls()
@@ -99,7 +99,7 @@ class GpsModel(NoisySensor):
         self._plane = TangentPlane(SphericalCoordinates())
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
-        """Latitude, longitude [deg], altitude [m], velocity [m/s] now, shape (n, 6).
+        """Return latitude, longitude [deg], altitude [m], velocity [m/s] now, shape (n, 6).
 
         Args:
             worlds: Which worlds; all if None.
@@ -112,7 +112,7 @@ class GpsModel(NoisySensor):
         return np.column_stack((*plane.geodetic(measured[:, :3]), measured[:, 3:]))
 
     def _current_plane(self) -> TangentPlane:
-        """Of the world as it is now: its place on Earth may be changed in a run."""
+        """Return the tangent plane of the world now: its place on Earth may change in a run."""
         origin = self._engine.world.spherical_coordinates
         if origin is not self._origin:
             self._plane = TangentPlane(origin or SphericalCoordinates())
@@ -120,5 +120,5 @@ class GpsModel(NoisySensor):
         return self._plane
 
     def reading(self, values: Floats, stamp: int) -> GpsReading:
-        """A measurement by name."""
+        """Return a measurement by name."""
         return GpsReading(stamp, values[..., 0], values[..., 1], values[..., 2], values[..., 3:])

@@ -66,7 +66,7 @@ class ImuModel(NoisySensor):
         self._mount = np.asarray(pose.position), np.asarray(pose.quaternion)
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
-        """Orientation, turning rate and specific force now, shape (n, 10).
+        """Return orientation, turning rate and specific force now, shape (n, 10).
 
         The acceleration is that of the coming physics step.
 
@@ -103,7 +103,7 @@ class ImuModel(NoisySensor):
         return self._mount
 
     def reading(self, values: Floats, stamp: int) -> ImuReading:
-        """A measurement by name."""
+        """Return a measurement by name."""
         return ImuReading(stamp, values[..., :4], values[..., 4:7], values[..., 7:])
 
 
@@ -148,7 +148,7 @@ class ImuGroup(FromPython):
 def _felt(
     mount: tuple[Floats, Floats], place: Placement, motion: Motion, change: Motion, gravity: Floats
 ) -> tuple[Floats, Floats]:
-    """Orientation, and turning rate and specific force as an IMU feels them, shape (..., 6)."""
+    """Return orientation, and turning rate and specific force of an IMU, shape (..., 6)."""
     arm = rotate(place.quaternion, mount[0])
     spin = motion.angular
     acceleration = change.linear + cross(change.angular, arm) + cross(spin, cross(spin, arm))

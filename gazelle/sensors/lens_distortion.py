@@ -57,7 +57,7 @@ class LensDistortion:
         self._means = PixelMeans.about(spot, inside, (height, width))
 
     def apply(self, color: Bytes) -> Bytes:
-        """Pictures as the lens shows them; black where nothing falls, shape (n, height, width, 3)."""
+        """Return distorted pictures; black where nothing falls, shape (n, height, width, 3)."""
         return self._means.of(color.reshape(len(color), -1, 3))
 
 

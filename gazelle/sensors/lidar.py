@@ -90,7 +90,7 @@ class LidarModel:
         return len(self.vertical_angles)
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
-        """Ranges now [m], shape (n, samples), in the meaning of ``LaserScan.ranges``.
+        """Return ranges now [m], shape (n, samples), with the meaning of ``LaserScan.ranges``.
 
         Args:
             worlds: Which worlds; all if None.
@@ -134,12 +134,12 @@ class LidarModel:
         return self._alone
 
     def move_noise(self, stddev: Floats, keys: UInts64, counters: UInts64, bias: Floats) -> None:
-        """Keep what the noise has in other arrays from now on; see ``NoiseModel.move``."""
+        """Store the noise's state in other arrays from now on; see ``NoiseModel.move``."""
         self._noise.move(stddev, keys, counters, bias)
         self._alone, self._revision = None, -1
 
     def _drifting(self, true: Floats, interval: float, worlds: Worlds | None) -> Floats:
-        """A measurement of true ranges with noise whose bias changes with time."""
+        """Return a measurement of true ranges with noise whose bias changes with time."""
         lidar, measured = self.lidar, self._noise.apply(true, interval, worlds)
         if lidar.quantum > 0.0:
             measured = np.rint(measured / lidar.quantum) * lidar.quantum
@@ -149,7 +149,7 @@ class LidarModel:
         return measured
 
     def scan(self, ranges: Floats, stamp: int) -> LaserScan:
-        """A measurement with what is needed to read it."""
+        """Return a measurement as a ``LaserScan``."""
         count = len(self.angles)
         first, last = float(self.angles[0]), float(self.angles[-1])
         increment = (last - first) / (count - 1) if count > 1 else 0.0
@@ -158,7 +158,7 @@ class LidarModel:
         )
 
     def reading(self, values: Floats, stamp: int) -> LaserScan:
-        """The same as ``scan``, under the name that all sensors have it."""
+        """Return the same as ``scan``, under the name that all sensors have it."""
         return self.scan(values, stamp)
 
     @property
@@ -167,24 +167,26 @@ class LidarModel:
         return self._noise
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Use the random numbers of another seed, from their start."""
+        """Set the seed of the random numbers and start them again."""
         self._noise.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Forget drifts of noise."""
+        """Discard drifts of noise."""
         self._noise.reset(worlds)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return self._noise.state()
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._noise.restore(state)
 
 
 def angles_of(scan: Scan) -> Floats:
-    """Angles of a fan's rays [rad], both ends included, shape (round(samples * resolution),).
+    """Return angles of a fan's rays [rad], both ends included.
+
+    The shape is (round(samples * resolution),).
 
     Gazebo casts ``samples`` rays and interpolates to ``samples * resolution`` points; here
     every reported point has a ray of its own.
@@ -196,7 +198,7 @@ def angles_of(scan: Scan) -> Floats:
 
 
 def directions_of(horizontal: Floats, vertical: Floats) -> Floats:
-    """Unit vectors in the sensor frame, row by row, shape (rows * samples, 3)."""
+    """Return unit vectors in the sensor frame, row by row, shape (rows * samples, 3)."""
     yaw, pitch = np.meshgrid(horizontal, vertical)
     directions = np.stack(
         (np.cos(pitch) * np.cos(yaw), np.cos(pitch) * np.sin(yaw), np.sin(pitch)), axis=-1

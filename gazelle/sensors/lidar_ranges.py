@@ -55,7 +55,10 @@ def add_noise(
     noise: LidarNoise, m: int, ranges: Floats, count: int, offset: float, mean: float,
     measured: Floats,
 ) -> None:  # fmt: skip
-    """Ranges of the m-th lidar with noise. All arrays but those of noise are rows."""
+    """Add noise to ranges of the m-th lidar.
+
+    All arrays but those of noise are rows. All arrays but those of noise are rows.
+    """
     spread = noise.deviation[m]
     if spread != 0.0:
         fill_normal(noise.keys[m], noise.counters[m], count, measured)
@@ -76,7 +79,10 @@ def measure_row(
     law: RangeLaw, noise: LidarNoise, m: int, ranges: Floats, count: int, offset: float,
     measured: Floats,
 ) -> None:  # fmt: skip
-    """A measurement of the m-th lidar; see ``measure``. All arrays but those of noise are rows."""
+    """Measure with the m-th lidar; see ``measure``.
+
+    All arrays but those of noise are rows. All arrays but those of noise are rows.
+    """
     add_noise(noise, m, ranges, count, offset, law.mean, measured)
     if law.precision > 0.0:
         for k in range(count):
@@ -96,7 +102,7 @@ def measure_row(
 def measure(
     law: RangeLaw, noise: LidarNoise, ranges: Floats, offset: float, measured: Floats
 ) -> None:
-    """Measurements of some lidars.
+    """Measure with some lidars.
 
     Args:
         law: Of all of them.

@@ -18,7 +18,7 @@ MAX_VALUES = 1 << 28
 
 
 def check_sensor(sensor: Sensor, name: str, nworld: int) -> None:
-    """Refuse a sensor that measures more at once than there is room for.
+    """Check that a sensor's measurements fit into memory.
 
     Args:
         sensor: What it is.

@@ -23,7 +23,7 @@ class Magnetometer:
 
     @classmethod
     def read(cls, settings: Parameters) -> Magnetometer:
-        """From the ``settings`` of a sensor, which hold ``<magnetometer>``."""
+        """Read the ``settings`` of a sensor, which hold ``<magnetometer>``."""
         x, y, z = (read_noise(settings.find(f"magnetometer/{axis}/noise")) for axis in "xyz")
         return cls((x, y, z))
 
@@ -62,7 +62,7 @@ class MagnetometerModel(NoisySensor):
         self._turn = np.asarray(pose.quaternion)
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
-        """The field now [T], shape (n, 3).
+        """Return the field now [T], shape (n, 3).
 
         Args:
             worlds: Which worlds; all if None.
@@ -74,5 +74,5 @@ class MagnetometerModel(NoisySensor):
         return self.noisy(field, interval, worlds)
 
     def reading(self, values: Floats, stamp: int) -> MagneticReading:
-        """A measurement by name."""
+        """Return a measurement by name."""
         return MagneticReading(stamp, values)

@@ -28,19 +28,22 @@ class SensorModel(Protocol):
         """
 
     def reading(self, values: NDArray[Any], stamp: int) -> Any:
-        """A measurement by name; ``values`` are of one world, shape (channels,), or of many."""
+        """Return a measurement by name.
+
+        ``values`` are of one world, shape (channels,), or of many.
+        """
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Use the random numbers of another seed, from their start."""
+        """Set the seed of the random numbers and start them again."""
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Forget drifts of noise."""
+        """Discard drifts of noise."""
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
 
 
 @runtime_checkable
@@ -137,7 +140,10 @@ class NoisySensor:
         return tuple(self._noises)
 
     def noisy(self, values: Floats, interval: float, worlds: Worlds | None) -> Floats:
-        """True values with noise, shape (n, channels); the same array where there is none."""
+        """Return True values with noise, shape (n, channels).
+
+        The same array where there is none.
+        """
         if not any(model.active for model in self._noises):
             return values
         columns = [
@@ -147,21 +153,21 @@ class NoisySensor:
         return np.concatenate(columns, axis=1)
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Use the random numbers of another seed, from their start."""
+        """Set the seed of the random numbers and start them again."""
         for noise in self._noises:
             noise.reseed(seed, worlds)
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Forget drifts of noise."""
+        """Discard drifts of noise."""
         for noise in self._noises:
             noise.reset(worlds)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return states_of(self._channels())
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         restore_all(self._channels(), state)
 
     def _channels(self) -> dict[str, NoiseModel]:

@@ -73,11 +73,11 @@ class NoiseModel:
         return self._stddev[rows, 0], stream.keys[rows], stream.counters[rows], bias
 
     def follow(self, worlds: Worlds, counters: UInts64) -> None:
-        """Go on after so many numbers in some worlds, shape (n,)."""
+        """Continue after so many numbers in some worlds, shape (n,)."""
         self._stream.counters[worlds] = counters
 
     def move(self, stddev: Floats, keys: UInts64, counters: UInts64, bias: Floats) -> None:
-        """Keep what it has in other arrays from now on, as one row of many models' tables.
+        """Store its state in other arrays from now on, as one row of many models' tables.
 
         Args:
             stddev: Shape (nworld, 1).
@@ -93,7 +93,7 @@ class NoiseModel:
             self._bias = bias
 
     def move_drift(self, drift: Floats) -> None:
-        """Keep the drift in another array from now on, shape (nworld, channels)."""
+        """Store the drift in another array from now on, shape (nworld, channels)."""
         drift[:] = self._drift
         self._drift = drift
 
@@ -134,7 +134,7 @@ class NoiseModel:
         return noise.mean, noise.precision if rounded else 0.0
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Use the random numbers of another seed, from their start; a reset draws new biases."""
+        """Set the seed of the random numbers and start them again; a reset draws new biases."""
         self._stream.reseed(seed, worlds)
         self._bias_stream.reseed(seed, worlds)
 
@@ -149,7 +149,7 @@ class NoiseModel:
             self._draw_bias(worlds)
 
     def apply(self, values: Floats, interval: float, worlds: Worlds | None = None) -> Floats:
-        """Values with noise.
+        """Return values with noise.
 
         Args:
             values: True values, shape (n, channels).
@@ -165,7 +165,7 @@ class NoiseModel:
         return rows.apply(values, interval, worlds, spread=self._spread)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return {
             "counters": self._stream.counters.copy(),
             "bias_counters": self._bias_stream.counters.copy(),
@@ -177,7 +177,7 @@ class NoiseModel:
         }
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._stream.counters[:] = state["counters"]
         self._bias_stream.counters[:] = state["bias_counters"]
         self._bias[:] = state["bias"]
@@ -219,7 +219,7 @@ class NoiseRows:
     def apply(
         self, values: Floats, interval: float, chosen: Indices | None, *, spread: bool
     ) -> Floats:
-        """Values with noise; see ``NoiseModel.apply``.
+        """Return values with noise; see ``NoiseModel.apply``.
 
         Args:
             values: True values, shape (n, channels).
@@ -240,7 +240,7 @@ class NoiseRows:
         return measured
 
     def _advance_drift(self, channels: int, interval: float, chosen: Indices | None) -> None:
-        """One step of the process b' = -b / T + white noise, exactly discretised."""
+        """Advance the process b' = -b / T + white noise by one step, exactly discretised."""
         noise = self.noise
         rows = slice(None) if chosen is None else chosen
         keep = math.exp(-interval / noise.dynamic_bias_correlation_time)
@@ -275,7 +275,7 @@ class JoinedNoise:
         )
 
     def apply(self, values: Floats, interval: float) -> Floats:
-        """Values with noise, shape (nworld, n, channels); see ``NoiseModel.apply``."""
+        """Return values with noise, shape (nworld, n, channels); see ``NoiseModel.apply``."""
         nworld = len(values)
         rows = values.reshape(-1, values.shape[2])
         spread = self._stddev.any(axis=0)  # a model draws for all of its worlds or for none

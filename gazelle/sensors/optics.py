@@ -25,7 +25,9 @@ class Optics(Protocol):
         *,
         depth: bool,
     ) -> tuple[Bytes, Floats32]:
-        """Colours, shape (n, height, width, 3), and depths (n, height, width), none if not asked.
+        """Return colours, shape (n, height, width, 3), and depths (n, height, width).
+
+        Depths are empty if not asked.
 
         Args:
             scene: Draws.
@@ -60,7 +62,7 @@ class PinholeOptics:
         *,
         depth: bool,
     ) -> tuple[Bytes, Floats32]:
-        """Colours and depths; the lens bends the colours alone, as in Gazebo."""
+        """Return colours and depths; the lens distorts the colours alone, as in Gazebo."""
         want = ("color", "depth") if depth else ("color",)
         frames = scene.render(self._lens, positions, quaternions, worlds, want=want)
         return (
@@ -94,7 +96,7 @@ class WideOptics:
         *,
         depth: bool,
     ) -> tuple[Bytes, Floats32]:
-        """Colours.
+        """Return colours.
 
         Raises:
             EngineError: Depths are asked; there is no axis to measure them along.
@@ -108,7 +110,7 @@ class WideOptics:
 
 
 def optics_of(camera: Camera, *, wide: bool, legacy: bool) -> Optics:
-    """The optics of a camera.
+    """Return the optics of a camera.
 
     Args:
         camera: What the file says.

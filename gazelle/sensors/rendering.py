@@ -43,14 +43,14 @@ class View:
 
 
 def look_at(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
-    """The pose of a camera at ``eye`` [m] that sees ``target`` [m] in its middle, upright."""
+    """Return the pose of an upright camera at ``eye`` [m] with ``target`` [m] in its middle."""
     dx, dy, dz = (t - e for e, t in zip(eye, target, strict=True))
     pitch = -math.atan2(dz, math.hypot(dx, dy))
     return Pose(*eye, pitch=pitch, yaw=math.atan2(dy, dx))
 
 
 def render(tracer: Tracer, world: World, view: View) -> NDArray[np.uint8]:
-    """A picture, shape (height, width, 3), red, green, blue."""
+    """Return a picture, shape (height, width, 3), red, green, blue."""
     directions = directions_of_view(view, view.samples)
     eye = np.broadcast_to(np.asarray(view.pose.position), directions.shape)
     sight = tracer.trace(eye, directions)
@@ -66,14 +66,17 @@ def render(tracer: Tracer, world: World, view: View) -> NDArray[np.uint8]:
 
 
 def range_image(tracer: Tracer, view: View) -> Floats:
-    """Distances to what the middles of pixels show, shape (height, width) [m]; infinite for nothing."""
+    """Return distances along the middles of pixels, shape (height, width) [m].
+
+    Infinite for nothing.
+    """
     directions = directions_of_view(view, samples=1)
     eye = np.broadcast_to(np.asarray(view.pose.position), directions.shape)
     return tracer.trace(eye, directions).distance.reshape(view.height, view.width)
 
 
 def directions_of_view(view: View, samples: int) -> Floats:
-    """Unit vectors in the world through every subpixel, row by row, shape (rays, 3).
+    """Return unit vectors in the world through every subpixel, row by row, shape (rays, 3).
 
     Args:
         view: From where and how.
@@ -110,7 +113,7 @@ def _shade(tracer: Tracer, world: World, met: RayHits, points: Floats, along: Fl
 
 
 def _lamp(tracer: Tracer, lamp: Light, points: Floats, normal: Floats, *, shadows: bool) -> Floats:
-    """Light from one lamp on surface points, shape (n, 3)."""
+    """Return light from one lamp on surface points, shape (n, 3)."""
     aim = np.asarray(lamp.pose.rotate(lamp.direction), np.float64)
     aim = aim / max(float(np.linalg.norm(aim)), 1e-12)
     if lamp.type == "directional":

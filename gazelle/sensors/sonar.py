@@ -47,7 +47,7 @@ class Sonar:
 
     @classmethod
     def read(cls, settings: Parameters) -> Sonar:
-        """From the ``settings`` of a sensor, which hold ``<sonar>``.
+        """Read the ``settings`` of a sensor, which hold ``<sonar>``.
 
         Raises:
             FormatError: The range does not grow, or the radius is negative.
@@ -124,7 +124,7 @@ class SonarModel(NoisySensor):
         self._origins = np.asarray(pose.position) + settings.range_min * self._directions
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
-        """Distance to the nearest thing now [m], shape (n, 1).
+        """Return the distance to the nearest thing now [m], shape (n, 1).
 
         Args:
             worlds: Which worlds; all if None.
@@ -138,13 +138,13 @@ class SonarModel(NoisySensor):
         return np.clip(self.noisy(np.minimum(nearest, high), interval, worlds), low, high)
 
     def reading(self, values: Floats, stamp: int) -> SonarReading:
-        """A measurement by name."""
+        """Return a measurement by name."""
         own = self.settings
         return SonarReading(stamp, values[..., 0], own.range_min, own.range_max, own.field_of_view)
 
 
 def _bundle(sonar: Sonar) -> Floats:
-    """Unit vectors that fill the cone about -z, or all directions, shape (rays, 3)."""
+    """Return unit vectors that fill the cone about -z, or all directions, shape (rays, 3)."""
     if sonar.geometry == "sphere":
         # A spiral from pole to pole with equal areas (Fibonacci lattice).
         index = np.arange(_SPHERE_RAYS) + 0.5
