@@ -88,13 +88,13 @@ class Binding:
                 warn_of_fault(output, name, "to tell what is true now", error)
 
     def close(self) -> None:
-        """Take the topics and services off the graph."""
+        """Remove the topics and services from the graph."""
         self._closed = True
         while self._closing:
             self._closing.pop()()
 
     def _open(self, put: Callable[[Any], None], port: Any) -> bool:
-        """Put a port on the graph; one that cannot be there stays away, and the rest goes on."""
+        """Open a port on the graph; one that fails is skipped, and the rest continues."""
         try:
             put(port)
         except RosError as error:
@@ -104,7 +104,7 @@ class Binding:
         return True
 
     def when_known(self, act: Callable[[], None]) -> None:
-        """Do something between two steps, once all settings are known that must be."""
+        """Call a function between two steps, once all required settings are known."""
         if not self._awaited:
             act()
             return
@@ -112,7 +112,7 @@ class Binding:
         self._look_later()
 
     def _look_later(self) -> None:
-        """Look again soon for what is awaited; on a worker, for the master may be far away."""
+        """Check awaited settings again soon; on a worker, for the master may be far away."""
         self._node.loop.call_later(_LOOK_S, lambda: self._node.loop.submit(self._look_again))
 
     def _look_again(self) -> None:
@@ -141,7 +141,7 @@ class Binding:
         return True
 
     def _value_of(self, setting: Setting[Any]) -> Any:
-        """The parameter of a setting, or the nearest one above; None if there is none."""
+        """Return the parameter of a setting, or the nearest one above; None if there is none."""
         space, _, name = setting.name.rpartition("/")
         while True:
             value = self._node.get_param(f"{space}/{name}", None)

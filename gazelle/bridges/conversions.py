@@ -34,7 +34,7 @@ class ConversionContext:
     prefix: str = ""
 
     def resolved(self, frame: str) -> str:
-        """The name of a frame on the graph."""
+        """Return the name of a frame on the graph."""
         return resolve_frame(self.prefix, frame)
 
 
@@ -87,12 +87,12 @@ def set_twist(target: Any, linear: Any, angular: Any) -> None:
 
 
 def point(message: Any) -> tuple[float, float, float]:
-    """x, y and z of a point or vector."""
+    """Return x, y and z of a point or vector."""
     return (message.x, message.y, message.z)
 
 
 def quaternion(message: Any) -> tuple[float, float, float, float]:
-    """x, y, z and w, made of length one; all zero is no turn, as Gazebo takes it."""
+    """Return x, y, z and w, normalised; all zero is the identity, as in Gazebo."""
     values = np.array([message.x, message.y, message.z, message.w])
     length = float(np.linalg.norm(values))
     if not length > 0.0:
@@ -111,7 +111,7 @@ def set_header(
 
 
 def set_plain_header(message: Any, view: ConversionContext, nanoseconds: int) -> None:
-    """The same for sensors whose plugins in Gazebo give the frame as it is written."""
+    """Set the header for sensors whose plugins in Gazebo use the frame as it is written."""
     message.header.stamp, message.header.frame_id = view.stamp(nanoseconds), view.frame
 
 
@@ -213,17 +213,17 @@ class ServiceCodec:
 
 
 def add_encoder(kind: type[Any], encoder: Encoder) -> None:
-    """Let outputs of another kind be published."""
+    """Register an encoder, so that outputs of another kind can be published."""
     _ENCODERS[kind] = encoder
 
 
 def add_decoder(kind: type[Any], decoder: Decoder) -> None:
-    """Let inputs of another kind be subscribed to."""
+    """Register a decoder, so that inputs of another kind can be subscribed to."""
     _DECODERS[kind] = decoder
 
 
 def add_service(request: type[Any] | None, response: type[Any] | None, codec: ServiceCodec) -> None:
-    """Let services of another kind be called."""
+    """Register a codec, so that services of another kind can be called."""
     _SERVICES[request, response] = codec
 
 

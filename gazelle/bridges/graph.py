@@ -25,16 +25,16 @@ class TimedGraph(Protocol):
     world: int
 
     def now(self) -> Time:
-        """The time."""
+        """Return the time."""
 
     def stamp(self, nanoseconds: int, /) -> Time:
-        """A time of what is shown [ns] as the graph sees it."""
+        """Return a time of the source [ns] as a time of the graph."""
 
     def own_ns(self, time: Time, /) -> int:
-        """A time of the graph as that of what is shown [ns]."""
+        """Return a time of the graph as a time of the source [ns]."""
 
     def post(self, work: Callable[[], Any], /) -> object:
-        """Have something done when nothing is being computed, without waiting for it."""
+        """Call a function when nothing is being computed, without waiting for it."""
 
 
 class Graph:
@@ -59,28 +59,28 @@ class Graph:
         self._last_ns = 0
 
     def now(self) -> Time:
-        """The simulated time."""
+        """Return the simulated time."""
         return self.stamp(self.simulation.clock.now_ns)
 
     def stamp(self, nanoseconds: int) -> Time:
-        """A simulated time as the graph sees it."""
+        """Return a simulated time as a time of the graph."""
         self._last_ns = max(self._last_ns, nanoseconds)
         return Time(nsecs=nanoseconds + self._offset_ns)
 
     def seconds(self, time: Time) -> float:
-        """A time of the graph as simulated time [s]."""
+        """Return a time of the graph as simulated time [s]."""
         return self.own_ns(time) / _SECOND
 
     def own_ns(self, time: Time) -> int:
-        """A time of the graph as simulated time [ns]."""
+        """Return a time of the graph as simulated time [ns]."""
         return time.to_nsec() - self._offset_ns
 
     def post(self, work: Callable[[], Any]) -> None:
-        """Have something done between two steps, without waiting for it."""
+        """Call a function between two steps, without waiting for it."""
         self.simulation.lock.post(work)
 
     def rewound(self) -> None:
-        """Simulated time began again."""
+        """Handle a reset of the simulated time."""
         if self._monotonic:
             self._offset_ns += self._last_ns
         self._last_ns = 0

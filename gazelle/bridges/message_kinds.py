@@ -10,13 +10,16 @@ from typing import Any
 
 
 def name_of(kind: Any) -> str | None:
-    """The ROS type of a message class, such as ``std_msgs/String``; None for other kinds."""
+    """Return the ROS type of a message class, such as ``std_msgs/String``.
+
+    None for other kinds.
+    """
     name = getattr(kind, "_type", None)
     return name if isinstance(name, str) and hasattr(kind, "_md5sum") else None
 
 
 def service_name_of(request: Any, response: Any) -> str | None:
-    """The ROS type of a service's two classes; None for other kinds."""
+    """Return the ROS type of a service's two classes; None for other kinds."""
     asked, answered = name_of(request), name_of(response)
     if asked is None or answered is None:
         return None
@@ -32,10 +35,10 @@ def fill(message: Any, value: Any, view: Any) -> None:
 
 
 def slots_of(message: Any) -> dict[str, Any]:
-    """The fields of a message by name."""
+    """Return the fields of a message by name."""
     return {slot: getattr(message, slot) for slot in message.__slots__}
 
 
 def same(message: Any) -> Any:
-    """The message."""
+    """Return the message."""
     return message

@@ -22,7 +22,7 @@ from gazelle.rotations import from_yaw, yaw_of
 
 
 def _goal(message: Any) -> GoalPose:
-    """A goal; one without an orientation may be reached with any heading."""
+    """Convert a goal; one without an orientation may be reached with any heading."""
     turned = message.pose.orientation
     heading = None
     if any((turned.x, turned.y, turned.z, turned.w)):

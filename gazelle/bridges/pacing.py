@@ -17,7 +17,7 @@ _REST = 0.002
 
 
 def read_factor(text: str) -> float | None:
-    """A real-time factor; infinity for ``max`` or ``inf``, None if the text is none.
+    """Return a real-time factor; infinity for ``max`` or ``inf``, None for an invalid text.
 
     >>> read_factor(" max "), read_factor("0.5"), read_factor("-1"), read_factor("fast")
     (inf, 0.5, None, None)
@@ -44,7 +44,7 @@ class Pacer:
         self._stop = threading.Event()
 
     def run(self, seconds: float | None = None) -> None:
-        """Go on until ``stop`` is called.
+        """Run until ``stop`` is called.
 
         Args:
             seconds: Simulated time after which to end; None for never. A reset of the time
@@ -60,11 +60,11 @@ class Pacer:
             self._run_piece(seconds)
 
     def stop(self) -> None:
-        """Let ``run`` return; from any thread."""
+        """Stop ``run``; from any thread."""
         self._stop.set()
 
     def _run_piece(self, seconds: float | None) -> None:
-        """A stretch at one pace, until it changes or there is a pause."""
+        """Run at one pace, until it changes or there is a pause."""
         simulation, physics = self._simulation, self._simulation.physics
         rate, step = physics.update_rate, physics.time_step
         factor = physics.target_rate or 0.0
@@ -91,5 +91,5 @@ class Pacer:
 
     @staticmethod
     def _fast_piece(step: float) -> float:
-        """As much as is worth one look at the pause; requests come in between anyway."""
+        """Advance until the pause is worth checking; requests are served in between anyway."""
         return 20.0 * step

@@ -44,7 +44,7 @@ def _link_pair(request: Any) -> LinkPair:
 
 
 def _path(message: Any) -> JointPath:
-    """Points without positions are left out."""
+    """Convert a path; points without positions are left out."""
     count = len(message.joint_names)
     points = [each for each in message.points if len(each.positions) == count]
     return JointPath(

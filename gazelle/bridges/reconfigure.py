@@ -55,7 +55,7 @@ class Tuned(Protocol):
         """Current values."""
 
     def send(self, /, **wanted: Any) -> Values:
-        """Change some values; returns what holds then."""
+        """Set some values; returns the values in effect."""
 
 
 class ReconfigureServer:
@@ -84,13 +84,13 @@ class ReconfigureServer:
         self._tell(tuning.values)
 
     def close(self) -> None:
-        """Take it off the graph."""
+        """Remove it from the graph."""
         self._service.close()
         self._descriptions.close()
         self._updates.close()
 
     def _set(self, request: Any) -> Any:
-        """Change what is known; other names are passed over, as they are by the original."""
+        """Set known values; other names are ignored, as by the original."""
         wanted = {
             each.name: each.value
             for kind in _LISTS.values()

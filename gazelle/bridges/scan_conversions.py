@@ -42,7 +42,7 @@ def _imu(message: Any, value: ImuReading, view: ConversionContext) -> None:
 
 
 def _touches(message: Any, value: Touches, view: ConversionContext) -> None:
-    """One ``ContactState`` for each pair of collisions, as Gazebo groups them."""
+    """Add one ``ContactState`` for each pair of collisions, as Gazebo groups them."""
     set_header(message, view, value.stamp)
     contacts = value.contacts[view.world]
     pairs: dict[tuple[str, str], Any] = {}

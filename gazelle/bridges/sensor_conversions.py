@@ -176,7 +176,7 @@ add_decoder(Trigger, Decoder("std_msgs/Empty", lambda _message: Trigger()))
 
 
 def _read_transforms(message: Any) -> Transforms:
-    """Stamps differ in one message; those who take frames from it take the latest."""
+    """Convert transforms; of different stamps in one message the latest counts."""
     frames = tuple(
         Transform(
             each.header.frame_id,

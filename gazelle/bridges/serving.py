@@ -45,7 +45,7 @@ class RosDoor(Closeable):
         node.on_shutdown.append(lambda _reason: self._pacer.stop())
 
     def run(self, seconds: float | None = None) -> None:
-        """Let the simulation run until ``stop``, at the pace of its physics properties.
+        """Run the simulation until ``stop``, at the pace of its physics properties.
 
         Args:
             seconds: Simulated time at which to end; None for never.
@@ -53,18 +53,18 @@ class RosDoor(Closeable):
         self._pacer.run(seconds)
 
     def start(self) -> Self:
-        """Let ``run`` go on in a thread of its own, until ``close`` or ``stop``; returns this."""
+        """Start ``run`` in a thread of its own, until ``close`` or ``stop``; returns this."""
         if self._thread is None:
             self._thread = threading.Thread(target=self._pacer.run, name="simulator", daemon=True)
             self._thread.start()
         return self
 
     def stop(self) -> None:
-        """Let ``run`` return; from any thread."""
+        """Stop ``run``; from any thread."""
         self._pacer.stop()
 
     def close(self) -> None:
-        """Leave the graph, and end the master if it was started here."""
+        """Leave the graph, and stop the master if it was started here."""
         self.stop()
         if self._thread is not None:
             self._thread.join()
@@ -83,7 +83,7 @@ def serve_ros(
     world: int = 0,
     monotonic_clock: bool = False,
 ) -> RosDoor:
-    """Put a simulation on a ROS 1 graph as Gazebo's ROS packages do.
+    """Serve a simulation on a ROS 1 graph as Gazebo's ROS packages do.
 
     The caller goes on stepping it, or lets ``RosDoor.run`` do so.
 
@@ -110,7 +110,7 @@ def serve_ros(
 
 
 def refuse_twin(name: str, master_uri: str | None = None) -> None:
-    """Make sure that no simulator of a name is on the graph, for a second would end the first.
+    """Check that no simulator of a name is on the graph, for a second would end the first.
 
     One that does not answer any more is no obstacle.
 
@@ -138,7 +138,7 @@ def refuse_twin(name: str, master_uri: str | None = None) -> None:
 def join_graph(
     name: str, master_uri: str | None = None, host: str | None = None
 ) -> tuple[Node, Master | None]:
-    """A node, and the master that was started for it if none answered on this machine.
+    """Return a node, and the master that was started for it if none answered on this machine.
 
     Args:
         name: Of the node.
@@ -162,7 +162,7 @@ def join_graph(
 
 
 def _start_master(uri: str) -> Master:
-    """A master at a URI of this machine."""
+    """Start a master at a URI of this machine."""
     host, port, _ = net.split_uri(uri)
     if host not in {"localhost", net.LOOPBACK, net.default_host(), socket.gethostname()}:
         raise MasterUnreachableError(

@@ -41,7 +41,7 @@ class GymV21CompatibilityV0(gymnasium.Env[Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        """Begin an episode; returns the first observation and an empty dictionary."""
+        """Start an episode; returns the first observation and an empty dictionary."""
         del options
         super().reset(seed=seed)
         if seed is not None:
@@ -49,7 +49,7 @@ class GymV21CompatibilityV0(gymnasium.Env[Any, Any]):
         return self.gym_env.reset(), {}
 
     def step(self, action: Any) -> Result:
-        """Act once; what a time limit ended is truncated."""
+        """Step the environment; an end by a time limit is a truncation."""
         observation, reward, done, info = self.gym_env.step(action)
         truncated = bool(done and info.get("TimeLimit.truncated", False))
         return observation, float(reward), bool(done) and not truncated, truncated, info
@@ -59,5 +59,5 @@ class GymV21CompatibilityV0(gymnasium.Env[Any, Any]):
         return None if self.render_mode is None else self.gym_env.render(mode=self.render_mode)
 
     def close(self) -> None:
-        """Give back what it holds."""
+        """Close the environment."""
         self.gym_env.close()

@@ -98,7 +98,7 @@ class _GraphClock:
         self._graph = graph
 
     def now(self) -> int:
-        """The time [ns]."""
+        """Return the time [ns]."""
         return self._graph.now().to_nsec()
 
 
@@ -133,7 +133,7 @@ class ActionBridge:
         )
 
     def close(self) -> None:
-        """Take no more goals, and leave the graph after all that is known of goals was sent.
+        """Reject new goals, and leave the graph after all reports of goals were sent.
 
         Goals are refused at once: a controller that is loaded again under the name gets the next.
         """
@@ -157,7 +157,7 @@ class ActionBridge:
             goal.cancel()
 
     def _changes(self, handle: ServerGoalHandle) -> Callable[[Goal[Any]], None]:
-        """Told by the thread that steps of each change of a goal's state."""
+        """Return a listener of each change of a goal's state, called by the stepping thread."""
 
         def changed(goal: Goal[Any]) -> None:
             state, result, text = goal.state, goal.result, goal.text

@@ -51,7 +51,7 @@ class ManagerBinding:
         self._end_watch = manager.watch(self._bind, self._unbind)
 
     def close(self) -> None:
-        """Take it off the graph."""
+        """Remove it from the graph."""
         self._services.close()
         with contextlib.suppress(ValueError):
             self._end_watch()
@@ -91,12 +91,12 @@ class ControllerBinding:
                 self._open(put, port)
 
     def close(self) -> None:
-        """Take everything off the graph."""
+        """Remove everything from the graph."""
         while self._closing:
             self._closing.pop()()
 
     def _open(self, put: Callable[[Any], Callable[[], None]], port: Any) -> None:
-        """Put a port on the graph; one that cannot be there stays away, and the rest goes on."""
+        """Open a port on the graph; one that fails is skipped, and the rest continues."""
         try:
             self._closing.append(put(port))
         except RosError as error:
@@ -151,7 +151,7 @@ class ControllerBinding:
     def _sampling(
         self, port: QueryPort[TrajectoryQuery, TrajectoryAnswer]
     ) -> Callable[[Any], dict[str, Any]]:
-        """Answers where joints are to be at a time."""
+        """Return a handler that answers with joint positions at a time."""
 
         def answer(request: Any) -> dict[str, Any]:
             found = port.ask(TrajectoryQuery(simulated(request.time, self._graph)))

@@ -56,12 +56,12 @@ def command_decoder_of(kind: type[Any]) -> CommandDecoder:
 
 
 def simulated(stamp: Time, graph: TimedGraph) -> int:
-    """A stamp as simulated time [ns]; 0, which stands for now, stays 0."""
+    """Return a stamp as simulated time [ns]; 0, which stands for now, stays 0."""
     return graph.own_ns(stamp) if stamp else 0
 
 
 def trajectory(message: Any, graph: TimedGraph) -> JointTrajectory:
-    """Of a ``trajectory_msgs/JointTrajectory``."""
+    """Convert a ``trajectory_msgs/JointTrajectory``."""
     return JointTrajectory(
         tuple(message.joint_names),
         tuple(_point(each) for each in message.points),
@@ -80,7 +80,7 @@ def _point(message: Any) -> TrajectoryPoint:
 
 
 def trajectory_goal(message: Any, graph: TimedGraph) -> TrajectoryGoal:
-    """Of a ``control_msgs/FollowJointTrajectoryGoal``."""
+    """Convert a ``control_msgs/FollowJointTrajectoryGoal``."""
     return TrajectoryGoal(
         trajectory(message.trajectory, graph),
         _tolerances(message.path_tolerance),
@@ -97,7 +97,7 @@ def _tolerances(messages: Iterable[Any]) -> tuple[JointTolerance, ...]:
 
 
 def gripper_goal(message: Any, _graph: TimedGraph) -> GripperGoal:
-    """Of a ``control_msgs/GripperCommandGoal``."""
+    """Convert a ``control_msgs/GripperCommandGoal``."""
     return GripperGoal(message.command.position, message.command.max_effort)
 
 

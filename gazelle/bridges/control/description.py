@@ -12,7 +12,7 @@ _PARAMETER = "robot_description"
 
 
 def find_model(node: Node, space: str) -> Model | None:
-    """The robot of the parameter ``robot_description``: a namespace's, else the root's.
+    """Return the robot of the parameter ``robot_description``: a namespace's, else the root's.
 
     Args:
         node: Asks.

@@ -31,15 +31,15 @@ class LiveGraph:
         self._call, self._manager, self._period_ns = manager.call, manager, period_ns
 
     def now(self) -> Time:
-        """The time."""
+        """Return the time."""
         return Time(nsecs=self.node.clock.now())
 
     def stamp(self, nanoseconds: int) -> Time:
-        """A time of the robot's."""
+        """Return a time of the robot's as a time of the graph."""
         return Time(nsecs=nanoseconds)
 
     def own_ns(self, time: Time) -> int:
-        """A time of the graph as controllers count it [ns].
+        """Return a time of the graph as controllers count it [ns].
 
         Their now is that of their next period. A loop that is late has not seen it yet: what is over by
         the node's clock would still be to come for them, such as a trajectory that ends just now.
@@ -49,7 +49,7 @@ class LiveGraph:
         return time.to_nsec() - max(0, late)
 
     def post(self, work: Callable[[], Any]) -> None:
-        """Do something between two control periods."""
+        """Call a function between two control periods."""
         self._call(work)
 
 
@@ -84,7 +84,7 @@ class HardwareLoop(Closeable):
         node.on_shutdown.append(lambda _reason: self._over.set())
 
     def step(self, period: float | None = None) -> None:
-        """One control period.
+        """Advance by one control period.
 
         Args:
             period: What controllers take it for [s]; what went by since the one before if None.
@@ -104,7 +104,7 @@ class HardwareLoop(Closeable):
         manager.call(work)
 
     def run(self) -> None:
-        """Go on until ``close``, or until the node ends."""
+        """Run until ``close``, or until the node ends."""
         clock = self._node.clock
         due = clock.now()
         while not self._over.is_set() and not self._node.closed:
@@ -119,7 +119,7 @@ class HardwareLoop(Closeable):
                 due = clock.now()  # too late to be made up for, or simulated time began again
 
     def start(self) -> HardwareLoop:
-        """Let ``run`` go on in a thread of its own; returns this."""
+        """Start ``run`` in a thread of its own; returns this."""
         if self._thread is None:
             self._thread = threading.Thread(target=self._work, name="control", daemon=True)
             self._thread.start()
@@ -132,7 +132,7 @@ class HardwareLoop(Closeable):
             warnings.warn(ControlWarning(f"the control loop ends: {error}"), stacklevel=2)
 
     def close(self) -> None:
-        """End the loop, and take the controllers off the graph; the node stays."""
+        """Stop the loop, and remove the controllers from the graph; the node stays."""
         self._over.set()
         if self._thread is not None:
             self._thread.join()

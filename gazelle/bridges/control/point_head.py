@@ -34,7 +34,7 @@ _SPEED = 1.0  # of a joint whose description has no limit [rad/s]
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Look where goals say until it is told to end; returns the exit code."""
+    """Serve goals for pointing the head until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "point_head_action")
     with found.start() as node:
         HeadPointer(node)
@@ -91,7 +91,7 @@ class HeadPointer:
             self._server.set_aborted(text=error.message)
 
     def _look(self, goal: Any) -> None:
-        """Point where a goal says.
+        """Point the head to a goal.
 
         Raises:
             Error: It cannot be done.
@@ -127,7 +127,7 @@ class HeadPointer:
                 raise ControlError(f"the head is {angle:.3f} rad off, for {why}")
 
     def _next(self, known: Any) -> Any:
-        """The controller's state that comes after one that is known.
+        """Return the controller's state that follows a known one.
 
         Raises:
             ControlError: None comes.
@@ -143,7 +143,7 @@ class HeadPointer:
         raise ControlError(f"no trajectory controller says on '{name}' where the head is")
 
     def _in_frame(self, base: str, target: Any) -> Floats:
-        """A place in the frame of a link.
+        """Return a point in the frame of a link.
 
         Raises:
             ControlError: Where its frame is is not known.

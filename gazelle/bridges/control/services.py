@@ -127,7 +127,7 @@ class ManagerServices:
 
 
 def _done(act: Callable[[], None]) -> bool:
-    """Try to do something; log the reason if it fails, and return whether it succeeded."""
+    """Call a function; log the reason if it fails, and return whether it succeeded."""
     try:
         act()
     except ControlError as error:
@@ -137,7 +137,7 @@ def _done(act: Callable[[], None]) -> bool:
 
 
 def _state_of(entry: LoadedController) -> Any:
-    """A ``ControllerState``: with all interfaces, also those of which nothing is claimed."""
+    """Return a ``ControllerState`` with all interfaces, including those without claims."""
     controller = entry.controller
     claims = dict.fromkeys(controller.interfaces, ()) | controller.claimed
     made: Any = load_message("controller_manager_msgs/HardwareInterfaceResources")

@@ -9,10 +9,10 @@ Answer = Any
 
 
 def yes(text: str) -> dict[str, Any]:
-    """It is done."""
+    """Return the answer of a successful call."""
     return {"success": True, "status_message": text}
 
 
 def no(text: str) -> dict[str, Any]:
-    """It cannot be done, and why."""
+    """Return the answer of a failed call, with the reason."""
     return {"success": False, "status_message": text}

@@ -24,5 +24,5 @@ class GazeboContext(Graph):
         self.entities = Entities(simulation, world)
 
     def response(self, service: str) -> Any:
-        """An empty response of one of ``gazebo_msgs``' services."""
+        """Return an empty response of one of ``gazebo_msgs``' services."""
         return load_service(f"gazebo_msgs/{service}")._response_class()

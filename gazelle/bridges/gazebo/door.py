@@ -88,7 +88,7 @@ class GazeboDoor(Closeable):
         self._entries = entries
 
     def _make_time(self) -> None:
-        """Let nodes go by the simulated time, unless somebody has said what they go by."""
+        """Set nodes to simulated time, unless the parameter is set already."""
         if self._node.get_param("/use_sim_time", None) is None:
             self._node.set_param("/use_sim_time", True)
 
@@ -98,7 +98,7 @@ class GazeboDoor(Closeable):
         self._serve()
 
     def _follow(self) -> None:
-        """Put all ports on the graph, and those of what comes.
+        """Open all present and future ports on the graph.
 
         Before there are services: what a client spawns at once is bound once.
         """
@@ -119,7 +119,7 @@ class GazeboDoor(Closeable):
             self._publish()
 
     def close(self) -> None:
-        """Take everything off the graph; the simulation goes on without."""
+        """Remove everything from the graph; the simulation continues."""
         with self._simulation.lock:
             self._leave()
         while self._closing:
@@ -136,7 +136,7 @@ class GazeboDoor(Closeable):
             bound.when_known(lambda: self._bind_controllers(ports))
 
     def _bind_controllers(self, robot: Robot) -> None:
-        """Controllers come onto the graph when the robot is known that they control."""
+        """Open controllers on the graph once their robot is known."""
         bound = self._managers.setdefault(robot.name, {})
         for manager in robot.managers.values():
             if manager in bound:
@@ -151,7 +151,7 @@ class GazeboDoor(Closeable):
                 warnings.warn(ControlWarning(text), stacklevel=2)
 
     def _bind_more(self, robot: Robot) -> None:
-        """Controllers of a robot that is on the graph already, which came later."""
+        """Open later controllers of a robot that is on the graph already."""
         bound = self._bindings.get(robot.name)
         if bound is not None:
             bound.when_known(lambda: self._bind_controllers(robot))
@@ -248,7 +248,7 @@ class GazeboDoor(Closeable):
             self._offer(f"/gazelle/{name}", kind, handler, package="gazelle_msgs")
 
     def _then(self, handler: Handler, after: Callable[[], None]) -> Handler:
-        """A handler after which something is done before the answer leaves."""
+        """Return a handler after which a function is called before the answer is sent."""
 
         def work(request: Any) -> Any:
             answer = handler(request)
@@ -294,5 +294,5 @@ class GazeboDoor(Closeable):
             self._closing.append(subscriber.close)
 
     def _between(self, act: Handler) -> Handler:
-        """The same, done between two steps."""
+        """Return a handler that runs between two steps."""
         return self._simulation.lock.wrap(act)

@@ -31,7 +31,7 @@ class State:
     angular: Floats
 
     def seen_from(self, frame: State) -> State:
-        """The same in a frame's axes, velocities as differences to the frame's own."""
+        """Return the state in a frame's axes, velocities as differences to the frame's own."""
         back = conjugate(frame.quaternion)
         return State(
             rotate(back, self.position - frame.position),
@@ -73,16 +73,16 @@ class Entities:
         self.worlds = None if simulation.nworld == 1 else np.array([world])
 
     def model(self, name: str) -> Robot | None:
-        """A model."""
+        """Return a model."""
         found: Robot | None = self.simulation.robots.get(name)
         return found
 
     def links(self) -> list[LinkHandle]:
-        """All links, in the order of their models."""
+        """Return all links, in the order of their models."""
         return [link for robot in self.simulation.robots.values() for link in robot.links.values()]
 
     def link(self, name: str) -> LinkHandle | None:
-        """A link by its scoped name ``model::link``, or the first of a plain name."""
+        """Return a link by its scoped name ``model::link``, or the first of a plain name."""
         model, _, inner = name.partition("::")
         robots = self.simulation.robots
         if inner:
@@ -95,7 +95,7 @@ class Entities:
         return None
 
     def joint(self, name: str) -> tuple[Robot, JointHandle] | None:
-        """A joint that moves, by plain or scoped name, in the first model that has it."""
+        """Return a movable joint, by plain or scoped name, in the first model that has it."""
         model, _, inner = name.partition("::")
         for robot in self.simulation.robots.values():
             if name in robot.joints:
@@ -114,7 +114,10 @@ class Entities:
         )
 
     def frame(self, name: str) -> State | None:
-        """The state of a model or link by name; the world frame for ``""``, ``world`` or ``map``."""
+        """Return the state of a model or link.
+
+        The world frame for ``""``, ``world`` or ``map``.
+        """
         if is_world(name):
             return REST
         robot = self.model(name)
@@ -124,6 +127,6 @@ class Entities:
         return None if link is None else self.state(link)
 
     def state(self, entity: Robot | LinkHandle) -> State:
-        """Pose and velocity of a link, or of a model's frame and its canonical link."""
+        """Return pose and velocity of a link, or of a model's frame and its canonical link."""
         place, motion = entity.placement(self.worlds), entity.motion(self.worlds)
         return State(place.position[0], place.quaternion[0], motion.linear[0], motion.angular[0])

@@ -13,7 +13,10 @@ Handler = Callable[[Any], Answer]
 
 
 def not_finite(message: Any, path: str = "") -> str | None:
-    """The path of the first number in a message that is infinite or NaN; None if there is none."""
+    """Return the path of the first number in a message that is infinite or NaN.
+
+    None if there is none.
+    """
     if isinstance(message, float):
         return None if math.isfinite(message) else path
     if isinstance(message, list | tuple):
@@ -25,7 +28,7 @@ def not_finite(message: Any, path: str = "") -> str | None:
 
 
 def refusing(kind: str, handler: Handler) -> Handler:
-    """A service's handler that refuses such numbers first."""
+    """Return a service handler that rejects requests with such numbers."""
 
     def checked(request: Any) -> Answer:
         bad = not_finite(request)
@@ -35,7 +38,7 @@ def refusing(kind: str, handler: Handler) -> Handler:
 
 
 def ignoring(topic: str, act: Handler) -> Handler:
-    """A topic's callback that leaves out messages with such numbers, and says so in the log."""
+    """Return a topic's callback that skips and logs messages with such numbers."""
 
     def checked(message: Any) -> Answer:
         bad = not_finite(message)

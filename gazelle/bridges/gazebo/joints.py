@@ -26,7 +26,7 @@ class JointServices:
         self._entities = context.entities
 
     def get_properties(self, request: Any) -> Answer:
-        """``get_joint_properties``; as in Gazebo the type is always 0 and damping empty."""
+        """Answer ``get_joint_properties``; as in Gazebo the type is always 0 and damping empty."""
         found = self._entities.joint(request.joint_name)
         if found is None:
             if not self._entities.has_fixed_joint(request.joint_name):
@@ -48,7 +48,7 @@ class JointServices:
         }
 
     def set_properties(self, request: Any) -> Answer:
-        """``set_joint_properties``: each list that is not empty changes something.
+        """Answer ``set_joint_properties``: each list that is not empty changes something.
 
         Damping, limits and the motor's ``fmax`` and ``vel`` act. ODE's other numbers have no
         counterpart.
@@ -75,7 +75,7 @@ class JointServices:
     def _set_motor(
         self, joint: JointHandle, efforts: Sequence[float], speeds: Sequence[float]
     ) -> None:
-        """ODE's motor: either number may come first, and each axis has its own."""
+        """Set ODE's motor: either number may come first, and each axis has its own."""
         if not efforts and not speeds:
             return
         worlds = self._entities.worlds
@@ -88,7 +88,7 @@ class JointServices:
             joint.drive(_filled(speeds, np.zeros_like(known))[None], worlds)
 
     def apply_effort(self, request: Any) -> Answer:
-        """``apply_joint_effort``."""
+        """Answer ``apply_joint_effort``."""
         found = self._entities.joint(request.joint_name)
         if found is None:
             if not self._entities.has_fixed_joint(request.joint_name):
@@ -108,7 +108,7 @@ class JointServices:
         return yes("ApplyJointEffort: effort set")
 
     def clear_efforts(self, request: Any) -> Answer:
-        """``clear_joint_forces``; of no joint that is not there."""
+        """Answer ``clear_joint_forces``; unknown joints are ignored."""
         found = self._entities.joint(request.joint_name)
         if found is not None:
             found[1].clear_efforts()

@@ -19,14 +19,14 @@ class LightServices:
         self._simulation = context.simulation
 
     def add(self, light: Light) -> bool:
-        """Put a light into the world; False if there is a light or a model of that name."""
+        """Add a light to the world; False if there is a light or a model of that name."""
         if self._find(light.name) is not None or light.name in self._simulation.robots:
             return False
         self._keep((*self._simulation.world.lights, light))
         return True
 
     def delete(self, request: Any) -> Answer:
-        """``delete_light``."""
+        """Answer ``delete_light``."""
         if self._find(request.light_name) is None:
             # Gazebo writes this over the better reason.
             return no(f'DeleteLight: Timeout reached while removing light "{request.light_name}"')
@@ -35,7 +35,7 @@ class LightServices:
         return yes("DeleteLight: " + request.light_name + " successfully deleted")
 
     def get(self, request: Any) -> Answer:
-        """``get_light_properties``."""
+        """Answer ``get_light_properties``."""
         light = self._find(request.light_name)
         if light is None:
             return no("getLightProperties: Requested light " + request.light_name + " not found!")
@@ -48,7 +48,7 @@ class LightServices:
         }
 
     def set(self, request: Any) -> Answer:
-        """``set_light_properties``."""
+        """Answer ``set_light_properties``."""
         light = self._find(request.light_name)
         if light is None:
             return no("setLightProperties: Requested light " + request.light_name + " not found!")

@@ -27,7 +27,7 @@ class LinkServices:
         self._engine = context.simulation.engine
 
     def get_properties(self, request: Any) -> Answer:
-        """``get_link_properties``."""
+        """Answer ``get_link_properties``."""
         link = self._entities.link(request.link_name)
         if link is None:
             return no(f"GetLinkProperties: {_UNSCOPED}")
@@ -45,7 +45,7 @@ class LinkServices:
         return response
 
     def set_properties(self, request: Any) -> Answer:
-        """``set_link_properties``; the orientation of ``com`` has no meaning here."""
+        """Answer ``set_link_properties``; the orientation of ``com`` has no meaning here."""
         link = self._entities.link(request.link_name)
         if link is None:
             return no(f"SetLinkProperties: {_UNSCOPED}")
@@ -63,7 +63,7 @@ class LinkServices:
         return yes("SetLinkProperties: properties set")
 
     def get_state(self, request: Any) -> Answer:
-        """``get_link_state``."""
+        """Answer ``get_link_state``."""
         link = self._entities.link(request.link_name)
         if link is None:
             return no(f"GetLinkState: {_UNSCOPED}")
@@ -85,11 +85,11 @@ class LinkServices:
         return response
 
     def set_state(self, request: Any) -> Answer:
-        """``set_link_state``."""
+        """Answer ``set_link_state``."""
         return self.set_state_of(request.link_state)
 
     def set_state_of(self, wanted: Any) -> Answer:
-        """Do what a ``gazebo_msgs/LinkState`` says; of the service and of the topic."""
+        """Apply a ``gazebo_msgs/LinkState`` of the service or the topic."""
         link = self._entities.link(wanted.link_name)
         if link is None:
             return no("SetLinkState: link does not exist")
@@ -108,7 +108,7 @@ class LinkServices:
         return yes(f"SetLinkState: success{', but ' if missed else ''}{missed}")
 
     def apply_wrench(self, request: Any) -> Answer:
-        """``apply_body_wrench``.
+        """Answer ``apply_body_wrench``.
 
         As in Gazebo the force acts at the centre of mass, and the torque of the force at
         ``reference_point`` is added. Given in a frame, the lever begins at the body's origin;
@@ -143,7 +143,7 @@ class LinkServices:
         return force, torque
 
     def clear_wrenches(self, request: Any) -> Answer:
-        """``clear_body_wrenches``; of no body that is not there."""
+        """Answer ``clear_body_wrenches``; unknown bodies are ignored."""
         link = self._entities.link(request.body_name)
         if link is not None:
             link.clear_wrenches()
@@ -154,6 +154,6 @@ class LinkServices:
 
 
 def _duration(duration: Any) -> float | None:
-    """Seconds; None for the negative ones that mean for ever."""
+    """Return seconds; None for negative ones, which mean for ever."""
     seconds = duration.to_sec()
     return None if seconds < 0.0 else seconds

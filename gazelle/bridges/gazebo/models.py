@@ -43,7 +43,7 @@ class ModelServices:
         self._calls: Counter[str] = Counter()
 
     def spawn_urdf(self, request: Any) -> Answer:
-        """``spawn_urdf_model``.
+        """Answer ``spawn_urdf_model``.
 
         Raises:
             ServiceError: The text is no URDF; the call fails, as Gazebo's does.
@@ -53,7 +53,7 @@ class ModelServices:
         return self.spawn(request)
 
     def spawn(self, request: Any) -> Answer:
-        """``spawn_sdf_model``: a model, or a light, from SDF or URDF.
+        """Answer ``spawn_sdf_model``: a model, or a light, from SDF or URDF.
 
         The text is read beside the running simulation; only what follows waits for its turn.
         """
@@ -100,7 +100,7 @@ class ModelServices:
         return yes("SpawnModel: Successfully spawned entity")
 
     def delete(self, request: Any) -> Answer:
-        """``delete_model``."""
+        """Answer ``delete_model``."""
         if request.model_name not in self._simulation.robots:
             return no("DeleteModel: model does not exist")
         self._simulation.delete(request.model_name)
@@ -108,7 +108,7 @@ class ModelServices:
         return yes("DeleteModel: successfully deleted model")
 
     def get_properties(self, request: Any) -> Answer:
-        """``get_model_properties``."""
+        """Answer ``get_model_properties``."""
         robot = self._entities.model(request.model_name)
         if robot is None:
             return no("GetModelProperties: model does not exist")
@@ -123,7 +123,7 @@ class ModelServices:
         }
 
     def get_state(self, request: Any) -> Answer:
-        """``get_model_state``."""
+        """Answer ``get_model_state``."""
         robot = self._entities.model(request.model_name)
         if robot is None:
             return no("GetModelState: model does not exist")
@@ -147,11 +147,11 @@ class ModelServices:
         return response
 
     def set_state(self, request: Any) -> Answer:
-        """``set_model_state``."""
+        """Answer ``set_model_state``."""
         return self.set_state_of(request.model_state)
 
     def set_state_of(self, wanted: Any) -> Answer:
-        """Do what a ``gazebo_msgs/ModelState`` says; of the service and of the topic."""
+        """Apply a ``gazebo_msgs/ModelState`` of the service or the topic."""
         robot = self._entities.model(wanted.model_name)
         if robot is None:
             return no("SetModelState: model does not exist")
@@ -162,7 +162,7 @@ class ModelServices:
         return yes(f"SetModelState: set model state done{', but ' if missed else ''}{missed}")
 
     def _place(self, robot: Robot, state: State) -> str:
-        """Put a model somewhere; returns what it is kept from, where a joint holds it.
+        """Set the pose of a model; returns a text if a joint holds it elsewhere.
 
         Gazebo calls that done, and its joint brings the model back.
         """
@@ -176,7 +176,7 @@ class ModelServices:
         return missed
 
     def set_configuration(self, request: Any) -> Answer:
-        """``set_model_configuration``: joints are put somewhere, with the speed they have."""
+        """Answer ``set_model_configuration``: set joint positions, and keep velocities."""
         robot = self._entities.model(request.model_name)
         if robot is None:
             return no("SetModelConfiguration: model does not exist")
@@ -190,7 +190,7 @@ class ModelServices:
         return yes("SetModelConfiguration: success")
 
     def _turn(self, joint: str, position: float) -> None:
-        """Put the first axis of a joint somewhere; a ball has none."""
+        """Set the position of a joint's first axis; a ball has none."""
         engine, worlds = self._simulation.engine, self._entities.worlds
         positions = engine.joints[joint].position(worlds)
         if positions.shape[1] == engine.joints[joint].velocity(worlds).shape[1]:
@@ -199,12 +199,12 @@ class ModelServices:
 
 
 def read_pose(wanted: Any) -> State:
-    """A ``geometry_msgs/Pose``, at rest."""
+    """Convert a ``geometry_msgs/Pose``, at rest."""
     place = np.array(point(wanted.position)), np.array(quaternion(wanted.orientation))
     return State(*place, np.zeros(3), np.zeros(3))
 
 
 def read_state(wanted: Any) -> State:
-    """Pose and twist of a ``ModelState`` or ``LinkState``."""
+    """Convert pose and twist of a ``ModelState`` or ``LinkState``."""
     linear, angular = np.array(point(wanted.twist.linear)), np.array(point(wanted.twist.angular))
     return replace(read_pose(wanted.pose), linear=linear, angular=angular)

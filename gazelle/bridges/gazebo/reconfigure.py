@@ -53,7 +53,7 @@ class PhysicsReconfigure:
         self._server = ReconfigureServer(context.node, tuning.topic, tuning)
 
     def close(self) -> None:
-        """Take it off the graph."""
+        """Remove it from the graph."""
         self._server.close()
 
     def _now(self) -> dict[str, Any]:

@@ -106,12 +106,12 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
 
 
 def _noticed(notice: str) -> Callable[[str], str]:
-    """Takes any value, and gives the notice in its place."""
+    """Return an argument type that accepts any value and returns the notice."""
     return lambda _value: notice
 
 
 def find_world(name: str) -> str:
-    """A world's file as Gazebo looks for it, or the name itself for what ``load`` finds.
+    """Return a world's file as Gazebo looks for it, or the name itself for what ``load`` finds.
 
     Raises:
         ResolveError: A path that is nowhere.

@@ -39,7 +39,7 @@ def _root(text: str) -> str:
 
 
 def read_or_say(text: str, name: str) -> Model | Light | str:
-    """The model or light of a request, or the status message that says why there is none."""
+    """Return the model or light of a request, or the status message of a failure."""
     if not is_model(text):
         return NEITHER
     try:
@@ -49,7 +49,7 @@ def read_or_say(text: str, name: str) -> Model | Light | str:
 
 
 def read(text: str, name: str) -> Model | Light:
-    """The model of a request, or the light if it holds nothing else.
+    """Return the model of a request, or the light if it holds nothing else.
 
     Raises:
         Error: The text cannot be read.
@@ -68,5 +68,5 @@ def _only_model(world: World) -> Model:
 
 
 def failure(error: Error) -> str:
-    """The status message for a text that cannot be read."""
+    """Return the status message for a text that cannot be read."""
     return f"SpawnModel: Failure - {error}"

@@ -44,11 +44,11 @@ class ClockPublisher(BasePlugin):
         return self._publisher.has_listener
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  the context knows the time
-        """Tick."""
+        """Publish the time."""
         self.publish()
 
     def publish(self) -> None:
-        """Tell the time."""
+        """Publish the time."""
         if self._publisher.has_listener:
             now = self._context.now()
             self._outbox.add(_STAMP.pack(now.secs, now.nsecs))
@@ -62,7 +62,7 @@ class ClockPublisher(BasePlugin):
         self._publisher.close()
 
     def _greet(self, _peer: str) -> None:
-        """Tell who comes the time, also while the simulation is paused."""
+        """Send the time to a new subscriber, also while the simulation is paused."""
 
         def work() -> None:
             self.publish()
@@ -101,7 +101,7 @@ class StatesPublisher(BasePlugin):
         self.publish()
 
     def publish(self) -> None:
-        """Tell where everything is."""
+        """Publish all poses and velocities."""
         tables = self._tables or self._make_tables()
         publishers = (self._models, self._links)
         for publisher, table, outbox in zip(publishers, tables, self._outboxes, strict=True):
@@ -121,7 +121,7 @@ class StatesPublisher(BasePlugin):
         self._links.close()
 
     def _forget(self, _robot: Robot) -> None:
-        """There are other models now."""
+        """Discard the tables after models changed."""
         self._tables = None
 
     def _make_tables(self) -> tuple[SerializedStates, SerializedStates]:
@@ -167,7 +167,7 @@ class SerializedStates:
 
 
 def _strings(names: Iterable[str]) -> bytes:
-    """An array of strings, serialised."""
+    """Return an array of strings, serialised."""
     encoded = [name.encode() for name in names]
     return b"".join([_COUNT.pack(len(encoded)), *(_COUNT.pack(len(e)) + e for e in encoded)])
 

@@ -9,6 +9,6 @@ from gazelle.ros.builtin.arguments import parse_arguments, spin
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Say so, and stay until told to end: launch files may require the node."""
+    """Log that there is no window, and run until shutdown: launch files may require the node."""
     sys.stderr.write("gzclient: there is no window; the simulation goes on without\n")
     return spin(parse_arguments(arguments, "gazebo_gui").start())

@@ -22,27 +22,27 @@ class WorldServices:
         self._simulation = context.simulation
 
     def pause(self, _request: Any) -> Answer:
-        """``pause_physics``: no step is made once this is answered."""
+        """Answer ``pause_physics``: no step is made once this is answered."""
         self._simulation.pause()
         return {}
 
     def unpause(self, _request: Any) -> Answer:
-        """``unpause_physics``."""
+        """Answer ``unpause_physics``."""
         self._simulation.unpause()
         return {}
 
     def reset_simulation(self, _request: Any) -> Answer:
-        """``reset_simulation``: everything, and time."""
+        """Answer ``reset_simulation``: everything, and time."""
         self._simulation.reset()
         return {}
 
     def reset_world(self, _request: Any) -> Answer:
-        """``reset_world``: everything but time."""
+        """Answer ``reset_world``: everything but time."""
         self._simulation.reset(time=False)
         return {}
 
     def get_properties(self, _request: Any) -> Answer:
-        """``get_world_properties``."""
+        """Answer ``get_world_properties``."""
         return {
             "sim_time": self._context.now().to_sec(),
             "model_names": list(self._simulation.robots),
@@ -51,7 +51,7 @@ class WorldServices:
         }
 
     def get_physics(self, _request: Any) -> Answer:
-        """``get_physics_properties``."""
+        """Answer ``get_physics_properties``."""
         physics = self._simulation.physics
         response = self._context.response("GetPhysicsProperties")
         response.time_step = physics.time_step
@@ -72,7 +72,7 @@ class WorldServices:
         return response
 
     def set_physics(self, request: Any) -> Answer:
-        """``set_physics_properties``."""
+        """Answer ``set_physics_properties``."""
         ode = request.ode_config
         try:
             self.change_physics(
@@ -94,14 +94,14 @@ class WorldServices:
         return yes("physics engine updated")
 
     def change_physics(self, **wanted: Any) -> None:
-        """Change the properties that differ from what is; what is the same is left alone."""
+        """Set the properties that differ from the present ones."""
         physics = self._simulation.physics
         changed = {name: value for name, value in wanted.items() if value != _now(physics, name)}
         if changed:
             physics.set(**changed)
 
     def step(self, request: Any) -> Answer:
-        """``/gazelle/step``: so many steps of a paused world, answered when they are made."""
+        """Answer ``/gazelle/step``: advance a paused world, and answer when the steps are made."""
         if not self._simulation.paused:
             return {"time": self._context.now(), **no("Step: the simulation is not paused")}
         if request.steps > _MOST_STEPS:
@@ -110,16 +110,16 @@ class WorldServices:
         return {"time": self._context.now(), **yes("Step: steps made")}
 
     def seed(self, request: Any) -> Answer:
-        """``/gazelle/seed``: everything starts over with the random numbers of another seed."""
+        """Answer ``/gazelle/seed``: reset everything with another seed."""
         self._simulation.reset(seed=request.seed)
         return yes("Seed: the simulation is reset")
 
     def snapshot(self, _request: Any) -> Answer:
-        """``/gazelle/snapshot``."""
+        """Answer ``/gazelle/snapshot``."""
         return {"state": self._simulation.snapshot(), **yes("Snapshot: taken")}
 
     def restore(self, request: Any) -> Answer:
-        """``/gazelle/restore``."""
+        """Answer ``/gazelle/restore``."""
         try:
             self._simulation.restore(bytes(request.state))
         except Error as error:
@@ -127,7 +127,7 @@ class WorldServices:
         return yes("Restore: done")
 
     def set_real_time_factor(self, request: Any) -> Answer:
-        """``/gazelle/set_real_time_factor``: a number, or ``max``."""
+        """Answer ``/gazelle/set_real_time_factor``: a number, or ``max``."""
         factor = read_factor(request.real_time_factor)
         if factor is None:
             said = f"expected {ACCEPTED}, not '{request.real_time_factor}'"
@@ -139,6 +139,6 @@ class WorldServices:
 
 
 def _now(physics: Any, name: str) -> Any:
-    """A property as a request would give it."""
+    """Return a property as a request would give it."""
     value = getattr(physics, name)
     return bool(value) if name == "auto_disable" else value

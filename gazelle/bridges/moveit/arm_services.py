@@ -25,7 +25,7 @@ _GROUP = "arm"
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Answer until it is told to end; returns the exit code."""
+    """Serve the arm until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "fetch_moveit")
     with found.start() as node:
         session.use(node)
@@ -96,13 +96,13 @@ class ArmServices:
         return {"pose": self._group.get_current_pose().pose}
 
     def _rpy(self, _request: Any) -> dict[str, Any]:
-        """Roll, pitch and yaw; the original gives pitch as ``y`` and yaw as ``p``, and tasks know it so."""
+        """Return roll, pitch and yaw; like the original, pitch as ``y`` and yaw as ``p``."""
         self._needs_state()
         roll, pitch, yaw = self._group.get_current_rpy()
         return {"r": roll, "p": yaw, "y": pitch}
 
     def _needs_state(self) -> None:
-        """See that it is known where the robot is, as a service that fails says it is not.
+        """Raise an error unless the robot's state is known.
 
         Raises:
             PlanningError: It is not.

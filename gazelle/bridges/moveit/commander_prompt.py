@@ -28,7 +28,7 @@ _ENDS = ("q", "quit", "exit")
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Answer commands until the input ends or one says so; returns the exit code."""
+    """Run commands until the input ends or one quits; returns the exit code."""
     asked = _parser().parse_args(parse_arguments(arguments, _NAME).plain)
     init_node(_NAME, argv=[*arguments], anonymous=True, disable_signals=True)
     with session.node() as node, contextlib.suppress(KeyboardInterrupt):
@@ -53,7 +53,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def converse(interpreter: MoveGroupCommandInterpreter, master: str) -> None:
-    """Take commands from the terminal, or a file in its place.
+    """Run commands from the terminal, or from a file in its place.
 
     Args:
         interpreter: Understands them.
@@ -97,7 +97,7 @@ class CommandCompleter:
         self.words: Mapping[str, Sequence[str]] = {}
 
     def install(self) -> None:
-        """Have the prompt ask, where the machine has a line editor."""
+        """Install the completion in the prompt, if there is a line editor."""
         with contextlib.suppress(ImportError):
             import readline
 
@@ -107,7 +107,7 @@ class CommandCompleter:
             readline.parse_and_bind("tab: complete")
 
     def end(self, line: str, text: str, state: int) -> str | None:
-        """One of the ends of a word, or None if there are no more.
+        """Return one of the completions of a word, or None if there are no more.
 
         Args:
             line: All that is typed.

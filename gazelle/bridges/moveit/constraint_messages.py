@@ -24,7 +24,7 @@ _NO_WEIGHT = 2.3e-16
 
 
 def constraints_of_message(message: Any, frames: PlanningFrames, state: Floats) -> ConstraintSet:
-    """A ``moveit_msgs/Constraints``.
+    """Convert a ``moveit_msgs/Constraints``.
 
     Args:
         message: The constraints.
@@ -96,7 +96,7 @@ def _orientation(message: Any, frames: PlanningFrames, state: Floats) -> Orienta
 
 
 def weights_of_message(message: Any) -> list[float]:
-    """Weights of a ``Constraints``, in the order of a ``ConstraintSet``; 1 where it says none, as in MoveIt."""
+    """Return weights of a ``Constraints``, in the order of a ``ConstraintSet``; 1 by default."""
     parts = (
         message.joint_constraints,
         message.position_constraints,

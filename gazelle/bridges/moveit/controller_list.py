@@ -48,7 +48,7 @@ class ActionController:
 
 
 def controllers_of(node: Node) -> dict[str, ActionController]:
-    """Controllers by name.
+    """Return controllers by name.
 
     Those of the node's own ``controller_list``, as MoveIt's simple controller manager has them; without
     one, controllers of trajectories and grippers that the ``controller_manager`` of the namespace says

@@ -16,7 +16,9 @@ DESCRIPTION = "robot_description"
 
 
 def robot_of_parameters(node: Node, description: str = DESCRIPTION) -> RobotModel:
-    """The robot of ``robot_description``, ``..._semantic`` and ``..._planning/joint_limits``.
+    """Return the robot of the parameters.
+
+    They are ``robot_description``, ``..._semantic`` and ``..._planning/joint_limits``.
 
     Args:
         node: Asks, in its own namespace and those around it.
@@ -43,7 +45,7 @@ def robot_of_parameters(node: Node, description: str = DESCRIPTION) -> RobotMode
 def margins_of_parameters(
     node: Node, robot: RobotModel, description: str = DESCRIPTION
 ) -> tuple[dict[str, float], dict[str, float]]:
-    """Padding [m] and scale of links, as ``..._planning/default_robot_padding`` and its kin say them.
+    """Return padding [m] and scale of links, from ``..._planning/default_robot_padding`` etc.
 
     Raises:
         PlanningError: One is no number.
@@ -75,13 +77,13 @@ def _number(value: Any, name: str) -> float:
 
 
 def find_parameter(node: Node, name: str, default: Any) -> Any:
-    """A parameter of the nearest namespace that has it."""
+    """Return a parameter of the nearest namespace that has it."""
     found = node.search_param(name)
     return default if found is None else node.get_param(found, default)
 
 
 def description_text(node: Node, name: str) -> str:
-    """The text of a parameter of the nearest namespace that has it.
+    """Return the text of a parameter of the nearest namespace that has it.
 
     Raises:
         PlanningError: There is none.
@@ -96,7 +98,7 @@ def description_text(node: Node, name: str) -> str:
 
 
 def _limits(robot: RobotModel, entries: Mapping[str, Any]) -> dict[str, JointBounds]:
-    """Limits that a ``joint_limits.yaml`` changes; joints of other robots are passed over."""
+    """Return limits changed by a ``joint_limits.yaml``; joints of other robots are skipped."""
     known = {variable.name: variable.bounds for variable in robot.variables}
     return {
         joint: known[joint].with_parameters(given, joint)

@@ -39,7 +39,7 @@ class FakeMotion:
         self._begin(node.get_param("~initial", None) or [])
 
     def _begin(self, postures: Any) -> None:
-        """Say where joints are at first."""
+        """Set initial joint positions."""
         found: dict[str, float] = {}
         for each in postures if isinstance(postures, list) else []:
             try:
@@ -89,5 +89,5 @@ class FakeMotion:
 
 
 def _between(times: Floats, positions: Floats, time: float) -> list[float]:
-    """Positions at a time, straight between those before and after."""
+    """Return positions at a time, interpolated linearly."""
     return [float(np.interp(time, times, column)) for column in positions.T]

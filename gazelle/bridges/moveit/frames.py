@@ -36,7 +36,7 @@ class PlanningFrames:
             node.subscribe(topic, kind, take)
 
     def find(self, frame: str, state: Floats) -> Pose:
-        """The pose of a frame in the one that is planned in.
+        """Return the pose of a frame in the planning frame.
 
         Args:
             frame: Of the message's header.
@@ -61,24 +61,24 @@ class PlanningFrames:
         return Pose.from_quaternion(found.translation, found.rotation)
 
     def pose(self, stamped: Any, state: Floats) -> Pose:
-        """A ``geometry_msgs/PoseStamped`` in the frame that is planned in; see ``find``."""
+        """Return a ``geometry_msgs/PoseStamped`` in the planning frame; see ``find``."""
         return self.find(stamped.header.frame_id, state) * pose_of_message(stamped.pose)
 
 
 def pose_of_message(message: Any) -> Pose:
-    """A ``geometry_msgs/Pose``."""
+    """Convert a ``geometry_msgs/Pose``."""
     return Pose.from_quaternion(point(message.position), quaternion(message.orientation))
 
 
 def pose_message(pose: Pose) -> Any:
-    """A ``geometry_msgs/Pose``."""
+    """Return a ``geometry_msgs/Pose``."""
     message: Any = load_message("geometry_msgs/Pose")()
     set_pose(message, pose.position, pose.quaternion)
     return message
 
 
 def stamped_message(pose: Pose, frame: str, now: int) -> Any:
-    """A ``geometry_msgs/PoseStamped`` at a time [ns]."""
+    """Return a ``geometry_msgs/PoseStamped`` at a time [ns]."""
     message: Any = load_message("geometry_msgs/PoseStamped")()
     message.header.frame_id, message.header.stamp = frame, Time(nsecs=now)
     message.pose = pose_message(pose)

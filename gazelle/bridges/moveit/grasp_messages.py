@@ -36,7 +36,7 @@ class GraspReader:
         self._moving = context.robot.moving(group.columns)
 
     def grasp(self, message: Any) -> Grasp:
-        """A ``moveit_msgs/Grasp``.
+        """Convert a ``moveit_msgs/Grasp``.
 
         Raises:
             NoPlanError: A frame or a joint is not known, or a way has no direction.
@@ -55,7 +55,7 @@ class GraspReader:
         )
 
     def place(self, message: Any, *, of_tip: bool) -> PlaceLocation:
-        """A ``moveit_msgs/PlaceLocation``; see ``grasp``."""
+        """Convert a ``moveit_msgs/PlaceLocation``; see ``grasp``."""
         return PlaceLocation(
             self._context.frames.pose(message.place_pose, self._state),
             self._translation(message.pre_place_approach),
@@ -83,7 +83,7 @@ class GraspReader:
             raise NoPlanError(error.message, PlanOutcome.INVALID_GOAL_CONSTRAINTS) from None
 
     def _posture(self, message: Any) -> Mapping[str, float]:
-        """The last point of a ``trajectory_msgs/JointTrajectory``."""
+        """Return the last point of a ``trajectory_msgs/JointTrajectory``."""
         if not message.points:
             return {}
         for name in message.joint_names:
@@ -96,7 +96,7 @@ class GraspReader:
 
 
 def stage_message(stage: ManipulationStage, frame: str) -> Any:
-    """A stage as ``moveit_msgs/RobotTrajectory``; of a gripper it is one point."""
+    """Return a stage as ``moveit_msgs/RobotTrajectory``; of a gripper it is one point."""
     if stage.motion is not None:
         return trajectory_message(stage.motion, frame)
     message: Any = load_message("moveit_msgs/RobotTrajectory")()

@@ -14,7 +14,7 @@ _REMOVE = 1
 
 
 def change_held(scene: PlanningScene, frames: PlanningFrames, message: Any) -> None:
-    """Do what an ``AttachedCollisionObject`` says; the robot is where the scene's state is.
+    """Apply an ``AttachedCollisionObject``; the robot is in the scene's state.
 
     Raises:
         PlanningError: It names what is not there, or a shape cannot be.
@@ -29,7 +29,7 @@ def change_held(scene: PlanningScene, frames: PlanningFrames, message: Any) -> N
 def scene_in_state(
     scene: PlanningScene, frames: PlanningFrames, message: Any, state: Floats
 ) -> PlanningScene:
-    """A scene with what a ``RobotState`` holds besides: another one, or the same if that is nothing.
+    """Return a scene with the attached objects of a ``RobotState``; the same if there are none.
 
     Args:
         scene: The scene; it stays as it is.
@@ -54,7 +54,7 @@ def scene_in_state(
 
 
 def refuse_reserved(name: str) -> None:
-    """See that a thing does not take the octomap's name.
+    """Raise an error for an object with the octomap's name.
 
     Raises:
         PlanningError: It does.
@@ -64,7 +64,7 @@ def refuse_reserved(name: str) -> None:
 
 
 def _leave(scene: PlanningScene, message: Any) -> None:
-    """Leave one thing, or all that a link holds, or all, where it is."""
+    """Detach one object, or all of a link, or all, at its present pose."""
     if message.object.id:
         scene.detach(message.object.id)
         return

@@ -79,7 +79,7 @@ class KinematicsServices:
     def _alone(
         self, validity: StateValidity, state: Floats, link: str | None, stamped: Any, timeout: float
     ) -> Floats:
-        """Positions of a group that bring one link to its pose."""
+        """Return positions of a group with one link at its pose."""
         pose = self._context.frames.pose(stamped, state)
         solver = self._solver(validity.group, link)
         found = solver.solve(pose, state, valid=validity, timeout=timeout or math.inf)
@@ -93,7 +93,10 @@ class KinematicsServices:
     def _together(
         self, validity: StateValidity, state: Floats, targets: list[tuple[str | None, Any]]
     ) -> Floats:
-        """Positions of a group that bring several links to their poses, each by joints of its own."""
+        """Return positions of a group with several links at their poses.
+
+        Each has joints of its own.
+        """
         group, frames = validity.group, self._context.frames
         parts = [
             goal_of_pose(link or group.tip, frames.pose(stamped, state), *_EXACT)
@@ -183,7 +186,7 @@ def _kind(name: str, scene: PlanningScene) -> int:
 
 
 def _targets(asked: Any) -> list[tuple[str | None, Any]]:
-    """The links and poses that a request is about.
+    """Return the links and poses of a request.
 
     Raises:
         NoPlanError: There are more of the ones than of the others.

@@ -169,13 +169,13 @@ class ExecuteTrajectoryAction:
 
 
 def outcome_of(error: PlanningError) -> int:
-    """The error code of what went wrong."""
+    """Return the error code of an error."""
     outcome = error.outcome if isinstance(error, NoPlanError) else PlanOutcome.FAILURE
     return int(outcome)
 
 
 def finish(server: SimpleActionServer, result: Any, text: str) -> None:
-    """End the goal that is worked on as its error code says."""
+    """End the active goal as its error code says."""
     if result.error_code.val == PlanOutcome.SUCCESS:
         server.set_succeeded(result, text)
     elif result.error_code.val == PlanOutcome.PREEMPTED:

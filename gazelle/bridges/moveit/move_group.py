@@ -19,7 +19,7 @@ from gazelle.ros.node import Node
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Answer until it is told to end; returns the exit code."""
+    """Run the node until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "move_group")
     with found.start() as node:
         MoveGroupNode(node)

@@ -25,7 +25,7 @@ Shapes = tuple[tuple[Shape, Pose], ...]
 
 
 def object_of_message(message: Any, frame: Pose) -> SceneObject:
-    """A thing with shapes.
+    """Convert a ``CollisionObject``.
 
     An object without a pose of its own and with one shape is where that is, as in MoveIt.
 
@@ -51,7 +51,7 @@ def object_of_message(message: Any, frame: Pose) -> SceneObject:
 
 
 def shapes_of_message(message: Any) -> Shapes:
-    """Shapes of a ``CollisionObject`` at poses in its own frame.
+    """Return shapes of a ``CollisionObject`` at poses in its own frame.
 
     Raises:
         PlanningError: One is not known.
@@ -68,7 +68,7 @@ def shapes_of_message(message: Any) -> Shapes:
 
 
 def object_message(thing: SceneObject, frame: str, *, shapes: bool = True) -> Any:
-    """A ``CollisionObject``.
+    """Return a ``CollisionObject``.
 
     Args:
         thing: The object.
@@ -96,7 +96,7 @@ def object_message(thing: SceneObject, frame: str, *, shapes: bool = True) -> An
 
 
 def _placed(shapes: Sequence[Any], poses: Sequence[Any]) -> list[tuple[Any, Pose]]:
-    """Shapes with their poses; those without are at the origin."""
+    """Return shapes with their poses; those without a pose are at the origin."""
     known = [pose_of_message(pose) for pose in poses]
     known += [Pose()] * (len(shapes) - len(known))
     return list(zip(shapes, known, strict=False))
@@ -137,7 +137,7 @@ def _primitive_message(name: str, shape: Shape) -> Any:
 
 
 def _plane(message: Any) -> tuple[Plane, Pose]:
-    """The plane ax + by + cz + d = 0 as one through an origin."""
+    """Convert the plane ax + by + cz + d = 0 to one through an origin."""
     *normal, offset = message.coef
     length = float(np.linalg.norm(normal))
     if not 0.0 < length < np.inf:
@@ -156,7 +156,7 @@ def _mesh(message: Any) -> MeshData:
 
 
 def mesh_message(mesh: MeshData) -> Any:
-    """A ``shape_msgs/Mesh``."""
+    """Return a ``shape_msgs/Mesh``."""
     message: Any = load_message("shape_msgs/Mesh")()
     triangle, point = load_message("shape_msgs/MeshTriangle"), load_message("geometry_msgs/Point")
     message.triangles = [triangle(vertex_indices=face) for face in mesh.faces.tolist()]

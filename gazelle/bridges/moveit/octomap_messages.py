@@ -14,7 +14,7 @@ from gazelle.ros.messages import load_message
 
 
 def octomap_of_message(message: Any, frame: Pose) -> SceneObject | None:
-    """An octomap; None if it has no data, which clears the one that is there.
+    """Convert an octomap; None if it has no data, which clears the present one.
 
     Args:
         message: The ``OctomapWithPose``.
@@ -33,7 +33,7 @@ def octomap_of_message(message: Any, frame: Pose) -> SceneObject | None:
 
 
 def octomap_message(scene: PlanningScene) -> Any:
-    """The ``OctomapWithPose`` of a scene, in the frame that is planned in; without data if it has none."""
+    """Return the ``OctomapWithPose`` of a scene, in the planning frame; empty without one."""
     message: Any = load_message("octomap_msgs/OctomapWithPose")()
     message.header.frame_id = scene.robot.frame
     known = scene.objects.get(OCTOMAP)

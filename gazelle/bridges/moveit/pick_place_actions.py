@@ -67,15 +67,15 @@ class ManipulationAction:
     def make(
         self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
     ) -> ManipulationPlan:
-        """A plan for a goal; its start is the scene's state."""
+        """Return a plan for a goal; its start is the scene's state."""
         raise NotImplementedError
 
     def choose(self, goal: Any, result: Any, number: int) -> None:
-        """Say in the result which grasp or place was taken."""
+        """Store the chosen grasp or place in the result."""
         raise NotImplementedError
 
     def group_of(self, goal: Any) -> tuple[JointModelGroup, str]:
-        """The group, and the name of the end effector or nothing."""
+        """Return the group, and the name of the end effector or an empty text."""
         return self.context.group(goal.group_name), ""
 
     # -- the action ----------------------------------------------------------------------
@@ -171,7 +171,7 @@ class PickupAction(ManipulationAction):
     name, kind = "pickup", "Pickup"
 
     def group_of(self, goal: Any) -> tuple[JointModelGroup, str]:
-        """The named group; else the one that carries the end effector."""
+        """Return the named group; else the one that carries the end effector."""
         name = goal.group_name
         if not name and goal.end_effector:
             robot = self.context.robot
@@ -186,13 +186,13 @@ class PickupAction(ManipulationAction):
     def make(
         self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
     ) -> ManipulationPlan:
-        """A plan to take it."""
+        """Return a plan to pick an object up."""
         grasps = [reader.grasp(each) for each in goal.possible_grasps]
         held = _constraints(self.context, goal)
         return planner.pick(goal.target_name, grasps, rules=rules, constraints=held)
 
     def choose(self, goal: Any, result: Any, number: int) -> None:
-        """The grasp."""
+        """Store the grasp in the result."""
         result.grasp = goal.possible_grasps[number]
 
 
@@ -204,7 +204,7 @@ class PlaceAction(ManipulationAction):
     def make(
         self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
     ) -> ManipulationPlan:
-        """A plan to put it down."""
+        """Return a plan to place an object."""
         name, held = goal.attached_object_name, [*self.context.scene.attached]
         if not name and len(held) == 1:
             name = held[0]
@@ -213,7 +213,7 @@ class PlaceAction(ManipulationAction):
         return planner.place(name, places, rules=rules, constraints=constraints)
 
     def choose(self, goal: Any, result: Any, number: int) -> None:
-        """The place."""
+        """Store the place in the result."""
         result.place_location = goal.place_locations[number]
 
 

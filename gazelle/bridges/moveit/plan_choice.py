@@ -69,7 +69,7 @@ def _length(plan: MotionPlan) -> float:
 
 
 def slowed(plan: MotionPlan, robot: RobotModel, link: str, speed: float) -> MotionPlan:
-    """A plan on which a link is nowhere faster than it may be; all of it gets as much slower.
+    """Return a plan slowed down so that a link keeps its speed limit.
 
     Args:
         plan: The plan.

@@ -38,7 +38,10 @@ class PlannerSettings:
         return found
 
     def planner(self, name: str, group: str) -> str:
-        """The planner of a ``planner_id``; the group's default, with a warning, if it is unknown."""
+        """Return the planner of a ``planner_id``.
+
+        The group's default, with a warning, if it is unknown.
+        """
         plain = name.removeprefix(f"{group}[").removesuffix("]") if "[" in name else name
         plain = "" if plain == group else plain
         default = str(self._group(group).get("default_planner_config") or "")
@@ -54,7 +57,7 @@ class PlannerSettings:
         return ""
 
     def segment(self, group: str) -> float:
-        """Distance of checked states, as a fraction of the extent."""
+        """Return the distance of checked states, as a fraction of the extent."""
         value = self._group(group).get("longest_valid_segment_fraction", LONGEST_SEGMENT)
         number = real(value)
         return number if number is not None and number > 0.0 else LONGEST_SEGMENT
@@ -72,7 +75,7 @@ class PlannerSettings:
     def set_parameters(
         self, config: str, group: str, given: Mapping[str, str], *, replace: bool
     ) -> None:
-        """Change what a planner's configuration says; of a group alone if one is named."""
+        """Set values of a planner's configuration; for one group if it is named."""
         name = f"{group}[{config}]" if group else config
         self._said[name] = ({} if replace else self._said.get(name, {})) | dict(given)
 

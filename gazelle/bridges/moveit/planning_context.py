@@ -61,12 +61,12 @@ class PlanningContext:
         self.frames = PlanningFrames(node, self.scene)
 
     def serve(self, name: str, kind: Any, act: Callable[[Any], Any]) -> None:
-        """Offer a service, if it is one of the capabilities."""
+        """Advertise a service, if it is one of the capabilities."""
         if name in self.capabilities:
             self.node.serve(name, kind, act)
 
     def now(self) -> int:
-        """The graph's time [ns]."""
+        """Return the graph's time [ns]."""
         return self.node.clock.now()
 
     def refresh(self) -> None:
@@ -83,7 +83,7 @@ class PlanningContext:
         return state
 
     def state(self, message: Any) -> Floats:
-        """A ``moveit_msgs/RobotState``; what it does not say is as it is now.
+        """Convert a ``moveit_msgs/RobotState``; missing values are the present ones.
 
         Raises:
             NoPlanError: It names what is not there.
@@ -91,7 +91,7 @@ class PlanningContext:
         return state_of_message(self.robot, message, self.current())
 
     def scene_in(self, message: Any, state: Floats) -> PlanningScene:
-        """The scene with what a ``moveit_msgs/RobotState`` holds besides; hold ``lock``.
+        """Return the scene with attached objects of a ``moveit_msgs/RobotState``; hold ``lock``.
 
         Raises:
             NoPlanError: Something cannot be held.
@@ -99,7 +99,7 @@ class PlanningContext:
         return scene_in_state(self.scene, self.frames, message, state)
 
     def group(self, name: str) -> JointModelGroup:
-        """A group.
+        """Return a group.
 
         Raises:
             NoPlanError: There is none of that name.
@@ -110,7 +110,7 @@ class PlanningContext:
             raise NoPlanError(error.message, PlanOutcome.INVALID_GROUP_NAME, error.hint) from None
 
     def constraints(self, message: Any, state: Floats) -> ConstraintSet:
-        """A ``moveit_msgs/Constraints``, seen to name links and joints that are there.
+        """Convert a ``moveit_msgs/Constraints``, whose links and joints must exist.
 
         Raises:
             NoPlanError: One cannot be.

@@ -62,7 +62,7 @@ class PlanningServices:
         from_here: bool = False,
         scene: AbstractContextManager[None] | None = None,
     ) -> MotionPlan:
-        """A plan for a ``moveit_msgs/MotionPlanRequest``; do not hold the context's lock.
+        """Return a plan for a ``moveit_msgs/MotionPlanRequest``; do not hold the context's lock.
 
         Args:
             request: The request; any of its goals will do.
@@ -85,7 +85,7 @@ class PlanningServices:
             return self._search(request, group, state, goals, held, failure)
 
     def _goals(self, request: Any, state: Floats) -> tuple[list[ConstraintSet], NoPlanError | None]:
-        """Goals that can be read, and what is wrong with the first that cannot."""
+        """Return valid goals, and the error of the first invalid one."""
         goals: list[ConstraintSet] = []
         failure: NoPlanError | None = None
         for each in request.goal_constraints:
@@ -104,7 +104,7 @@ class PlanningServices:
         held: ConstraintSet,
         failure: NoPlanError | None,
     ) -> MotionPlan:
-        """The shortest plan of all attempts to the first goal that can be reached."""
+        """Return the shortest plan of all attempts to the first goal that can be reached."""
         options = self._options(request, group.name)
         for goal in goals:
             try:
@@ -222,5 +222,5 @@ class PlanningServices:
 
 
 def _factor(asked: float) -> float:
-    """A scaling factor; 1 where it is not within (0, 1], as in MoveIt."""
+    """Return a scaling factor; 1 if it is not within (0, 1], as in MoveIt."""
     return float(asked) if 0.0 < asked <= 1.0 else 1.0

@@ -50,7 +50,7 @@ class JointStateMonitor:
             self._news.notify_all()
 
     def current(self) -> Floats:
-        """Of all variables, zero where nobody has said anything yet, shape (variables,)."""
+        """Return all variables, zero for those without a message yet, shape (variables,)."""
         with self._news:
             return self._robot.complete(self._positions.copy())
 
@@ -89,7 +89,7 @@ class JointStateMonitor:
 
 
 def state_of_message(robot: RobotModel, message: Any, current: Floats) -> Floats:
-    """A ``moveit_msgs/RobotState`` as positions; joints that it does not name stay as they are.
+    """Convert a ``moveit_msgs/RobotState`` to positions; other joints stay as they are.
 
     Args:
         robot: Whose state.
@@ -114,7 +114,7 @@ def state_of_message(robot: RobotModel, message: Any, current: Floats) -> Floats
 
 
 def state_message(robot: RobotModel, state: Floats, now: int = 0) -> Any:
-    """A ``moveit_msgs/RobotState`` of all variables, shape (variables,), at a time [ns]."""
+    """Return a ``moveit_msgs/RobotState`` of all variables, shape (variables,), at a time [ns]."""
     message: Any = load_message("moveit_msgs/RobotState")()
     message.joint_state.header.frame_id = robot.frame
     message.joint_state.header.stamp = Time(nsecs=now)

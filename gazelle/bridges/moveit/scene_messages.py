@@ -16,7 +16,7 @@ STATE, ATTACHED, NAMES, GEOMETRY, MAP, ALLOWED, PADDING, COLORS = 2, 4, 8, 16, 3
 
 
 def scene_message(scene: PlanningScene, parts: int, colors: Mapping[str, Any]) -> Any:
-    """A scene.
+    """Return a scene.
 
     Args:
         scene: The scene; its state is where the robot is.
@@ -68,7 +68,7 @@ def scene_message(scene: PlanningScene, parts: int, colors: Mapping[str, Any]) -
 
 
 def matrix_message(matrix: AllowedCollisionMatrix) -> Any:
-    """An ``AllowedCollisionMatrix``; pairs of which nothing is said may not touch."""
+    """Return an ``AllowedCollisionMatrix``; unlisted pairs may not touch."""
     pairs, defaults = matrix.pairs, matrix.defaults
     names = sorted({name for pair in pairs for name in pair})
     entry = load_message("moveit_msgs/AllowedCollisionEntry")
@@ -83,7 +83,7 @@ def matrix_message(matrix: AllowedCollisionMatrix) -> Any:
 
 
 def matrix_of_message(message: Any) -> AllowedCollisionMatrix:
-    """The rules of an ``AllowedCollisionMatrix``; what names say counts where a pair is not allowed."""
+    """Convert an ``AllowedCollisionMatrix``; defaults of names hold for pairs not allowed."""
     made = AllowedCollisionMatrix()
     defaults = dict(zip(message.default_entry_names, message.default_entry_values, strict=False))
     for name, value in defaults.items():

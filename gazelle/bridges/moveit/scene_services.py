@@ -76,7 +76,7 @@ class SceneServices:
         return {}
 
     def change(self, act: Callable[[], bool]) -> bool:
-        """Change the scene and show it; whether all could be done."""
+        """Change the scene and publish it; returns whether everything succeeded."""
         with self._context.lock:
             self._context.current()
             done = act()
@@ -85,7 +85,10 @@ class SceneServices:
         return done
 
     def _try(self, act: Callable[[], object]) -> bool:
-        """Try a part of a change; log the reason if it fails, and return whether it succeeded."""
+        """Apply a part of a change.
+
+        Log the reason if it fails, and return whether it succeeded.
+        """
         try:
             act()
         except Error as error:
@@ -97,7 +100,7 @@ class SceneServices:
 
     @contextmanager
     def changed(self, message: Any) -> Iterator[None]:
-        """The scene with the change of a ``PlanningScene``, for a while; hold the context's lock.
+        """Apply the change of a ``PlanningScene`` while it lasts; hold the context's lock.
 
         Raises:
             NoPlanError: A part of the change could not be done.
@@ -126,7 +129,7 @@ class SceneServices:
             scene.allowed = allowed
 
     def _take(self, message: Any) -> bool:
-        """Take a ``PlanningScene``, or a change of it."""
+        """Apply a ``PlanningScene``, or a change of it."""
         scene = self._scene
         if not message.is_diff:
             scene.clear()
@@ -136,7 +139,7 @@ class SceneServices:
         return self._merge(message)
 
     def _merge(self, message: Any) -> bool:
-        """Change what a ``PlanningScene`` says; the rest stays."""
+        """Apply the parts of a ``PlanningScene``; the rest stays."""
         scene, done = self._scene, True
         if message.allowed_collision_matrix.entry_names or (
             message.allowed_collision_matrix.default_entry_names
@@ -154,12 +157,12 @@ class SceneServices:
         return done
 
     def _replace(self, world: Any) -> bool:
-        """Take a ``PlanningSceneWorld`` in place of all that stands there."""
+        """Replace the world by a ``PlanningSceneWorld``."""
         self._scene.clear()
         return self._place(world)
 
     def _place(self, world: Any) -> bool:
-        """Do what a ``PlanningSceneWorld`` says; its octomap replaces the one before, if it says any."""
+        """Apply a ``PlanningSceneWorld``; its octomap, if any, replaces the present one."""
         done = True
         for each in world.collision_objects:
             done &= self._object(each)
@@ -183,7 +186,7 @@ class SceneServices:
     # -- things --------------------------------------------------------------------------
 
     def _object(self, message: Any) -> bool:
-        """Do what a ``CollisionObject`` says."""
+        """Apply a ``CollisionObject``."""
         actions = {
             _ADD: self._add, _REMOVE: self._remove, _APPEND: self._append, _MOVE: self._move,
         }  # fmt: skip
@@ -223,7 +226,7 @@ class SceneServices:
     # -- what links hold -----------------------------------------------------------------
 
     def _hold(self, message: Any) -> bool:
-        """Do what an ``AttachedCollisionObject`` says."""
+        """Apply an ``AttachedCollisionObject``."""
         return self._try(lambda: change_held(self._scene, self._context.frames, message))
 
 

@@ -102,7 +102,7 @@ class TrajectoryExecutor:
             self._wait(clients, trajectory, stop, lenient, spare)
 
     def _check_start(self, trajectory: Any) -> None:
-        """See that the robot is where the trajectory begins."""
+        """Check that the robot is at the start of the trajectory."""
         robot = self._context.robot
         columns = robot.columns(trajectory.joint_names)
         unknown = {*self._context.monitor.unknown} & {*trajectory.joint_names}

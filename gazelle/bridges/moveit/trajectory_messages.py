@@ -10,7 +10,7 @@ from gazelle.ros.time import Duration
 
 
 def trajectory_message(plan: MotionPlan, frame: str) -> Any:
-    """A plan; its joints' positions, velocities and accelerations at each time.
+    """Return a plan as a message: positions, velocities and accelerations at each time.
 
     Args:
         plan: The plan.
@@ -25,7 +25,7 @@ def trajectory_message(plan: MotionPlan, frame: str) -> Any:
 
 
 def points_of(timed: TimedPath) -> list[Any]:
-    """A trajectory as ``trajectory_msgs/JointTrajectoryPoint`` messages."""
+    """Return a trajectory as ``trajectory_msgs/JointTrajectoryPoint`` messages."""
     made = load_message("trajectory_msgs/JointTrajectoryPoint")
     return [
         made(

@@ -131,7 +131,7 @@ class AmclNode:
             self._changed.notify_all()
 
     def _do(self, change: Callable[[Localizer], None]) -> None:
-        """Change what is known, now or, the last one, as soon as there is a map."""
+        """Change the filter now, or (only the last change) as soon as there is a map."""
         with self._lock:
             if self._localizer is None:
                 self._pending = change
@@ -156,7 +156,7 @@ class AmclNode:
         return (pose[0], pose[1], pose[2]), np.diag(spread)
 
     def apply(self, settings: AmclSettings) -> None:
-        """Take other settings while it runs."""
+        """Apply new settings while running."""
         with self._lock:
             self.settings = settings
             if self._localizer is not None:
@@ -165,7 +165,7 @@ class AmclNode:
     # Topics and services ------------------------------------------------------------------
 
     def _begin(self, message: Any) -> None:
-        """Take an initial pose; it is moved on by what odometry says happened since its time."""
+        """Set an initial pose, advanced by the odometry since its time."""
         frame = message.header.frame_id.strip("/")
         if frame not in {"", self._whole}:
             warnings.warn(
@@ -191,7 +191,7 @@ class AmclNode:
         self._do(begin)
 
     def _begin_anywhere(self, request: Any) -> list[Any]:
-        """Look for the robot all over the map.
+        """Start global localisation.
 
         The answer says that this has begun, so it waits for a map that a service is to give. One of
         a topic may never come.
@@ -224,7 +224,7 @@ class AmclNode:
         return mounted, odom
 
     def _use(self, message: Any, found: tuple[StampedTransform, Pose2]) -> None:
-        """Take a scan."""
+        """Process a scan."""
         mounted, odom = found
         stamp = message.header.stamp.to_nsec()
         sign = -1.0 if is_upside_down(mounted.rotation) else 1.0
@@ -311,7 +311,7 @@ class _Tuning:
         return dataclasses.asdict(self._owner.settings)
 
     def send(self, /, **wanted: Any) -> dict[str, Any]:
-        """Change some; what cannot be is left as it is."""
+        """Set some values; invalid ones stay as they are."""
         try:
             self._owner.apply(AmclSettings.read({**self.values, **wanted}))
         except Error:
@@ -320,7 +320,7 @@ class _Tuning:
 
 
 def _tunable(name: str, default: Any) -> Tunable:
-    """A setting with its limits."""
+    """Return a setting with its limits."""
     text = name.replace("_", " ")
     if isinstance(default, bool):
         return Tunable(name, default, False, True, text)

@@ -80,7 +80,7 @@ class CostmapTopics:
         return take
 
     def reset(self) -> None:
-        """Forget what was seen; it is drawn anew before anybody plans on it."""
+        """Clear the costmap; it is drawn again before the next plan."""
         self.costmap.reset()
         self._updated_ns = -(1 << 62)
 
@@ -96,7 +96,10 @@ class CostmapTopics:
     # Cycles -------------------------------------------------------------------------------
 
     def cycle(self, now: int) -> bool:
-        """Take what came, update and publish if it is due; returns whether it can be planned on."""
+        """Process input, update and publish if due.
+
+        Returns whether the costmap is ready for plans.
+        """
         self._take_maps()
         self._take_seen(now)
         self.pose = self._frames.pose(self.costmap.frame, self._setup.base_frame)
@@ -125,7 +128,7 @@ class CostmapTopics:
                 self._full_wanted = True
 
     def _see_map(self) -> None:
-        """Tell static layers of a rolling costmap where its frame is on the map."""
+        """Set the pose of a rolling costmap's frame on the map in static layers."""
         if not self.costmap.rolling:
             return
         for layer in self.costmap.layers:
@@ -143,7 +146,7 @@ class CostmapTopics:
             self._inbox = fresh + self._inbox
 
     def _observe(self, sensor: SensorTopic, message: Any) -> bool:
-        """Take what a sensor saw; False if its transform is not there yet."""
+        """Process a measurement of a sensor; False if its transform is missing yet."""
         frame = message.header.frame_id.strip("/")
         self.sensor_frame = sensor.sensor_frame or frame
         stamp = message.header.stamp.to_nsec()

@@ -31,7 +31,7 @@ _POINTS, _ADD, _DELETE_ALL = 8, 0, 3
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Explore until nothing is left, and stay until it is told to end; returns the exit code."""
+    """Explore until nothing is left, and run until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "explore")
     with found.start() as node, stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
@@ -78,7 +78,7 @@ class ExploreNode:
         self._diagnosis = StartDiagnosis(node, self._missing)
 
     def run(self, stop: threading.Event) -> None:
-        """Work until told to end."""
+        """Run until shutdown."""
         rate = Rate(self._node.clock, self.settings.planner_frequency, reset=True)
         while not stop.is_set() and not self._node.closed:
             self._diagnosis.look(waiting=bool(self._missing()))
@@ -88,7 +88,7 @@ class ExploreNode:
             self._client.cancel_all_goals()
 
     def cycle(self) -> None:
-        """Look where to go, and go there."""
+        """Choose a frontier, and send the robot there."""
         with self._lock:
             grid, costs = self._grid, self._costs.copy()
             ended, self._ended = self._ended, []
@@ -182,5 +182,5 @@ class ExploreNode:
 
 
 def _costs_of(cells: Any) -> Bytes:
-    """Costs of a published map: unknown, free, or neither, shape of ``cells``."""
+    """Return costs of a published map: unknown, free, or neither, shape of ``cells``."""
     return np.where(cells < 0, NO_INFORMATION, np.where(cells == 0, 0, LETHAL)).astype(np.uint8)

@@ -47,7 +47,7 @@ class GraphFrames:
         take_transforms(self.tree, message, authority="navigation", static=static)
 
     def send(self, parent: str, child: str, stamp: int, pose: Pose2) -> None:
-        """Say where a frame is in its parent, from a time on [ns]."""
+        """Publish the pose of a frame in its parent, from a time on [ns]."""
         message: Any = self._stamped()
         message.header.frame_id, message.child_frame_id = parent, child
         message.header.stamp = Time(nsecs=stamp)
@@ -57,19 +57,19 @@ class GraphFrames:
         self._sender.publish(self._kind(transforms=[message]))
 
     def find(self, target: str, source: str, stamp: int = 0) -> StampedTransform | None:
-        """From a frame to another at a time [ns], or the newest; None if it is not known."""
+        """Return the transform between frames at a time [ns], or the newest; None if unknown."""
         try:
             return self.tree.lookup(target, source, stamp)
         except TransformException:
             return None
 
     def pose(self, target: str, source: str, stamp: int = 0) -> Pose2 | None:
-        """The pose of a frame in another, seen from above; None if it is not known."""
+        """Return the pose of a frame in another, projected to the plane; None if unknown."""
         found = self.find(target, source, stamp)
         return None if found is None else flat(found)
 
     def latest(self, target: str, source: str) -> int:
-        """The newest time at which a transform is known [ns]; 0 if there is none."""
+        """Return the newest time at which a transform is known [ns]; 0 if there is none."""
         try:
             return self.tree.latest_common_time(target, source)
         except TransformException:
@@ -77,13 +77,13 @@ class GraphFrames:
 
 
 def flat(transform: StampedTransform) -> Pose2:
-    """A transform seen from above."""
+    """Return a transform, projected to the plane."""
     x, y, _ = transform.translation
     return x, y, float(yaw_of(np.array(transform.rotation)))
 
 
 def applied(transform: StampedTransform, points: Floats) -> Floats:
-    """Points, shape (n, 3), through a transform."""
+    """Return points, shape (n, 3), transformed."""
     moved: Floats = rotate(np.array(transform.rotation), points) + np.array(transform.translation)
     return moved
 

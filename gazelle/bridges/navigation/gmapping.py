@@ -18,7 +18,7 @@ from gazelle.ros.node import Node
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Map until it is told to end; returns the exit code."""
+    """Run the mapping until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "slam_gmapping")
     with found.start() as node, stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
@@ -50,13 +50,13 @@ class GmappingNode(MappingNode):
         return self.slam.map_to_odom
 
     def drawn(self) -> OccupancyMap:
-        """The best particle's map."""
+        """Return the best particle's map."""
         return self.slam.map()
 
     def take(
         self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
     ) -> bool:
-        """Take a scan; whether the map has changed."""
+        """Process a scan; returns whether the map has changed."""
         stamp = message.header.stamp.to_nsec()
         if odom is None:
             return False

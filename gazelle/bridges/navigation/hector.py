@@ -23,7 +23,7 @@ from gazelle.rotations import from_yaw, yaw_of
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Map until it is told to end; returns the exit code."""
+    """Run the mapping until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "hector_mapping")
     with found.start() as node, stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
@@ -71,13 +71,13 @@ class HectorNode(MappingNode):
         return self._place
 
     def drawn(self) -> OccupancyMap:
-        """All of it."""
+        """Return the map."""
         return self.slam.map()
 
     def take(
         self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
     ) -> bool:
-        """Take a scan; whether the map has changed."""
+        """Process a scan; returns whether the map has changed."""
         stamp = message.header.stamp.to_nsec()
         if self._paused:
             return False
@@ -116,7 +116,7 @@ class HectorNode(MappingNode):
             self.slam.reset()
 
     def _begin(self, message: Any) -> None:
-        """Go on from another pose on the map."""
+        """Continue from another pose on the map."""
         found = self.frames.find(self._whole, message.header.frame_id.strip("/") or self._whole)
         frame = (0.0, 0.0, 0.0) if found is None else flat(found)
         place, turn = message.pose.pose.position, message.pose.pose.orientation

@@ -73,7 +73,7 @@ class MappingNode(ABC):
     def take(
         self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
     ) -> bool:
-        """Take a scan; whether the map has changed.
+        """Process a scan; returns whether the map has changed.
 
         Args:
             message: The scan.
@@ -85,10 +85,10 @@ class MappingNode(ABC):
 
     @abstractmethod
     def drawn(self) -> OccupancyMap:
-        """The map."""
+        """Return the map."""
 
     def run(self, stop: threading.Event) -> None:
-        """Take scans until told to end."""
+        """Process scans until shutdown."""
         while not stop.is_set() and not self._node.closed:
             self._scans.work(self._find, self._use)
             self._send()
@@ -111,7 +111,7 @@ class MappingNode(ABC):
         return mounted, odom
 
     def _use(self, message: Any, found: tuple[StampedTransform, Pose2 | None]) -> None:
-        """Take a scan."""
+        """Process a scan."""
         mounted, odom = found
         self._count += 1
         if self._count % self._every:
@@ -134,7 +134,7 @@ class MappingNode(ABC):
         self._infos.publish(message.info)
 
     def _send(self) -> None:
-        """Say where the odometry is on the map, dated ahead."""
+        """Publish the pose of the odometry on the map, dated ahead."""
         now, place = self._node.clock.now(), self.place()
         if place is None or self._period_ns <= 0:
             return

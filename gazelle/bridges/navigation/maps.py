@@ -16,7 +16,7 @@ _AGAIN_S = 0.5
 
 
 def map_of_service(node: Node, stopped: Callable[[], bool]) -> OccupancyMap | None:
-    """Ask ``static_map`` until there is a map; None if the node ends before."""
+    """Call ``static_map`` until there is a map; None if the node ends before."""
     service = load_service("nav_msgs/GetMap")
     while not stopped():
         with contextlib.suppress(RosError):
@@ -49,7 +49,7 @@ class MapListener:
                 self._fresh, self._had = grid_of_message(message), True
 
     def take(self) -> OccupancyMap | None:
-        """The newest map, once."""
+        """Return the newest map, once."""
         with self._lock:
             fresh, self._fresh = self._fresh, None
             return fresh

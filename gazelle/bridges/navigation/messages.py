@@ -17,7 +17,7 @@ _LEAST_LENGTH = 1e-6
 
 
 def pose_of(message: Any) -> Pose2:
-    """A ``geometry_msgs/Pose`` seen from above."""
+    """Convert a ``geometry_msgs/Pose``, projected to the plane."""
     place, turn = message.position, message.orientation
     return place.x, place.y, float(yaw_of(np.array([turn.x, turn.y, turn.z, turn.w])))
 
@@ -31,7 +31,7 @@ def fill_pose(message: Any, pose: Pose2) -> None:
 
 
 def stamped(pose: Pose2, frame: str, stamp: int) -> Any:
-    """A ``geometry_msgs/PoseStamped``."""
+    """Return a ``geometry_msgs/PoseStamped``."""
     message: Any = load_message("geometry_msgs/PoseStamped")()
     message.header.frame_id, message.header.stamp = frame, Time(nsecs=stamp)
     fill_pose(message.pose, pose)
@@ -39,7 +39,7 @@ def stamped(pose: Pose2, frame: str, stamp: int) -> Any:
 
 
 def path_message(poses: Floats, frame: str, stamp: int) -> Any:
-    """A ``nav_msgs/Path`` of poses, shape (n, 3)."""
+    """Return a ``nav_msgs/Path`` of poses, shape (n, 3)."""
     message: Any = load_message("nav_msgs/Path")()
     message.header.frame_id, message.header.stamp = frame, Time(nsecs=stamp)
     message.poses = [stamped((x, y, yaw), frame, stamp) for x, y, yaw in poses.tolist()]
@@ -47,7 +47,7 @@ def path_message(poses: Floats, frame: str, stamp: int) -> Any:
 
 
 def wrong_quaternion(turn: Any) -> str | None:
-    """Why an orientation is none, as move_base says it; None if it is one, upright."""
+    """Return the reason why an orientation is invalid, in move_base's words; None if valid."""
     values = np.array([turn.x, turn.y, turn.z, turn.w])
     if not np.isfinite(values).all():
         return "Quaternion has nans or infs... discarding as a navigation goal"
@@ -65,14 +65,14 @@ def wrong_quaternion(turn: Any) -> str | None:
 
 
 def twist_message(velocity: tuple[float, float, float]) -> Any:
-    """A ``geometry_msgs/Twist``."""
+    """Return a ``geometry_msgs/Twist``."""
     message: Any = load_message("geometry_msgs/Twist")()
     message.linear.x, message.linear.y, message.angular.z = (float(each) for each in velocity)
     return message
 
 
 def scan_points(message: Any, *, inf_is_valid: bool = False) -> Floats:
-    """The ends of a ``sensor_msgs/LaserScan``'s beams in its frame, shape (n, 3) [m].
+    """Return the ends of a ``sensor_msgs/LaserScan``'s beams in its frame, shape (n, 3) [m].
 
     Args:
         message: The scan.
@@ -90,7 +90,7 @@ def scan_points(message: Any, *, inf_is_valid: bool = False) -> Floats:
 
 
 def cloud_points(message: Any) -> Floats:
-    """The points of a ``sensor_msgs/PointCloud`` or ``PointCloud2``, shape (n, 3) [m]."""
+    """Return the points of a ``sensor_msgs/PointCloud`` or ``PointCloud2``, shape (n, 3) [m]."""
     if hasattr(message, "points"):
         rows = [(each.x, each.y, each.z) for each in message.points]
     else:
@@ -102,7 +102,7 @@ def cloud_points(message: Any) -> Floats:
 
 
 def beam_angles(message: Any) -> Floats:
-    """Angles of a scan's beams in its frame [rad], shape (n,)."""
+    """Return angles of a scan's beams in its frame [rad], shape (n,)."""
     count = len(message.ranges)
     return np.asarray(message.angle_min + message.angle_increment * np.arange(count), np.float64)
 
@@ -114,5 +114,5 @@ def is_upside_down(rotation: tuple[float, float, float, float]) -> bool:
 
 
 def finite(value: float, otherwise: float) -> float:
-    """A number, or another where it is none."""
+    """Return a number, or another if it is not finite."""
     return value if math.isfinite(value) else otherwise

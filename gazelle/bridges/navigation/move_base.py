@@ -35,7 +35,7 @@ SECOND = 1_000_000_000
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Take goals until it is told to end; returns the exit code."""
+    """Serve goals until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "move_base")
     with found.start() as node, stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
@@ -94,7 +94,7 @@ class MoveBaseNode:
     # Cycles -------------------------------------------------------------------------------
 
     def run(self, stop: threading.Event) -> None:
-        """Work until told to end; the robot stands then."""
+        """Run until shutdown; the robot is stopped then."""
         rate = Rate(self._node.clock, self.stack.settings.controller_frequency, reset=True)
         try:
             while not stop.is_set() and not self._node.closed:
@@ -110,7 +110,7 @@ class MoveBaseNode:
                     )
 
     def cycle(self) -> None:
-        """Take what came, update what is due, and take a step towards the goal."""
+        """Process input, update what is due, and take a step towards the goal."""
         now = self._node.clock.now()
         with self._lock:
             ready = [costmap.cycle(now) for costmap in (self.whole, self.local)]
@@ -147,7 +147,7 @@ class MoveBaseNode:
     # Goals --------------------------------------------------------------------------------
 
     def _forward(self, message: Any) -> None:
-        """A simple goal becomes one of the action."""
+        """Forward a simple goal to the action."""
         goal: Any = load_message("move_base_msgs/MoveBaseActionGoal")()
         goal.header.stamp = Time(nsecs=self._node.clock.now())
         goal.goal.target_pose = message
@@ -181,13 +181,13 @@ class MoveBaseNode:
             self._drive(STOP)
 
     def _in_whole(self, target: Any) -> Pose2 | None:
-        """A ``PoseStamped`` in the frame of the global costmap; None if its frame is not known."""
+        """Convert a ``PoseStamped`` to the frame of the global costmap; None if unknown."""
         frame = target.header.frame_id.strip("/") or self.stack.whole.costmap.frame
         to_whole = self.frames.pose(self.stack.whole.costmap.frame, frame)
         return None if to_whole is None else composed(to_whole, pose_of(target.pose))
 
     def _tell(self, step: MoveStep, state: RobotState, now: int) -> None:
-        """Do what a step says, and say it."""
+        """Apply and publish the result of a step."""
         whole, local = self.stack.whole.costmap.frame, self.stack.local.costmap.frame
         feedback: Any = load_message("move_base_msgs/MoveBaseFeedback")()
         feedback.base_position = stamped(state.in_whole, whole, now)
@@ -221,7 +221,7 @@ class MoveBaseNode:
     # Services -----------------------------------------------------------------------------
 
     def _make_plan(self, request: Any) -> list[Any]:
-        """A plan from a start, or from where the robot is; nothing while it has a goal."""
+        """Return a plan from a start, or from the robot; empty while it has a goal."""
         now, frame = self._node.clock.now(), self.stack.whole.costmap.frame
         with self._lock:
             start = None

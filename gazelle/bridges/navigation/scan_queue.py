@@ -42,12 +42,12 @@ class ScanQueue:
             self._news.notify_all()
 
     def wake(self) -> None:
-        """Something else has changed."""
+        """Wake the queue after another change."""
         with self._news:
             self._news.notify_all()
 
     def work(self, find: Callable[[Any], T | None], use: Callable[[Any, T], None]) -> None:
-        """Hand over what waits, oldest first; stop at the first that has to wait on.
+        """Process waiting messages, oldest first; stop at the first that has to wait.
 
         Args:
             find: The transforms of a message; None while they are not there.

@@ -36,7 +36,7 @@ class FrequencyStatus(DiagnosticTask):
         self.clear()
 
     def clear(self) -> None:
-        """Forget what happened."""
+        """Clear the events."""
         with self.lock:
             self.count = 0
             first = (rospy.get_rostime(), 0)
@@ -44,7 +44,7 @@ class FrequencyStatus(DiagnosticTask):
             self._window: deque[Any] = deque([first] * size, maxlen=size)
 
     def tick(self) -> None:
-        """Note that it happened."""
+        """Count an event."""
         with self.lock:
             self.count += 1
 
@@ -107,7 +107,7 @@ class TimeStampStatus(DiagnosticTask):
         self._zero = False
 
     def tick(self, stamp: Any) -> None:
-        """Take a stamp: a time, or seconds."""
+        """Add a stamp: a time, or seconds."""
         seconds = stamp if isinstance(stamp, float) else stamp.to_sec()
         with self.lock:
             if seconds:
@@ -150,7 +150,7 @@ class Heartbeat(DiagnosticTask):
         super().__init__("Heartbeat")
 
     def run(self, stat: Any) -> Any:
-        """Say so."""
+        """Report that the node is alive."""
         stat.summary(OK, "Alive")
         return stat
 
@@ -171,11 +171,11 @@ class HeaderlessTopicDiagnostic(CompositeDiagnosticTask):
         diag.add(self)
 
     def tick(self, *_: Any) -> None:
-        """Note that one came."""
+        """Count a message."""
         self.freq.tick()
 
     def clear_window(self) -> None:
-        """Forget those that came."""
+        """Clear the counted messages."""
         self.freq.clear()
 
 
@@ -197,7 +197,7 @@ class TopicDiagnostic(HeaderlessTopicDiagnostic):
         self.addTask(self.stamp)
 
     def tick(self, stamp: Any) -> None:
-        """Note that one with this stamp came."""
+        """Count a message with this stamp."""
         self.stamp.tick(stamp)
         super().tick()
 

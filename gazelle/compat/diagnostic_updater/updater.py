@@ -69,7 +69,7 @@ class CompositeDiagnosticTask(DiagnosticTask):
         self.tasks.append(t)
 
     def run(self, stat: Any) -> Any:
-        """Let each task fill the status, and merge what they say."""
+        """Run each task, and merge their statuses."""
         together, before = DiagnosticStatusWrapper(), DiagnosticStatusWrapper()
         before.summary(stat)
         for task in self.tasks:
@@ -113,7 +113,7 @@ class DiagnosticTaskVector:
             self.addedTaskCallback(task)
 
     def addedTaskCallback(self, task: NamedTask) -> None:  # noqa: N802  # ROS's name
-        """Do something about a task that is new."""
+        """Handle a new task."""
 
     def removeByName(self, name: str) -> bool:  # noqa: N802  # ROS's name
         """Remove the first task of a name; returns whether there was one."""

@@ -32,19 +32,19 @@ class OldInterface(Env):
         return getattr(self.env, name)
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         seed, self._next_seed = self._next_seed, None
         return self.env.reset(**{"seed": seed, **options})[0]
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         observation, reward, terminated, truncated, info = self.env.step(action)
         if truncated:
             info["TimeLimit.truncated"] = not terminated
         return observation, reward, terminated or truncated, info
 
     def seed(self, seed: int | None = None) -> list[int] | None:
-        """Decide the random numbers from the next ``reset`` on."""
+        """Set the seed of the random numbers from the next ``reset`` on."""
         self._next_seed = seed
         return None if seed is None else [seed]
 
@@ -57,5 +57,5 @@ class OldInterface(Env):
         return inner.render()
 
     def close(self) -> None:
-        """Give back what it holds."""
+        """Close the environment."""
         self.env.close()

@@ -48,7 +48,7 @@ class Env(Closeable):
     observation_space: gymnasium.Space[Any]
 
     def step(self, action: Any) -> Step:
-        """Act once.
+        """Step the environment.
 
         Raises:
             NotImplementedError: The class does not say how.
@@ -57,7 +57,7 @@ class Env(Closeable):
         return result
 
     def reset(self) -> Any:
-        """Begin an episode; returns the first observation.
+        """Start an episode; returns the first observation.
 
         Raises:
             NotImplementedError: The class does not say how.
@@ -73,12 +73,12 @@ class Env(Closeable):
         return self._given("_render")(mode=mode)
 
     def close(self) -> None:
-        """Give back what it holds."""
+        """Close the environment."""
         if hasattr(self, "_close"):
             self._close()
 
     def seed(self, seed: int | None = None) -> list[int] | None:
-        """Decide its random numbers; returns the seeds used."""
+        """Set the seed of the random numbers; returns the seeds used."""
         if not hasattr(self, "_seed"):
             return None
         seeds: list[int] | None = self._seed(seed)
@@ -118,7 +118,7 @@ class GoalEnv(Env):
         return None
 
     def compute_reward(self, achieved_goal: Any, desired_goal: Any, info: Any) -> Any:
-        """The reward for what is reached.
+        """Return the reward for an achieved goal.
 
         Raises:
             NotImplementedError: The class does not say how.
@@ -143,12 +143,12 @@ class Wrapper(Env):
         return getattr(self.env, name)
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         result: Step = self.env.step(action)
         return result
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         return self.env.reset(**options)
 
     def render(self, mode: str = "human", **options: Any) -> Any:
@@ -156,11 +156,11 @@ class Wrapper(Env):
         return self.env.render(mode=mode, **options)
 
     def close(self) -> None:
-        """Give back what it holds."""
+        """Close the environment."""
         self.env.close()
 
     def seed(self, seed: int | None = None) -> list[int] | None:
-        """Decide its random numbers."""
+        """Set the seed of the random numbers."""
         seeds: list[int] | None = self.env.seed(seed)
         return seeds
 
@@ -178,11 +178,11 @@ class ObservationWrapper(Wrapper):
     """Changes observations; subclasses define ``observation``."""
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         return self.observation(self.env.reset(**options))
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         observation, reward, done, info = self.env.step(action)
         return self.observation(observation), reward, done, info
 
@@ -199,7 +199,7 @@ class RewardWrapper(Wrapper):
     """Changes rewards; subclasses define ``reward``."""
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         observation, reward, done, info = self.env.step(action)
         return observation, self.reward(reward), done, info
 
@@ -216,7 +216,7 @@ class ActionWrapper(Wrapper):
     """Changes actions; subclasses define ``action``."""
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         result: Step = self.env.step(self.action(action))
         return result
 
@@ -229,7 +229,7 @@ class ActionWrapper(Wrapper):
         return self._given("_action")(action)
 
     def reverse_action(self, action: Any) -> Any:
-        """The action that an action was made of.
+        """Return the original of a transformed action.
 
         Raises:
             NotImplementedError: The class does not say which.

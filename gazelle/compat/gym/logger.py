@@ -29,18 +29,18 @@ _log = logging.getLogger("gym")
 
 
 def set_level(level: int) -> None:
-    """Say only what is at least this important: ``DEBUG``, ``INFO``, ``WARN``, ``ERROR``, ``DISABLED``."""
+    """Set the least level of messages: ``DEBUG``, ``INFO``, ``WARN``, ``ERROR``, ``DISABLED``."""
     gymnasium.logger.min_level = level
     _log.setLevel(level)
 
 
 def debug(text: str, *arguments: object) -> None:
-    """Say something that only authors want to know, with ``%`` for the arguments."""
+    """Log a message for debugging, with ``%`` for the arguments."""
     _log.debug(text, *arguments)
 
 
 def info(text: str, *arguments: object) -> None:
-    """Say something, with ``%`` for the arguments."""
+    """Log a message, with ``%`` for the arguments."""
     _log.info(text, *arguments)
 
 

@@ -133,7 +133,7 @@ class InteractiveMarkerServer:
         pending.marker.pose, pending.marker.header = pose, header
 
     def erase(self, name: str) -> bool:
-        """Take a marker away; returns whether there is one."""
+        """Remove a marker; returns whether there is one."""
         with self._lock:
             if name not in self._pending and name not in self._shown:
                 return False
@@ -141,7 +141,7 @@ class InteractiveMarkerServer:
         return True
 
     def clear(self) -> None:
-        """Take all markers away."""
+        """Remove all markers."""
         with self._lock:
             self._pending = {name: _PendingMarker(None) for name in self._shown}
 
@@ -176,7 +176,7 @@ class InteractiveMarkerServer:
             self.publishInit()
 
     def _apply(self, name: str, pending: _PendingMarker, update: Any) -> None:
-        """Make a change, and add it to a message."""
+        """Apply a change, and add it to a message."""
         shown, marker = self._shown.get(name), pending.marker
         if marker is None:
             if self._shown.pop(name, None) is not None:
@@ -224,7 +224,7 @@ class InteractiveMarkerServer:
         return bool((rospy.get_rostime() - shown.used).to_sec() < _OTHERS_WAIT_S)
 
     def keepAlive(self, _event: Any = None) -> None:  # noqa: N802  # ROS's name
-        """Tell viewers that the server is there."""
+        """Publish that the server is alive."""
         self._publish(InteractiveMarkerUpdate(type=InteractiveMarkerUpdate.KEEP_ALIVE))
 
     def _publish(self, update: Any) -> None:

@@ -92,7 +92,10 @@ class MenuHandler:
         return self._entries[handle].title if handle in self._entries else None
 
     def apply(self, server: Any, marker_name: str) -> bool:
-        """Give a marker the menu; returns whether there is one. The server's changes are to be applied."""
+        """Set the menu of a marker; returns whether there is one.
+
+        The server's changes are to be applied. The server's changes are to be applied.
+        """
         marker = server.get(marker_name)
         if marker is None:
             self._markers.discard(marker_name)
@@ -103,7 +106,7 @@ class MenuHandler:
         return True
 
     def reApply(self, server: Any) -> bool:  # noqa: N802  # ROS's name
-        """Give all its markers the menu again; returns whether all are there."""
+        """Set the menu of all its markers again; returns whether all exist."""
         found = [self.apply(server, name) for name in sorted(self._markers)]
         return all(found)
 

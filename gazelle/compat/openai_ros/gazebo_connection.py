@@ -49,26 +49,26 @@ class GazeboConnection:
         self.pauseSim()
 
     def pauseSim(self) -> None:  # noqa: N802  # openai_ros' names, here and below
-        """Let time stand still."""
+        """Pause the simulation."""
         self._answered(self._gazebo.pause)
 
     def unpauseSim(self) -> None:  # noqa: N802
-        """Let time go on."""
+        """Unpause the simulation."""
         self._answered(self._gazebo.unpause)
 
     def resetSim(self) -> None:  # noqa: N802
-        """Put back what ``reset_world_or_sim`` says."""
+        """Reset as ``reset_world_or_sim`` says."""
         if self.reset_world_or_sim == SIMULATION:
             self.resetSimulation()
         elif self.reset_world_or_sim == WORLD:
             self.resetWorld()
 
     def resetSimulation(self) -> None:  # noqa: N802
-        """Put everything back, time too."""
+        """Reset everything, time too."""
         self._answered(self._gazebo.reset_simulation)
 
     def resetWorld(self) -> None:  # noqa: N802
-        """Put the models back; time goes on."""
+        """Reset the models; time continues."""
         self._answered(self._gazebo.reset_world)
 
     @staticmethod
@@ -89,7 +89,7 @@ class GazeboConnection:
             self.init_physics_parameters()
 
     def init_physics_parameters(self) -> None:
-        """Steps of 1 ms, 9.81 m/s² down, and ODE's settings of openai_ros.
+        """Set steps of 1 ms, 9.81 m/s² down, and ODE's settings of openai_ros.
 
         The pace is 1,000 steps a second, as there, unless the simulator is faster already: a world
         that runs as fast as possible goes on doing so.

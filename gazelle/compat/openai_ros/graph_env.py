@@ -44,19 +44,19 @@ class GraphEnv(Env):
         self.reward_pub = rospy.Publisher(REWARD_TOPIC, self._info, queue_size=1)
 
     def seed(self, seed: int | None = None) -> list[int]:
-        """Decide the random numbers of ``np_random``."""
+        """Set the seed of ``np_random``."""
         self.np_random, used = seeding.np_random(seed)
         return [used]
 
     def reset(self) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         self._reset_sim()
         self._init_env_variables()
         self._update_episode()
         return self._get_obs()
 
     def close(self) -> None:
-        """End the node of the script."""
+        """Shut the script's node down."""
         rospy.signal_shutdown("the environment is closed")
 
     # -- what happens around an episode ---------------------------------------------------------
@@ -73,11 +73,11 @@ class GraphEnv(Env):
         )
 
     def _reset_sim(self) -> bool:
-        """Bring the robot to its beginning, and reset what is to be reset."""
+        """Move the robot to its start, and reset what is configured."""
         raise NotImplementedError
 
     def _begin_motion(self) -> None:
-        """Let time go on, with controllers and sensors that answer."""
+        """Unpause, with controllers and sensors that answer."""
         self.gazebo.unpauseSim()
         if self.reset_controls:
             self.controllers_object.reset_controllers()
@@ -86,7 +86,7 @@ class GraphEnv(Env):
     # -- what subclasses say --------------------------------------------------------------------
 
     def _set_init_pose(self) -> Any:
-        """Bring the robot into the pose that it begins with."""
+        """Move the robot to its initial pose."""
         raise NotImplementedError
 
     def _check_all_systems_ready(self) -> Any:
@@ -98,11 +98,11 @@ class GraphEnv(Env):
         raise NotImplementedError
 
     def _init_env_variables(self) -> Any:
-        """Begin the variables of an episode."""
+        """Initialise the variables of an episode."""
         raise NotImplementedError
 
     def _set_action(self, action: Any) -> Any:
-        """Do an action."""
+        """Apply an action."""
         raise NotImplementedError
 
     def _is_done(self, observations: Any) -> bool:

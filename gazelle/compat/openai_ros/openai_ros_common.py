@@ -72,7 +72,7 @@ class ROSLauncher:
     def DownloadRepo(  # noqa: N802  # openai_ros' name
         self, package_name: str, ros_ws_abspath: str | None = None
     ) -> Path:
-        """openai_ros clones a package here; Gazelle says which one is missing, and where it is from.
+        """Raise an error that names the missing package and its source; openai_ros clones it.
 
         Raises:
             MissingPackageError: Always.

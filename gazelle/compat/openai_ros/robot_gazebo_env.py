@@ -50,7 +50,10 @@ class RobotGazeboEnv(GraphEnv):
         self.simulated_time = SimulatedTime()
 
     def step(self, action: Any) -> Step:
-        """Do an action; returns observation, reward, whether the episode is over, and nothing more."""
+        """Apply an action.
+
+        Returns observation, reward, whether the episode is over, and no info.
+        """
         self.gazebo.unpauseSim()
         self._set_action(action)
         self.gazebo.pauseSim()
@@ -66,7 +69,7 @@ class RobotGazeboEnv(GraphEnv):
         super()._update_episode()
 
     def _reset_sim(self) -> bool:
-        """Bring the robot to its beginning, and reset the simulator."""
+        """Move the robot to its start, and reset the simulator."""
         self._begin_motion()
         self._set_init_pose()
         self.gazebo.pauseSim()

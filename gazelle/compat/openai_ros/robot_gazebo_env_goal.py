@@ -37,7 +37,10 @@ class RobotGazeboEnv(GraphEnv, GoalEnv):
         )
 
     def step(self, action: Any) -> Step:
-        """Do an action; returns observation, reward, whether the episode is over, and nothing more."""
+        """Apply an action.
+
+        Returns observation, reward, whether the episode is over, and no info.
+        """
         self.gazebo.unpauseSim()
         self._set_action(action)
         observation = self._get_obs()
@@ -48,7 +51,7 @@ class RobotGazeboEnv(GraphEnv, GoalEnv):
         return observation, reward, done, {}
 
     def _reset_sim(self) -> bool:
-        """Bring the robot to its beginning, and put the models back."""
+        """Move the robot to its start, and reset the models."""
         self._begin_motion()
         self._set_init_pose()
         if self.reset_controls:
@@ -62,4 +65,4 @@ class RobotGazeboEnv(GraphEnv, GoalEnv):
         return True
 
     def _init_env_variables(self) -> Any:
-        """Begin the variables of an episode."""
+        """Initialise the variables of an episode."""

@@ -26,7 +26,7 @@ class SimulatedTime:
         self._clock: TimeSource = given if given.simulated else follow_clock(node, CLOCK)
 
     def wait(self, seconds: float) -> None:
-        """Let that much time go by [s]; less if time jumps back or the node is shut down."""
+        """Wait for a duration [s]; less if time jumps back or the node is shut down."""
         if not self._there():
             time.sleep(max(0.0, seconds))
             return

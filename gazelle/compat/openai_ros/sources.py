@@ -27,7 +27,7 @@ _SOURCES = {
 
 
 def missing_package(package: str, workspace: str | None = None) -> MissingPackageError:
-    """The error that says which package is missing, and where openai_ros takes it from.
+    """Return the error that names a missing package and its source for openai_ros.
 
     Args:
         package: Its name.

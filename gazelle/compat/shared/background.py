@@ -12,7 +12,7 @@ _started: list[Processes] = []
 
 
 def processes() -> Processes:
-    """All that has been started in this process; it ends with it."""
+    """Return all processes that this one has started; they end with it."""
     with _lock:
         if not _started:
             _started.append(Processes())
@@ -21,7 +21,7 @@ def processes() -> Processes:
 
 
 def stop_all() -> None:
-    """End what was started here."""
+    """Stop everything started here."""
     with _lock:
         while _started:
             _started.pop().stop_all()

@@ -170,7 +170,7 @@ class Concurrence(Container):
         return chosen or outcome
 
     def request_preempt(self) -> None:
-        """Ask all its states to end early."""
+        """Request all its states to end early."""
         super().request_preempt()
         with self._changed:
             self._over = True

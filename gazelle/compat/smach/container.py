@@ -158,7 +158,7 @@ class Container(State):
                 logwarn(f"userdata '{key}' is to be handed on, and is not there")
 
     def open(self) -> Self:
-        """Let ``add`` add to this container, until it is closed."""
+        """Make this container the one that ``add`` adds to, until it is closed."""
         Container._lock.acquire()
         Container._opened.append(self)
         return self

@@ -98,7 +98,7 @@ class Iterator(Container):
         return outcome
 
     def request_preempt(self) -> None:
-        """Ask it, and its state if that is executed, to end early."""
+        """Request it, and its state if that is executed, to end early."""
         super().request_preempt()
         if self._is_running:
             self._state.request_preempt()

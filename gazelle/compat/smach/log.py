@@ -21,7 +21,7 @@ _checks: list[Callable[[], bool]] = []
 
 
 def set_loggers(info: _Logger, warn: _Logger, debug: _Logger, error: _Logger) -> None:
-    """Let others write the messages."""
+    """Set the functions that write messages."""
     _loggers.update(INFO=info, WARN=warn, DEBUG=debug, ERROR=error)
 
 
@@ -46,7 +46,7 @@ def logerr(msg: object) -> None:
 
 
 def set_shutdown_check(cb: Callable[[], bool]) -> None:
-    """Let a function say that the program ends: no more states are executed then."""
+    """Set a function that reports the end of the program: no more states are executed then."""
     _checks[:] = [cb]
 
 

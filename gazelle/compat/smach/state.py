@@ -29,7 +29,7 @@ class State:
         self._preempt_requested = False
 
     def execute(self, ud: Any) -> Any:
-        """Do it; returns the outcome.
+        """Execute the state; returns the outcome.
 
         Raises:
             NotImplementedError: The class does not say how.
@@ -67,15 +67,15 @@ class State:
         return tuple(self._output_keys)
 
     def request_preempt(self) -> None:
-        """Ask it to end early."""
+        """Request it to end early."""
         self._preempt_requested = True
 
     def service_preempt(self) -> None:
-        """Note that it ended early, as it was asked to."""
+        """Clear the request after ending early."""
         self._preempt_requested = False
 
     def recall_preempt(self) -> None:
-        """Ask no longer."""
+        """Withdraw the request."""
         self._preempt_requested = False
 
     def preempt_requested(self) -> bool:

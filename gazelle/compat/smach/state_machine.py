@@ -190,7 +190,7 @@ class StateMachine(Container):
         return target
 
     def request_preempt(self) -> None:
-        """Ask it, and the state that is executed, to end early."""
+        """Request it, and the active state, to end early."""
         with self._changing:
             super().request_preempt()
             if self._label is not None:

@@ -40,7 +40,7 @@ class UserData(ItemsAsAttributes):
         self._data: dict[str, Any] = {}
 
     def update(self, other_userdata: UserData) -> None:
-        """Take all values of another one."""
+        """Copy all values of another one."""
         self._data.update(other_userdata._data)
 
     def keys(self) -> list[str]:
@@ -80,7 +80,7 @@ class Remapper(ItemsAsAttributes):
         self._map = dict(remapping or {})
 
     def update(self, other_userdata: UserData) -> None:
-        """Let the container's data take all values of another one."""
+        """Copy all values of another one to the container's data."""
         self._ud.update(other_userdata)
 
     def keys(self) -> list[str]:

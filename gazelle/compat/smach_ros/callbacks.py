@@ -25,7 +25,7 @@ class UserCallback:
     kwargs: Mapping[str, Any] = field(default_factory=dict)
 
     def add_to(self, state: State, inputs: Iterable[str], outputs: Iterable[str]) -> None:
-        """Let a state have the outcomes and userdata of the function.
+        """Add the outcomes and userdata of the function to a state.
 
         Args:
             state: The state.
@@ -70,7 +70,7 @@ def filled(message: Any, ud: Any, key: str | None, slots: Iterable[str]) -> Any:
 
 
 def taken_apart(message: Any, ud: Any, key: str | None, slots: Iterable[str]) -> None:
-    """Put a message and its fields into userdata; see `filled`."""
+    """Store a message and its fields in userdata; see `filled`."""
     if key is not None:
         ud[key] = message
     if message is not None:

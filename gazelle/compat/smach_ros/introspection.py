@@ -81,7 +81,7 @@ class _Proxy:
         self.tell("REMOTE_INIT")
 
     def stop(self) -> None:
-        """End the topics."""
+        """Close the topics."""
         with self._lock:
             self._stopped = True
         for each in (self._commands, self._on_status, self._on_structure):
@@ -115,7 +115,7 @@ class IntrospectionServer:
         self._stopped = threading.Event()
 
     def start(self) -> None:
-        """Begin."""
+        """Start the server."""
         self._stopped.clear()
         self._add(self._root, self._path)
         threading.Thread(target=self._repeat, name=f"{self._server}:status", daemon=True).start()
@@ -134,12 +134,12 @@ class IntrospectionServer:
                 proxy.tell("HEARTBEAT")
 
     def stop(self) -> None:
-        """End."""
+        """Stop the server."""
         self._stopped.set()
         for proxy in self._proxies:
             proxy.stop()
         self.clear()
 
     def clear(self) -> None:
-        """Forget all containers."""
+        """Discard all containers."""
         self._proxies = []

@@ -121,7 +121,7 @@ class SimpleActionState(State):
         return False
 
     def _done(self, goal: Any) -> tuple[int, Any]:
-        """Have a goal worked on; returns its last status, and the result."""
+        """Send a goal and wait; returns its last status, and the result."""
         ended = threading.Event()
         found: list[tuple[int, Any]] = []
 

@@ -12,7 +12,7 @@ _LOOKS = 15
 
 
 def set_preempt_handler(sc: Any) -> None:
-    """Ask a container to end early when the node shuts down, and wait a second or so for it."""
+    """Request a container to end early when the node shuts down, and wait for it briefly."""
 
     def end(_reason: str = "") -> None:
         sc.request_preempt()

@@ -39,7 +39,7 @@ class MonitorState(State):
         self._ended = threading.Event()
 
     def execute(self, ud: Any) -> Any:
-        """Watch; returns the outcome."""
+        """Monitor the topic; returns the outcome."""
         self._checks = 0
         self._ended.clear()
         if not self.preempt_requested():
@@ -65,7 +65,7 @@ class MonitorState(State):
             self._ended.set()
 
     def request_preempt(self) -> None:
-        """End it."""
+        """Request it to end early."""
         super().request_preempt()
         self._ended.set()
 
@@ -96,7 +96,7 @@ class ConditionState(State):
         self._most = max_checks
 
     def execute(self, ud: Any) -> Any:
-        """Ask; returns the outcome."""
+        """Evaluate the condition; returns the outcome."""
         begun, checks = rospy.get_rostime(), 0
         while not rospy.is_shutdown() and (self._most == -1 or checks <= self._most):
             if self._limit and rospy.get_rostime() - begun > self._limit:

@@ -88,7 +88,7 @@ class GroupTarget:
         self._put(dict(zip(self.variables, self.random(), strict=True)))
 
     def random(self) -> list[float]:
-        """Positions of the group's variables drawn between the limits."""
+        """Return random positions of the group's variables within the limits."""
         state = self.state.copy()
         state[self.group.columns] = self.group.sample(self._random, 1)[0]
         drawn: list[float] = self._robot.complete(state)[
@@ -127,7 +127,7 @@ class GroupTarget:
         self.state = self._robot.complete(self.state)
 
     def constraints(self, tolerance: float) -> Any:
-        """A ``moveit_msgs/Constraints`` with one joint constraint for each variable."""
+        """Return a ``moveit_msgs/Constraints`` with one joint constraint for each variable."""
         made: Any = load_message("moveit_msgs/Constraints")()
         joint = load_message("moveit_msgs/JointConstraint")
         made.joint_constraints = [

@@ -17,7 +17,7 @@ _GREY = 0.5
 
 
 def link_markers(robot: RobotModel, state: Floats, links: Sequence[str], now: int) -> Any:
-    """A ``MarkerArray``: what shows of each link, or collides where nothing shows.
+    """Return a ``MarkerArray`` of each link's visuals, or its collisions without visuals.
 
     Args:
         robot: The robot.
@@ -44,7 +44,7 @@ def link_markers(robot: RobotModel, state: Floats, links: Sequence[str], now: in
 
 
 def _shape(geometry: Any) -> Any:
-    """A marker of a shape; None of one that markers do not have."""
+    """Return a marker of a shape; None for shapes that markers lack."""
     marker: Any = load_message("visualization_msgs/Marker")()
     if isinstance(geometry, Box):
         marker.type, lengths = _BOX, geometry.size

@@ -16,7 +16,10 @@ _LENGTHS = (6, 7)
 
 
 def pose_of_list(values: Sequence[float]) -> Pose | None:
-    """A pose of ``[x, y, z, roll, pitch, yaw]`` or ``[x, y, z, qx, qy, qz, qw]``; None of others."""
+    """Convert ``[x, y, z, roll, pitch, yaw]`` or ``[x, y, z, qx, qy, qz, qw]``.
+
+    None for others.
+    """
     given = [float(each) for each in values]
     if len(given) not in _LENGTHS:
         LOG.error("Pose description expected to consist of either 6 or 7 values")
@@ -27,7 +30,7 @@ def pose_of_list(values: Sequence[float]) -> Pose | None:
 
 
 def stamped(pose: Any, frame: str) -> Any:
-    """A ``geometry_msgs/PoseStamped`` without a time, which is the newest one that is known."""
+    """Return a ``geometry_msgs/PoseStamped`` without a time, which is the newest known one."""
     made: Any = load_message("geometry_msgs/PoseStamped")(pose=pose)
     made.header.frame_id = frame
     return made
@@ -59,7 +62,7 @@ class PoseTargets:
         return True
 
     def get(self, link: str) -> Any:
-        """The first target of a link; an empty message where there is none."""
+        """Return the first target of a link; an empty message without one."""
         found = self.by_link.get(link or self.link)
         if found:
             return found[0]
@@ -67,7 +70,7 @@ class PoseTargets:
         return load_message("geometry_msgs/PoseStamped")()
 
     def begun(self, link: str) -> Any:
-        """The target of a link that is to be changed in part: a new one where there is none.
+        """Return the target of a link that is to be changed in part: a new one without a target.
 
         Position and orientation are set one after the other; a target in another frame than the
         reference frame is begun anew, as its other half means something else here.
@@ -78,7 +81,7 @@ class PoseTargets:
         return stamped(pose_message(Pose()), self.frame)
 
     def constraints(self, kind: TargetKind, position: float, orientation: float) -> list[Any]:
-        """``moveit_msgs/Constraints``, one for each of several goals; links have theirs together.
+        """Return ``moveit_msgs/Constraints``, one for each of several goals; links share them.
 
         Args:
             kind: Which part of the poses counts.
@@ -98,7 +101,7 @@ class PoseTargets:
 
 
 def position_constraint(link: str, target: Any, tolerance: float) -> Any:
-    """A ``PositionConstraint``: the link's origin within a sphere."""
+    """Return a ``PositionConstraint``: the link's origin within a sphere."""
     made: Any = load_message("moveit_msgs/PositionConstraint")(link_name=link, weight=1.0)
     made.header = target.header
     shape = load_message("shape_msgs/SolidPrimitive")(type=_SPHERE, dimensions=[tolerance])
@@ -109,7 +112,7 @@ def position_constraint(link: str, target: Any, tolerance: float) -> Any:
 
 
 def orientation_constraint(link: str, target: Any, tolerance: float) -> Any:
-    """An ``OrientationConstraint``."""
+    """Return an ``OrientationConstraint``."""
     made: Any = load_message("moveit_msgs/OrientationConstraint")(
         link_name=link,
         orientation=target.pose.orientation,

@@ -84,7 +84,7 @@ class RequestSettings:
             corner.x, corner.y, corner.z = values
 
     def request(self, goals: list[Any]) -> Any:
-        """A ``moveit_msgs/MotionPlanRequest`` for any of some goals."""
+        """Return a ``moveit_msgs/MotionPlanRequest`` for any of some goals."""
         made: Any = load_message("moveit_msgs/MotionPlanRequest")(
             group_name=self.group,
             num_planning_attempts=self.attempts,
@@ -105,7 +105,7 @@ class RequestSettings:
         return made
 
     def options(self, *, plan_only: bool) -> Any:
-        """``moveit_msgs/PlanningOptions`` that change nothing of the scene."""
+        """Return ``moveit_msgs/PlanningOptions`` that leave the scene unchanged."""
         made: Any = load_message("moveit_msgs/PlanningOptions")(
             plan_only=plan_only,
             look_around=self.look,
@@ -120,7 +120,7 @@ _REPLAN_DELAY_S = 2.0
 
 
 def here() -> Any:
-    """The ``RobotState`` that means where the robot is."""
+    """Return the ``RobotState`` that stands for the robot's present state."""
     made: Any = load_message("moveit_msgs/RobotState")()
     made.is_diff = True
     return made

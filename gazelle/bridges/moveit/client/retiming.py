@@ -25,7 +25,7 @@ _ALGORITHMS: dict[str, TimeAlgorithm] = {
 def retimed(
     robot: RobotModel, message: Any, velocity: float, acceleration: float, algorithm: str
 ) -> Any:
-    """A ``moveit_msgs/RobotTrajectory`` along the same path, within limits.
+    """Return a ``moveit_msgs/RobotTrajectory`` along the same path, within limits.
 
     Args:
         robot: Whose limits count.

@@ -59,7 +59,7 @@ class RobotAccess:
     # -- states --------------------------------------------------------------------------
 
     def default(self) -> Floats:
-        """All variables at zero, or in the middle of limits that zero is not within."""
+        """Return all variables at zero, or in the middle of limits without zero."""
         lower, upper = self.robot.limits()
         with np.errstate(invalid="ignore"):
             middle = (lower + upper) / 2.0
@@ -87,7 +87,7 @@ class RobotAccess:
         return self._monitor.current()
 
     def with_message(self, message: Any, state: Floats) -> Floats | None:
-        """A ``moveit_msgs/RobotState`` over a state; None, with a word in the log, if it is none."""
+        """Return a ``moveit_msgs/RobotState`` over a state; None, logged, if it is invalid."""
         joints = message.joint_state
         if (
             not message.is_diff
@@ -106,7 +106,7 @@ class RobotAccess:
         return self.robot.complete(made)
 
     def message(self, state: Floats) -> Any:
-        """A ``moveit_msgs/RobotState`` of all variables, without a time."""
+        """Return a ``moveit_msgs/RobotState`` of all variables, without a time."""
         made: Any = load_message("moveit_msgs/RobotState")()
         made.joint_state.header.frame_id = self.robot.frame
         made.multi_dof_joint_state.header.frame_id = self.robot.frame
@@ -116,7 +116,7 @@ class RobotAccess:
         return made
 
     def ordered(self) -> list[str]:
-        """Names of all variables, in MoveIt's order."""
+        """Return names of all variables, in MoveIt's order."""
         own = set(self.robot.names)
         listed = [name for name in self.names.variable_names() if name in own]
         return [*(name for name in self.robot.names if "/" in name), *listed]
@@ -133,7 +133,7 @@ class RobotAccess:
         return True
 
     def bounded(self, state: Floats) -> Floats:
-        """A state with each variable moved to its limits, and endless ones to within half a turn."""
+        """Return a state with each variable clipped to its limits, and continuous ones wrapped."""
         lower, upper = self.robot.limits()
         made = np.clip(state, lower, upper)
         for column, variable in enumerate(self.robot.variables):
@@ -147,7 +147,7 @@ _known: dict[tuple[int, str, str], RobotAccess] = {}
 
 
 def shared_robot(description: str, namespace: str) -> RobotAccess:
-    """The robot of a description in a namespace; read once as long as the node lives.
+    """Return the robot of a description in a namespace; read once as long as the node lives.
 
     Args:
         description: Name of the parameter; ``robot_description`` if empty.

@@ -69,41 +69,41 @@ class RobotNames:
     # -- of the whole robot --------------------------------------------------------------
 
     def joint_names(self) -> list[str]:
-        """All joints, the one at the root first."""
+        """Return all joints, the one at the root first."""
         return [self.root_joint, *(joint.name for joint in self.joints)]
 
     def active_joint_names(self) -> list[str]:
-        """Joints with variables that follow no other."""
+        """Return joints with variables that mimic no other."""
         own = [] if self._base == "fixed" else [self.root_joint]
         return own + [joint.name for joint in self.joints if joint.moves and not joint.mimics]
 
     def variable_names(self) -> list[str]:
-        """Of joints with one variable, those that follow others too."""
+        """Return names of single-variable joints, including mimics."""
         return [joint.name for joint in self.joints if joint.moves]
 
     # -- of groups -----------------------------------------------------------------------
 
     def group_joints(self, name: str) -> list[NamedJoint]:
-        """Joints of a group, fixed ones too; none if there is no such group."""
+        """Return joints of a group, fixed ones too; none if there is no such group."""
         if name not in self.groups:
             return []
         chosen = self._chosen(name, ())
         return [joint for joint in self.joints if joint.name in chosen]
 
     def group_links(self, name: str) -> list[str]:
-        """Links that a group's joints hold."""
+        """Return links that a group's joints move."""
         return [joint.child for joint in self.group_joints(name)]
 
     def group_variables(self, name: str) -> list[str]:
-        """Variables of a group, those that follow others too."""
+        """Return variables of a group, including mimics."""
         return [joint.name for joint in self.group_joints(name) if joint.moves]
 
     def group_active(self, name: str) -> list[str]:
-        """Joints of a group with variables that follow no other."""
+        """Return joints of a group with variables that mimic no other."""
         return [each.name for each in self.group_joints(name) if each.moves and not each.mimics]
 
     def chain_tip(self, name: str) -> str:
-        """The last link of a group that is one chain of several joints; else empty.
+        """Return the last link of a group that is one chain of several joints; else empty.
 
         As MoveIt has it: joints that each hang on the one before, with none but fixed ones between.
         """
@@ -115,7 +115,7 @@ class RobotNames:
         return ""
 
     def effector_tips(self, name: str) -> list[str]:
-        """Links of a group that end effectors are mounted on."""
+        """Return links of a group that end effectors are mounted on."""
         links, found = self.group_links(name), list[str]()
         for each in self._semantics.end_effectors:
             mounted = each.parent_group == name or (
@@ -126,7 +126,10 @@ class RobotNames:
         return found
 
     def effector_parent(self, name: str) -> tuple[str, str]:
-        """The group and link that a group is mounted on as an end effector; empty if it is none."""
+        """Return the group and link that an end effector is mounted on.
+
+        Empty for another group.
+        """
         for each in self._semantics.end_effectors:
             if each.group == name:
                 owners = [each.parent_group] if each.parent_group else [
@@ -138,7 +141,7 @@ class RobotNames:
         return "", ""
 
     def states(self, group: str) -> list[str]:
-        """Named postures of a group."""
+        """Return named postures of a group."""
         return sorted(each.name for each in self._semantics.states if each.group == group)
 
     # -- how they hang together ----------------------------------------------------------
@@ -162,7 +165,7 @@ class RobotNames:
         return found
 
     def _between(self, group: JointGroup) -> set[str]:
-        """Joints of a group's chains."""
+        """Return joints of a group's chains."""
         found: set[str] = set()
         for base, tip in group.chains:
             up, down = self._climb(base), self._climb(tip)
@@ -178,7 +181,7 @@ class RobotNames:
 
 
 def _ordered(tree: ET.Element) -> tuple[list[NamedJoint], str]:
-    """Joints of a URDF depth first, and its root link."""
+    """Return joints of a URDF depth first, and its root link."""
     below: dict[str, list[NamedJoint]] = {}
     held = set()
     for element in sorted(tree.findall("joint"), key=lambda each: each.get("name", "")):

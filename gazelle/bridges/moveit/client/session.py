@@ -30,16 +30,16 @@ class ClientSession:
         self._name, self._arguments = _NAME, []  # type: tuple[str, list[str]]
 
     def prepare(self, name: str, arguments: Iterable[str]) -> None:
-        """Say what an own node is called, and its command line with remappings."""
+        """Set the name of an own node, and its command line with remappings."""
         self._name, self._arguments = name or _NAME, [str(each) for each in arguments]
 
     def use(self, node: Node) -> None:
-        """Talk through a node that somebody else opens and closes."""
+        """Use a node that somebody else opens and closes."""
         with self._lock:
             self._node = node
 
     def node(self) -> Node:
-        """The node; made when there is none yet."""
+        """Return the node; created on first use."""
         shared = process.node
         if shared is not None and not shared.closed:
             return shared
@@ -65,14 +65,14 @@ session = ClientSession()
 
 
 def packed(message: Message) -> bytes:
-    """A message as bytes."""
+    """Serialise a message."""
     buffer = io.BytesIO()
     message.serialize(buffer)
     return buffer.getvalue()
 
 
 def unpacked(kind: str, data: bytes) -> Any:
-    """A message of bytes.
+    """Deserialise a message.
 
     Args:
         kind: Its type, such as ``moveit_msgs/RobotState``.

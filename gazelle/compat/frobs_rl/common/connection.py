@@ -25,7 +25,7 @@ _clients: dict[Node, Gazebo] = {}
 
 
 def node() -> Node:
-    """The script's node; one of our own before ``rospy.init_node``."""
+    """Return the script's node; an own one before ``rospy.init_node``."""
     with _lock:
         if process.node is not None and not process.node.closed:
             return process.node
@@ -36,7 +36,7 @@ def node() -> Node:
 
 
 def gazebo() -> Gazebo:
-    """The simulator."""
+    """Return the simulator."""
     caller = node()
     with _lock:
         for old in [each for each in _clients if each.closed]:
@@ -47,12 +47,12 @@ def gazebo() -> Gazebo:
 
 
 def controllers(ns: str | None, retries: int) -> Controllers:
-    """The controllers of a robot."""
+    """Return the controllers of a robot."""
     return Controllers(node(), ns or "/", _PATIENCE_S, retries)
 
 
 def reporting(action: Callable[P, object]) -> Callable[P, bool]:
-    """A helper that returns whether it succeeded; why not is in the log."""
+    """Wrap a helper so that it returns whether it succeeded; the reason is logged."""
 
     @functools.wraps(action)
     def report(*args: P.args, **kwargs: P.kwargs) -> bool:
@@ -67,21 +67,21 @@ def reporting(action: Callable[P, object]) -> Callable[P, bool]:
 
 
 def log_error(text: str) -> None:
-    """Say that something failed, by the node's log if there is one."""
+    """Log an error, by the node if there is one."""
     rospy.logerr(text)
 
 
 def xacro_arguments(words: Sequence[str] | None) -> dict[str, str]:
-    """From ``["name:=value"]`` to values by name."""
+    """Convert ``["name:=value"]`` to values by name."""
     pairs = (word.partition(":=") for word in words or ())
     return {name.strip(): value for name, _, value in pairs}
 
 
 def in_folder(folder: str, file: str) -> str:
-    """A file below a folder of a package, such as ``urdf/robot.urdf``."""
+    """Return a file below a folder of a package, such as ``urdf/robot.urdf``."""
     return str(Path(folder.strip("/")) / file)
 
 
 def parameter(ns: str | None, name: str) -> str:
-    """The full name of a parameter in a namespace."""
+    """Return the full name of a parameter in a namespace."""
     return "/" + "/".join(filter(None, ((ns or "").strip("/"), name.strip("/"))))

@@ -117,7 +117,7 @@ def gazebo_spawn_sdf_param(
 
 @reporting
 def gazebo_delete_model(model_name: str) -> None:
-    """Take a model away."""
+    """Delete a model."""
     gazebo().delete(model_name)
 
 
@@ -167,7 +167,7 @@ def gazebo_set_model_state(
     ang_vel_z: float = 0.0,
     sleep_time: float = 0.05,
 ) -> None:
-    """Put a model somewhere with a velocity [m, m/s, rad/s], and wait a little [s of wall time]."""
+    """Set pose and velocity of a model [m, m/s, rad/s], and wait a little [s of wall time]."""
     gazebo().set_model_state(
         model_name,
         (pos_x, pos_y, pos_z),
@@ -200,7 +200,10 @@ def _reported(
 
 
 def _angles(x: float, y: float, z: float, w: float) -> tuple[float, float, float]:
-    """Roll, pitch and yaw of a quaternion of any length [rad]; all zeros, a default here, turn nothing."""
+    """Return roll, pitch and yaw of a quaternion of any length [rad].
+
+    All zeros is the identity.
+    """
     length = math.hypot(x, y, z, w)
     if length == 0.0:
         return (0.0, 0.0, 0.0)

@@ -15,7 +15,7 @@ def gazebo_set_max_update_rate(max_update_rate: float) -> None:
 
 
 def gazebo_get_max_update_rate() -> float:
-    """Steps a second of wall time that are aimed at [Hz]; 0 for as many as possible."""
+    """Return the target steps per second of wall time [Hz]; 0 for as many as possible."""
     return gazebo().physics.max_update_rate
 
 
@@ -28,7 +28,7 @@ def gazebo_set_time_step(new_time_step: float) -> None:
 
 
 def gazebo_get_time_step() -> float:
-    """The time between two steps [s]."""
+    """Return the time between two steps [s]."""
     return gazebo().time_step
 
 
@@ -39,7 +39,7 @@ def gazebo_set_gravity(x: float, y: float, z: float) -> None:
 
 
 def gazebo_get_gravity() -> Any:
-    """Gravity, a ``geometry_msgs/Vector3`` [m/s²]."""
+    """Return gravity, a ``geometry_msgs/Vector3`` [m/s²]."""
     vector: Any = load_message("geometry_msgs/Vector3")
     return vector(*gazebo().gravity)
 
@@ -73,7 +73,7 @@ def gazebo_set_ODE_physics(  # noqa: N802  # frobs_rl's name
 
 
 def gazebo_get_ODE_physics() -> Any:  # noqa: N802  # frobs_rl's name
-    """ODE's settings, a ``gazebo_msgs/ODEPhysics``."""
+    """Return ODE's settings, a ``gazebo_msgs/ODEPhysics``."""
     return gazebo().physics.ode
 
 

@@ -15,28 +15,28 @@ _STEP = "/gazelle/step"
 
 @reporting
 def gazebo_reset_sim(retries: int = 5) -> None:
-    """Put everything back, time too; ``retries`` is taken, and calls are made again as often as here."""
+    """Reset the simulation with its time; ``retries`` is accepted without effect."""
     del retries
     gazebo().reset_simulation()
 
 
 @reporting
 def gazebo_reset_world(retries: int = 5) -> None:
-    """Put the models back; time goes on."""
+    """Reset the models; time continues."""
     del retries
     gazebo().reset_world()
 
 
 @reporting
 def gazebo_pause_physics(retries: int = 5) -> None:
-    """Let time stand still."""
+    """Pause the simulation."""
     del retries
     gazebo().pause()
 
 
 @reporting
 def gazebo_unpause_physics(retries: int = 5) -> None:
-    """Let time go on."""
+    """Unpause the simulation."""
     del retries
     gazebo().unpause()
 
@@ -50,7 +50,7 @@ def _is_gazelle(simulator: Gazebo) -> bool:
 
 @reporting
 def gazebo_step_physics(steps: int = 1) -> None:
-    """Make steps of a paused world; with Gazelle they are done when this returns.
+    """Advance a paused world by steps; with Gazelle they are done when this returns.
 
     A real Gazebo is asked by its command, ``gz world``, which returns at once.
     """

@@ -41,6 +41,6 @@ def ros_launch_from_path(
 
 
 def ros_kill_launch_process() -> bool:
-    """End all launch files and nodes that this script has started; returns True."""
+    """Stop all launch files and nodes that this script has started; returns True."""
     background.stop_all()
     return True

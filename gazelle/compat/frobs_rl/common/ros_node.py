@@ -40,14 +40,14 @@ def ros_node_from_pkg(
 
 
 def ros_kill_node(node_name: str) -> bool:
-    """Ask a node to end; returns True, also if there is none."""
+    """Request a node to shut down; returns True, also if there is none."""
     with contextlib.suppress(RosError):
         background.processes().kill(node_name)
     return True
 
 
 def ros_kill_all_nodes() -> bool:
-    """Ask all nodes but this one to end; returns True, also if there is no master."""
+    """Request all nodes but this one to shut down; returns True, also if there is no master."""
     own = process.node.name if process.node is not None else None
     with contextlib.suppress(RosError):
         started = background.processes()
@@ -56,14 +56,14 @@ def ros_kill_all_nodes() -> bool:
 
 
 def ros_kill_master() -> bool:
-    """Ask the master to end; returns True, also if there is none."""
+    """Request the master to shut down; returns True, also if there is none."""
     with contextlib.suppress(RosError):
         background.processes().kill_master()
     return True
 
 
 def ros_kill_all_processes() -> bool:
-    """End what this script has started, all nodes but this one, and the master; returns True."""
+    """Stop what this script has started, all nodes but this one, and the master; returns True."""
     background.stop_all()
     ros_kill_all_nodes()
     return ros_kill_master()

@@ -25,7 +25,7 @@ def urdf_load_from_pkg(
     ns: str | None = None,
     args_xacro: Sequence[str] | None = None,
 ) -> None:
-    """Put the description in a package's file into a parameter; returns whether that succeeded.
+    """Load the description in a package's file into a parameter; returns whether it succeeded.
 
     Args:
         pkg_name: The package.
@@ -48,7 +48,7 @@ def urdf_load_from_pkg(
 def urdf_load_from_path(
     model_path: str, param_name: str, ns: str | None = None, args_xacro: Sequence[str] | None = None
 ) -> None:
-    """Put the description in a file into a parameter; returns whether that succeeded."""
+    """Load the description in a file into a parameter; returns whether it succeeded."""
     load_urdf(
         node(),
         model_path,
@@ -63,12 +63,12 @@ def urdf_parse_from_pkg(
     folder: str = "/urdf",
     args_xacro: Sequence[str] | None = None,
 ) -> str | None:
-    """The description in a package's file; None, and a line in the log, if it cannot be read."""
+    """Return the description in a package's file; None, with a logged error, if it is invalid."""
     return _parsed(in_folder(folder, model_name), pkg_name, args_xacro)
 
 
 def urdf_parse_from_path(model_path: str, args_xacro: Sequence[str] | None = None) -> str | None:
-    """The description in a file; None, and a line in the log, if it cannot be read."""
+    """Return the description in a file; None, with a logged error, if it is invalid."""
     return _parsed(model_path, None, args_xacro)
 
 

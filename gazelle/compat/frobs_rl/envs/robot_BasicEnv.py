@@ -168,7 +168,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None, **kwargs: Any
     ) -> tuple[Any, dict[str, Any]]:
-        """Begin an episode; returns the first observation and an empty dictionary."""
+        """Start an episode; returns the first observation and an empty dictionary."""
         del kwargs
         super().reset(seed=seed, options=options)
         ros_gazebo.gazebo_pause_physics()
@@ -177,7 +177,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         return self.observation, {}
 
     def close(self) -> None:
-        """End the simulator, all nodes and the master."""
+        """Stop the simulator, all nodes and the master."""
         ros_gazebo.close_Gazebo()
         ros_node.ros_kill_all_processes()
         rospy.signal_shutdown("the environment is closed")
@@ -185,7 +185,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
     # -- around an episode ---------------------------------------------------------------------
 
     def _reset_gazebo(self) -> None:
-        """Put the world back, and begin the episode while time goes on."""
+        """Reset the world, and start the episode while time advances."""
         if self.reset_mode == _RESET_WORLD:
             ros_gazebo.gazebo_reset_world()
         else:
@@ -225,12 +225,12 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         raise NotImplementedError
 
     def _set_episode_init_params(self) -> Any:
-        """Begin the variables of an episode."""
+        """Initialise the variables of an episode."""
         raise NotImplementedError
 
 
 def _insist(otherwise: str, *, done: bool) -> None:
-    """Go on only if something was done.
+    """Raise an error unless something was done.
 
     Raises:
         TaskError: It was not; why not is in the log.

@@ -88,7 +88,7 @@ class BasicModel:
         self.set_model_logger()
 
     def parameter(self, name: str) -> Any:
-        """A parameter below ``model_params``.
+        """Return a parameter below ``model_params``.
 
         Raises:
             KeyError: It is not set.
@@ -96,7 +96,7 @@ class BasicModel:
         return rospy.get_param(parameter(self.ns, f"model_params/{name}"))
 
     def _options(self) -> dict[str, Any]:
-        """Arguments of the algorithm."""
+        """Return the arguments of the algorithm."""
         own: Mapping[str, Any] = self.parameter(f"{self.algorithm.lower()}_params")
         options = dict(own)
         frequency = options.get("train_freq")
@@ -116,7 +116,7 @@ class BasicModel:
         return rospy.get_param(parameter(self.ns, f"model_params/{name}"), None)
 
     def _continued(self, name: str) -> Any:
-        """A model saved earlier, with its replay buffer if that was saved."""
+        """Return a model saved earlier, with its replay buffer if that was saved."""
         file = Path(self.save_model_path) / name
         if not file.with_name(f"{name}.zip").is_file():
             raise TaskError(f"there is no model '{name}' to go on with", file=f"{file}.zip")
@@ -127,7 +127,7 @@ class BasicModel:
         return model
 
     def train(self) -> bool:
-        """Learn for ``training_steps``, and save the model; returns True."""
+        """Train for ``training_steps``, and save the model; returns True."""
         self.model.learn(
             total_timesteps=int(self.parameter("training_steps")),
             callback=self.checkpoint_callback,
@@ -200,7 +200,7 @@ class BasicModel:
         mask: Any = None,
         deterministic: bool = False,  # noqa: FBT001, FBT002
     ) -> Any:
-        """The action for an observation, and the state of a recurrent policy.
+        """Return the action for an observation, and the state of a recurrent policy.
 
         Args:
             observation: What is seen.
@@ -214,5 +214,5 @@ class BasicModel:
 
     @classmethod
     def load_trained(cls, model_path: str, env: Any = None) -> BasicModel:
-        """A saved model, for `predict`."""
+        """Return a saved model, for `predict`."""
         return cls(env, model_path, model_path, load_trained=True)

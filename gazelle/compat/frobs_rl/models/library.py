@@ -9,7 +9,7 @@ from gazelle.errors import MissingExtraError
 
 
 def stable_baselines3(module: str = "") -> Any:
-    """The package, or a module of it.
+    """Return the package, or a module of it.
 
     Raises:
         MissingExtraError: It is not installed.
@@ -18,7 +18,7 @@ def stable_baselines3(module: str = "") -> Any:
 
 
 def torch(module: str = "") -> Any:
-    """The package, or a module of it.
+    """Return the package, or a module of it.
 
     Raises:
         MissingExtraError: It is not installed.

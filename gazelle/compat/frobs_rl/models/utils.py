@@ -19,7 +19,7 @@ _OPTIMIZERS = ("Adam", "Adadelta", "Adagrad", "RMSprop", "SGD")
 
 
 def get_policy_kwargs(ns: str = "/") -> dict[str, Any] | None:
-    """``policy_kwargs`` for Stable-Baselines3; None unless ``use_custom_policy`` is set.
+    """Return ``policy_kwargs`` for Stable-Baselines3; None unless ``use_custom_policy`` is set.
 
     Raises:
         TaskError: A parameter names what is not there.
@@ -39,7 +39,7 @@ def get_policy_kwargs(ns: str = "/") -> dict[str, Any] | None:
 
 
 def get_action_noise(action_space_shape: int | tuple[int, ...], ns: str = "/") -> Any:
-    """Gaussian noise for actions of a shape; None unless ``use_action_noise`` is set."""
+    """Return Gaussian noise for actions of a shape; None unless ``use_action_noise`` is set."""
     if not rospy.get_param(parameter(ns, "model_params/use_action_noise"), False):
         return None
     wanted: Mapping[str, float] = rospy.get_param(parameter(ns, "model_params/action_noise"))

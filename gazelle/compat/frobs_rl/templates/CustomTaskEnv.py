@@ -23,7 +23,7 @@ class CustomTaskEnv(CustomRobotEnv):
         super().__init__(**options)
 
     def _set_episode_init_params(self) -> None:
-        """Begin the variables of an episode."""
+        """Initialise the variables of an episode."""
 
     def _send_action(self, action: Any) -> None:
         """Publish the action, and wait while it acts."""

@@ -28,9 +28,9 @@ class NormalizeActionWrapper(EitherInterface, gymnasium.ActionWrapper[Any, Any, 
         self.action_space = self._box.space
 
     def rescale_action(self, scaled_action: Any) -> NDArray[Any]:
-        """The action that one between -1 and 1 stands for."""
+        """Return the action of one scaled to between -1 and 1."""
         return self._box.stretched(scaled_action)
 
     def action(self, action: Any) -> NDArray[Any]:
-        """The same."""
+        """Return the rescaled action."""
         return self.rescale_action(action)

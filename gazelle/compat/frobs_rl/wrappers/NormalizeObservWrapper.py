@@ -29,7 +29,7 @@ class NormalizeObservWrapper(EitherInterface, gymnasium.ObservationWrapper[Any, 
         self.observation_space = self._box.space
 
     def scale_observation(self, observation: Any) -> NDArray[Any]:
-        """An observation, scaled.
+        """Return an observation, scaled.
 
         Raises:
             ValueError: It has not the shape of the box.
@@ -40,5 +40,5 @@ class NormalizeObservWrapper(EitherInterface, gymnasium.ObservationWrapper[Any, 
         return self._box.shrunk(seen).astype(np.float32)
 
     def observation(self, observation: Any) -> NDArray[Any]:
-        """The same."""
+        """Return the scaled observation."""
         return self.scale_observation(observation)

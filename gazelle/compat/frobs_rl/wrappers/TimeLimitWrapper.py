@@ -26,12 +26,12 @@ class TimeLimitWrapper(EitherInterface, gymnasium.Wrapper[Any, Any, Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None, **kwargs: Any
     ) -> tuple[Any, dict[str, Any]]:
-        """Begin an episode; returns the first observation and a dictionary."""
+        """Start an episode; returns the first observation and a dictionary."""
         self.current_step = 0
         return self.env.reset(seed=seed, options=options, **kwargs)
 
     def step(self, action: Any) -> Result:
-        """Act once; of an episode that is cut ``info`` has ``time_limit_reached``."""
+        """Step the environment; a truncated episode has ``time_limit_reached`` in ``info``."""
         observation, reward, terminated, truncated, info = self.env.step(action)
         self.current_step += 1
         if self.current_step >= self.max_steps:

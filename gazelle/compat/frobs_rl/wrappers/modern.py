@@ -15,7 +15,7 @@ class EitherInterface:
     """A wrapper that has the interface of what it is around: the old gym's, or Gymnasium's."""
 
     def __new__(cls, env: Any, *arguments: Any, **options: Any) -> Any:
-        """The wrapper; around an old environment, one with the old interface around that."""
+        """Create the wrapper; around an old environment, with the old interface around it."""
         if isinstance(env, Env):
             kind: Any = cls
             return OldInterface(kind(modern(env), *arguments, **options))
@@ -23,7 +23,7 @@ class EitherInterface:
 
 
 def modern(env: Any) -> gymnasium.Env[Any, Any]:
-    """An environment with Gymnasium's interface, whichever it has.
+    """Return an environment with Gymnasium's interface, whichever it has.
 
     Scripts for frobs_rl of old make theirs by ``gym.make``.
     """

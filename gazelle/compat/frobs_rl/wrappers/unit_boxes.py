@@ -34,11 +34,11 @@ class UnitBox:
         self.space = Box(-1.0, 1.0, space.shape, np.float32)
 
     def shrunk(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values of the box, scaled so that its bounds become -1 and 1."""
+        """Return values of the box, scaled so that its bounds become -1 and 1."""
         scaled: NDArray[Any] = 2.0 * (values - self.low) / (self.high - self.low) - 1.0
         return scaled
 
     def stretched(self, values: Any) -> NDArray[Any]:
-        """The values that `shrunk` makes these of."""
+        """Return the values of scaled ones, the inverse of `shrunk`."""
         grown: NDArray[Any] = self.low + 0.5 * (values + 1.0) * (self.high - self.low)
         return grown

@@ -48,7 +48,7 @@ class EnvSpec:
         return self.max_episode_steps
 
     def make(self, **options: Any) -> Env:
-        """Make it.
+        """Create the environment.
 
         Args:
             options: For its class, beside the registered ones.
@@ -109,7 +109,7 @@ class EnvRegistry:
         return self.env_specs[name]
 
     def make(self, path: str, **options: Any) -> Env:
-        """Make an environment; Gymnasium's are found too.
+        """Create an environment; Gymnasium's are found too.
 
         Raises:
             UnregisteredEnv: There is none of that name.
@@ -117,7 +117,7 @@ class EnvRegistry:
         return self.spec(path).make(**options)
 
     def all(self) -> Iterable[EnvSpec]:
-        """All that are registered here."""
+        """Return all that are registered here."""
         return self.env_specs.values()
 
 

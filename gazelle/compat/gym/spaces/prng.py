@@ -11,5 +11,5 @@ np_random = np.random.RandomState()
 
 
 def seed(seed: int | None = None) -> None:
-    """Decide the random numbers."""
+    """Set the seed of the random numbers."""
     np_random.seed(seed)

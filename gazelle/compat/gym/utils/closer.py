@@ -31,7 +31,7 @@ class Closer:
         return number
 
     def unregister(self, id: int | None) -> None:  # noqa: A002  # gym's name
-        """Let something be that has a number."""
+        """Unregister the object of a number."""
         if id is not None:
             self.closeables.pop(id, None)
 

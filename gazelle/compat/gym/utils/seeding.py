@@ -14,7 +14,7 @@ _SEEDS = 2**32
 
 
 def np_random(seed: int | None = None) -> tuple[np.random.RandomState, int]:
-    """A source of random numbers, and the seed that decides it.
+    """Return a random number generator, and its seed.
 
     Args:
         seed: Not negative; drawn if None.
@@ -36,5 +36,5 @@ def hash_seed(seed: int | None = None, max_bytes: int = 8) -> int:
 
 
 def create_seed(a: int | None = None, max_bytes: int = 8) -> int:
-    """The seed itself, or one that the machine draws."""
+    """Return the seed itself, or a random one."""
     return secrets.randbits(8 * max_bytes) if a is None else int(a)

@@ -33,7 +33,7 @@ class VectorEnv(Env):
         self.is_vector_env = True
 
     def seed(self, seed: int | Iterable[int] | None = None) -> None:
-        """Decide the random numbers of each: by a seed each, or by one and those after it."""
+        """Set the seeds of the environments: one each, or one and those after it."""
         if seed is None or isinstance(seed, int):
             seeds = [None if seed is None else seed + place for place in range(self.num_envs)]
         else:
@@ -42,11 +42,11 @@ class VectorEnv(Env):
             env.seed(each)
 
     def reset(self) -> Any:
-        """Begin an episode in each; returns the observations, one a row."""
+        """Start an episode in each; returns the observations, one a row."""
         return self._joined([env.reset() for env in self.envs])
 
     def step(self, action: Any) -> Any:
-        """Act once in each.
+        """Step each environment.
 
         Returns:
             Observations, rewards, whether each episode ended, and a list of dictionaries; where one
@@ -65,7 +65,7 @@ class VectorEnv(Env):
         return self._joined(seen), np.array(rewards, float), np.array(ends, bool), infos
 
     def close(self) -> None:
-        """Give back what they hold."""
+        """Close the environments."""
         for env in self.envs:
             env.close()
 

@@ -66,7 +66,7 @@ class Monitor(Wrapper):
         self._total = 0
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         self._end_episode()
         observation = self.env.reset(**options)
         if self._begun is None:
@@ -76,7 +76,7 @@ class Monitor(Wrapper):
         return observation
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         observation, reward, done, info = self.env.step(action)
         self._steps += 1
         self._total += 1
@@ -92,7 +92,7 @@ class Monitor(Wrapper):
         super().close()
 
     def get_total_steps(self) -> int:
-        """Steps of all episodes."""
+        """Return the number of steps of all episodes."""
         return self._total
 
     def get_episode_rewards(self) -> list[float]:
@@ -100,7 +100,7 @@ class Monitor(Wrapper):
         return self._rewards
 
     def get_episode_lengths(self) -> list[int]:
-        """Steps of each episode."""
+        """Return the number of steps of each episode."""
         return self._lengths
 
     def _flush(self, force: bool = False) -> None:  # noqa: FBT001, FBT002  # gym's interface

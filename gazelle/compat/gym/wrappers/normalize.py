@@ -26,11 +26,11 @@ class NormalizeObservation(Wrapper):
         self.epsilon = epsilon
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         return self.normalize(self.env.reset(**options))
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         observation, reward, done, info = self.env.step(action)
         return self.normalize(observation), reward, done, info
 
@@ -56,7 +56,7 @@ class NormalizeReward(Wrapper):
         self.returns = 0.0
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         observation, reward, done, info = self.env.step(action)
         self.returns = self.returns * self.gamma + float(reward)
         self.return_rms.update(np.array([self.returns]))

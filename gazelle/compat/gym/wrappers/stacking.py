@@ -47,7 +47,7 @@ class FrameStack(ObservationWrapper):
         self.observation_space = Box(low, high, dtype=inner.dtype.type)
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; the first observation stands in every place."""
+        """Start an episode; the first observation fills the stack."""
         first = self.env.reset(**options)
         self.frames.extend([first] * self.num_stack)
         return LazyFrames(self.frames)
@@ -113,12 +113,12 @@ class TimeAwareObservation(ObservationWrapper):
         self.t = 0
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         self.t = 0
         return super().reset(**options)
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         self.t += 1
         return super().step(action)
 
@@ -135,12 +135,12 @@ class OrderEnforcing(Wrapper):
         self._has_reset = False
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         self._has_reset = True
         return self.env.reset(**options)
 
     def step(self, action: Any) -> Step:
-        """Act once.
+        """Step the environment.
 
         Raises:
             ResetNeeded: No episode has begun.

@@ -23,12 +23,12 @@ class TimeLimit(Wrapper):
         self._elapsed_steps: int | None = None
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         self._elapsed_steps = 0
         return self.env.reset(**options)
 
     def step(self, action: Any) -> Step:
-        """Act once.
+        """Step the environment.
 
         Raises:
             ResetNeeded: No episode has begun.

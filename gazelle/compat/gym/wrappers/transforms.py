@@ -28,7 +28,7 @@ class FlattenObservation(ObservationWrapper):
         self.observation_space = flatten_space(self._inner)
 
     def observation(self, observation: Any) -> Any:
-        """The row."""
+        """Return the flat observation."""
         return flatten(self._inner, observation)
 
 
@@ -60,7 +60,7 @@ class ClipAction(ActionWrapper):
     """Actions are kept within their box."""
 
     def action(self, action: Any) -> Any:
-        """The nearest action of the box."""
+        """Return the nearest action of the box."""
         box = _box(self.action_space)
         return np.clip(action, box.low, box.high)
 
@@ -83,7 +83,7 @@ class RescaleAction(ActionWrapper):
         self.action_space = Box(self.a, self.b, dtype=np.float32)
 
     def action(self, action: Any) -> Any:
-        """The action that it stands for."""
+        """Return the action in the original box."""
         low, high = self._inner.low, self._inner.high
         return np.clip(low + (high - low) * ((action - self.a) / (self.b - self.a)), low, high)
 
@@ -97,12 +97,12 @@ class RecordEpisodeStatistics(Wrapper):
         self._return, self._length = 0.0, 0
 
     def reset(self, **options: Any) -> Any:
-        """Begin an episode; returns the first observation."""
+        """Start an episode; returns the first observation."""
         self._return, self._length = 0.0, 0
         return self.env.reset(**options)
 
     def step(self, action: Any) -> Step:
-        """Act once."""
+        """Step the environment."""
         observation, reward, done, info = self.env.step(action)
         self._return += float(reward)
         self._length += 1

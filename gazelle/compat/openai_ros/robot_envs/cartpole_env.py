@@ -52,7 +52,7 @@ class CartPoleEnv(TopicRobotEnv):
         self._pole_pub = self._publisher(f"{space}/pole_{kind}", "std_msgs/Float64")
 
     def joints_callback(self, data: Any) -> None:
-        """Take the state of the joints."""
+        """Store the state of the joints."""
         self.joints = data
 
     def check_publishers_connection(self) -> None:
@@ -60,7 +60,7 @@ class CartPoleEnv(TopicRobotEnv):
         self._check_publishers_connection()
 
     def init_internal_vars(self, init_pos_value: float) -> None:
-        """Begin the command of the cart."""
+        """Initialise the command of the cart."""
         self.pos = [init_pos_value]
 
     def move_joints(self, joints_array: Sequence[float]) -> None:
@@ -68,11 +68,11 @@ class CartPoleEnv(TopicRobotEnv):
         self._base_pub.publish(load_message("std_msgs/Float64")(float(joints_array[0])))
 
     def get_clock_time(self) -> Any:
-        """The next ``rosgraph_msgs/Clock``."""
+        """Return the next ``rosgraph_msgs/Clock``."""
         self.clock_time = rospy.wait_for_message("/clock", load_message("rosgraph_msgs/Clock"))
         return self.clock_time
 
     def joint(self, name: str) -> tuple[float, float]:
-        """Position and velocity of a joint, whatever the order in which they are published [m or rad]."""
+        """Return position and velocity of a joint, in any order of publication [m or rad]."""
         place = self.joints.name.index(name)
         return self.joints.position[place], self.joints.velocity[place]

@@ -46,11 +46,11 @@ class ParrotDroneEnv(TopicRobotEnv):
         self._land_pub = self._publisher("/drone/land", "std_msgs/Empty")
 
     def takeoff(self) -> None:
-        """Take off, with time going on until the drone is 0.8 m high."""
+        """Take off, with time advancing until the drone is 0.8 m high."""
         self._go(self._takeoff_pub, _UP, smaller_than=False)
 
     def land(self) -> None:
-        """Land, with time going on until the drone is 0.6 m high."""
+        """Land, with time advancing until the drone is 0.6 m high."""
         self._go(self._land_pub, _DOWN, smaller_than=True)
 
     def _go(self, publisher: Any, height: float, *, smaller_than: bool) -> None:

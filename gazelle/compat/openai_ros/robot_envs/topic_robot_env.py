@@ -120,7 +120,7 @@ class TopicRobotEnv(RobotGazeboEnv):
                 self._look_again()
 
     def _check_sensor_ready(self, attribute: str) -> Any:
-        """The next message of a sensor; time must go on.
+        """Return the next message of a sensor; time must advance.
 
         Raises:
             TaskError: There is none within a minute.
@@ -136,7 +136,7 @@ class TopicRobotEnv(RobotGazeboEnv):
         return getattr(self, attribute)
 
     def _first(self, sensor: RobotTopic) -> Any:
-        """The next message of a topic that is not listened to yet."""
+        """Return the next message of a topic without a subscriber yet."""
         try:
             return rospy.wait_for_message(sensor.topic, load_message(sensor.kind), PATIENCE_S)
         except rospy.ROSInterruptException:
@@ -163,11 +163,11 @@ class TopicRobotEnv(RobotGazeboEnv):
     # -- commands ------------------------------------------------------------------------------
 
     def _open_publishers(self) -> None:
-        """Make the publishers of commands; into ``publishers_array`` too."""
+        """Create the publishers of commands; into ``publishers_array`` too."""
         self.publishers_array: list[rospy.Publisher] = []
 
     def _publisher(self, topic: str, kind: str) -> rospy.Publisher:
-        """A publisher of commands."""
+        """Create a publisher of commands."""
         made = rospy.Publisher(topic, load_message(kind), queue_size=1)
         self.publishers_array.append(made)
         return made
@@ -205,7 +205,7 @@ class TopicRobotEnv(RobotGazeboEnv):
 
 def _getter(name: str) -> Callable[[TopicRobotEnv], Any]:
     def get(env: TopicRobotEnv) -> Any:
-        """The last message."""
+        """Return the last message."""
         return getattr(env, name)
 
     return get
@@ -213,7 +213,7 @@ def _getter(name: str) -> Callable[[TopicRobotEnv], Any]:
 
 def _checker(name: str) -> Callable[[TopicRobotEnv], Any]:
     def check(env: TopicRobotEnv) -> Any:
-        """The next message."""
+        """Return the next message."""
         return env._check_sensor_ready(name)  # noqa: SLF001  # a method of the class
 
     return check

@@ -39,7 +39,7 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
     min_range: float | None = None
 
     def _read_steering(self) -> None:
-        """Take the parameters that all of these tasks have, and the goal if there is one."""
+        """Read the common parameters of these tasks, and the goal if there is one."""
         self.linear_forward_speed = self.number("linear_forward_speed")
         self.linear_turn_speed = self.number("linear_turn_speed")
         self.angular_speed = self.number("angular_speed")
@@ -58,7 +58,7 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
         self._episode_done = False
 
     def _read_way_rewards(self) -> None:
-        """Take what a step forward is worth, and a turn."""
+        """Read the rewards of a step forward and a turn."""
         self.forwards_reward = self.number("forwards_reward")
         self.turn_reward = self.number("turn_reward")
 
@@ -117,7 +117,7 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
         return True
 
     def _init_env_variables(self) -> None:
-        """Begin an episode's reward and its way to the goal."""
+        """Initialise an episode's reward and its distance to the goal."""
         self.cumulated_reward = 0.0
         self._episode_done = False
         if self.place_at is not None:
@@ -125,7 +125,7 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
             self.previous_distance_from_des_point = float(distance_to(place, self._goal())[0])
 
     def _set_action(self, action: Any) -> None:
-        """Go, or turn; other actions repeat the last command's name and go forward."""
+        """Drive or turn; other actions repeat the last command's name and go forward."""
         speeds = {
             0: (FORWARDS, self.linear_forward_speed, 0.0),
             1: (TURN_LEFT, self.linear_turn_speed, self.angular_speed),

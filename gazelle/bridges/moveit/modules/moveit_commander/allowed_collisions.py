@@ -8,7 +8,7 @@ from gazelle.ros.messages import load_message
 
 
 def set_default(matrix: Any, obj: str, allow: bool) -> None:  # noqa: FBT001  # MoveIt's interface
-    """Say whether a thing may touch those of which nothing else is said."""
+    """Set the default for collisions of an object with others."""
     if obj in matrix.default_entry_names:
         matrix.default_entry_values[matrix.default_entry_names.index(obj)] = allow
     else:
@@ -17,7 +17,7 @@ def set_default(matrix: Any, obj: str, allow: bool) -> None:  # noqa: FBT001  # 
 
 
 def set_allowed(matrix: Any, obj: str, other: str | None = None, allow: bool = True) -> None:  # noqa: FBT001, FBT002
-    """Say whether a thing may touch another, or others of which nothing else is said.
+    """Set whether an object may touch another, or all others by default.
 
     Raises:
         ValueError: The other is not in the matrix.
@@ -38,6 +38,6 @@ def set_allowed(matrix: Any, obj: str, other: str | None = None, allow: bool = T
 
 
 def extend_messages() -> None:
-    """Give the message class both as methods."""
+    """Add both methods to the message class."""
     kind: Any = load_message("moveit_msgs/AllowedCollisionMatrix")
     kind.set_default, kind.set_allowed = set_default, set_allowed

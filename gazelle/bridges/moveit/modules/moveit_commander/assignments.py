@@ -13,7 +13,7 @@ _ELEMENT = re.compile(r"(\w+)\s*\[\s*(\d+)\s*\]\s*=\s*([\d.eE\-+]+)")
 
 
 def assignment(group: MoveGroupCommander, cmd: str) -> Answer | None:
-    """Do what a line says, if it is an assignment; None if not."""
+    """Execute a line that is an assignment; None for other lines."""
     if same := _ASSIGNED.fullmatch(cmd):
         return _assign(group, same[1], same[2], cmd)
     if vector := _VECTOR.fullmatch(cmd):

@@ -54,7 +54,7 @@ def help_text() -> str:
 
 
 def keywords(groups: Iterable[str], group: MoveGroupCommander | None) -> dict[str, list[str]]:
-    """First words of commands, and what may follow them.
+    """Return first words of commands, and their completions.
 
     Args:
         groups: Names of the robot's groups.

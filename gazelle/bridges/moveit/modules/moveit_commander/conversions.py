@@ -23,7 +23,7 @@ __all__ = [
 
 
 def msg_to_string(msg: Message) -> bytes:
-    """A message as bytes."""
+    """Serialise a message."""
     return packed(msg)
 
 
@@ -33,17 +33,17 @@ def msg_from_string(msg: Message, data: bytes) -> None:
 
 
 def pose_to_list(pose_msg: Any) -> list[float]:
-    """``[x, y, z, qx, qy, qz, qw]`` of a pose."""
+    """Return ``[x, y, z, qx, qy, qz, qw]`` of a pose."""
     return _numbers(pose_msg.position, pose_msg.orientation)
 
 
 def transform_to_list(trf_msg: Any) -> list[float]:
-    """``[x, y, z, qx, qy, qz, qw]`` of a transform."""
+    """Return ``[x, y, z, qx, qy, qz, qw]`` of a transform."""
     return _numbers(trf_msg.translation, trf_msg.rotation)
 
 
 def list_to_pose(pose_list: Sequence[float]) -> Any:
-    """A ``geometry_msgs/Pose`` of seven numbers, or of six: x, y, z, roll, pitch, yaw.
+    """Convert seven numbers, or six (x, y, z, roll, pitch, yaw), to a ``geometry_msgs/Pose``.
 
     Raises:
         MoveItCommanderException: It is another number.
@@ -61,14 +61,14 @@ def list_to_pose(pose_list: Sequence[float]) -> Any:
 
 
 def list_to_pose_stamped(pose_list: Sequence[float], target_frame: str) -> Any:
-    """A ``PoseStamped`` of now; see `list_to_pose`."""
+    """Return a ``PoseStamped`` of now; see `list_to_pose`."""
     made: Any = load_message("geometry_msgs/PoseStamped")(pose=list_to_pose(pose_list))
     made.header.frame_id, made.header.stamp = target_frame, Time.now()
     return made
 
 
 def list_to_transform(trf_list: Sequence[float]) -> Any:
-    """A ``geometry_msgs/Transform`` of seven numbers."""
+    """Convert seven numbers to a ``geometry_msgs/Transform``."""
     made: Any = load_message("geometry_msgs/Transform")()
     _fill(made.translation, made.rotation, trf_list)
     return made

@@ -39,7 +39,7 @@ OK: Answer = (MoveGroupInfoLevel.DEBUG, "OK")
 
 
 def good(text: str) -> Answer:
-    """It was done."""
+    """Return the answer of a successful command."""
     return MoveGroupInfoLevel.SUCCESS, text
 
 
@@ -49,17 +49,17 @@ def info(text: str) -> Answer:
 
 
 def warn(text: str) -> Answer:
-    """The command cannot be."""
+    """Return the answer of an invalid command."""
     return MoveGroupInfoLevel.WARN, text
 
 
 def fail(text: str) -> Answer:
-    """It was tried in vain."""
+    """Return the answer of a failed command."""
     return MoveGroupInfoLevel.FAIL, text
 
 
 def listed(values: Sequence[float]) -> str:
-    """Values as the interpreter writes and reads them."""
+    """Return values as the interpreter writes and reads them."""
     return "[" + " ".join(map(str, values)) + "]"
 
 
@@ -67,13 +67,13 @@ def listed(values: Sequence[float]) -> str:
 
 
 def joints(group: MoveGroupCommander) -> Answer:
-    """Joints, numbered."""
+    """Return joints, numbered."""
     lines = [f"{number} = {name}" for number, name in enumerate(group.get_joints())]
     return info("\n" + "\n".join(lines) + "\n")
 
 
 def remembered(group: MoveGroupCommander) -> Answer:
-    """Names and values of what is remembered."""
+    """Return names and values of remembered postures."""
     known = group.get_remembered_joint_values()
     return info("\n".join(f"{name} = {listed(values)}" for name, values in known.items()))
 
@@ -109,12 +109,12 @@ def group_state(group: MoveGroupCommander) -> Answer:
 
 
 def end_effector(group: MoveGroupCommander) -> Answer:
-    """The link that poses are of."""
+    """Return the link that poses refer to."""
     return info(group.get_end_effector_link() or "There is no end effector defined")
 
 
 def tolerance(group: MoveGroupCommander) -> Answer:
-    """Tolerances of goals."""
+    """Return tolerances of goals."""
     values = group.get_goal_tolerance()
     return info("Joint = {:0.6g}, Position = {:0.6g}, Orientation = {:0.6g}".format(*values))
 
@@ -123,19 +123,19 @@ def tolerance(group: MoveGroupCommander) -> Answer:
 
 
 def record(group: MoveGroupCommander, name: str) -> Answer:
-    """Remember where joints are."""
+    """Store the present joint values under a name."""
     group.remember_joint_values(name)
     return good(f"Remembered current joint values under the name {name}")
 
 
 def record_random(group: MoveGroupCommander, name: str) -> Answer:
-    """Remember random joint values."""
+    """Store random joint values under a name."""
     group.remember_joint_values(name, group.get_random_joint_values())
     return good(f"Remembered random joint values under the name {name}")
 
 
 def forget(group: MoveGroupCommander, name: str) -> Answer:
-    """Forget what is remembered under a name."""
+    """Discard the values stored under a name."""
     group.forget_joint_values(name)
     return good(f"Forgot joint values under the name {name}")
 
@@ -165,7 +165,7 @@ def _with_number(act: Callable[[float], object], value: str, what: str) -> Answe
 
 
 def wait(_group: MoveGroupCommander, value: str) -> Answer:
-    """Do nothing for some seconds."""
+    """Wait for some seconds."""
     try:
         time.sleep(float(value))
     except (ValueError, OverflowError):
@@ -200,7 +200,7 @@ def stop(group: MoveGroupCommander) -> Answer:
 
 
 def go(group: MoveGroupCommander, name: str) -> Answer:
-    """Go to a remembered or named posture, or a random one."""
+    """Move to a remembered or named posture, or a random one."""
     if name in RANDOM:
         values = group.get_random_joint_values()
         group.set_joint_value_target(values)
@@ -240,7 +240,7 @@ def go_offset(
 
 
 def go_to_pose(group: MoveGroupCommander, words: Sequence[str]) -> Answer:
-    """Go to x, y, z, roll, pitch, yaw; a seventh word may say that less will do."""
+    """Move to x, y, z, roll, pitch, yaw; a seventh word allows approximate solutions."""
     try:
         pose = conversions.list_to_pose([float(word) for word in words[:6]])
     except ValueError:
@@ -259,7 +259,7 @@ def go_to_pose(group: MoveGroupCommander, words: Sequence[str]) -> Answer:
 
 
 def rotate(group: MoveGroupCommander, *words: str) -> Answer:
-    """Turn the end effector to roll, pitch and yaw [rad]."""
+    """Rotate the end effector to roll, pitch and yaw [rad]."""
     try:
         angles = [float(word) for word in words]
     except ValueError:
@@ -301,7 +301,7 @@ def pick(group: MoveGroupCommander, name: str) -> Answer:
 
 
 def place(group: MoveGroupCommander, name: str) -> Answer:
-    """Place a thing anywhere."""
+    """Place an object anywhere."""
     if group.place(name):
         return good(f"Placed object {name}")
     return fail(f"Failed while trying to place object {name}")

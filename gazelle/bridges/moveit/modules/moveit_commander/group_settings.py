@@ -18,15 +18,15 @@ class GroupSettings(GroupTargets):
     # -- tolerances ----------------------------------------------------------------------
 
     def get_goal_joint_tolerance(self) -> float:
-        """Of joints [m or rad]."""
+        """Return the tolerance of joints [m or rad]."""
         return self._settings.tolerances["joint"]
 
     def get_goal_position_tolerance(self) -> float:
-        """Of positions: radius of a sphere [m]."""
+        """Return the tolerance of positions: radius of a sphere [m]."""
         return self._settings.tolerances["position"]
 
     def get_goal_orientation_tolerance(self) -> float:
-        """About each axis [rad]."""
+        """Return the tolerance about each axis [rad]."""
         return self._settings.tolerances["orientation"]
 
     def set_goal_joint_tolerance(self, value: float) -> None:
@@ -83,7 +83,7 @@ class GroupSettings(GroupTargets):
         return self._settings.planner
 
     def clear_max_cartesian_link_speed(self) -> None:
-        """Let links be as fast as joints are."""
+        """Remove the limit of a link's speed."""
         self._settings.fastest = ("", 0.0)
 
     def allow_looking(self, value: bool) -> None:  # noqa: FBT001  # MoveIt's interface
@@ -129,11 +129,11 @@ class GroupSettings(GroupTargets):
             self._settings.trajectory = copied("moveit_msgs/TrajectoryConstraints", value)
 
     def clear_path_constraints(self) -> None:
-        """Let nothing hold all along."""
+        """Remove the path constraints."""
         self._settings.path = None
 
     def clear_trajectory_constraints(self) -> None:
-        """Forget the ``TrajectoryConstraints``."""
+        """Remove the ``TrajectoryConstraints``."""
         self._settings.trajectory = None
 
     def get_known_constraints(self) -> list[str]:
@@ -141,7 +141,7 @@ class GroupSettings(GroupTargets):
         return []
 
     def set_constraints_database(self, host: str, port: int) -> None:
-        """Databases of constraints are not known."""
+        """Do nothing: databases of constraints are not supported."""
         LOG.warning("the database of constraints at %s:%s is not asked", host, port)
 
     # -- limits --------------------------------------------------------------------------

@@ -115,7 +115,7 @@ class GroupState:
         return dict(self._joints.group.states.get(name, {}))
 
     def remember_joint_values(self, name: str, values: Sequence[float] | None = None) -> None:
-        """Keep values of all variables under a name; those of now if none are given."""
+        """Store values of all variables under a name; the present ones by default."""
         given = self.get_current_joint_values() if values is None else values
         self._remembered[name] = [float(value) for value in given]
 
@@ -124,7 +124,7 @@ class GroupState:
         return {name: list(values) for name, values in self._remembered.items()}
 
     def forget_joint_values(self, name: str) -> None:
-        """Forget the values of a name."""
+        """Discard the values of a name."""
         self._remembered.pop(name, None)
 
     # -- where it is ---------------------------------------------------------------------

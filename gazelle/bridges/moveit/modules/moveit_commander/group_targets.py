@@ -176,21 +176,21 @@ class GroupTargets(GroupState):
         self.set_pose_target(pose, end_effector_link)
 
     def clear_pose_target(self, end_effector_link: str = "") -> None:
-        """Forget the poses of a link."""
+        """Remove the pose targets of a link."""
         self._poses.by_link.pop(end_effector_link, None)
 
     def clear_pose_targets(self) -> None:
-        """Forget the poses of all links."""
+        """Remove the pose targets of all links."""
         self._poses.by_link.clear()
 
     # -- start ---------------------------------------------------------------------------
 
     def set_start_state(self, msg: Any) -> None:
-        """Let plans begin at a ``RobotState``."""
+        """Set a ``RobotState`` as start of plans."""
         self._settings.start = copied("moveit_msgs/RobotState", msg)
 
     def set_start_state_to_current_state(self) -> None:
-        """Let plans begin where the robot is."""
+        """Set the robot's present state as start of plans."""
         self._settings.start = here()
 
     # -- what MoveIt's C++ class does: it says whether it could ----------------------------
@@ -225,7 +225,7 @@ class GroupTargets(GroupState):
         return self._solve(pose_of_message(pose), eef, approximate=approx)
 
     def _set_joints_by_stamped(self, pose: Any, eef: str, approx: bool) -> bool:  # noqa: FBT001
-        """Do likewise of a ``PoseStamped``, in the frame of a link of the robot."""
+        """Set joints by a ``PoseStamped`` likewise, in the frame of a link of the robot."""
         frame = pose.header.frame_id.lstrip("/")
         robot = self._access.robot
         base = Pose()

@@ -62,17 +62,17 @@ class MoveGroupCommandInterpreter:
         self._loading: set[Path] = set()
 
     def get_active_group(self) -> MoveGroupCommander | None:
-        """The group that is used."""
+        """Return the active group."""
         return self._groups.get(self._name)
 
     def get_loaded_groups(self) -> KeysView[str]:
-        """Names of groups that were used."""
+        """Return names of groups that were used."""
         return self._groups.keys()
 
     # -- which command -------------------------------------------------------------------
 
     def execute(self, cmd: str) -> Answer:
-        """Do what a line says."""
+        """Execute a line."""
         cmd = self.resolve_command_alias(cmd.strip())
         answer = self.execute_generic_command(cmd)
         if answer is not None:
@@ -84,11 +84,14 @@ class MoveGroupCommandInterpreter:
         return info(f"{self.get_help()}\n\n{missing}\n")
 
     def resolve_command_alias(self, cmdorig: str) -> str:
-        """The command that another word stands for."""
+        """Return the command that an alias stands for."""
         return _ALIASES.get(cmdorig.lower(), cmdorig)
 
     def execute_generic_command(self, cmd: str) -> Answer | None:
-        """Do what needs no group; None if it does. The name of a file in ``cmd`` loads that."""
+        """Execute a command without a group, or a file; None if it needs a group.
+
+        The name of a file in ``cmd`` loads that.
+        """
         if cmd and "/" not in cmd and (Path("cmd") / cmd).is_file():
             cmd = f"load cmd/{cmd}"
         words = cmd.split()
@@ -102,7 +105,7 @@ class MoveGroupCommandInterpreter:
         return act(words[1:]) if act is not None else None
 
     def execute_group_command(self, g: MoveGroupCommander, cmdorig: str) -> Answer:
-        """Do what a group is needed for."""
+        """Execute a command of a group."""
         words = cmdorig.split()
         answer = assignment(g, cmdorig.strip())
         if answer is None and words:
@@ -128,7 +131,7 @@ class MoveGroupCommandInterpreter:
         return None
 
     def _plain(self, g: MoveGroupCommander, verb: str) -> Answer | None:
-        """A command of one word."""
+        """Execute a command of one word."""
         commands: dict[str, Callable[[], Answer]] = {
             "stop": lambda: group_commands.stop(g),
             "id": lambda: info(g.get_name()),
@@ -151,7 +154,7 @@ class MoveGroupCommandInterpreter:
         return commands[verb]() if verb in commands else None
 
     def _with_name(self, g: MoveGroupCommander, verb: str, name: str) -> Answer | None:
-        """A command of two words."""
+        """Execute a command of two words."""
         own: dict[str, Callable[[MoveGroupCommander, str], Answer]] = {
             "plan": self._plan,
             "pick": self._pick,
@@ -248,7 +251,7 @@ class MoveGroupCommandInterpreter:
     # -- with one ------------------------------------------------------------------------
 
     def command_show(self, g: MoveGroupCommander) -> Answer:
-        """All that is remembered."""
+        """Return all remembered values."""
         return group_commands.remembered(g)
 
     def command_group_state(self, g: MoveGroupCommander) -> Answer:
@@ -307,7 +310,7 @@ class MoveGroupCommandInterpreter:
         return info("Added ground")
 
     def _connect(self, g: MoveGroupCommander, host: str, port: str = "33829") -> Answer:
-        """Constraints of databases are not known here, which the log says."""
+        """Log that databases of constraints are not supported."""
         if port.isdecimal():
             g.set_constraints_database(host, int(port))
         return warn(f"Unable to connect to '{host}:{port}'")
@@ -326,5 +329,5 @@ class MoveGroupCommandInterpreter:
         return help_text()
 
     def get_keywords(self) -> dict[str, list[str]]:
-        """First words of commands, and what may follow them."""
+        """Return first words of commands, and their completions."""
         return keywords(self._robot.get_group_names(), self.get_active_group())

@@ -72,7 +72,7 @@ class MoveGroupCommander(GroupSettings):
             self.set_joint_value_target(target)
 
     def execute(self, plan_msg: Any, wait: bool = True) -> bool:  # noqa: FBT001, FBT002
-        """Go along a ``RobotTrajectory``, a ``JointTrajectory`` or what `plan` gave."""
+        """Execute a ``RobotTrajectory``, a ``JointTrajectory`` or the result of `plan`."""
         found = plan_msg[1] if isinstance(plan_msg, tuple) else plan_msg
         if not hasattr(found, "joint_trajectory"):
             found = load_message("moveit_msgs/RobotTrajectory")(joint_trajectory=found)
@@ -169,7 +169,7 @@ class MoveGroupCommander(GroupSettings):
         return _good(self._actions.run("move_group", self._goal(plan_only=False)))
 
     def async_move(self) -> bool:
-        """Have it plan and go there, without a wait."""
+        """Start planning and moving, without a wait."""
         self._actions.send("move_group", self._goal(plan_only=False))
         return True
 
@@ -182,7 +182,10 @@ class MoveGroupCommander(GroupSettings):
     def attach_object(
         self, object_name: str, link_name: str = "", touch_links: Sequence[str] = ()
     ) -> bool:
-        """Have a link hold a thing of the scene; the end effector's, or the group's first one."""
+        """Attach an object of the scene to a link.
+
+        By default the end effector's, or the group's first.
+        """
         links = self._access.names.group_links(self._name)
         holder = link_name or self._poses.link or (links[0] if links else "")
         if not holder:
@@ -196,7 +199,7 @@ class MoveGroupCommander(GroupSettings):
         return True
 
     def detach_object(self, name: str = "") -> bool:
-        """Leave a thing, all that a link holds, or all that the group does."""
+        """Detach an object, all of a link, or all of the group."""
         links = self._access.names.group_links(self._name)
         kind = load_message("moveit_msgs/AttachedCollisionObject")
         chosen = [("", name)] if name and name not in links else [
@@ -222,7 +225,7 @@ class MoveGroupCommander(GroupSettings):
         return int(self._handle("pickup", goal, plan_only=plan_only).error_code.val)
 
     def place(self, object_name: str, location: Any = None, plan_only: bool = False) -> bool:  # noqa: FBT001, FBT002
-        """Place what is held at a ``Pose``, ``PoseStamped`` or ``PlaceLocation``, or anywhere.
+        """Place an attached object at a ``Pose``, ``PoseStamped``, ``PlaceLocation`` or anywhere.
 
         A list may hold several of the latter two, or the numbers of a pose; a bool in place of the
         location is ``plan_only``.
@@ -301,11 +304,11 @@ class MoveGroupCommander(GroupSettings):
         return result.error_code, result.planned_trajectory, result.planning_time
 
     def _execute(self, trajectory: Any) -> bool:
-        """Go along a ``RobotTrajectory``; whether it arrived."""
+        """Execute a ``RobotTrajectory``; returns whether it arrived."""
         return _good(self._actions.run("execute_trajectory", _to_execute(trajectory)))
 
     def _async_execute(self, trajectory: Any) -> bool:
-        """Have it go along a ``RobotTrajectory``, without a wait."""
+        """Start executing a ``RobotTrajectory``, without a wait."""
         self._actions.send("execute_trajectory", _to_execute(trajectory))
         return True
 

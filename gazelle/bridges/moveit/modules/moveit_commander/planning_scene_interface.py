@@ -106,7 +106,9 @@ class PlanningSceneInterface:
         link: str | None = None,
         touch_links: Sequence[str] | None = None,
     ) -> None:
-        """Have a link hold a ``CollisionObject``, an ``AttachedCollisionObject``, or a known thing.
+        """Attach an object to a link.
+
+        It is a ``CollisionObject``, an ``AttachedCollisionObject``, or a known object.
 
         Args:
             object: One of these, or a name.
@@ -126,7 +128,7 @@ class PlanningSceneInterface:
         self, link: str, name: str, pose: Any = None, size: Sequence[float] = (1, 1, 1),
         touch_links: Sequence[str] | None = None,
     ) -> None:  # fmt: skip
-        """Have a link hold a box, or a known thing where no pose is given."""
+        """Attach a box to a link, or a known object if no pose is given."""
         made = _existing(name) if pose is None else self.make_box(name, pose, size)
         self.attach_object(made, link, touch_links)
 
@@ -134,7 +136,7 @@ class PlanningSceneInterface:
         self, link: str, name: str, pose: Any = None, radius: float = 1,
         touch_links: Sequence[str] | None = None,
     ) -> None:  # fmt: skip
-        """Have a link hold a sphere; see `attach_box`."""
+        """Attach a sphere to a link; see `attach_box`."""
         made = _existing(name) if pose is None else self.make_sphere(name, pose, radius)
         self.attach_object(made, link, touch_links)
 
@@ -142,7 +144,7 @@ class PlanningSceneInterface:
         self, link: str, name: str, pose: Any = None, height: float = 1, radius: float = 1,
         touch_links: Sequence[str] | None = None,
     ) -> None:  # fmt: skip
-        """Have a link hold a cylinder; see `attach_box`."""
+        """Attach a cylinder to a link; see `attach_box`."""
         made = _existing(name) if pose is None else self.make_cylinder(name, pose, height, radius)
         self.attach_object(made, link, touch_links)
 
@@ -150,13 +152,13 @@ class PlanningSceneInterface:
         self, link: str, name: str, pose: Any = None, filename: str = "",
         size: Sequence[float] = (1, 1, 1), touch_links: Sequence[str] | None = None,
     ) -> None:  # fmt: skip
-        """Have a link hold the mesh of a file; see `attach_box`."""
+        """Attach the mesh of a file to a link; see `attach_box`."""
         known = pose is None or not filename
         made = _existing(name) if known else self.make_mesh(name, pose, filename, size)
         self.attach_object(made, link, touch_links)
 
     def remove_attached_object(self, link: str | None = None, name: str | None = None) -> None:
-        """Leave a thing, all that a link holds, or all, in the scene where it is."""
+        """Detach an object, all of a link, or all; they stay in the scene."""
         held: Any = load_message("moveit_msgs/AttachedCollisionObject")(link_name=link or "")
         held.object.id, held.object.operation = name or "", _REMOVE
         self._hold(held)
@@ -200,17 +202,17 @@ class PlanningSceneInterface:
         return found
 
     def get_object_poses(self, object_ids: Sequence[str]) -> dict[str, Any]:
-        """``geometry_msgs/Pose`` by name, of the things that are named."""
+        """Return ``geometry_msgs/Pose`` by name, of the named objects."""
         things = self._scene(GEOMETRY).world.collision_objects
         return {each.id: each.pose for each in things if each.id in object_ids}
 
     def get_objects(self, object_ids: Sequence[str] = ()) -> dict[str, Any]:
-        """``CollisionObject`` by name, of the things that are named, or of all if none are."""
+        """Return ``CollisionObject`` by name, of the named objects, or of all by default."""
         things = self._scene(GEOMETRY).world.collision_objects
         return {each.id: each for each in things if not object_ids or each.id in object_ids}
 
     def get_attached_objects(self, object_ids: Sequence[str] = ()) -> dict[str, Any]:
-        """``AttachedCollisionObject`` by name, of the things that are named, or of all."""
+        """Return ``AttachedCollisionObject`` by name, of the named objects or of all."""
         held = self._scene(ATTACHED).robot_state.attached_collision_objects
         return {
             each.object.id: each for each in held if not object_ids or each.object.id in object_ids

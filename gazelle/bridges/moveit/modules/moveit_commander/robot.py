@@ -24,7 +24,7 @@ class CommanderJoint:
         self._robot, self._name = robot, name
 
     def name(self) -> str:
-        """Its name."""
+        """Return the joint's name."""
         return self._name
 
     def _limits(self) -> list[list[float]]:
@@ -35,7 +35,7 @@ class CommanderJoint:
         return len(self._limits())
 
     def bounds(self) -> Any:
-        """``[lower, upper]``, or a list of them if it has several variables."""
+        """Return ``[lower, upper]``, or a list of them for several variables."""
         return _one(self._limits())
 
     def min_bound(self) -> Any:
@@ -74,7 +74,7 @@ class CommanderLink:
         self._robot, self._name = robot, name
 
     def name(self) -> str:
-        """Its name."""
+        """Return the link's name."""
         return self._name
 
     def pose(self) -> Any:

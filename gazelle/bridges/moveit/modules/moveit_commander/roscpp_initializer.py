@@ -12,10 +12,10 @@ _NAME = "move_group_commander_wrappers"
 
 
 def roscpp_initialize(args: Sequence[str]) -> None:
-    """Take over remappings of a command line; a node's name among them is the script's own."""
+    """Set remappings of a command line; a node's name among them is the script's own."""
     session.prepare(_NAME, [each for each in args if not each.startswith("__name:=")])
 
 
 def roscpp_shutdown() -> None:
-    """End a node that is not rospy's."""
+    """Shut down a node that is not rospy's."""
     session.close()

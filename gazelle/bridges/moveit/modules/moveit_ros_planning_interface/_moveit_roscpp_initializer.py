@@ -14,7 +14,7 @@ __all__ = ["roscpp_init", "roscpp_shutdown"]
 
 
 def roscpp_init(name: str | Sequence[str] = "", args: Sequence[str] = ()) -> None:
-    """Say what an own node is called, and its command line.
+    """Set the name and the command line of an own node.
 
     Args:
         name: Of the node; a command line alone may stand here.
@@ -27,5 +27,5 @@ def roscpp_init(name: str | Sequence[str] = "", args: Sequence[str] = ()) -> Non
 
 
 def roscpp_shutdown() -> None:
-    """End an own node."""
+    """Shut down an own node."""
     session.close()

@@ -45,7 +45,7 @@ class CartPoleStayUpEnv(GraphTask, CartPoleEnv):
         super().__init__(self.control_type, workspace)
 
     def get_params(self) -> None:
-        """Take the parameters."""
+        """Read the parameters."""
         number = self.number
         self.n_actions = int(number("n_actions"))
         self.min_pole_angle = number("min_pole_angle")

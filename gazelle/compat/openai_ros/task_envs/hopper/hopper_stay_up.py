@@ -147,12 +147,12 @@ class HopperStayUpEnv(GraphTask, HopperEnv):
         return self._count(reward_of(self._rules(), one(observations)))
 
     def get_distance_from_desired_point(self, current_position: Any) -> float:
-        """From a place to where the base shall be [m]."""
+        """Return the distance from a place to the target of the base [m]."""
         place = coordinates(current_position)
         return float(distance_to(place, self._rules().desired)[0])
 
     def get_base_rpy(self) -> Any:
-        """Roll, pitch and yaw of the base as x, y and z of a ``geometry_msgs/Vector3`` [rad]."""
+        """Return roll, pitch and yaw of the base as a ``geometry_msgs/Vector3`` [rad]."""
         vector: Any = load_message("geometry_msgs/Vector3")
         return vector(*euler_of(self.imu.orientation))
 

@@ -98,7 +98,7 @@ class HusarionGetToPosTurtleBotPlayGroundEnv(SteeringTask, HusarionEnv):
         return super()._is_done(observations)
 
     def update_desired_pos(self, new_position: Any) -> None:
-        """Take another goal."""
+        """Set another goal."""
         self.desired_point.x, self.desired_point.y = new_position.x, new_position.y
 
     def check_husarion_has_crashed(self, laser_readings: Any) -> bool:

@@ -101,22 +101,22 @@ class MovingCubeOneDiskWalkEnv(GraphTask, CubeSingleDiskEnv):
         return self._count(reward_of(self._rules(), one(observations), before, one(done)))
 
     def get_y_dir_distance_from_start_point(self, start_point: Any) -> float:
-        """Along y from where it began [m]."""
+        """Return the distance along y from the start [m]."""
         return float(self.odom.pose.pose.position.y - start_point.y)
 
     def get_distance_from_start_point(self, start_point: Any) -> float:
-        """From where it began [m]."""
+        """Return the distance from the start [m]."""
         place = coordinates(self.odom.pose.pose.position)
         return float(distance_to(place, coordinates(start_point).reshape(-1))[0])
 
     def get_orientation_euler(self) -> tuple[float, float, float]:
-        """Roll, pitch and yaw [rad]."""
+        """Return roll, pitch and yaw [rad]."""
         return euler_of(self.odom.pose.pose.orientation)
 
     def get_roll_velocity(self) -> float:
-        """Of the wheel [rad/s]."""
+        """Return the rolling velocity of the wheel [rad/s]."""
         return float(self.joints.velocity[0])
 
     def get_y_linear_speed(self) -> float:
-        """Along y [m/s]."""
+        """Return the speed along y [m/s]."""
         return float(self.odom.twist.twist.linear.y)
