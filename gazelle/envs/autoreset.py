@@ -29,7 +29,7 @@ def autoreset_mode(mode: AutoresetMode | str) -> AutoresetMode:
 
 
 def with_idle(actions: ArrayLike, space: gym.Space[Any], over: NDArray[np.intp]) -> ArrayLike:
-    """Actions with a valid one in place of those of worlds that begin a new episode instead.
+    """Return actions with a valid one for worlds that start a new episode instead.
 
     Args:
         actions: Shape (nworld, ...); what has another shape is left to the task to refuse.

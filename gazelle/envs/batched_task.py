@@ -121,7 +121,7 @@ class BatchedTask(ABC):
     _made_with: tuple[tuple[Any, ...], dict[str, Any]]
 
     def __new__(cls, *arguments: Any, **options: Any) -> Self:
-        """Remember what the task is made with, to make it again from a pickle."""
+        """Store the arguments of the task, for pickling."""
         task = super().__new__(cls)
         task._made_with = (arguments, options)
         return task
@@ -131,7 +131,7 @@ class BatchedTask(ABC):
         return _made_again, (type(self), *self._made_with), self.get_state()
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        """Go on from the state of a pickle or a copy."""
+        """Restore the state of a pickle or a copy."""
         self.set_state(state)
 
     def __init__(self, nworld: int, max_episode_steps: int | None) -> None:
@@ -196,7 +196,7 @@ class BatchedTask(ABC):
         return None
 
     def advance(self, actions: ArrayLike) -> Transition:
-        """Make one control step in every world; nothing is reset.
+        """Advance every world by one control step; nothing is reset.
 
         Args:
             actions: Shape (nworld, ...).
@@ -218,7 +218,7 @@ class BatchedTask(ABC):
         return Transition(observation, reward, terminated, truncated, info)
 
     def step(self, actions: ArrayLike) -> BatchStep:
-        """Make one control step in every world, and begin the next episode where one ended.
+        """Advance every world by one control step, and start the next episode where one ended.
 
         Args:
             actions: Shape (nworld, ...).
@@ -244,7 +244,7 @@ class BatchedTask(ABC):
         return BatchStep(now, finals)
 
     def advance_or_begin(self, actions: ArrayLike, over: Worlds) -> Transition:
-        """Make one control step in some worlds, and begin the next episode in the others.
+        """Advance some worlds by one control step, and start the next episode in the others.
 
         Args:
             actions: Shape (nworld, ...); those of worlds that begin are not looked at.
@@ -270,7 +270,7 @@ class BatchedTask(ABC):
         return Transition(observation, reward, terminated, truncated, _put(last.info, start, over))
 
     def _note_goals(self, info: Info, worlds: Worlds | None = None) -> None:
-        """Keep the goals of these worlds, all if None, for `goal_places`."""
+        """Store the goals of these worlds, all if None, for `goal_places`."""
         told = info.get(GOAL)
         if told is None or told.ndim != 2 or told.shape[1] not in (2, 3):
             return
@@ -284,11 +284,14 @@ class BatchedTask(ABC):
         self._goals_told = whole
 
     def get_state(self) -> dict[str, Any]:
-        """The whole state, simulation and random numbers included: a dict of arrays and bytes."""
+        """Return the whole state as a dict of arrays and bytes.
+
+        Simulation and random numbers are included.
+        """
         return {"elapsed": self.elapsed.copy(), **self._state()}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Go on from what ``get_state`` returned.
+        """Restore what ``get_state`` returned.
 
         Raises:
             TaskError: The state is of another task or number of worlds.
@@ -313,7 +316,7 @@ class BatchedTask(ABC):
         del worlds
 
     def _release(self, worlds: Worlds, kept: Any) -> None:
-        """Put back what ``_hold`` gave."""
+        """Restore what ``_hold`` returned."""
         del worlds, kept
 
     @abstractmethod
@@ -322,7 +325,7 @@ class BatchedTask(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Free what the task holds; a second call does nothing."""
+        """Free the task's resources; a second call does nothing."""
 
     @abstractmethod
     def _seed(self, seed: int) -> None:
@@ -330,15 +333,15 @@ class BatchedTask(ABC):
 
     @abstractmethod
     def _begin(self, worlds: Worlds) -> None:
-        """Put these worlds into the starting state of a new episode."""
+        """Set these worlds to the start of a new episode."""
 
     @abstractmethod
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
-        """Observation, shape (n, size), and info of these worlds at their start."""
+        """Return observation, shape (n, size), and info of these worlds at their start."""
 
     @abstractmethod
     def _act(self, actions: ArrayLike) -> Verdict:
-        """Make one control step."""
+        """Advance by one control step."""
 
     @abstractmethod
     def _state(self) -> dict[str, Any]:
@@ -346,7 +349,7 @@ class BatchedTask(ABC):
 
     @abstractmethod
     def _set_state(self, state: dict[str, Any]) -> None:
-        """Put back what ``_state`` gave."""
+        """Restore what ``_state`` returned."""
 
 
 def _put(info: Info, start: Info, worlds: Worlds) -> Info:

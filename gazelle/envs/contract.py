@@ -140,7 +140,7 @@ class PolicyContract:
         return sum(part.size for part in self.observation)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values for JSON; without a bound there is null."""
+        """Return plain values for JSON; a missing bound is null."""
         plain: dict[str, Any] = _plain(dataclasses.asdict(self))
         return {"format": FORMAT} | plain
 
@@ -173,7 +173,7 @@ class PolicyContract:
         return contract
 
     def check(self) -> None:
-        """Make sure that the parts follow each other without gaps.
+        """Check that the parts follow each other without gaps.
 
         Raises:
             TaskError: They do not.
@@ -226,7 +226,7 @@ def action_rule(space: gym.Space[Any], **values: Any) -> ActionRule:
 
 
 def in_a_row(*parts: ObservationPart) -> tuple[ObservationPart, ...]:
-    """Parts that follow each other: ``start`` of each is worked out."""
+    """Return the parts in sequence, with the ``start`` of each computed."""
     placed, place = [], 0
     for part in parts:
         placed.append(dataclasses.replace(part, start=place))
@@ -239,7 +239,7 @@ def _bounds(values: Any) -> tuple[float, ...]:
 
 
 def _plain(value: Any) -> Any:
-    """Infinities have no place in JSON; they become null."""
+    """Return a value for JSON, in which infinities become null."""
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):

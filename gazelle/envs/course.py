@@ -56,21 +56,21 @@ class CourseTask(TaskWrapper):
         self.memory["done"] = np.zeros((task.nworld, kept, int(actions.n)))
 
     def changed_actions(self, actions: ArrayLike) -> ArrayLike:
-        """As they are; they are remembered."""
+        """Store the actions; they stay as they are."""
         done = self.memory["done"]
         done[:, :-1] = done[:, 1:]
         done[:, -1] = np.eye(done.shape[2])[np.asarray(actions) - self._start]
         return actions
 
     def changed_observation(self, observation: Floats32) -> Floats32:
-        """With courses and shares behind, shape (nworld, size)."""
+        """Return observations with courses and shares appended, shape (nworld, size)."""
         places = self.memory["places"]
         places[:, :-1] = places[:, 1:]
         places[:, -1] = observation[:, self._place]
         return self._with_course(observation, np.arange(self.nworld))
 
     def first_observation(self, observation: Floats32, worlds: Worlds) -> Floats32:
-        """With courses and shares of 0 behind, shape (n, size)."""
+        """Return observations with courses and shares of 0 appended, shape (n, size)."""
         self.memory["places"][worlds] = observation[:, None, self._place]
         self.memory["done"][worlds] = 0.0
         return self._with_course(observation, worlds)

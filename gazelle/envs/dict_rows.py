@@ -64,7 +64,7 @@ class DictRows:
         return {OBSERVATION, ACHIEVED, DESIRED} <= set(self.slices)
 
     def join(self, parts: Mapping[str, Any]) -> Floats32:
-        """Rows of shape (n, size) from parts of shape (n, ...)."""
+        """Return rows of shape (n, size) from parts of shape (n, ...)."""
         count = len(next(iter(parts.values())))
         rows = np.empty((count, self.size), np.float32)
         for key, place in self.slices.items():
@@ -72,7 +72,7 @@ class DictRows:
         return rows
 
     def split(self, rows: Floats32) -> dict[str, Floats32]:
-        """Parts of shape (n, ...), arrays of their own, from rows of shape (n, size)."""
+        """Return parts of shape (n, ...), as own arrays, from rows of shape (n, size)."""
         return {
             key: rows[:, place].reshape(len(rows), *(self.space.spaces[key].shape or ())).copy()
             for key, place in self.slices.items()

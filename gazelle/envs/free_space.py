@@ -86,7 +86,7 @@ class FreeSpace:
         self._within = _flooded(passable, first)
 
     def places(self, margin: float, *, between: bool = False) -> Floats:
-        """Places on a square lattice, shape (n, 2) [m]; about a thousand at most.
+        """Return places on a square lattice, shape (n, 2) [m]; about a thousand at most.
 
         Args:
             margin: They are farther than this from everything [m].
@@ -111,7 +111,7 @@ class FreeSpace:
 
 
 def _outline(plan: FloorPlan, step: float) -> Floats:
-    """Points all along what stands there, at most so far apart [m], shape (n, 2)."""
+    """Return points along all obstacles, at most so far apart [m], shape (n, 2)."""
     starts, along = plan.segments[:, :2], plan.segments[:, 2:] - plan.segments[:, :2]
     counts = np.ceil(np.hypot(*along.T) / step).astype(int) + 1
     which = np.repeat(np.arange(len(counts)), counts)

@@ -48,14 +48,17 @@ class TaskGoalVectorEnv(TaskVectorEnv):
     def reset(  # type: ignore[override]  # parts instead of rows
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Parts, dict[str, Any]]:
-        """See `TaskVectorEnv.reset`."""
+        """Reset the environments; see `TaskVectorEnv.reset`."""
         rows, info = super().reset(seed=seed, options=options)
         return self.task.rows.split(rows), info
 
     def step(  # type: ignore[override]  # parts instead of rows
         self, actions: ArrayLike
     ) -> tuple[Parts, Floats, Bools, Bools, dict[str, Any]]:
-        """See `TaskVectorEnv.step`; each entry of ``info["final_obs"]`` is a dict as well."""
+        """Step the environments; each ``info["final_obs"]`` is a dict too.
+
+        See `TaskVectorEnv.step`.
+        """
         rows, reward, terminated, truncated, info = super().step(actions)
         if "final_obs" in info:
             worlds = np.flatnonzero(info["_final_obs"])
@@ -67,7 +70,7 @@ class TaskGoalVectorEnv(TaskVectorEnv):
     def compute_reward(
         self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: object
     ) -> NDArray[Any]:
-        """See `GoalSimulationTask.compute_reward`."""
+        """Return the reward; see `GoalSimulationTask.compute_reward`."""
         return self.task.compute_reward(achieved_goal, desired_goal, info)
 
 
@@ -95,21 +98,21 @@ class TaskGoalEnv(TaskEnv):
     def reset(  # type: ignore[override]  # parts instead of a row
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Parts, dict[str, Any]]:
-        """See `TaskEnv.reset`."""
+        """Reset the environment; see `TaskEnv.reset`."""
         row, info = super().reset(seed=seed, options=options)
         return self._parts(row), info
 
     def step(  # type: ignore[override]  # parts instead of a row
         self, action: Any
     ) -> tuple[Parts, float, bool, bool, dict[str, Any]]:
-        """See `TaskEnv.step`."""
+        """Step the environment; see `TaskEnv.step`."""
         row, reward, terminated, truncated, info = super().step(action)
         return self._parts(row), reward, terminated, truncated, info
 
     def compute_reward(
         self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: object
     ) -> NDArray[Any]:
-        """See `GoalSimulationTask.compute_reward`."""
+        """Return the reward; see `GoalSimulationTask.compute_reward`."""
         return self.task.compute_reward(achieved_goal, desired_goal, info)
 
     def _parts(self, row: Floats32) -> Parts:

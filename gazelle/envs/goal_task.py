@@ -74,7 +74,10 @@ class GoalSimulationTask(SimulationTask):
 
     @abstractmethod
     def draw_goals(self, worlds: Worlds) -> Floats:
-        """Goals of the episodes that begin in these worlds, asked after `start`; shape (n, ...)."""
+        """Return goals of the episodes that start in these worlds, after `start`.
+
+        Shape (n, ...).
+        """
 
     @abstractmethod
     def achieved(self, worlds: Worlds | None) -> Floats:
@@ -127,7 +130,7 @@ class GoalSimulationTask(SimulationTask):
         return generic_contract(self.rows.space, self.action_space, self.control_period)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """Reward and success; episodes go on until their time is over.
+        """Return reward and success; episodes end by their time limit.
 
         Args:
             observation: Rows of the three parts, shape (nworld, size).

@@ -58,7 +58,7 @@ class GoalTable:
         return self.points.take(goals, axis=0)  # several times as fast as indexing
 
     def first(self, uniform: Floats) -> Indices:
-        """Any place.
+        """Return any place as a first goal.
 
         Args:
             uniform: Numbers in [0, 1), shape (n,).
@@ -69,7 +69,7 @@ class GoalTable:
         return (uniform * len(self.points)).astype(np.intp)
 
     def after(self, last: Indices, uniform: Floats) -> Indices:
-        """Any place that may follow the last one.
+        """Return any place that may follow the last one.
 
         Args:
             last: Indices of the last goals, shape (n,).

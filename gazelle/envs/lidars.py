@@ -27,7 +27,7 @@ class FittedLidar:
 
 
 def fit_lidar(model: Model, samples: int, *, notice: bool) -> FittedLidar:
-    """Give the first planar lidar of a robot exactly ``samples`` rays over the fan it has.
+    """Set the first planar lidar of a robot to exactly ``samples`` rays over its fan.
 
     The TurtleBot3 manual tells its users to edit ``<samples>`` from 360 to 24 in the robot's
     file; this does the same to the description. The rays that are left start at the same
@@ -62,7 +62,7 @@ def fit_lidar(model: Model, samples: int, *, notice: bool) -> FittedLidar:
 
 
 def every_nth_ray(model: Model, nth: int) -> FittedLidar:
-    """Keep of the first planar lidar of a robot only ray 0, ``nth``, 2 ``nth`` and so on.
+    """Reduce the first planar lidar of a robot to ray 0, ``nth``, 2 ``nth`` and so on.
 
     They look where they did, so a task that reads only these gets the same numbers.
 

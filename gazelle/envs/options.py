@@ -172,7 +172,7 @@ def held_out_options(trained: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def read_options(settings: type[Settings], options: Mapping[str, Any]) -> Settings:
-    """Turn keyword arguments into checked settings.
+    """Convert keyword arguments to checked settings.
 
     Raises:
         TaskError: There is no option of that name (the hint names the closest), or a value

@@ -50,7 +50,7 @@ def _slants(lens: PinholeLens) -> Floats:
 def mark_square(
     picture: Picture, view: View, ranges: Floats, centre: tuple[float, float], side: float
 ) -> Picture:
-    """Tint a square on the ground, half transparent, where nothing stands before or on it.
+    """Draw a half transparent square on the ground, where nothing stands before or on it.
 
     Args:
         picture: Shape (height, width, 3).

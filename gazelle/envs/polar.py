@@ -8,7 +8,7 @@ from gazelle.array_types import Floats
 
 
 def distance_to(position: Floats, goal: Floats) -> Floats:
-    """Straight distance from robot to goal.
+    """Return straight distance from robot to goal.
 
     Args:
         position: Robot positions in the world frame [m], shape (n, 2) or (n, 3); z is ignored.
@@ -22,7 +22,7 @@ def distance_to(position: Floats, goal: Floats) -> Floats:
 
 
 def heading_to(position: Floats, yaw: Floats, goal: Floats) -> Floats:
-    """Angle from a robot's forward axis to its goal, counter-clockwise positive.
+    """Return angle from a robot's forward axis to its goal, counter-clockwise positive.
 
     Args:
         position: As for ``distance_to``.

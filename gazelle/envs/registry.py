@@ -96,7 +96,7 @@ ENTRIES = (
 
 
 def register_all() -> None:
-    """Tell Gymnasium of every task that it does not know yet."""
+    """Register every unregistered task with Gymnasium."""
     for entry in ENTRIES:
         if entry.id not in gym.registry:
             gym.register(

@@ -53,7 +53,7 @@ def nearest_obstacle(ranges: Floats32) -> tuple[Floats32, NDArray[np.intp]]:
 
 
 def find_nearest(ranges: Floats32, shortest: Floats32, ray: NDArray[np.intp]) -> None:
-    """The first of the shortest ranges of each scan, shape (n, samples)."""
+    """Find the first of the shortest ranges of each scan, shape (n, samples)."""
     samples = ranges.shape[1]
     for i in range(ranges.shape[0]):
         best, at = ranges[i, 0], 0

@@ -85,7 +85,7 @@ class SimulationTask(BatchedTask):
         self._stream = Stream(simulation.seed, type(self).__name__, simulation.nworld)
 
     def start(self, worlds: Worlds) -> None:
-        """Change what an episode begins with, after these worlds were reset; shape (n,)."""
+        """Change the initial state of an episode, after these worlds were reset; shape (n,)."""
 
     @abstractmethod
     def observe(self, worlds: Worlds | None) -> NDArray[Any]:
@@ -103,7 +103,7 @@ class SimulationTask(BatchedTask):
         """Return the outcome of the step, given the observation after it, shape (nworld, ...)."""
 
     def draw(self, low: float, high: float, worlds: Worlds, count: int = 1) -> Floats:
-        """Random numbers for these worlds, shape (n, count): those of a world do not depend on others."""
+        """Return random numbers for these worlds, shape (n, count): worlds are independent."""
         return low + (high - low) * self._stream.uniform(count, worlds)
 
     @property
@@ -191,7 +191,7 @@ def simulation_of(
 
 
 def checked_actions(actions: ArrayLike, space: gym.Space[Any], nworld: int) -> NDArray[Any]:
-    """Actions of all worlds as an array.
+    """Return actions of all worlds as an array.
 
     Raises:
         TaskError: They have the wrong shape or values.

@@ -67,7 +67,7 @@ class TaskEnv(gym.Env[Any, Any]):
         return observation[0], _of_world_0(info)
 
     def step(self, action: Any) -> tuple[Floats32, float, bool, bool, dict[str, Any]]:
-        """Make one control step.
+        """Step the environment once.
 
         Raises:
             TaskError: The action has the wrong shape or value.
@@ -99,11 +99,11 @@ class TaskEnv(gym.Env[Any, Any]):
         return None if self.render_mode is None else self.task.render(0)
 
     def get_state(self) -> dict[str, Any]:
-        """See `TaskVectorEnv.get_state`."""
+        """Return the whole state; see `TaskVectorEnv.get_state`."""
         return self._vector.get_state()
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """See `TaskVectorEnv.set_state`."""
+        """Restore a state; see `TaskVectorEnv.set_state`."""
         self._vector.set_state(state)
         if self._np_random is None:
             super().reset(seed=self._vector.np_random_seed)
@@ -114,7 +114,7 @@ class TaskEnv(gym.Env[Any, Any]):
 
 
 def _of_world_0(info: Info) -> dict[str, Any]:
-    """Plain numbers and arrays of world 0, without the masks."""
+    """Return plain numbers and arrays of world 0, without the masks."""
     return {name: _plain(values[0]) for name, values in info.items() if not name.startswith("_")}
 
 

@@ -59,7 +59,7 @@ class RandomStarts:
         self.phases = np.zeros((nworld, len(self._scripts)))
 
     def begin(self, worlds: Worlds, goals: Floats, nearest: Callable[[Worlds], Floats]) -> None:
-        """Put robot and scripts somewhere, in worlds that were just reset.
+        """Place robot and scripts at random, in worlds that were just reset.
 
         Args:
             worlds: Which ones, shape (n,).
@@ -95,19 +95,19 @@ class RandomStarts:
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Go on from what ``get_state`` returned, after ``seed``."""
+        """Restore what ``get_state`` returned, after ``seed``."""
         self._stream.counters[:] = state["start_draws"]
         self.poses[:], self.phases[:] = state["start_poses"], state["start_phases"]
 
 
 def held_out_starts(trained: Mapping[str, Any]) -> dict[str, Any]:
-    """The ``evaluation_options`` of tasks with ``starts``: from those that are new to the policy."""
+    """Return ``evaluation_options`` of tasks with ``starts``: starts not used in training."""
     del trained
     return {"starts": "held-out"}
 
 
 def chessboard(columns: int, rows: int, *, held_out: bool) -> Floats:
-    """Column and row of the squares of one colour, shape (n, 2).
+    """Return column and row of the squares of one colour, shape (n, 2).
 
     Args:
         columns: Of the board.

@@ -114,7 +114,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         return self._observation.copy(), self._spread(info, worlds)
 
     def step(self, actions: ArrayLike) -> tuple[Floats32, Floats, Bools, Bools, dict[str, Any]]:
-        """Make one control step in every world, and start over where an episode ended.
+        """Step every world, and start over where an episode ended.
 
         Args:
             actions: Shape (num_envs, ...).
@@ -153,7 +153,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         check_ready(what, closed=self.closed, begun=self._begun)
 
     def _step(self, actions: ArrayLike) -> BatchStep:
-        """A control step in the environment's mode."""
+        """Step the environment in its autoreset mode."""
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             return self.task.step(actions)
         over = np.flatnonzero(self._over)
@@ -182,14 +182,14 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         return self.task.contract
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
-        """A picture of every world, each of shape (height, width, 3); None without render mode."""
+        """Return a picture of every world, (height, width, 3) each; None without render mode."""
         check_open("render()", closed=self.closed)
         if self.render_mode is None:
             return None
         return tuple(self.task.render(world) for world in range(self.num_envs))
 
     def get_state(self) -> dict[str, Any]:
-        """The whole state, as a dict of arrays and bytes: `set_state` continues from it exactly.
+        """Return the whole state, a dict of arrays and bytes, for an exact continuation.
 
         Raises:
             ClosedEnvError: The environment is closed.
@@ -198,7 +198,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         return {**self.task.get_state(), "over": self._over.copy()}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Go on from what ``get_state`` returned, in an environment made with the same options.
+        """Restore what ``get_state`` returned, in an environment made with the same options.
 
         Raises:
             TaskError: The state is of another task or number of worlds.
@@ -217,7 +217,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         self.task.close()
 
     def _spread(self, info: Info, worlds: Worlds) -> dict[str, Any]:
-        """Info of some worlds as arrays over all, each with the mask of its worlds."""
+        """Return info of some worlds as arrays over all, each with the mask of its worlds."""
         if len(worlds) == self.num_envs:
             mask = np.ones(self.num_envs, dtype=np.bool_)
             return {**info, **{f"_{name}": mask.copy() for name in info}}
@@ -232,7 +232,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
 
 
 def _spelled(finals: Finals, nworld: int) -> dict[str, Any]:
-    """``final_obs`` and ``final_info`` as Gymnasium's vector environments give them."""
+    """Return ``final_obs`` and ``final_info`` as in Gymnasium's vector environments."""
     observation = np.full(nworld, None, dtype=np.object_)
     observation[finals.worlds] = np.fromiter(
         finals.observation, dtype=np.object_, count=len(finals.worlds)

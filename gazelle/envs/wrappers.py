@@ -65,7 +65,7 @@ class TaskWrapper(BatchedTask):
         return observation
 
     def scenario(self, worlds: Worlds) -> Floats | None:
-        """As the other task's."""
+        """Return the scenario of the wrapped task."""
         return self.task.scenario(worlds)
 
     @property
@@ -193,12 +193,12 @@ class TimeAwareTask(TaskWrapper):
         )
 
     def changed_observation(self, observation: Floats32) -> Floats32:
-        """With the share of the time behind, shape (nworld, size + 1)."""
+        """Return observations with the share of the time appended, shape (nworld, size + 1)."""
         # The base class counts this step only after it.
         return self._with_share(observation, self.elapsed + 1)
 
     def first_observation(self, observation: Floats32, worlds: Worlds) -> Floats32:
-        """With the share of the time behind, shape (n, size + 1)."""
+        """Return observations with the share of the time appended, shape (n, size + 1)."""
         return self._with_share(observation, np.zeros(len(worlds), np.int64))
 
     def _with_share(self, observation: Floats32, steps: NDArray[np.int64]) -> Floats32:
@@ -229,7 +229,7 @@ class ObservationDelayTask(TaskWrapper):
         return old
 
     def first_observation(self, observation: Floats32, worlds: Worlds) -> Floats32:
-        """As it is."""
+        """Return the observation unchanged."""
         self.memory["seen"][worlds] = observation[:, None]
         return observation
 
@@ -257,14 +257,14 @@ class ActionDelayTask(TaskWrapper):
         self.memory["waiting"] = np.broadcast_to(self._idle, shape).copy()
 
     def changed_actions(self, actions: ArrayLike) -> ArrayLike:
-        """Those of some steps ago."""
+        """Return the actions of some steps ago."""
         waiting = self.memory["waiting"]
         waiting[:, :-1] = waiting[:, 1:]
         waiting[:, -1] = actions
         return waiting[:, 0].copy()
 
     def first_observation(self, observation: Floats32, worlds: Worlds) -> Floats32:
-        """As it is; nothing waits to be done."""
+        """Return the observation unchanged; no action is delayed yet."""
         self.memory["waiting"][worlds] = self._idle
         return observation
 
@@ -297,7 +297,7 @@ class ActionSmoothingTask(TaskWrapper):
         return done.copy()
 
     def first_observation(self, observation: Floats32, worlds: Worlds) -> Floats32:
-        """As it is; the average starts over."""
+        """Return the observation unchanged; the average starts over."""
         self.memory["done"][worlds] = self._still
         return observation
 

@@ -136,7 +136,7 @@ class Actor:
         rng: np.random.Generator | None = None,
         memory: PolicyMemory | None = None,
     ) -> npt.NDArray[Any]:
-        """Actions for the environment.
+        """Return actions for the environment.
 
         Args:
             obs: Observations, shape (N, ...).
@@ -160,7 +160,7 @@ class Actor:
         return best
 
     def sample(self, outputs: Floats32, rng: np.random.Generator) -> npt.NDArray[Any]:
-        """Raw actions drawn from the distribution (``categorical`` and ``gaussian`` heads).
+        """Sample raw actions from the distribution (``categorical`` and ``gaussian`` heads).
 
         Args:
             outputs: What `outputs` returned, shape (N, outputs).
@@ -181,7 +181,7 @@ class Actor:
         return outputs + np.exp(_present(self.log_std)) * noise
 
     def log_prob(self, outputs: Floats32, actions: npt.NDArray[Any]) -> Floats32:
-        """Logarithms of the probability (density) of raw actions.
+        """Return logarithms of the probability (density) of raw actions.
 
         Args:
             outputs: What `outputs` returned, shape (N, outputs).
@@ -202,7 +202,7 @@ class Actor:
         return summed
 
     def to_env(self, actions: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Raw actions as the environment takes them: numbered, cut or stretched to the bounds."""
+        """Return raw actions in the environment's form: indices, clipped or scaled values."""
         if self.discrete:
             return actions + self.first_action
         low, high = self.bounds
@@ -270,7 +270,7 @@ def load_actor(path: Path) -> Actor:
 
 
 def _refuse_unfit(actor: Actor) -> None:
-    """Let a policy act once, so that arrays that do not fit each other are found now.
+    """Run a policy once, to find arrays whose shapes do not match.
 
     Raises:
         ValueError: They do not; any of ``BROKEN`` likewise.
@@ -304,7 +304,7 @@ def _features(file: Any) -> Features:
 
 
 def _picture_arrays(pictures: PictureLayers) -> dict[str, npt.NDArray[Any]]:
-    """Layers for pictures as arrays by name."""
+    """Return layers for pictures as arrays by name."""
     arrays: dict[str, npt.NDArray[Any]] = {_PICTURE: np.array([*pictures.shape, pictures.pooling])}
     for number, (weight, bias) in enumerate(zip(pictures.weights, pictures.biases, strict=True)):
         arrays[f"convolution{number}"], arrays[f"convolution_bias{number}"] = weight, bias
@@ -324,7 +324,7 @@ def _picture_layers(file: Any) -> PictureLayers:
 
 
 def _memory_arrays(memory: MemoryLayers) -> dict[str, npt.NDArray[Any]]:
-    """Layers with a memory as arrays by name."""
+    """Return layers with a memory as arrays by name."""
     parts = (memory.inputs, memory.hidden, memory.biases)
     return {
         f"{name}{number}": array

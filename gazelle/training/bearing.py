@@ -50,7 +50,7 @@ class Bearing:
                 raise TaskError(f"there is no entry {entry} for a bearing", hint=hint)
 
     def of(self, obs: Floats32) -> Floats32:
-        """Distance, ahead and left for observations of shape (N, entries), shape (N, 3), float32."""
+        """Return distance, ahead and left for observations (N, entries), shape (N, 3), float32."""
         dx = np.float32(self.goal[0]) - obs[:, self.x]
         dy = np.float32(self.goal[1]) - obs[:, self.y]
         away = np.sqrt(dx * dx + dy * dy)
@@ -63,7 +63,7 @@ class Bearing:
         return result
 
     def of_tensor(self, obs: torch.Tensor) -> torch.Tensor:
-        """As `of`, in torch."""
+        """Return the same as `of`, in torch."""
         import torch
 
         dx, dy = self.goal[0] - obs[:, self.x], self.goal[1] - obs[:, self.y]

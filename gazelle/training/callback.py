@@ -114,7 +114,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         self._seconds_before = 0.0
 
     def attach(self, learner: Learner) -> None:
-        """Give the learner a logger; call after its checkpoint, if any, was read."""
+        """Set the learner's logger; call after its checkpoint, if any, was read."""
         steps = learner.num_timesteps
         self._began = time.monotonic()
         folder = self.run.folder / "tensorboard"
@@ -132,7 +132,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         }
 
     def set_state(self, state: dict[str, Any], steps: int) -> None:
-        """Continue from a checkpoint made after so many steps."""
+        """Restore a checkpoint made after so many steps."""
         self.episodes.set_state(state["episodes"])
         self.logged_at, self.saved_at = int(state["logged_at"]), steps
         self._seconds_before = float(state["seconds"])

@@ -75,7 +75,7 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
 
 
 def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
-    """Bring a freshly built learner and its environment to the state of a checkpoint.
+    """Restore the state of a checkpoint in a new learner and its environment.
 
     If the environment cannot restore its state, its episodes start anew and a
     `SimulationWarning` says so.
@@ -106,7 +106,7 @@ def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
 
 @contextlib.contextmanager
 def usable(folder: Path) -> Iterator[None]:
-    """Refuse a checkpoint whose state does not fit what it is given to in the block.
+    """Raise an error if a checkpoint's state does not fit its target in the block.
 
     Raises:
         FormatError: It does not.
@@ -195,7 +195,7 @@ def _set_torch_state(learner: Learner, file: Path) -> None:
 
 
 def _attribute(learner: Learner, path: str) -> Any:
-    """``policy.optimizer`` to the optimiser of the policy."""
+    """Return the attribute of a path: ``policy.optimizer`` is the optimiser of the policy."""
     value = learner
     for name in path.split("."):
         value = getattr(value, name)

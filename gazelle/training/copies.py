@@ -87,7 +87,7 @@ class TaskCopies:
         return self._stepper.reset(seed=seed)
 
     def advance(self, actions: npt.NDArray[Any]) -> TrainingStep:
-        """One control step (rewards are not scaled)."""
+        """Advance by one control step (rewards are not scaled)."""
         step = self._stepper.step(actions)
         if step.ended is not None and self.on_episodes is not None:
             self.on_episodes(step.ended)
@@ -110,7 +110,7 @@ class TaskCopies:
         return {"environment": getter(), "stepper": stepper, "starts": self.starts}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Go on from a state that `get_state` of an equal environment returned."""
+        """Restore a state that `get_state` of an equal environment returned."""
         self.reset()
         self.env.unwrapped.set_state(state["environment"])  # type: ignore[attr-defined]  # it has one
         self._stepper.set_state(state["stepper"])

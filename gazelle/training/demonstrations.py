@@ -70,7 +70,7 @@ def _parted(text: str) -> tuple[TaskModule, str]:
 def shown_actions(
     demonstrator: Demonstrator, rows: Floats32, shape: tuple[int, ...]
 ) -> NDArray[np.float32]:
-    """Actions of a demonstrator.
+    """Return actions of a demonstrator.
 
     Raises:
         TaskError: They are not of this shape, or not finite.

@@ -101,7 +101,7 @@ class Episodes:
         return self.counted_goals + failed.astype(np.int64)
 
     def moved(self, shift: int) -> Episodes:
-        """The same in copies so many further on."""
+        """Return the episodes with the indices of their copies shifted."""
         return dataclasses.replace(self, slots=self.slots + shift)
 
     def _told(self, name: str) -> Bools:

@@ -78,7 +78,10 @@ class Evaluation:
         return tuple(record for record in self.records if record.failed)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values for JSON; rates as ``{count, total, effective, value, low, high}``."""
+        """Return plain values for JSON.
+
+        Rates as ``{count, total, effective, value, low, high}``.
+        """
         return {
             "task": self.task,
             "episodes": self.episodes,
@@ -110,7 +113,7 @@ def evaluate(
     ray: str | None = None,
     **options: Any,
 ) -> Evaluation:
-    """Let a policy act at its best and count how its attempts at goals end.
+    """Run a policy without exploration and count the outcomes of its episodes.
 
     Every copy of the environment runs a number of episodes that is fixed in
     advance. (Taking the first episodes that end, from any copy, would favour
@@ -217,7 +220,7 @@ def resolve_policy(
 
 
 def _homes(run_or_policy: str | Path | Actor) -> tuple[TaskModule, ...]:
-    """Modules that register the task of a run."""
+    """Return modules that register the task of a run."""
     if isinstance(run_or_policy, Actor) or Path(run_or_policy).suffix == ".npz":
         return ()
     return Run.open(Path(run_or_policy)).config.imports

@@ -74,7 +74,7 @@ class EpisodesPlayed:
 
 
 def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int) -> EpisodesPlayed:
-    """Let the policy act until so many episodes ended, fixed in advance for each copy."""
+    """Run the policy until so many episodes ended, fixed in advance for each copy."""
     env = make_task(setup.task, copies, **setup.options)
     try:
         period = control_period(env)
@@ -130,7 +130,7 @@ def play_with_workers(
     workers: int | None,
     ray: str | None,
 ) -> list[EpisodesPlayed]:
-    """The same, in parts that workers play.
+    """Run the policy in parts that workers play.
 
     Args:
         setup: Which policy acts in what.
@@ -163,7 +163,7 @@ def play_with_workers(
 
 
 def _parts(sizes: Sequence[int], episodes: int, seed: int) -> Iterator[EvaluationPart]:
-    """Every copy runs as many episodes as in one part, but for the remainder."""
+    """Yield parts in which every copy runs as many episodes, except for the remainder."""
     share, rest = divmod(episodes, sum(sizes))
     first = 0
     for number, size in enumerate(sizes):
@@ -185,12 +185,12 @@ class EvaluationHost:
         self._setup = setup
 
     def call(self, part: EvaluationPart) -> EpisodesPlayed:
-        """Play the episodes of one part."""
+        """Run the episodes of one part."""
         load_all(self._setup.imports)
         return play_episodes(self._setup, part.copies, part.episodes, part.seed)
 
     def close(self) -> None:
-        """Nothing is left to do."""
+        """Do nothing: there is nothing to close."""
 
 
 def _play(actor: Actor, stepper: Stepper, ledger: Ledger, seed: int) -> int:

@@ -21,7 +21,7 @@ _HEAD, _FOOT = 12, 4
 
 
 def trim_events(folder: Path, steps: int) -> None:
-    """Drop the events after so many steps, and what was written by halves.
+    """Remove the events after so many steps, and incomplete ones.
 
     Args:
         folder: Holds the files; there may be none.
@@ -35,7 +35,7 @@ def trim_events(folder: Path, steps: int) -> None:
 
 
 def _records(data: bytes) -> Iterator[tuple[bytes, int]]:
-    """Whole records and the steps of their events, up to the first that is damaged."""
+    """Yield whole records and the steps of their events, up to the first that is damaged."""
     at = 0
     while at + _HEAD <= len(data):
         (length,) = _LENGTH.unpack_from(data, at)

@@ -125,7 +125,7 @@ def _linear_layers(modules: list[nn.Module]) -> tuple[list[Floats32], list[Float
 
 
 def _take_means(weights: list[Floats32], biases: list[Floats32], quantiles: int) -> None:
-    """From quantiles of the values of actions to the values: their means, which are linear."""
+    """Replace quantiles of the values of actions by their means, which are linear."""
     shape = (len(weights[-1]), quantiles, -1)
     weights[-1] = weights[-1].reshape(shape).mean(axis=1, dtype=np.float64).astype(np.float32)
     biases[-1] = biases[-1].reshape(quantiles, -1).mean(axis=0)

@@ -89,7 +89,7 @@ class Features:
         return 2 * len(self.angles) + len(self.magnitudes) + steered
 
     def added_to(self, obs: Floats32) -> Floats32:
-        """Observations of shape (N, entries) with the added ones behind, float32."""
+        """Return observations of shape (N, entries) with the added ones appended, float32."""
         angles = obs[:, self.angles]
         share = np.maximum(obs[:, self.magnitudes] / self.spans, np.float32(0))
         logs = np.log(share + np.float32(LEAST)) + np.float32(MIDDLE)

@@ -32,7 +32,7 @@ class GoalReplay:
     reward: Callable[[NDArray[Any], NDArray[Any], Any], Any]
 
     def rewards(self, achieved: Floats32, desired: Floats32) -> Floats32:
-        """Rewards of steps after which this is achieved, were that the goal.
+        """Return rewards of steps with this achieved and that desired goal.
 
         Args:
             achieved: Shape (n, entries).

@@ -56,7 +56,7 @@ class GoalRewards:
         self.waypoints: Floats = np.zeros(copies)
 
     def begin(self, info: dict[str, Any], where: Bools) -> None:
-        """Take note of episodes that began in some copies, with their first info."""
+        """Start episodes in some copies, with their first info."""
         self.distance = np.where(where, _told(info, "distance"), self.distance)
         self.waypoints[where] = 0.0
 
@@ -103,7 +103,7 @@ class GoalRewards:
         return {"distance": self.distance, "waypoints": self.waypoints}
 
     def set_state(self, state: Mapping[str, Any]) -> None:
-        """Continue from a state that `get_state` returned; earlier ones knew of no points."""
+        """Restore a state that `get_state` returned; earlier ones have no points."""
         self.distance = np.array(state["distance"], dtype=np.float64)
         self.waypoints = np.array(state.get("waypoints", self.waypoints), dtype=np.float64)
 

@@ -54,7 +54,7 @@ def heeds(algo: str, name: str) -> bool:
 
 
 def check_heeded(algo: str, holder: RecipeValues) -> None:
-    """Refuse values other than the defaults that an algorithm takes no notice of.
+    """Check for settings that an algorithm does not support and that are not the defaults.
 
     Args:
         algo: Name of the algorithm.
@@ -68,7 +68,7 @@ def check_heeded(algo: str, holder: RecipeValues) -> None:
 
 
 def heeded_only(algo: str, holder: Held) -> Held:
-    """The same, with the default in place of each value that an algorithm takes no notice of."""
+    """Return the settings with the default for each value that an algorithm does not support."""
     return dataclasses.replace(holder, **_unheeded(algo, holder))
 
 

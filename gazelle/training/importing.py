@@ -111,7 +111,7 @@ def load_all(modules: Iterable[TaskModule | str]) -> tuple[TaskModule, ...]:
 
 
 def load_entry_points() -> None:
-    """Let installed packages register their tasks; one that fails is left out with a warning."""
+    """Load the entry points of installed packages; one that fails is skipped with a warning."""
     for entry in metadata.entry_points(group=GROUP):
         if entry.value in _loaded:
             continue
@@ -130,7 +130,7 @@ def load_entry_points() -> None:
 
 
 def modules_to_list(modules: Iterable[TaskModule]) -> list[dict[str, str | None]]:
-    """Modules as plain values for JSON."""
+    """Return modules as plain values for JSON."""
     return [{"module": module.name, "folder": module.folder} for module in modules]
 
 

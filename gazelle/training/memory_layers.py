@@ -29,7 +29,7 @@ class PolicyMemory:
     cell: Floats32
 
     def forget(self, where: Bools) -> None:
-        """Empty it in some copies, shape (N,), whose episodes begin."""
+        """Clear the memory in some copies, shape (N,), whose episodes start."""
         self.hidden[:, where] = 0.0
         self.cell[:, where] = 0.0
 

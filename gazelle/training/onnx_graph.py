@@ -35,7 +35,7 @@ FILE_VERSION = 8
 
 
 def onnx_model(actor: Actor, *, metadata: dict[str, str] | None = None) -> onnx.ModelProto:
-    """The ONNX model of a policy, checked.
+    """Return the ONNX model of a policy, checked.
 
     Args:
         actor: The policy.
@@ -92,7 +92,7 @@ class _Graph:
         self.constants: list[Any] = []
 
     def constant(self, values: npt.ArrayLike, dtype: type[np.generic] = np.float32) -> str:
-        """Keep an array; returns its name."""
+        """Add an array; returns its name."""
         name = f"constant{len(self.constants)}"
         array = np.asarray(values, dtype)
         self.constants.append(numpy_helper.from_array(np.ascontiguousarray(array), name))
@@ -143,7 +143,7 @@ def _add_bearing(graph: _Graph, bearing: Bearing, name: str) -> list[str]:
 
 
 def _entry(graph: _Graph, name: str, entry: int) -> str:
-    """One entry of observations, shape (N, 1)."""
+    """Add one entry of observations, shape (N, 1); returns its name."""
     return graph.add("Gather", name, graph.constant([entry], np.int64), axis=1)
 
 

@@ -66,7 +66,10 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
 
 
 def algorithms_heeding(name: str) -> tuple[str, ...]:
-    """The algorithms with `PPOSettings` or `OffPolicySettings` that take notice of one of these."""
+    """Return the algorithms that support one of these.
+
+    They have `PPOSettings` or `OffPolicySettings`.
+    """
     kinds = {"ppo": PPOSettings} | dict.fromkeys(_REPLAYING, OffPolicySettings)
     having = [
         algo

@@ -69,7 +69,7 @@ class PeriodicEvaluation:
         return {"evaluated_at": self.evaluated_at, "best": self._best}
 
     def set_state(self, state: dict[str, Any], steps: int) -> None:
-        """Continue from a checkpoint made after so many steps; later rows are dropped."""
+        """Restore a checkpoint made after so many steps; later rows are dropped."""
         self.evaluated_at = int(state["evaluated_at"])
         best = state["best"]
         self._best = None if best is None else (float(best[0]), float(best[1]))
@@ -98,6 +98,6 @@ class PeriodicEvaluation:
 
 
 def _replace(actor: Actor, file: Path) -> None:
-    """All or nothing."""
+    """Replace the file atomically."""
     with replacing(file) as draft:
         actor.save(draft)

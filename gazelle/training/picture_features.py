@@ -50,7 +50,7 @@ class PictureFeatures(BaseFeaturesExtractor):  # type: ignore[misc]  # untyped b
         self.layers = nn.Sequential(*layers)
 
     def forward(self, observations: torch.Tensor) -> torch.Tensor:
-        """Pictures of shape (N, height, width, channels) to (N, features)."""
+        """Map pictures of shape (N, height, width, channels) to (N, features)."""
         x = observations.float().mul_(1.0 / 255.0).sub_(0.5) if (
             observations.dtype == torch.uint8
         ) else observations * (1.0 / 255.0) - 0.5  # fmt: skip

@@ -66,7 +66,7 @@ class PictureLayers:
         return x.reshape(len(x), -1)
 
     def _pooled(self, pictures: Bytes | Floats32) -> Floats32:
-        """Means, from -0.5 to 0.5; what is left over at the right and below is not seen."""
+        """Return means, from -0.5 to 0.5; the remainder at the right and below is ignored."""
         side = self.pooling
         count, height, width, channels = pictures.shape
         rows, columns = height // side, width // side

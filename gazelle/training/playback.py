@@ -61,7 +61,7 @@ class Playback(Closeable):
         self._memory = self._actor.begin(1)
 
     def step(self) -> None:
-        """Let the policy act once; a new episode begins where one is over."""
+        """Run the policy for one step; a new episode starts where one is over."""
         step = self._stepper.step(self._actor.act(self._obs, memory=self._memory))
         if self._memory is not None:
             self._memory.forget(step.begun)

@@ -85,7 +85,7 @@ def export_policy(
 
 
 def check_format(name: str) -> None:
-    """Refuse a format that there is not.
+    """Raise an error for an unknown format.
 
     Raises:
         TaskError: There is none of this name.

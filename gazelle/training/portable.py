@@ -41,7 +41,7 @@ def pack(value: Any) -> tuple[Any, Arrays]:
 
 
 def unpack(tree: Any, arrays: Arrays) -> Any:
-    """Put together what `pack` split."""
+    """Join what `pack` split."""
     if isinstance(tree, list):
         return [unpack(item, arrays) for item in tree]
     if not isinstance(tree, dict):

@@ -16,16 +16,19 @@ class Progress(Protocol):
     """Shows how far a training run is."""
 
     def start(self, done: int, total: int) -> None:
-        """Training starts with some control steps done already."""
+        """Start the display, with some control steps done already."""
 
     def update(self, done: int, summary: dict[str, float]) -> None:
-        """So many control steps are done; the summary is `EpisodeLog.summary`'s."""
+        """Update the display after so many control steps.
+
+        The summary is `EpisodeLog.summary`'s.
+        """
 
     def say(self, text: str) -> None:
-        """Tell the user something, without disturbing the display."""
+        """Print a message, without disturbing the display."""
 
     def close(self) -> None:
-        """Training is over."""
+        """Close the display."""
 
 
 class NoProgress:
@@ -59,25 +62,25 @@ class Watched:
         self._view: Closeable | None = None
 
     def attach(self, env: Any) -> None:
-        """These are the copies."""
+        """Set the environment."""
         self._env = env
 
     def start(self, done: int, total: int) -> None:
-        """See ``Progress``."""
+        """Start the display; see ``Progress``."""
         self._progress.start(done, total)
 
     def update(self, done: int, summary: dict[str, float]) -> None:
-        """See ``Progress``; the environment has been reset by now."""
+        """Update the display; see ``Progress``; the environment has been reset by now."""
         if self._view is None and self._env is not None:
             self._view = self._watch(self._env)
         self._progress.update(done, summary)
 
     def say(self, text: str) -> None:
-        """See ``Progress``."""
+        """Print a message; see ``Progress``."""
         self._progress.say(text)
 
     def close(self) -> None:
-        """See ``Progress``."""
+        """Close the display; see ``Progress``."""
         self._progress.close()
         if self._view is not None:
             self._view.close()
@@ -99,7 +102,7 @@ class Lines:
         self._last = 0.0
 
     def start(self, done: int, total: int) -> None:
-        """Note where and when training starts."""
+        """Record where and when training starts."""
         self._total = total
         self._last = time.monotonic()
         self._began = (self._last, done)
@@ -119,7 +122,7 @@ class Lines:
         self._stream.flush()
 
     def close(self) -> None:
-        """Nothing is left to do."""
+        """Do nothing: there is nothing to close."""
 
 
 class Bar:
@@ -160,7 +163,7 @@ class Bar:
         self._tqdm.write(text, file=self._stream)
 
     def close(self) -> None:
-        """Leave the bar as it stands."""
+        """Close the bar, which stays visible."""
         self._bar.close()
 
 

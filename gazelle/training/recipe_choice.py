@@ -50,7 +50,7 @@ def task_recipe(
 
 
 def listed_recipe(task: str) -> Recipe:
-    """`task_recipe` of a registered task without making an environment, by its class alone."""
+    """Return `task_recipe` of a registered task by its class, without making an environment."""
     if _has_own(task) or getattr(entry_class(task, vector=False), _REWARD, None) is None:
         return recipe_for(task)
     return GOALS
@@ -61,7 +61,7 @@ def _has_own(task: str) -> bool:
 
 
 def _may_have_goals(task: str) -> bool:
-    """False where classes tell that there are none, so that nothing has to be made to know."""
+    """Return whether the task may have goals: False where its classes exclude it."""
     entries = [entry_class(task, vector=vector) for vector in (True, False)]
     return any(
         each is not None and (not isinstance(each, type) or hasattr(each, _REWARD))

@@ -112,7 +112,7 @@ GOALS = Recipe(
 
 
 def _shown_fetch(task: str, steps: int) -> Recipe:
-    """Of a task whose object chance moves too rarely: 256 episodes show how."""
+    """Return the recipe of a task that needs demonstrations: 256 episodes."""
     settings = dataclasses.replace(
         _GOAL_SETTINGS,
         batch_size=512,
@@ -270,7 +270,7 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
 
 
 def _with_memory(own: Recipe, settings: OffPolicySettings, algo: str) -> Recipe:
-    """The recipe of a task for another algorithm; those that learn from a memory keep its numbers."""
+    """Return the recipe for another algorithm; off-policy ones keep their numbers."""
     if algo in OFF_POLICY:
         return dataclasses.replace(own, algo=algo, settings=heeded_only(algo, settings))
     if algo != "tqc":
@@ -281,7 +281,7 @@ def _with_memory(own: Recipe, settings: OffPolicySettings, algo: str) -> Recipe:
 
 
 def _tell_of_demonstrator(own: Recipe | None, algo: str) -> None:
-    """Say that a recipe has one, and an algorithm does not learn from it."""
+    """Warn that an algorithm does not use a recipe's demonstrator."""
     shown = own is not None and getattr(own.settings, "demonstrator", None) is not None
     able = SOME_HEED["demonstrator"]
     if shown and algo in (*OFF_POLICY, *LIBRARY_ALGORITHMS, "ppo") and algo not in able:
@@ -290,7 +290,7 @@ def _tell_of_demonstrator(own: Recipe | None, algo: str) -> None:
 
 
 def task_name(task: str) -> str:
-    """``gazelle/TurtleBot3Stage1-v0`` to ``TurtleBot3Stage1``."""
+    """Return the short name: ``TurtleBot3Stage1`` of ``gazelle/TurtleBot3Stage1-v0``."""
     name = task.rsplit("/", maxsplit=1)[-1]
     head, dash, version = name.rpartition("-v")
     return head if dash and version.isdigit() else name

@@ -49,7 +49,7 @@ class EpisodeRecord:
         return any(self.ends)
 
     def to_row(self) -> dict[str, Any]:
-        """One line of a table: plain values by column."""
+        """Return one line of a table: plain values by column."""
         numbers = {
             name if len(values) == 1 else f"{name}_{_axis(axis, len(values))}": value
             for name, values in self.info.items()
@@ -88,7 +88,7 @@ class Ledger:
         self._told: set[str] = set()
 
     def expect(self, episodes: npt.NDArray[np.int64]) -> None:
-        """Keep so many more of each copy, shape (copies,), in worlds that begin anew."""
+        """Expect so many more episodes of each copy, shape (copies,), in restarted worlds."""
         self._first_world += -(-len(self.left) // self._together)
         self.left = episodes.copy()
 
@@ -102,7 +102,7 @@ class Ledger:
         return outcome in self._told
 
     def add(self, ended: Episodes, trails: UInts64) -> None:
-        """Take in the episodes that ended in one step, with what tells their trails apart."""
+        """Add the episodes that ended in one step, with keys of their trails."""
         self._told.update(ended.outcomes)
         for row, slot in enumerate(ended.slots):
             if not self.left[slot]:
@@ -134,7 +134,7 @@ class Ledger:
         return rate(counts, goals + ends.sum(axis=1), self._clusters())
 
     def _clusters(self) -> npt.NDArray[np.int64]:
-        """Equal numbers for episodes that are the same, or were in the same world or one like it."""
+        """Return equal numbers for episodes that are equal, or were in equal worlds."""
         keys: list[bytes] = self._keys
         if self._together > 1:
             inside: dict[int, list[bytes]] = {}
@@ -167,7 +167,7 @@ class Ledger:
 
 
 def merged(ledgers: Sequence[Ledger]) -> Ledger:
-    """One ledger of the episodes of several, in order."""
+    """Return one ledger of the episodes of several, in order."""
     whole = ledgers[0]
     for ledger in ledgers[1:]:
         whole.take_in(ledger)
@@ -185,7 +185,7 @@ class Trail:
         self._sums: UInts64 = np.zeros(copies, np.uint64)
 
     def follow(self, obs: npt.NDArray[np.float32], where: npt.NDArray[np.bool_]) -> None:
-        """Take in what copies see, shape (copies, ...), where it is part of their episodes."""
+        """Add observations of copies, shape (copies, ...), that are part of their episodes."""
         self._sums = np.where(where, _mixed(self._sums, obs), self._sums)
 
     def end(self, ended: Episodes, final_obs: npt.NDArray[np.float32]) -> UInts64:
@@ -197,7 +197,7 @@ class Trail:
 
 
 def _mixed(sums: UInts64, obs: npt.NDArray[np.float32]) -> UInts64:
-    """Sums that change with every bit of the observations (multiply and shift, modulo 2^64)."""
+    """Return hashes that depend on every bit of observations (multiply and shift, modulo 2^64)."""
     bits = np.ascontiguousarray(obs, np.float32).reshape(len(obs), -1).view(np.uint32)
     odds = np.arange(1, 2 * bits.shape[1], 2, dtype=np.uint64) * _ODD
     mixed = (sums + np.uint64(1)) * _ODD + (bits.astype(np.uint64) * odds).sum(axis=1)
@@ -207,5 +207,5 @@ def _mixed(sums: UInts64, obs: npt.NDArray[np.float32]) -> UInts64:
 
 
 def _axis(index: int, size: int) -> str:
-    """``x``, ``y`` and ``z`` for places, numbers for more."""
+    """Return ``x``, ``y`` and ``z`` for places, numbers for more."""
     return "xyz"[index] if size <= 3 else str(index)

@@ -67,7 +67,7 @@ def play(
     rng: np.random.Generator,
     on_step: Callable[[], bool] | None = None,
 ) -> Rollout | None:
-    """Let a policy act for so many control steps, from where the environment is.
+    """Run a policy for so many control steps, from the environment's present state.
 
     Args:
         env: The copies of the task.
@@ -117,7 +117,7 @@ def play(
 
 
 def join(rollouts: Sequence[Rollout]) -> Rollout:
-    """Rollouts of as many steps, side by side as one; copies keep the order."""
+    """Join rollouts of as many steps side by side; copies keep the order."""
     sizes = [len(each.last_obs) for each in rollouts]
     before = np.concatenate([[0], np.cumsum(sizes)[:-1]])
 

@@ -73,7 +73,7 @@ class Run:
 
     @staticmethod
     def create(config: RunConfig, out: Path) -> Run:
-        """Make a new folder under ``out`` and write the configuration into it.
+        """Create a folder under ``out`` and write the configuration into it.
 
         Raises:
             TaskError: The folder cannot be made.
@@ -197,7 +197,7 @@ def _new_folder(out: Path, name: str) -> Path:
 
 
 def _write_config(folder: Path, config: RunConfig) -> None:
-    """All or nothing, so that a run is never without a configuration."""
+    """Write the configuration atomically, so that a run is never without one."""
     write_text(folder / "config.json", json.dumps(_config_to_dict(config), indent=2) + "\n")
 
 
@@ -237,7 +237,7 @@ def _config_from_dict(values: dict[str, Any]) -> RunConfig:
 
 
 def versions() -> dict[str, str]:
-    """Of Python and of the packages that shape a run."""
+    """Return versions of Python and of the packages that influence a run."""
     found = {"python": platform.python_version()}
     for package in _PACKAGES:
         try:

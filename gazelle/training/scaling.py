@@ -88,7 +88,7 @@ class ObservationScale:
         return bool(self.tally[_DECIDED])
 
     def observe(self, observations: Floats32) -> None:
-        """Take account of observations, shape (N, ...)."""
+        """Update the statistics by observations, shape (N, ...)."""
         if not self._scale or (self.decided and not self.normalised.any()):
             return
         rows: Floats = observations.reshape(len(observations), -1).astype(np.float64)
@@ -173,7 +173,7 @@ class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untype
                 self.register_buffer(f"_{name}", values, persistent=False)
 
     def forward(self, observations: torch.Tensor) -> torch.Tensor:
-        """Shape (N, ...) to (N, entries and those added)."""
+        """Map shape (N, ...) to (N, entries and those added)."""
         flat = observations.flatten(1)
         if self.cuts:
             flat = flat.clamp(*self.limits)

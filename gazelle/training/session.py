@@ -162,7 +162,7 @@ def resume(
     workers: int | None = None,
     ray: str | None = None,
 ) -> TrainResult:
-    """Go on with a run, until the number of steps it was started with or another.
+    """Resume a run, until its number of steps or another.
 
     The result is the same, bit for bit, as without the break, if the environment can save
     its state (else a warning says so). With more steps than the run had, a step size that
@@ -297,7 +297,7 @@ class _Session:
         return False
 
     def _check_weights(self, cause: ValueError | None) -> None:
-        """Refuse to go on with, or to save, weights that are not numbers any more."""
+        """Raise an error if weights are no longer finite."""
         if all(torch.isfinite(weight).all() for weight in self.learner.policy.parameters()):
             return
         raise TaskError(

@@ -40,7 +40,7 @@ class SuccessRate:
 
 
 def wilson_interval(count: float, total: float, z: float = Z_95) -> tuple[float, float]:
-    """Confidence interval of a share, also sound near 0 and 1.
+    """Return the confidence interval of a share, valid near 0 and 1 too.
 
     The score interval of E. B. Wilson, "Probable inference, the law of
     succession, and statistical inference", JASA 22 (1927) 209-212.
@@ -102,7 +102,7 @@ def clustered_rate(
 def rate_between_worlds(
     counts: npt.NDArray[np.int64], totals: npt.NDArray[np.int64], worlds: npt.NDArray[np.int64]
 ) -> SuccessRate:
-    """A rate over episodes of which some were in the same world: how they end hangs together.
+    """Return a rate over episodes that are correlated within the same world.
 
     A robot that blocks an aisle blocks it for all. How much is seen from how far apart worlds are, with
     the variance of a ratio between them and Student's distribution for their number (E. L. Korn
@@ -162,7 +162,7 @@ class EpisodeLog:
         self._rows: npt.NDArray[np.float64] = np.zeros((0, len(_COLUMNS)))
 
     def add(self, episodes: Episodes) -> None:
-        """Take in the episodes that ended in one step."""
+        """Add the episodes that ended in one step."""
         unknown = np.full(len(episodes.slots), np.nan)
         told = episodes.outcomes
         collisions, timeouts = (
@@ -201,6 +201,6 @@ class EpisodeLog:
         return {"rows": self._rows, "total": self.total}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Continue an account that `get_state` returned."""
+        """Restore an account that `get_state` returned."""
         rows = np.array(state["rows"], np.float64)
         self._rows, self.total = rows.reshape(-1, len(_COLUMNS)), int(state["total"])

@@ -126,7 +126,7 @@ class Stepper:
         return self.obs
 
     def step(self, actions: npt.NDArray[Any]) -> TrainingStep:
-        """Do one control step in every copy.
+        """Step every copy once.
 
         Args:
             actions: Shape (N,) or (N, number of actions), as the environment's space says.
@@ -195,7 +195,7 @@ class Stepper:
         return ~begins_early(self._goal_at, self._limit)
 
     def _note_scenarios(self, info: dict[str, Any], began: Bools) -> None:
-        """Keep what the info says of the episodes that began."""
+        """Store the infos of episodes that started."""
         if SCENARIO not in info or not began.any():
             return
         rows = [np.ravel(np.asarray(row, dtype=np.float64)) for row in info[SCENARIO][began]]
@@ -224,7 +224,7 @@ class Stepper:
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Continue from a state that `get_state` returned."""
+        """Restore a state that `get_state` returned."""
         self.obs = np.array(state["obs"], dtype=self._dtype)
         self._resetting = np.array(state["resetting"], dtype=np.bool_)
         self._returns = np.array(state["returns"], dtype=np.float64)
@@ -240,7 +240,7 @@ class Stepper:
     def _last(
         self, obs: Floats32, info: dict[str, Any], slots: npt.NDArray[np.intp]
     ) -> tuple[Floats32, dict[str, Any]]:
-        """The last observations of the ended episodes, and the info that tells their outcome."""
+        """Return last observations of the ended episodes, and the info with their outcome."""
         if self.mode is not AutoresetMode.SAME_STEP:
             return obs[slots], info
         if "final_obs" not in info:
@@ -257,7 +257,7 @@ class Stepper:
         return np.asarray(last, dtype=self._dtype), info.get("final_info", info)
 
     def _array(self, obs: Any) -> Floats32:
-        """Observations of all copies as an array of its own, shape (N, ...)."""
+        """Return observations of all copies as an own array, shape (N, ...)."""
         return np.array(obs, self._dtype) if self.rows is None else self.rows.join(obs)
 
     def _close_episodes(
@@ -302,7 +302,7 @@ class Stepper:
 
 
 def _learnable(space: gym.Space[Any]) -> tuple[gym.spaces.Box, DictRows | None]:
-    """The Box of what is learnt from, and how it is made of a Dict."""
+    """Return the Box of observations to learn from, and its rows of a Dict."""
     if isinstance(space, gym.spaces.Box):
         return space, None
     if isinstance(space, gym.spaces.Dict):

@@ -102,7 +102,7 @@ class ExperimentHost:
         return {**arguments, **found, "seconds": round(time.perf_counter() - start, 3)}
 
     def close(self) -> None:
-        """Nothing is left to do."""
+        """Do nothing: there is nothing to close."""
 
 
 def conduct(
@@ -167,7 +167,7 @@ class _Table:
         return tuple(str(call[name]) for name in self._names) in self._done
 
     def add(self, row: dict[str, Any]) -> None:
-        """One more; with other columns than so far the file is written anew."""
+        """Add a row; with other columns than so far the file is written again."""
         with self._lock:
             self.rows.append(row)
             columns = [*self._names, *(key for key in row if key not in {*self._names, *_OWN})]

@@ -130,7 +130,7 @@ def _ended(study: optuna.Study) -> int:
 
 
 def _try_again(study: optuna.Study) -> None:
-    """Trials that nobody works on any more, as the driver was killed, come first."""
+    """Queue first the trials that were interrupted when the driver was killed."""
     for trial in study.get_trials(states=(TrialState.RUNNING,)):
         study._storage.set_trial_user_attr(trial._trial_id, _RETRY, True)  # noqa: SLF001
         study.tell(trial.number, state=TrialState.FAIL)
@@ -138,7 +138,7 @@ def _try_again(study: optuna.Study) -> None:
 
 
 def _work(job: TrialJob, study: optuna.Study, *, workers: int | None, ray: str | None) -> None:
-    """Let workers do what is left, and end with them."""
+    """Run the remaining trials on workers, and stop them."""
     plan = job.plan
     runs = job.folder / "runs"
     count, start = workers_at(ray, workers or plan.workers, TrialHost, job, ray is not None)

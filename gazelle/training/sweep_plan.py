@@ -63,7 +63,7 @@ class SweepPlan:
         return plan
 
     def check(self) -> None:
-        """Make sure that it can be done.
+        """Check that the plan is feasible.
 
         Raises:
             TaskError: It cannot.

@@ -34,7 +34,7 @@ class Task:
 
 
 def list_tasks() -> list[Task]:
-    """Gazelle's tasks and those of installed packages' entry points, by name."""
+    """Return Gazelle's tasks and those of installed packages' entry points, by name."""
     _register()
     _register_others()
     specs = [
@@ -46,7 +46,7 @@ def list_tasks() -> list[Task]:
 
 
 def find_task(name: str) -> str:
-    """The Gymnasium id of a task.
+    """Return the Gymnasium id of a task.
 
     Args:
         name: A full id, or the name without namespace or version (then the newest). Of a task
@@ -67,7 +67,7 @@ def find_task(name: str) -> str:
 
 
 def with_continuous_actions(task: str) -> str:
-    """The twin of a task (``NAMEContinuous``) whose actions are continuous; the task if it has none.
+    """Return a task's twin with continuous actions (``NAMEContinuous``); the task if it has none.
 
     Args:
         task: A registered id.
@@ -83,7 +83,7 @@ def with_continuous_actions(task: str) -> str:
 
 
 def split_module(name: str) -> tuple[str | None, str]:
-    """``module:id`` to both; None for the module where there is none."""
+    """Split ``module:id``; the module is None if missing."""
     module, colon, rest = name.rpartition(":")
     return (module, rest) if colon else (None, name)
 
@@ -124,7 +124,7 @@ def entry_class(task: str, *, vector: bool) -> object:
 
 
 def evaluation_options(task: str, trained: Mapping[str, Any]) -> dict[str, Any]:
-    """With which options a task wants its policies to be evaluated.
+    """Return the options with which a task wants its policies to be evaluated.
 
     A task says so by a class method or static method ``evaluation_options`` of its environment:
     it takes the options that a policy was trained with and returns those that differ, such
@@ -153,7 +153,7 @@ def _hook(task: str, name: str) -> Any:
 
 
 def make_task(name: str, num_envs: int, **options: Any) -> VectorEnv[Any, Any, Any]:
-    """Many copies of a task as one vector environment.
+    """Create many copies of a task as one vector environment.
 
     Args:
         name: See `find_task`.
@@ -182,7 +182,7 @@ def make_task(name: str, num_envs: int, **options: Any) -> VectorEnv[Any, Any, A
 
 
 def control_period(env: VectorEnv[Any, Any, Any]) -> float | None:
-    """Simulated seconds of one control step; None if the environment does not tell.
+    """Return simulated seconds of one control step; None if unknown.
 
     Read from the attribute ``control_period`` [s], else from ``metadata["render_fps"]``.
     """
@@ -194,7 +194,10 @@ def control_period(env: VectorEnv[Any, Any, Any]) -> float | None:
 
 
 def told_by(env: VectorEnv[Any, Any, Any], name: str) -> Any:
-    """An attribute of the environment below all wrappers, or of its copies; None if there is none."""
+    """Return an attribute of the environment below all wrappers, or of its copies.
+
+    None if missing.
+    """
     for each in (env.unwrapped, *getattr(env.unwrapped, "envs", ())[:1]):
         found = getattr(each.unwrapped, name, None)
         if found is not None:
@@ -216,7 +219,7 @@ def step_limit(env: VectorEnv[Any, Any, Any]) -> int | None:
 
 
 def plain_options(options: dict[str, Any]) -> dict[str, Any]:
-    """Options as values that JSON can hold: paths become absolute, those that are None go.
+    """Return options as values for JSON: absolute paths, without those that are None.
 
     Raises:
         TaskError: A value cannot be written to a run's configuration.
@@ -238,13 +241,13 @@ def plain_options(options: dict[str, Any]) -> dict[str, Any]:
 
 
 def _register() -> None:
-    """Let Gazelle's environments register themselves."""
+    """Register Gazelle's environments."""
     if importlib.util.find_spec("gazelle.envs") is not None:
         importlib.import_module("gazelle.envs")
 
 
 def _register_others() -> None:
-    """Let installed packages register theirs."""
+    """Register the environments of installed packages."""
     before = set(gym.registry)
     load_entry_points()
     _others.update(set(gym.registry) - before)

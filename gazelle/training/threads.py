@@ -63,7 +63,7 @@ def products(*, bfloat16: bool) -> Iterator[None]:
 
 @contextlib.contextmanager
 def short_turns(*, wanted: bool = True) -> Iterator[None]:
-    """Let threads of Python take turns more often meanwhile.
+    """Shorten Python's thread switch interval while it lasts.
 
     One that needs the interpreter for some microseconds between two products waits up to 5 ms
     for another that works in Python; a tenth of a millisecond costs the other little.

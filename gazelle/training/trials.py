@@ -111,7 +111,7 @@ class TrialHost:
         return TrialOutcome(float(score), run=str(result.run.folder))
 
     def close(self) -> None:
-        """Nothing is left to do."""
+        """Do nothing: there is nothing to close."""
 
 
 def _packed(folder: Path, name: str) -> bytes:

@@ -13,7 +13,7 @@ _OWN = "gazelle."
 
 
 def require_trust(run: Run, modules: Sequence[TaskModule] = (), *, trust: bool = False) -> None:
-    """Refuse a run that names code to import, unless the user names or trusts it.
+    """Raise an error for a run with code to import, unless the user trusts it.
 
     Nothing of the run has been imported yet. Modules that this process has imported already from
     the same place need no consent.

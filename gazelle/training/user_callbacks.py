@@ -34,7 +34,7 @@ def find_callbacks(texts: Iterable[str]) -> tuple[tuple[TaskModule, ...], tuple[
 
 
 def make_callbacks(names: Iterable[str]) -> list[Any]:
-    """Fresh callbacks; their modules were found before.
+    """Create callbacks; their modules were found before.
 
     Raises:
         TaskError: One is not there, or is no callback.

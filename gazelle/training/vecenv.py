@@ -87,7 +87,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         return self.copies.contract
 
     def watch(self, on_observations: Callable[[Floats32], None]) -> None:
-        """Have something called with what is observed after each step, shape (N, ...)."""
+        """Call a function with the observations after each step, shape (N, ...)."""
         self.copies.on_observations = on_observations
 
     def collect(
@@ -98,15 +98,15 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         rng: np.random.Generator,
         on_step: Callable[[], bool] | None = None,
     ) -> Rollout | None:
-        """Let a policy act, see `rollout.play`."""
+        """Run a policy, see `rollout.play`."""
         return play(self.copies, actor, steps, rng=rng, on_step=on_step)
 
     def get_state(self) -> dict[str, Any] | None:
-        """See `TaskCopies.get_state`."""
+        """Return the state; see `TaskCopies.get_state`."""
         return self.copies.get_state()
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """See `TaskCopies.set_state`."""
+        """Restore a state; see `TaskCopies.set_state`."""
         self.copies.set_state(state)
 
     def reset(self) -> Floats32:
@@ -116,12 +116,12 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         return obs
 
     def seed(self, seed: int | None = None) -> Sequence[int | None]:
-        """Remember the seed for the next reset."""
+        """Store the seed for the next reset."""
         self._seed = seed
         return [seed] * self.num_envs
 
     def step_async(self, actions: npt.NDArray[Any]) -> None:
-        """Take the actions of the next step."""
+        """Store the actions of the next step."""
         self._actions = actions
 
     def step_wait(
@@ -132,7 +132,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         npt.NDArray[np.bool_],
         list[dict[str, Any]],
     ]:
-        """Do the step: observations, rewards, dones, infos."""
+        """Step; returns observations, rewards, dones, infos."""
         step = self.copies.advance(self._actions)
         for slot in self._marked:
             self._infos[slot] = {}

@@ -101,13 +101,13 @@ class AGVFleetVectorEnv(TaskVectorEnv):
 
     @staticmethod
     def evaluation_options(trained: Mapping[str, Any]) -> dict[str, Any]:
-        """Policies are evaluated at places that they were not trained at."""
+        """Return options for evaluation: places that were not used in training."""
         del trained
         return {"places": "held-out"}
 
     @staticmethod
     def fitting_num_envs(num_envs: int, options: Mapping[str, Any]) -> int:
-        """So many AGVs, or as many more as fill the last hall."""
+        """Return the number of AGVs: as many, or as many more as fill the last hall."""
         agents = read_options(FleetSettings, options).agents
         return -(-num_envs // agents) * agents
 

@@ -79,7 +79,7 @@ def places(*, between: bool = False) -> Floats:
 
 
 def picture(poses: Floats, goals: Floats) -> NDArray[np.uint8]:
-    """The hall from above with its AGVs, each with a line to its goal, shape (430, 630, 3)."""
+    """Render the hall from above, with a line from each AGV to its goal, shape (430, 630, 3)."""
     scale, middle = 20.0, np.array([315.0, 215.0])
     image = Image.new("RGB", (630, 430), (250, 250, 248))
     draw = ImageDraw.Draw(image)

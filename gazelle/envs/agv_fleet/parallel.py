@@ -54,12 +54,12 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         self._begun = self._closed = False
 
     def observation_space(self, agent: str) -> Any:
-        """Of one agent; they are all the same."""
+        """Return the space of one agent; they are all the same."""
         del agent
         return self.task.observation_space
 
     def action_space(self, agent: str) -> Any:
-        """Of one agent; they are all the same."""
+        """Return the space of one agent; they are all the same."""
         del agent
         return self.task.action_space
 
@@ -96,7 +96,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         dict[str, bool],
         dict[str, dict[str, Any]],
     ]:
-        """Make one control step.
+        """Step the environment once.
 
         Args:
             actions: Of the agents that are left; one without an action stands.
@@ -137,7 +137,7 @@ class AGVFleetParallelEnv(ParallelEnv):  # type: ignore[misc]  # PettingZoo has 
         return None if self.render_mode is None else self.task.render(0)
 
     def close(self) -> None:
-        """End the threads; a second call does nothing."""
+        """Stop the threads; a second call does nothing."""
         self._closed = True
         self.task.close()
 

@@ -150,7 +150,7 @@ class AGVFleetTask(BatchedTask):
         return self._places[self._goal]
 
     def freeze(self, rows: Worlds) -> None:
-        """Let AGVs stand from now on, in the way of others, until they begin anew."""
+        """Stop AGVs, as obstacles of others, until their next episode."""
         self._frozen[rows] = True
 
     def render(self, world: int) -> NDArray[np.uint8]:
@@ -160,7 +160,7 @@ class AGVFleetTask(BatchedTask):
         return hall.picture(self.poses[rows], self.goals[rows])
 
     def close(self) -> None:
-        """End the simulation; a second call does nothing."""
+        """Close the simulation; a second call does nothing."""
         self.simulation.close()
 
     def _seed(self, seed: int) -> None:
@@ -170,7 +170,7 @@ class AGVFleetTask(BatchedTask):
         self._frozen[:] = False
 
     def _begin(self, worlds: Worlds) -> None:
-        """Put AGVs at places that are free, one hall knowing nothing of the others."""
+        """Place AGVs at free places; halls are independent of each other."""
         self._frozen[worlds], self._reached[worlds] = False, 0
         where = self._free_places(worlds)
         yaw = (self._stream.uniform(1, worlds)[:, 0] * 2.0 - 1.0) * math.pi
@@ -186,7 +186,7 @@ class AGVFleetTask(BatchedTask):
         return np.hstack((self._start[worlds], self.goals[worlds]))
 
     def _free_places(self, worlds: Worlds) -> Worlds:
-        """Places [index] away from all others in the hall; drawn again where they are not."""
+        """Return places [index] away from all others in the hall, sampled by rejection."""
         at = self.poses[:, :2].copy()
         at[worlds] = np.inf
         chosen = np.zeros(self.nworld, np.intp)
@@ -212,7 +212,7 @@ class AGVFleetTask(BatchedTask):
         return chosen[worlds]
 
     def _next_goals(self, worlds: Worlds) -> None:
-        """Any other place, for these AGVs."""
+        """Sample other goals for these AGVs."""
         count = len(self._places) - 1
         drawn = (self._stream.uniform(1, worlds)[:, 0] * count).astype(np.intp)
         last = self._goal[worlds]
@@ -316,7 +316,7 @@ def _observation_space(samples: int) -> gym.spaces.Box:
 
 
 def _distance(position: Floats, goal: Floats) -> Floats:
-    """Straight distances [m], shape (n,), by operations that round alike in any batch."""
+    """Return straight distances [m], shape (n,), with the same rounding in any batch."""
     x, y = goal[:, 0] - position[:, 0], goal[:, 1] - position[:, 1]
     away: Floats = np.sqrt(x * x + y * y)
     return away

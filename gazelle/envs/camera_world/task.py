@@ -62,7 +62,7 @@ class CameraWorldTask(SimulationTask):
         self.memory["bearing"] = np.zeros(nworld)
 
     def start(self, worlds: Worlds) -> None:
-        """Robot and posts stand anywhere in the room, not too close to each other."""
+        """Place robot and posts anywhere in the room, not too close to each other."""
         drawn = self.draw(-1.0, 1.0, worlds, 1 + 2 * _TRIES * 4)
         yaw = np.pi * drawn[:, 0]
         spots = ROOM * drawn[:, 1:].reshape(len(worlds), 4, _TRIES, 2)
@@ -92,7 +92,7 @@ class CameraWorldTask(SimulationTask):
         self._robot.inputs["cmd_vel"].send(linear=speeds[:, 0], angular=speeds[:, 1])
 
     def outcome(self, observation: NDArray[np.generic]) -> StepOutcome:
-        """Nearer to the red post, and better turned to it, is worth something."""
+        """Reward approaching the red post and turning towards it."""
         del observation
         distance, bearing = self._goal()
         before = self.memory["distance"] - distance, self.memory["bearing"] - bearing
@@ -120,7 +120,10 @@ class CameraWorldTask(SimulationTask):
 
 
 def _first_apart(candidates: Floats, placed: list[Floats], least: list[float]) -> Floats:
-    """The first of some places (n, tries, 2) that keeps its distances, or else the best; (n, 2)."""
+    """Return the first of some places (n, tries, 2) that keeps its distances, or else the best.
+
+    (n, 2).
+    """
     room = np.min(
         [
             np.hypot(*np.moveaxis(candidates - other[:, None], -1, 0)) - far
@@ -134,5 +137,5 @@ def _first_apart(candidates: Floats, placed: list[Floats], least: list[float]) -
 
 
 def _standing(spots: Floats) -> Floats:
-    """Places on the floor, shape (n, 3)."""
+    """Return places on the floor, shape (n, 3)."""
     return np.column_stack([spots, np.zeros(len(spots))])

@@ -48,7 +48,7 @@ class CartPoleTask(SimulationTask):
         self.memory["start"] = np.zeros((nworld, 1))
 
     def start(self, worlds: Worlds) -> None:
-        """The pole leans a little."""
+        """Set the pole slightly off upright."""
         self.memory["velocity"][worlds] = 0.0
         self._foot.drive(0.0, worlds)
         self.memory["start"][worlds] = self.draw(-START, START, worlds)
@@ -60,19 +60,19 @@ class CartPoleTask(SimulationTask):
         return start
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """Place and velocity of the cart, angle and velocity of the pole."""
+        """Return place and velocity of the cart, angle and velocity of the pole."""
         joints = (self._foot, self._pole)
         read = [(each.positions(worlds), each.velocities(worlds)) for each in joints]
         return np.hstack([array for pair in read for array in pair])
 
     def act(self, actions: NDArray[np.int64]) -> None:
-        """The commanded velocity falls or rises by a step."""
+        """Change the commanded velocity by a step."""
         velocity = self.memory["velocity"]
         velocity += np.where(actions == 0, -POSITION_STEP, POSITION_STEP)
         np.clip(velocity, -_FASTEST, _FASTEST, out=velocity)
         self._foot.drive(velocity)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """One for every step."""
+        """Return a reward of 1 for every step."""
         fallen = has_fallen(observation)
         return StepOutcome(np.ones(self.nworld), fallen, {"is_success": self.lasting & ~fallen})

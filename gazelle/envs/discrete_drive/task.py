@@ -120,7 +120,7 @@ class DriveTask(DestinationTask):
         self.memory["distance"] = np.zeros(nworld)
 
     def start(self, worlds: Worlds) -> None:
-        """It stands still: where the task has it, or somewhere in free space."""
+        """Place the robot at rest: where the task has it, or somewhere in free space."""
         self.robot.inputs["cmd_vel"].send(0.0, 0.0, worlds)
         if self._places is not None:
             share = self.draw(0.0, 1.0, worlds, 2)
@@ -135,12 +135,12 @@ class DriveTask(DestinationTask):
             self.memory["distance"][worlds] = distance_to(place, self._goal)
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """x, y [m] and heading [rad] at the start, shape (n, 3)."""
+        """Return x, y [m] and heading [rad] at the start, shape (n, 3)."""
         start: Floats = self.memory["start"][worlds]
         return start
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """Ranges, and in tasks with a goal x and y, and yaw and the goal if the rules say so."""
+        """Return ranges, and where the rules say so x, y, yaw and the goal."""
         rules = self.rules
         # Noise is drawn with each measurement, so the outcome goes by the one that was observed.
         self.scan = ranges = self._ranges(worlds)
@@ -153,12 +153,12 @@ class DriveTask(DestinationTask):
         return np.hstack(seen)
 
     def act(self, actions: NDArray[np.int64]) -> None:
-        """The base is told the velocity of the action."""
+        """Command the velocity of the action."""
         self._forward = actions == 0
         self.robot.inputs["cmd_vel"].send(*self._speeds[actions].T)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """Reward and end of openai_ros' task, see `scoring`."""
+        """Return reward and termination of openai_ros' task, see `scoring`."""
         rules, rays = self.rules, self._lidar.lidar.horizontal.samples
         # A base without a goal is nowhere, and never nearer to it.
         place, closer = np.zeros((self.nworld, 2)), np.zeros(self.nworld, np.bool_)
@@ -175,7 +175,7 @@ class DriveTask(DestinationTask):
         return StepOutcome(reward, ends.over, {**info, **self.whereabouts(None)})
 
     def whereabouts(self, worlds: Worlds | None) -> Info:
-        """See `DestinationTask`."""
+        """Return the places of robot and goal; see `DestinationTask`."""
         place = self.robot.planar_pose(worlds)[:, :2]
         if self._goal is None:
             return {"position": place}

@@ -98,7 +98,7 @@ class ReachingArm(CarriedGripper):
         self._start = found.positions[0]
 
     def _changed(self, joint: Joint) -> Joint:
-        """One of the joints that move, as it is wanted."""
+        """Return a movable joint with the task's settings."""
         return driven(joint)
 
     def _completed(self, model: Model) -> Model:
@@ -110,12 +110,12 @@ class ReachingArm(CarriedGripper):
             joint.add_motor(_EFFORT)
 
     def begin(self, worlds: Worlds) -> None:
-        """Bend the arm."""
+        """Set the arm to its initial posture."""
         self._robot.set_configuration(self._names, self._start, worlds)
         self._stop(worlds)
 
     def move(self, way: Floats, period: float) -> None:
-        """Drive each joint at the rate that leads there."""
+        """Set the joint rates for a displacement of the gripper in a period."""
         now = np.hstack([joint.positions() for joint in self._joints])
         states = np.tile(self._zero, (len(now), 1))
         states[:, self._columns] = now
@@ -127,7 +127,7 @@ class ReachingArm(CarriedGripper):
             joint.drive(rate)
 
     def _poses(self, points: Floats) -> Floats:
-        """Of the gripper's frame in the robot's, with its point there, shape (n, 4, 4)."""
+        """Return poses of the gripper's frame in the robot's, its point at these, (n, 4, 4)."""
         poses = np.zeros((len(points), 4, 4))
         poses[:, :3, :3] = DOWN
         poses[:, :3, 3] = points - self._base - DOWN @ GRIP

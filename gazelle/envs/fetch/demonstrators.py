@@ -33,7 +33,7 @@ _ENOUGH = 0.012  # from the goal [m]
 
 
 def pick_and_place(rows: Floats32) -> Floats32:
-    """Over the object, down with open fingers, close them, and through the air to the goal."""
+    """Return actions: over the object, down with open fingers, close them, and up to the goal."""
     seen = rows.astype(np.float64)
     place = seen[:, _OBJECT]
     away, left = place - seen[:, _GRIPPER], seen[:, _GOAL] - place
@@ -47,7 +47,7 @@ def pick_and_place(rows: Floats32) -> Floats32:
 
 
 def push(rows: Floats32) -> Floats32:
-    """Over the object to behind it, down, and on towards the goal, slower the nearer it is."""
+    """Return actions: over the object to behind it, down, and towards the goal, ever slower."""
     seen = rows.astype(np.float64)
     place = seen[:, _OBJECT]
     left, away = (seen[:, _GOAL] - place)[:, :2], place - seen[:, _GRIPPER]
@@ -77,6 +77,6 @@ def _around(away: Floats, ahead: Floats) -> Floats:
 
 
 def _actions(way: Floats, fingers: Floats) -> Floats32:
-    """Ways of the gripper in a step [m] and how fingers open, as an action says it."""
+    """Return actions of gripper displacements in a step [m] and finger commands."""
     told = np.clip(way / _FASTEST, -1.0, 1.0)
     return np.hstack((told, fingers[:, None])).astype(np.float32)

@@ -74,11 +74,11 @@ class CarriedGripper(ABC):
 
     @abstractmethod
     def begin(self, worlds: Worlds) -> None:
-        """Put it at its start, at rest, where worlds were reset."""
+        """Place the gripper at its start, at rest, in worlds that were reset."""
 
     @abstractmethod
     def move(self, way: Floats, period: float) -> None:
-        """Let it go a way in a period, pointing down, in all worlds.
+        """Move the gripper by a displacement in a period, pointing down, in all worlds.
 
         Args:
             way: [m], shape (nworld, 3).
@@ -97,13 +97,13 @@ class CarriedGripper(ABC):
             self._fingers[0].drive(np.clip(speed, -now / period, (_OPEN - now) / period))
 
     def position(self, worlds: Worlds | None) -> Floats:
-        """Of the point between the fingers in the world frame [m], shape (n, 3)."""
+        """Return the world position of the point between the fingers [m], shape (n, 3)."""
         place = self._link.placement(worlds)
         position: Floats = place.position + rotations.rotate(place.quaternion, self._point)
         return position
 
     def velocity(self, worlds: Worlds | None) -> Floats:
-        """Of that point [m/s], shape (n, 3)."""
+        """Return the velocity of that point [m/s], shape (n, 3)."""
         motion = self._link.motion(worlds)
         arm = rotations.rotate(self._link.placement(worlds).quaternion, self._point)
         return motion.linear + rotations.cross(motion.angular, arm)
@@ -118,7 +118,7 @@ class CarriedGripper(ABC):
         return np.hstack(positions), np.hstack(velocities)
 
     def _stop(self, worlds: Worlds) -> None:
-        """Hold all motors still."""
+        """Set all motors to rest."""
         for joint in (*self._joints, *self._fingers[:1]):
             joint.drive(0.0, worlds)
 
@@ -143,17 +143,17 @@ class FlyingGripper(CarriedGripper):
             joint.add_motor(_PULL * carried)
 
     def begin(self, worlds: Worlds) -> None:
-        """Its start is where its slides are at zero."""
+        """Do nothing: the slides' zero is the start."""
         self._stop(worlds)
 
     def move(self, way: Floats, period: float) -> None:
-        """Drive each slide at its part of the way."""
+        """Set the velocity of each slide to its part of the displacement."""
         for joint, speed in zip(self._joints, way.T / period, strict=True):
             joint.drive(speed)
 
 
 def flying_model(robot: Model, start: tuple[float, float, float], *, fingers_move: bool) -> Model:
-    """Of a robot its gripper alone, pointing down on three slides.
+    """Return the gripper of a robot alone, pointing down on three slides.
 
     Args:
         robot: Fetch.

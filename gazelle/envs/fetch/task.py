@@ -73,7 +73,7 @@ class FetchTask(GoalSimulationTask):
         self.memory["object"] = np.zeros((nworld, 2))
 
     def start(self, worlds: Worlds) -> None:
-        """The arm at its start, and the object beside the gripper."""
+        """Set the arm to its start, and the object beside the gripper."""
         self._gripper.begin(worlds)
         if self._object is None:
             return
@@ -84,7 +84,7 @@ class FetchTask(GoalSimulationTask):
         self._object.set_pose(np.hstack((places, height)), upright, worlds=worlds)
 
     def draw_goals(self, worlds: Worlds) -> Floats:
-        """Around where the gripper begins; of objects on the table, or above it."""
+        """Sample goals around the gripper's start; for objects on the table, or above it."""
         figures = self.figures
         drawn = self.draw(-1.0, 1.0, worlds, 5)
         goals = np.array(figures.gripper) + figures.goal_range * drawn[:, :3]
@@ -102,7 +102,7 @@ class FetchTask(GoalSimulationTask):
         return self.goals
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Goal and place of the object at the start [m], shape (n, 5)."""
+        """Return goal and place of the object at the start [m], shape (n, 5)."""
         return np.hstack((self.goals[worlds], self.memory["object"][worlds]))
 
     def achieved(self, worlds: Worlds | None) -> Floats:
@@ -112,7 +112,7 @@ class FetchTask(GoalSimulationTask):
         return self._object.placement(worlds).position
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """As `FetchEnv` lists it, shape (n, 10 or 25)."""
+        """Return the observation that `FetchEnv` lists, shape (n, 10 or 25)."""
         grip, velocity = (
             self._gripper.position(worlds),
             self._gripper.velocity(worlds) * CONTROL_PERIOD,
@@ -137,7 +137,7 @@ class FetchTask(GoalSimulationTask):
         )
 
     def act(self, actions: NDArray[Any]) -> None:
-        """Let the gripper go a way, and its fingers open or close."""
+        """Move the gripper, and open or close its fingers."""
         told = np.clip(actions, -1.0, 1.0)
         self._gripper.move(self._reach * told[:, :3], CONTROL_PERIOD)
         self._gripper.move_fingers(FINGER_SPEED * told[:, 3], CONTROL_PERIOD)
@@ -150,7 +150,7 @@ class FetchTask(GoalSimulationTask):
     def compute_reward(
         self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: object
     ) -> NDArray[Any]:
-        """Minus the distance [m], or -1 where that is over 5 cm, else 0."""
+        """Return minus the distance [m], or -1 where that is over 5 cm, else 0."""
         del info
         distance = _distance(achieved_goal, desired_goal)
         return -distance if self._dense else np.where(distance > NEAR, -1.0, 0.0)
@@ -162,7 +162,7 @@ class FetchTask(GoalSimulationTask):
             return super()._act(actions)
 
     def _beside(self, worlds: Worlds) -> Floats:
-        """Places (x, y) around the gripper, drawn anew where they are too near; shape (n, 2)."""
+        """Sample places (x, y) around the gripper, again where they are too near; shape (n, 2)."""
         reach, centre = self.figures.object_range, np.array(self.figures.gripper[:2])
         away = self.draw(-reach, reach, worlds, 2)
         near = np.flatnonzero(np.linalg.norm(away, axis=1) < CLEAR)
@@ -187,7 +187,10 @@ def _distance(first: NDArray[Any], second: NDArray[Any]) -> NDArray[Any]:
 
 
 def _euler(quaternion: Floats) -> Floats:
-    """Angles x, y, z of R = Rx(x) Ry(y) Rz(z) [rad], shape (n, 3), as ``mat2euler`` there."""
+    """Return angles x, y, z of R = Rx(x) Ry(y) Rz(z) [rad], shape (n, 3).
+
+    It is ``mat2euler`` there.
+    """
     turned = rotations.turns(quaternion).transpose(0, 2, 1)  # they are for rows
     cosine = np.hypot(turned[:, 1, 2], turned[:, 2, 2])
     regular = cosine > 4.0 * np.finfo(np.float64).eps

@@ -53,7 +53,7 @@ class WeldedArm(ReachingArm):
         self._tip = self._robot.links[_HELD]
 
     def begin(self, worlds: Worlds) -> None:
-        """Bend the arm, and hold the gripper where it is then."""
+        """Set the arm to its initial posture, and hold the gripper there."""
         super().begin(worlds)
         place = self._tip.placement(worlds)
         self._leader.set_pose(place.position, place.quaternion, worlds=worlds)
@@ -61,7 +61,7 @@ class WeldedArm(ReachingArm):
         self._robot.simulation.attach(leader, self._tip, worlds, settling=_SETTLING)
 
     def move(self, way: Floats, period: float) -> None:
-        """Put the leader that far from the gripper."""
+        """Set the leader of the weld to the displaced pose of the gripper."""
         del period
         place = self._tip.placement()
         turned = place.quaternion * np.where(place.quaternion @ _DOWN < 0.0, -1.0, 1.0)[:, None]
@@ -80,7 +80,7 @@ class WeldedArm(ReachingArm):
         return dataclasses.replace(joint, axes=axes)
 
     def _completed(self, model: Model) -> Model:
-        """With fingers as heavy as there, and a link in the gripper's frame, which the weld holds."""
+        """Return the model with the original's finger masses, and a link for the weld."""
         frame = next(each for each in model.frames if each.name == TIP)
         wrist = next(link for link in model.links if link.name == frame.attached_to)
         speck = Inertial(mass=1e-3, inertia=Inertia(1e-6, 1e-6, 1e-6))

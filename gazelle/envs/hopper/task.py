@@ -62,12 +62,12 @@ class HopperTask(SimulationTask):
         self.memory["start"] = np.zeros((nworld, 2))
 
     def start(self, worlds: Worlds) -> None:
-        """It stands straight and leans a little."""
+        """Place the robot upright, leaning a little."""
         lean = self.memory["start"][worlds] = self.draw(-START, START, worlds, 2)
         self.set_lean(lean, worlds)
 
     def set_lean(self, lean: Floats, worlds: Worlds) -> None:
-        """Stand it straight in these worlds with this roll and pitch [rad], shape (n, 2)."""
+        """Place the robot in these worlds with this roll and pitch [rad], shape (n, 2)."""
         half = 0.5 * lean
         cos, sin = np.cos(half), np.sin(half)
         turned = np.column_stack(
@@ -84,7 +84,7 @@ class HopperTask(SimulationTask):
             joint.drive(0.0, worlds)
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Roll and pitch at the start [rad], shape (n, 2)."""
+        """Return roll and pitch at the start [rad], shape (n, 2)."""
         start: Floats = self.memory["start"][worlds]
         return start
 
@@ -98,7 +98,7 @@ class HopperTask(SimulationTask):
         return rounded(np.column_stack((none, turned, none, angles, placement.position)), 1)
 
     def act(self, actions: NDArray[np.int64]) -> None:
-        """One joint goes by a step from where it is; the others hold."""
+        """Command one joint by a step from its position; the others hold."""
         joint, back = np.divmod(actions, 2)
         for number, handle in enumerate(self._joints):
             angle = handle.positions()[:, 0]
@@ -107,7 +107,10 @@ class HopperTask(SimulationTask):
             handle.drive((wanted - angle) / CONTROL_PERIOD)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """Less than 100 by joints, turns, force and way from where the base should be."""
+        """Return the reward.
+
+        It is 100 less penalties of joints, turns, force and distance of the base.
+        """
         seen = rounded(observation, 1)
         upright = is_upright(self.rules, self._exactly_turned())
         fallen = ~(upright & has_height(self.rules, seen[:, 10]))
@@ -116,5 +119,5 @@ class HopperTask(SimulationTask):
         return StepOutcome(reward_of(self.rules, seen), fallen, info)
 
     def _exactly_turned(self) -> Floats:
-        """Roll and pitch [rad], which the end is not judged by as rounded, shape (nworld, 2)."""
+        """Return roll and pitch [rad] without rounding, for the termination, shape (nworld, 2)."""
         return roll_pitch_yaw(self.robot.placement().quaternion)[:, :2]

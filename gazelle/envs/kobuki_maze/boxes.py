@@ -44,7 +44,7 @@ class MovingBoxes:
         }
 
     def begin(self, worlds: Worlds, shares: Floats) -> None:
-        """Put them where they begin; ``shares`` in [0, 1) are of shape (n, 2 * boxes)."""
+        """Place the boxes at their starts; ``shares`` in [0, 1) are of shape (n, 2 * boxes)."""
         count = len(self._boxes)
         self._heading[worlds] = (2.0 * shares[:, :count] - 1.0) * np.pi
         self._pace[worlds] = BOX_STEP * shares[:, count:]
@@ -53,7 +53,7 @@ class MovingBoxes:
         self._put(worlds)
 
     def step(self) -> None:
-        """Go on by one step; all of a world turn back together."""
+        """Advance by one step; all boxes of a world turn back together."""
         self._steps += 1
         turned = self._steps > np.where(self._first, *self._turns)
         self._direction[turned] *= -1.0

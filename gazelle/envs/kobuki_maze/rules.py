@@ -59,7 +59,10 @@ class KobukiRules:
     """Tolerance of a goal [m]."""
 
     def paths(self) -> Floats:
-        """The goals of each way [m], shape (ways, points, 2); one of one point without any."""
+        """Return the goals of each path [m], shape (ways, points, 2).
+
+        A single point without any.
+        """
         return np.array(self.ways) if self.ways else np.zeros((1, 1, 2))
 
 

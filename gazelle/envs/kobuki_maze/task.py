@@ -70,7 +70,7 @@ class KobukiTask(SimulationTask):
         return kobuki_contract(self.rules, self._lidar, self.action_space, self.max_episode_steps)
 
     def start(self, worlds: Worlds) -> None:
-        """Robot, goals and boxes are drawn; the robot stands still."""
+        """Sample robot, goals and boxes; the robot is at rest."""
         memory, rules = self.memory, self.rules
         shares = self.draw(0.0, 1.0, worlds, 6 + 2 * len(rules.boxes))
         memory["start"][worlds, :2] = _between(rules.starts, shares[:, :2])
@@ -94,7 +94,10 @@ class KobukiTask(SimulationTask):
         return np.column_stack([memory[name][worlds] for name in ("start", "goal", "way")])
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """Distance and direction of the goal, then place, goal and ranges if the rules say so."""
+        """Return distance and direction of the goal.
+
+        Place, goal and ranges follow if the rules say so.
+        """
         pose = self.robot.planar_pose(worlds)
         goal = self.memory["goal"] if worlds is None else self.memory["goal"][worlds]
         seen = [distance_to(pose, goal), heading_to(pose, pose[:, 2], goal)]
@@ -105,12 +108,12 @@ class KobukiTask(SimulationTask):
         return np.column_stack(seen)
 
     def act(self, actions: NDArray[np.float64]) -> None:
-        """Forward speed and yaw rate are commanded."""
+        """Command forward speed and yaw rate."""
         most = self.rules.speed
         self.robot.inputs["cmd_vel"].send(*np.clip(actions, -most, most).T)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """Less for being far from the goal, and for collisions; more for getting there."""
+        """Return the reward: less for the goal's distance and collisions, more for reaching it."""
         rules, memory = self.rules, self.memory
         distance, heading = observation[:, :2].T.astype(np.float64)
         angle = np.abs(heading)
@@ -128,7 +131,10 @@ class KobukiTask(SimulationTask):
         return StepOutcome(reward, done, {**info, **self._whereabouts(None, distance)})
 
     def _next_point(self, reached: Bools) -> Bools:
-        """Go for the next point of the way where one is reached; where that was the last one."""
+        """Set the next point of the path where one is reached.
+
+        Returns where it was the last one.
+        """
         point, last = self.memory["point"], self._paths.shape[1]
         point += reached
         on = np.flatnonzero(reached & (point < last))

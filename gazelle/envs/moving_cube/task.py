@@ -96,7 +96,7 @@ class MovingCubeTask(SimulationTask):
         self.memory["start"] = np.zeros((nworld, 1))
 
     def start(self, worlds: Worlds) -> None:
-        """It rests on the floor, its wheel spinning slowly."""
+        """Place the cube at rest on the floor, its wheel spinning slowly."""
         self.memory["speed"][worlds] = FIRST_SPEED
         self.memory["held"][worlds] = 0.0
         self.memory["place"][worlds] = 0.0
@@ -106,7 +106,7 @@ class MovingCubeTask(SimulationTask):
         self._wheel.drive(FIRST_SPEED, worlds)
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Its yaw at the start [rad], shape (n, 1)."""
+        """Return the yaw at the start [rad], shape (n, 1)."""
         start: Floats = self.memory["start"][worlds]
         return start
 
@@ -131,7 +131,10 @@ class MovingCubeTask(SimulationTask):
         self._wheel.drive(speed)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """Way and speed along y, less for yaw; another reward where it tilts too far."""
+        """Return the reward: distance and speed along y, less for yaw.
+
+        Another one for too much tilt.
+        """
         seen = rounded(observation[:, : len(_MOST)], 1)
         failed, y = has_failed(self.rules, seen), seen[:, 1]
         reward = reward_of(self.rules, seen, self.memory["place"], failed)

@@ -16,7 +16,7 @@ JITTER = 0.2
 
 
 def squares(*, held_out: bool) -> Floats:
-    """Middles of squares to start in (x, y) [m], shape (n, 2): those of one colour of a chessboard.
+    """Return middles of start squares (x, y) [m], shape (n, 2): one colour of a chessboard.
 
     Args:
         held_out: Those of the other colour, which trainings do not see.

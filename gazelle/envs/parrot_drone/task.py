@@ -81,7 +81,7 @@ class ParrotDroneTask(DestinationTask):
         self.memory["distance"] = np.zeros(nworld)
 
     def start(self, worlds: Worlds) -> None:
-        """It hovers as after a take-off: at the origin, or somewhere over the field."""
+        """Place the drone as after a take-off: at the origin, or somewhere over the field."""
         start = self.memory["start"]
         if self._places is not None:
             share = self.draw(0.0, 1.0, worlds, 3)
@@ -99,17 +99,17 @@ class ParrotDroneTask(DestinationTask):
         return start
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """x, y and z cut to whole metres; roll, pitch, yaw and the sonar, rounded."""
+        """Return x, y and z cut to whole metres; roll, pitch, yaw and the sonar, rounded."""
         place = self.robot.placement(worlds)
         rest = np.hstack((roll_pitch_yaw(place.quaternion), self._sonar.measure(worlds)))
         return np.hstack((np.trunc(place.position), rounded(rest, 1)))
 
     def act(self, actions: NDArray[np.int64]) -> None:
-        """The drone is told the velocity of the action."""
+        """Command the velocity of the action."""
         self.robot.inputs["cmd_vel"].send(self._velocities[actions], 0.0)
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """Reward and end of openai_ros' task, see `rules`."""
+        """Return reward and termination of openai_ros' task, see `rules`."""
         seen = rounded(observation, 1)
         ends = ends_of(self.rules, seen)
         distance = distance_to(seen[:, :3], self.rules.goal)
@@ -119,7 +119,7 @@ class ParrotDroneTask(DestinationTask):
         return StepOutcome(reward, ends.over, {**info, **self.whereabouts(None)})
 
     def whereabouts(self, worlds: Worlds | None) -> Info:
-        """See `DestinationTask`."""
+        """Return the places of robot and goal; see `DestinationTask`."""
         place = self.robot.placement(worlds).position
         goal = np.tile(self.rules.goal, (len(place), 1))
         return {"position": place, "goal": goal, "distance": distance_to(place, self.rules.goal)}

@@ -13,7 +13,7 @@ from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
 
 
 def _held_out(trained: Mapping[str, Any]) -> dict[str, Any]:
-    """Policies are evaluated with goals that are new to them."""
+    """Return options for evaluation: goals that were not used in training."""
     del trained
     return {"goals": "held-out"}
 

@@ -83,7 +83,7 @@ class ReachTask(SimulationTask):
         return (*joints, "goal_x", "goal_y", "goal_z")
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Joint angles at the start [rad] and the goal [m], shape (n, 9)."""
+        """Return joint angles at the start [rad] and the goal [m], shape (n, 9)."""
         return np.hstack((self.memory["start"][worlds], self.memory["goal"][worlds]))
 
     @property
@@ -92,7 +92,7 @@ class ReachTask(SimulationTask):
         return self.memory["goal"]
 
     def start(self, worlds: Worlds) -> None:
-        """Posture and goal are drawn."""
+        """Sample posture and goal."""
         shares = self.draw(0.0, 1.0, worlds, len(self._joints) + 1)
         picked = (shares[:, -1] * len(self._goals)).astype(np.intp)
         self.memory["goal"][worlds] = self._goals[picked]
@@ -104,14 +104,14 @@ class ReachTask(SimulationTask):
             joint.drive(0.0, worlds)
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """Direction of the goal, the goal and the joints, in the order of the task."""
+        """Return direction of the goal, the goal and the joints, in the order of the task."""
         seen = self._see(worlds)
         if self.rules.by_speed:
             return np.hstack((seen.angles, seen.goal, seen.direction))
         return np.hstack((seen.direction, seen.goal, seen.angles))
 
     def act(self, actions: NDArray[np.float64]) -> None:
-        """Joints turn at a speed, or to where they get within the step, no faster than they can."""
+        """Command joints by a speed, or a position within reach in a step."""
         rules = self.rules
         angles = np.column_stack([joint.positions()[:, 0] for joint in self._joints])
         if rules.by_speed:
@@ -125,7 +125,7 @@ class ReachTask(SimulationTask):
             joint.drive(speed[:, number])
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """Less for the distance and for limits, more for being there."""
+        """Return the reward: less for distance and limits, more for reaching the goal."""
         del observation
         rules, seen = self.rules, self._see(None)
         there = seen.distance <= rules.tolerance
@@ -163,7 +163,7 @@ class ReachTask(SimulationTask):
         return place
 
     def _reachable(self, settings: ReachSettings) -> Floats:
-        """Places that the tool has in postures drawn at random, within the goals' box, shape (n, 3)."""
+        """Return places of the tool in random postures, within the goals' box, shape (n, 3)."""
         simulation, robot = _cell(self.rules, replace(settings, seed=0), _BATCH)
         link, tool = robot.frame("tool0")
         joints = [robot.joints[name] for name in self._names]

@@ -23,7 +23,7 @@ ANGULAR_MAX = 1.5
 
 
 def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
-    """Velocities of discrete actions.
+    """Return velocities of discrete actions.
 
     Args:
         actions: Ints 0 to 4, shape (nworld,).
@@ -45,7 +45,7 @@ def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
 
 
 def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
-    """Velocities of continuous actions; numbers outside [-1, 1] are clipped.
+    """Return velocities of continuous actions; numbers outside [-1, 1] are clipped.
 
     Args:
         actions: Shape (nworld, 2).

@@ -115,7 +115,7 @@ class GoalLayout:
 
 
 def _unseen(places: Floats, seen: Floats) -> Floats:
-    """The places that are away from others: half as far as these are from each other, at most.
+    """Return the places away from others: at most half as far as these are from each other.
 
     So a list that lies close, such as a grid, leaves what is between its points.
     """

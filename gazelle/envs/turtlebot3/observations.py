@@ -47,7 +47,7 @@ def sight(
     pose: Floats,
     goal: Floats,
 ) -> RobotViews:
-    """Work out what the robots see.
+    """Compute the robots' views.
 
     Args:
         rules: Of the stage.

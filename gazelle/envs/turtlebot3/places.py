@@ -27,7 +27,7 @@ _PLAZA = (
 
 
 def grid_goals() -> GoalTable:
-    """Stages 1 to 3: a grid of 0.1 m in a square of 2.4 m, clear of the four pillars and the start.
+    """Return goals of stages 1 to 3: a grid of 0.1 m in a square of 2.4 m, clear of obstacles.
 
     The first goal is (0.6, 0); the next is 1 m or more from the last one along x or y.
     """
@@ -42,5 +42,8 @@ def grid_goals() -> GoalTable:
 
 
 def plaza_goals() -> GoalTable:
-    """Stage 4: thirteen places, never the same one twice in a row; the first is (0.6, 0)."""
+    """Return goals of stage 4: thirteen places, never one twice in a row.
+
+    The first is (0.6, 0).
+    """
     return GoalTable(_PLAZA)

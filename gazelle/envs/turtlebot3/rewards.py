@@ -60,6 +60,6 @@ def travelling_reward(
 
 
 def overrule(rules: Rules, reward: Floats, *, collided: Bools, reached: Bools) -> Floats:
-    """Put the collision's reward in place of the step's, then the goal's in place of both."""
+    """Replace the step's reward by the collision's, and either by the goal's."""
     crashed = np.where(collided, rules.collision_reward, reward)
     return np.where(reached, rules.goal_reward, crashed)

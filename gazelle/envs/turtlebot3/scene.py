@@ -86,7 +86,7 @@ def _load_world(world: object) -> World:
 
 
 def _fit(settings: NavigationSettings) -> FittedLidar:
-    """The robot with its lidar fitted; no notice for a bundled one, of which the data sheet tells."""
+    """Return the robot with its lidar fitted; without a notice for a bundled one."""
     robot = settings.robot or ROBOT
     if isinstance(robot, Model):
         model = robot

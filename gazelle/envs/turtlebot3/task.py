@@ -106,7 +106,7 @@ class TurtleBot3Task(BatchedTask):
         self._start_over(seed)
 
     def _start_over(self, seed: int) -> None:
-        """Draw from a seed anew, in a scene that has just begun."""
+        """Restart the random numbers from a seed, in a scene that has just started."""
         self._stream = Stream(seed, "turtlebot3/goals", self.nworld)
         self._goal[:] = NO_GOAL
         if self._starts is not None:
@@ -118,7 +118,7 @@ class TurtleBot3Task(BatchedTask):
         self._vary(worlds)
 
     def _vary(self, worlds: Worlds) -> None:
-        """Let robot and obstacles stand elsewhere than their files put them, if asked for."""
+        """Randomise the poses of robot and obstacles, if requested."""
         if self._starts is not None:
             goals = self.goals.points[self._goal[worlds]]
             self._starts.begin(worlds, goals, self._nearest)
@@ -248,7 +248,10 @@ class TurtleBot3Task(BatchedTask):
         self._start_distance[worlds] = np.maximum(distance, SHORTEST)
 
     def _draw(self, worlds: Worlds) -> NDArray[np.float64]:
-        """One number a goal: goal k of a world depends on the seed, the world and k alone."""
+        """Return a number for each goal.
+
+        Goal k of a world depends on the seed, the world and k alone.
+        """
         return self._stream.uniform(1, worlds)[:, 0]
 
     def _info(self, seen: RobotViews, worlds: Worlds, *, arrived: Bools, crashed: Bools) -> Info:

@@ -74,7 +74,7 @@ class WamvTask(DestinationTask):
         self.memory["distance"] = np.zeros(nworld)
 
     def start(self, worlds: Worlds) -> None:
-        """It floats at rest: at the origin, or somewhere in the channel."""
+        """Place the boat at rest: at the origin, or somewhere in the channel."""
         start = self.memory["start"]
         if self._squares is not None:
             share = self.draw(0.0, 1.0, worlds, 4)
@@ -91,7 +91,7 @@ class WamvTask(DestinationTask):
         return start
 
     def observe(self, worlds: Worlds | None) -> Floats:
-        """Place, angles, velocities and distance, rounded as published."""
+        """Return place, angles, velocities and distance, rounded as published."""
         place, motion = self.robot.placement(worlds), self.robot.motion(worlds)
         left = distance_to(place.position, self.rules.goal)
         seen = (
@@ -104,11 +104,11 @@ class WamvTask(DestinationTask):
         return rounded(np.hstack(seen), 1)
 
     def act(self, actions: NDArray[np.int64]) -> None:
-        """Both propellers are told what to do."""
+        """Command both propellers."""
         self.robot.inputs["cmd_drive"].send(DriveCommand(_LEFT[actions], _RIGHT[actions]))
 
     def outcome(self, observation: Floats32) -> StepOutcome:
-        """Reward and end of openai_ros' task, see `rules`."""
+        """Return reward and termination of openai_ros' task, see `rules`."""
         place = rounded(observation[:, :2], 1)
         success = reached(self.rules, place)
         over = success | outside(self.rules, place)
@@ -119,14 +119,14 @@ class WamvTask(DestinationTask):
         return StepOutcome(reward, over, {**info, **self.whereabouts(None)})
 
     def whereabouts(self, worlds: Worlds | None) -> Info:
-        """See `DestinationTask`."""
+        """Return the places of robot and goal; see `DestinationTask`."""
         place = self.robot.placement(worlds).position[:, :2]
         goal = np.tile(self.rules.goal[:2], (len(place), 1))
         return {"position": place, "goal": goal, "distance": np.hypot(*(place - goal).T)}
 
 
 def squares(*, held_out: bool) -> Floats:
-    """Middles of squares of a metre to start in (x, y) [m], shape (n, 2): of one colour of a chessboard.
+    """Return middles of 1 m start squares (x, y) [m], shape (n, 2): one colour of a chessboard.
 
     Args:
         held_out: Those of the other colour, which trainings do not see.

@@ -36,7 +36,7 @@ class GoalResult:
 
 
 def read_goals(file: Path) -> list[GoalPlace]:
-    """Goals from a text file: one ``x, y`` [m] a line, and a frame behind them if need be.
+    """Read goals from a text file: one ``x, y`` [m] a line, with an optional frame.
 
     Empty lines, and what follows a ``#``, are left out.
 

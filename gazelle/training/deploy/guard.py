@@ -63,12 +63,12 @@ class _Relay:
         self._last = order
 
     def stop(self) -> None:
-        """The node is silent: let the robot stand."""
+        """Stop the robot: the node is silent."""
         if self.active:
             self.obey((True, 0.0, 0.0))
 
     def say_farewell(self) -> None:
-        """The node is gone: let the robot stand, if it was driven at all."""
+        """Stop the robot, if it was driven at all: the node has ended."""
         for _ in range(_FAREWELLS if self._drove else 0):
             self._send(0.0, 0.0)
             time.sleep(_FAREWELL_GAP)
@@ -80,7 +80,7 @@ class _Relay:
 
 
 def main(text: str) -> int:
-    """Guard until the pipe on standard input ends; returns the exit code."""
+    """Guard the robot until the pipe on standard input ends; returns the exit code."""
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_IGN)
@@ -101,7 +101,7 @@ def main(text: str) -> int:
 
 
 def _serve(relay: _Relay, node: Node, timeout: float) -> None:
-    """Do what comes through the pipe until it ends, or somebody ends the guard's node."""
+    """Relay commands from the pipe until it ends, or the guard's node is shut down."""
     pipe, rest = sys.stdin.fileno(), b""
     while not node.closed:
         readable, _, _ = select.select([pipe], [], [], timeout)

@@ -52,7 +52,7 @@ class Guarded:
         return self._process.pid
 
     def order(self, command: VelocityCommand, *, active: bool) -> None:
-        """Say what the robot is to do; call it several times a second.
+        """Send a command; call it several times a second.
 
         Args:
             command: What.
@@ -68,7 +68,7 @@ class Guarded:
             raise GuardLostError("the guard of the deployed policy is gone") from error
 
     def close(self) -> None:
-        """Let the robot stand and the guard end; a second call does nothing."""
+        """Stop the robot and the guard; a second call does nothing."""
         with contextlib.suppress(Error):
             self.order(STAND, active=False)
         for pipe in (self._process.stdin, self._process.stdout):

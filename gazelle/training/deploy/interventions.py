@@ -43,7 +43,7 @@ class InterventionLog:
         self.count = 0
 
     def follow(self, tick: Tick, now: float) -> None:
-        """Take in what the pilot said; numbers in a reason do not make it another one."""
+        """Add the pilot's report; numbers in a reason do not make it another one."""
         cause = "" if tick.reason is None else tick.reason.partition(" at ")[0]
         if cause == self._cause:
             return

@@ -98,7 +98,7 @@ class DeployNode(Closeable):
         self._watch.start()
 
     def arm(self) -> str | None:
-        """Let the robot drive; returns why it may not, or None."""
+        """Arm the robot; returns the reason if it cannot be armed, or None."""
         with self._lock:
             fault = "the master is lost" if self._master_lost else self.pilot.arm(self._now())
             if fault is None:
@@ -106,7 +106,7 @@ class DeployNode(Closeable):
             return fault
 
     def disarm(self, why: str = "asked to") -> None:
-        """Let the robot stand."""
+        """Disarm and stop the robot."""
         with self._lock:
             if self.pilot.armed:
                 self.pilot.disarm()
@@ -115,7 +115,7 @@ class DeployNode(Closeable):
         self._news.set()
 
     def go_to(self, goals: Iterable[GoalPlace]) -> None:
-        """Go to these goals, one after another, and to no others."""
+        """Set these goals, reached one after another, in place of earlier ones."""
         with self._lock:
             ended = self.pilot.go_to(goals, self._now())
             if ended is not None:
@@ -123,7 +123,7 @@ class DeployNode(Closeable):
         self._news.set()
 
     def run(self, stop: threading.Event, *, arm: bool = False, until_done: bool = False) -> None:
-        """Drive until asked to stop, until somebody ends the node, or until all goals are done.
+        """Run until stopped, shut down, or until all goals are done.
 
         Args:
             stop: Asks to stop.
@@ -150,7 +150,7 @@ class DeployNode(Closeable):
             self.disarm("the node ends")
 
     def close(self) -> None:
-        """Let the robot stand and the node end; a second call does nothing."""
+        """Stop the robot and the node; a second call does nothing."""
         self._over.set()
         self.pilot.disarm()
         self._guard.close()
@@ -209,7 +209,7 @@ class DeployNode(Closeable):
         return response
 
     def _step(self) -> None:
-        """Let the pilot decide, and tell everybody."""
+        """Run the pilot once, and publish the results."""
         with self._lock:
             now, goal = self._now(), self.pilot.goal
             place = None if goal is None else self._frames.place(goal, self._frame)
@@ -258,7 +258,7 @@ class DeployNode(Closeable):
             self._status.publish(self._status.message_class(text))
 
     def _stop_without_guard(self) -> None:
-        """The guard is gone: send the robot zero from here."""
+        """Publish zero from here: the guard has ended."""
         kind = load_message("geometry_msgs/Twist")
         with contextlib.suppress(RosError):
             publisher = self.node.advertise("cmd_vel", kind, 1)
@@ -267,7 +267,7 @@ class DeployNode(Closeable):
                 self._over.wait(0.1)
 
     def _watch_master(self) -> None:
-        """Without a master nobody finds the node, to disarm it for instance: stand still then."""
+        """Stop the robot without a master: nobody could disarm the node."""
         proxy, missed = MasterProxy(self.node.master_uri, self.node.name), 0
         while not self._over.wait(_MASTER_LOOK_S) and not self.node.closed:
             try:

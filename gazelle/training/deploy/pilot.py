@@ -104,23 +104,23 @@ class Pilot:
     # What is heard -------------------------------------------------------------------------
 
     def see(self, scan: ScanReading, now: float) -> None:
-        """A scan came."""
+        """Store a scan."""
         self._scan = (now, scan)
         self._fresh = True
 
     def feel(self, odometry: OdometryReading, now: float) -> None:
-        """Odometry came, in the frame that goals are looked up in."""
+        """Store odometry, in the frame of the goals."""
         self._odometry = (now, odometry)
 
     def go_to(self, goals: Iterable[GoalPlace], now: float) -> GoalResult | None:
-        """Go to these goals from now on; returns what became of the one before, if there is one."""
+        """Set these goals; returns the result of the previous one, if there is one."""
         ended = None if self.goal is None else self._end("replaced", now)
         self.waiting = deque(goals)
         self._next_goal()
         return ended
 
     def arm(self, now: float) -> str | None:
-        """Let it drive; returns why it cannot, or None."""
+        """Arm the robot; returns the reason if it cannot be armed, or None."""
         fault = self._blind(now)
         if fault is None:
             self.armed = True
@@ -128,14 +128,14 @@ class Pilot:
         return fault
 
     def disarm(self) -> None:
-        """Let it stand, and not drive any more until it is armed."""
+        """Stop the robot until it is armed again."""
         self.armed = False
         self._halt()
 
     # What is done --------------------------------------------------------------------------
 
     def tick(self, now: float, place: tuple[float, float] | None) -> Tick:
-        """Say what the robot is to do now.
+        """Return the command of this moment.
 
         Args:
             now: Time [s].
@@ -162,7 +162,7 @@ class Pilot:
     def _drive(
         self, now: float, place: tuple[float, float], scan: ScanReading, odometry: OdometryReading
     ) -> Tick:
-        """Act if it is time to, and keep within the limits."""
+        """Act if it is due, and keep within the limits."""
         acted = None
         if self._fresh and now - self._acted_at >= _EARLY * self._period:
             self._fresh = False
@@ -226,7 +226,7 @@ class Pilot:
         self._halt()
 
     def _halt(self) -> None:
-        """Want nothing, and forget what the acts before led to."""
+        """Set a zero command, and discard the history of actions."""
         self._wanted = STAND
         self._acted_at = -math.inf
         self._began = self._distance = None
@@ -234,7 +234,7 @@ class Pilot:
         self._fresh = self._scan is not None
 
     def _blind(self, now: float) -> str | None:
-        """Why too little is known to drive; None if enough is."""
+        """Return the missing input that prevents driving; None if nothing is missing."""
         if self._scan is None:
             return "no scan yet"
         if self._odometry is None:

@@ -23,7 +23,7 @@ class Brain(Protocol):
     """Protocol of a policy network: observations (N, entries) to its outputs and actions."""
 
     def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:
-        """Outputs of shape (N, outputs), and actions of shape (N,) or (N, actions)."""
+        """Return outputs of shape (N, outputs), and actions of shape (N,) or (N, actions)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +59,7 @@ class Policy:
         self.contract = contract
 
     def decide(self, obs: Floats32) -> Decision:
-        """Decide for one observation, shape (1, entries)."""
+        """Return the decision for one observation, shape (1, entries)."""
         outputs, actions = self.brain.decide(obs)
         action = tuple(float(value) for value in np.asarray(actions[0]).reshape(-1))
         return Decision(action, command_of(action, self.contract.action), float(outputs.max()))

@@ -48,7 +48,7 @@ class ScanReading:
         return failed
 
     def angles(self, turned: float = 0.0) -> Floats:
-        """Of the rays from straight ahead [rad], shape (rays,), in [-pi, pi].
+        """Return angles of the rays from straight ahead [rad], shape (rays,), in [-pi, pi].
 
         Args:
             turned: How far the lidar itself is turned to the left [rad].
@@ -163,18 +163,18 @@ def sampled(scan: ScanReading, rule: ScanRule, rays: int, *, turned: float = 0.0
 
 
 def distance_to_goal(odometry: OdometryReading, goal: tuple[float, float]) -> float:
-    """Straight distance [m]."""
+    """Return the straight distance [m]."""
     return math.hypot(goal[0] - odometry.x, goal[1] - odometry.y)
 
 
 def heading_to_goal(odometry: OdometryReading, goal: tuple[float, float]) -> float:
-    """Angle from straight ahead to the goal, left positive [rad], in [-pi, pi]."""
+    """Return the angle from straight ahead to the goal, left positive [rad], in [-pi, pi]."""
     angle = math.atan2(goal[1] - odometry.y, goal[0] - odometry.x) - odometry.yaw
     return float(_wrapped(np.array(angle)))
 
 
 def _wrapped(angles: Floats) -> Floats:
-    """Angles in [-pi, pi]; those in it stay as they are, to the last bit."""
+    """Return angles in [-pi, pi]; those in it stay as they are, to the last bit."""
     over = np.abs(angles) > np.pi
     wrapped: Floats = np.where(
         over, angles - 2.0 * np.pi * np.round(angles / (2.0 * np.pi)), angles

@@ -29,7 +29,7 @@ _SERVICE_S = 2.0
 
 
 def run_stage(stage: int, arguments: Sequence[str]) -> int:
-    """Learn a stage in the simulator, then go to its goals on the graph until told to end.
+    """Train a stage in the simulator, then drive to its goals on the graph until shutdown.
 
     Private parameters: ``~run``, the folder of a run, takes the place of the training; ``~algo``
     (``dqn``), ``~steps`` (the recipe's), ``~seed`` (0), ``~out`` (``runs``) are those of ``gazelle train``.
@@ -93,7 +93,7 @@ class _Tour:
         )
 
     def drive(self) -> None:
-        """Drive until told to end, or until so many goals are done."""
+        """Drive until shutdown, or until so many goals are done."""
         with self._deployed as deployed:
             deployed.go_to([next(self._goals)])
             deployed.run(self._stop, arm=True)
@@ -113,7 +113,7 @@ class _Tour:
 
 
 def _goals(table: GoalTable, seed: int) -> Iterator[GoalPlace]:
-    """Places of a table at random, without end."""
+    """Yield places of a table at random, without end."""
     chance = np.random.default_rng(seed)
     at = np.array([table.start])
     while True:
@@ -123,7 +123,10 @@ def _goals(table: GoalTable, seed: int) -> Iterator[GoalPlace]:
 
 
 def _begin_anew(node: Node) -> None:
-    """Put a Gazebo's models back; time goes on. A real robot is put back by hand."""
+    """Reset a Gazebo's models; a real robot is put back by hand.
+
+    A real robot is put back by hand.
+    """
     try:
         Gazebo(node, timeout=_SERVICE_S).reset_world()
     except ClientError as error:

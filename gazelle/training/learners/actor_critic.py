@@ -32,7 +32,7 @@ class CriticUpdate:
         raise NotImplementedError
 
     def _improve_critic(self, features: torch.Tensor, batch: Any) -> torch.Tensor:
-        """One step of the critics' optimiser; their loss."""
+        """Update the critics by one step; returns their loss."""
         target = self._target(batch)
         known = torch.cat((features, batch.actions), dim=1)
         errors = [self._outputs(net, known) - target for net in self.critic.q_networks]
@@ -55,12 +55,15 @@ class CriticUpdate:
 
 
 def follow(target: nn.Module, learnt: nn.Module, share: float) -> None:
-    """Let a target come nearer to what was learnt, by a share of the way."""
+    """Update a target towards the trained parameters, by a share of the difference."""
     torch._foreach_lerp_(list(target.parameters()), list(learnt.parameters()), share)
 
 
 def outputs_of(net: nn.Sequential, inputs: torch.Tensor, *, bfloat16: bool) -> torch.Tensor:
-    """Of a network whose hidden layers may multiply in bfloat16; the last one never does."""
+    """Return the outputs of a network with hidden layers in bfloat16 on request.
+
+    The last never is.
+    """
     last = max(i for i, layer in enumerate(net) if isinstance(layer, nn.Linear))
     with torch.autocast("cpu", torch.bfloat16, enabled=bfloat16):
         hidden = net[:last](inputs)
@@ -70,7 +73,7 @@ def outputs_of(net: nn.Sequential, inputs: torch.Tensor, *, bfloat16: bool) -> t
 
 @contextlib.contextmanager
 def frozen(parameters: Iterable[nn.Parameter]) -> Any:
-    """Ask for no gradients of these meanwhile."""
+    """Disable gradients of these parameters while it lasts."""
     held = list(parameters)
     for each in held:
         each.requires_grad_(False)

@@ -21,7 +21,7 @@ class ScaledDQN(DQN):  # type: ignore[misc]  # untyped base
     scale: ObservationScale
 
     def train(self, *arguments: Any, **options: Any) -> None:
-        """Learn from minibatches."""
+        """Train on minibatches."""
         self.scale.refresh()
         super().train(*arguments, **options)
 

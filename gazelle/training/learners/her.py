@@ -66,7 +66,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         done: npt.NDArray[Any],
         infos: list[dict[str, Any]],
     ) -> None:
-        """Remember one control step of all copies."""
+        """Add one control step of all copies."""
         self.episodes[self.pos] = self.current
         super().add(obs, next_obs, action, reward, done, infos)
         self.steps += 1
@@ -85,7 +85,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         }
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Continue with a memory that `get_state` returned."""
+        """Restore a memory that `get_state` returned."""
         super().set_state(state)
         self.ends[:], self.current[:] = state["ends"], state["current"]
         self.steps = int(state["steps"])
@@ -96,7 +96,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
     def _parts(
         self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
     ) -> dict[str, npt.NDArray[Any]]:
-        """The transitions at the given rows and slots, the first of them with other goals."""
+        """Return transitions at the given rows and slots, the first of them with other goals."""
         count = round(self._share * len(rows))
         if not count:
             return super()._parts(rows, slots)
@@ -119,7 +119,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         slots: npt.NDArray[np.intp],
         later: npt.NDArray[np.intp],
     ) -> None:
-        """Change, in place, most of the steps whose goals were reached before them."""
+        """Resample, in place, most of the steps whose goals were reached before them."""
         looked_at = np.arange(len(rows))
         for _ in range(_ROUNDS):
             at, of = rows[looked_at], slots[looked_at]
@@ -144,7 +144,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
     def _later(
         self, rows: npt.NDArray[np.intp], slots: npt.NDArray[np.intp]
     ) -> npt.NDArray[np.intp]:
-        """Rows of the same episodes, the given ones or later."""
+        """Return rows of the same episodes, the given ones or later."""
         ends = self.ends[self.episodes[rows, slots], slots]
         ends = np.where(ends == _RUNNING, self.steps, ends)
         # How many rows ago: the newest is the one before the next to be written.

@@ -77,7 +77,7 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
         )
 
     def new_order(self, count: int) -> torch.Tensor:
-        """So many transitions' numbers in a new random order."""
+        """Return a random order of so many transitions."""
         return torch.as_tensor(self.rng.permutation(count))
 
     def _flat(self, array: npt.NDArray[Any]) -> torch.Tensor:
@@ -97,7 +97,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
 
     @staticmethod
     def _wrap_env(env: VectorEnvAdapter, *_arguments: Any, **_options: Any) -> VectorEnvAdapter:
-        """As it is: episodes are counted by it, and pictures are turned by the network."""
+        """Return the environment unchanged: episodes and picture axes are handled elsewhere."""
         return env
 
     def _setup_model(self) -> None:
@@ -154,7 +154,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         buffer.valid = met.valid
 
     def learn(self, *arguments: Any, **options: Any) -> FastPPO:
-        """As Stable-Baselines3's; no update is under way when it returns or raises."""
+        """Train like Stable-Baselines3's; no update is running when it returns or raises."""
         try:
             with short_turns(wanted=self.overlap):
                 super().learn(*arguments, **options)
@@ -167,7 +167,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         return self
 
     def train(self) -> None:
-        """Learn from the rollout, or begin to if updates run ahead; see `UpdateAhead`."""
+        """Train on the rollout, or start to if updates run ahead; see `UpdateAhead`."""
         self.policy.set_training_mode(True)
         self._update_learning_rate(self.policy.optimizer)
         weights = Weights(
@@ -207,24 +207,24 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         return DenseUpdate(self.policy, self.max_grad_norm, bfloat16=rounded)
 
     def go_on_ahead(self, state: Mapping[str, Any]) -> None:
-        """Have an update to hand over, of which `UpdateAhead.get_state` told, as in a checkpoint."""
+        """Restore an update to hand over, from `UpdateAhead.get_state`, as in a checkpoint."""
         self.ahead = UpdateAhead.from_state(self._dense_update(), state)
 
     def _hand_over(self) -> None:
-        """Let the policy have what the update that is under way makes of it, if there is one."""
+        """Apply the running update's result to the policy, if there is one."""
         if self.ahead is not None:
             told = self.ahead.hand_over()
             self.ahead = None
             self._learned(told)
 
     def _learned(self, told: list[float]) -> None:
-        """Take note of an update, then scale observations by all that were seen so far."""
+        """Record an update, then scale observations by all that were seen so far."""
         self._n_updates += self.n_epochs
         self._record(told)
         self.scale.refresh()
 
     def _learn_from(self, batch: Transitions, weights: Weights) -> torch.Tensor:
-        """One step of the optimiser; what the curves show of it."""
+        """Update the policy by one step; returns what the curves show of it."""
         loss, told = loss_of(self.policy, batch, weights)
         self.policy.optimizer.zero_grad()
         torch.autograd.backward(loss)
@@ -233,7 +233,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         return told
 
     def _record(self, told: list[float]) -> None:
-        """Tell the curves, under Stable-Baselines3's names."""
+        """Record the curves under Stable-Baselines3's names."""
         for name, value in zip((*NAMES, *_MORE_NAMES), told, strict=True):
             self.logger.record(f"train/{name}", value)
         if hasattr(self.policy, "log_std"):
@@ -241,7 +241,10 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         self.logger.record("train/n_updates", self._n_updates, exclude="tensorboard")
 
     def _finish(self, buffer: MaskedRolloutBuffer, cut_off: CutOff) -> None:
-        """Values, bootstrapped rewards of cut-off episodes (Pardo et al. 2018), advantages."""
+        """Compute values, bootstrapped rewards of truncated episodes (Pardo et al.
+
+        2018), advantages. 2018), advantages.
+        """
         rows, copies = buffer.rewards.shape
         flat = buffer.observations.reshape(rows * copies, *buffer.obs_shape)
         buffer.values[:] = self._values(flat).reshape(rows, copies)
@@ -262,7 +265,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
 
 
 def _log_probs(actor: Actor, outputs: Floats32, actions: npt.NDArray[Any]) -> Floats32:
-    """Log-probabilities of all actions of a rollout, shape (steps, copies)."""
+    """Return log-probabilities of all actions of a rollout, shape (steps, copies)."""
     rows, copies, width = outputs.shape
     flat = actions.reshape(rows * copies, -1)
     if actor.discrete:

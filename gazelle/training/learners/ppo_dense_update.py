@@ -78,7 +78,7 @@ class DenseUpdate:
 
     @torch.no_grad()
     def learn_from(self, batch: Transitions, weights: Weights) -> torch.Tensor:
-        """One step of the optimiser; what the curves show of it, see `ppo_update.NAMES`.
+        """Update by one step; returns what the curves show of it, see `ppo_update.NAMES`.
 
         Args:
             batch: The minibatch.
@@ -110,19 +110,19 @@ class DenseUpdate:
         return torch.stack((loss, -gain, error, -entropy, kl, (ratio != within).float().mean()))
 
     def finish(self) -> None:
-        """Give weights and moments back to the policy and its optimiser."""
+        """Copy weights and moments back to the policy and its optimiser."""
         self._adam.give_back()
 
     def get_state(self) -> dict[str, Any]:
-        """Weights and moments, as they are and not given back yet, for `set_state`."""
+        """Return weights and moments, before they are copied back, for `set_state`."""
         return self._adam.get_state()
 
     def set_state(self, state: Mapping[str, Any]) -> None:
-        """Go on from what `get_state` returned."""
+        """Restore what `get_state` returned."""
         self._adam.set_state(state)
 
     def _judge_choices(self, outputs: torch.Tensor, batch: Transitions, ent_coef: float) -> Any:
-        """Logarithms of ratios, mean entropy, and what leads from the loss of the first to outputs."""
+        """Return logarithms of ratios, mean entropy, and the gradient of the loss by outputs."""
         # Choices first: sums over a few rows are many times faster than within short rows.
         logs = outputs.t().contiguous().log_softmax(dim=0)
         chosen = batch.actions[None]
@@ -179,7 +179,7 @@ class _Perceptron:
         return nn.functional.linear(self._given[-1], *self._weights[-1])
 
     def backward(self, slope: torch.Tensor) -> None:
-        """Work out gradients from that of the loss by the outputs of the last `forward`."""
+        """Compute gradients from that of the loss by the outputs of the last `forward`."""
         for level in reversed(range(len(self._weights))):
             given = self._given[level]
             slope = slope.to(given.dtype)
@@ -225,12 +225,12 @@ class _FlatAdam:
         self.weights.addcdiv_(self._first, size, value=-self._rate / (1.0 - first**self._count))
 
     def get_state(self) -> dict[str, Any]:
-        """Weights, moments and how many steps led to them."""
+        """Return weights, moments and the number of steps."""
         flat = {name: getattr(self, f"_{name}").numpy() for name in ("first", "second")}
         return {**flat, "weights": self.weights.numpy(), "count": self._count}
 
     def set_state(self, state: Mapping[str, Any]) -> None:
-        """Go on from what `get_state` returned."""
+        """Restore what `get_state` returned."""
         for flat, name in ((self._first, "first"), (self._second, "second")):
             flat.copy_(torch.as_tensor(state[name]))
         self.weights.copy_(torch.as_tensor(state["weights"]))
@@ -260,7 +260,7 @@ def _joined(tensors: Sequence[torch.Tensor]) -> torch.Tensor:
 
 
 def _split(flat: torch.Tensor, like: Sequence[torch.Tensor]) -> list[torch.Tensor]:
-    """Views of a row, of the shapes of other tensors one after the other."""
+    """Return views of a row, of the shapes of other tensors one after the other."""
     ends = list(itertools.accumulate(tensor.numel() for tensor in like))
     starts = [0, *ends[:-1]]
     return [

@@ -33,7 +33,7 @@ class UpdateAhead:
         self._thread: threading.Thread | None = None
 
     def start(self) -> None:
-        """Begin."""
+        """Start the update."""
         # Who interrupts the process twice does not want to wait for it.
         self._thread = threading.Thread(target=self._run, name="ppo_update", daemon=True)
         self._thread.start()
@@ -60,7 +60,7 @@ class UpdateAhead:
 
     @classmethod
     def from_state(cls, update: DenseUpdate, state: Mapping[str, Any]) -> UpdateAhead:
-        """One that is done, from what `get_state` returned."""
+        """Return a finished update, from what `get_state` returned."""
         update.set_state(state)
         found = cls(update, list)
         found._told = [float(value) for value in state["told"]]

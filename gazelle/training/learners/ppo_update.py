@@ -38,7 +38,7 @@ class Transitions:
     returns: torch.Tensor
 
     def pick(self, rows: torch.Tensor | slice) -> Transitions:
-        """Some of them, in this order; those of a slice are not copied."""
+        """Return some of them, in this order; those of a slice are not copied."""
         return Transitions(
             self.features[rows],
             self.actions[rows],
@@ -48,7 +48,7 @@ class Transitions:
         )
 
     def minibatches(self, order: torch.Tensor, size: int) -> Iterator[Transitions]:
-        """All of them in this order, so many at a time."""
+        """Yield all of them in this order, so many at a time."""
         ordered = self.pick(order)
         for start in range(0, len(order), size):
             yield ordered.pick(slice(start, start + size))
@@ -114,7 +114,7 @@ def learns_features(policy: Any) -> bool:
 def _judged(
     policy: Any, outputs: torch.Tensor, actions: torch.Tensor
 ) -> tuple[torch.Tensor, torch.Tensor]:
-    """Log-probabilities of actions, shape (n,), and the mean entropy."""
+    """Return log-probabilities of actions, shape (n,), and the mean entropy."""
     if isinstance(policy.action_space, gym.spaces.Discrete):
         logs = outputs.log_softmax(dim=1)
         entropy = -(logs * logs.exp()).sum(dim=1).mean()

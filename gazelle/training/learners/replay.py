@@ -26,17 +26,17 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         done: npt.NDArray[Any],
         infos: list[dict[str, Any]],
     ) -> None:
-        """Remember one control step of all copies."""
+        """Add one control step of all copies."""
         self.valid[self.pos] = [not info.get("reset_step", False) for info in infos]
         super().add(obs, next_obs, action, reward, done, infos)
 
     def sample(self, batch_size: int, env: Any = None) -> Any:
-        """Draw transitions evenly from the valid ones."""
+        """Sample transitions uniformly from the valid ones."""
         del env
         return self._gather(*self._draw(batch_size))
 
     def sample_first(self, batch_size: int, rows: int) -> Any:
-        """Draw transitions of the first control steps, with their own goals.
+        """Sample transitions of the first control steps, with their own goals.
 
         Args:
             batch_size: How many.
@@ -58,7 +58,7 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         return ReplayBufferSamples(**{name: self.to_torch(part) for name, part in parts.items()})
 
     def _draw(self, count: int) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-        """Rows and slots of so many valid transitions."""
+        """Return rows and slots of so many valid transitions."""
         filled = self.buffer_size if self.full else self.pos
         rows = np.random.randint(0, filled, size=count)  # noqa: NPY002  # as the parent draws
         slots = np.random.randint(0, self.n_envs, size=count)  # noqa: NPY002
@@ -76,7 +76,7 @@ class MaskedReplayBuffer(ReplayBuffer):  # type: ignore[misc]  # untyped base
         return state | {"pos": self.pos, "full": self.full}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Continue with a memory that `get_state` returned."""
+        """Restore a memory that `get_state` returned."""
         for name in self._names():
             getattr(self, name)[: len(state[name])] = state[name]
         self.pos, self.full = int(state["pos"]), bool(state["full"])

@@ -30,7 +30,7 @@ class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
     critic_weight: ClassVar[float] = 0.5
 
     def train(self, gradient_steps: int, batch_size: int = 64) -> None:
-        """Learn from so many minibatches."""
+        """Train on so many minibatches."""
         # The memory holds observations as they were, so all that is learnt from is scaled alike.
         self.scale.refresh()
         self.policy.set_training_mode(True)
@@ -65,7 +65,7 @@ class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
     def _improve_actor(
         self, features: torch.Tensor, actions: torch.Tensor, logs: torch.Tensor
     ) -> torch.Tensor:
-        """One step of the actor's optimiser, and one of the entropy's price; the former's loss.
+        """Update the actor and the entropy coefficient by one step; returns the actor's loss.
 
         Args:
             features: Of the minibatch, shape (n, entries).
@@ -85,7 +85,7 @@ class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
         return loss.detach()
 
     def _drawn(self, features: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
-        """Actions, shape (n, actions), and the logarithms of their densities, shape (n, 1)."""
+        """Return actions, shape (n, actions), and logarithms of their densities, shape (n, 1)."""
         latent = self._outputs(self.actor.latent_pi, features)
         mean = self.actor.mu(latent)
         log_std = self.actor.log_std(latent).clamp(*_LOG_STD)
@@ -98,7 +98,7 @@ class FastSAC(CriticUpdate, SAC):  # type: ignore[misc]  # untyped base
 
     @torch.no_grad()
     def _follow(self) -> None:
-        """Let the targets come nearer."""
+        """Update the target networks."""
         follow(self.critic_target, self.critic, self.tau)
 
 

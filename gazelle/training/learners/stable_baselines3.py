@@ -49,7 +49,7 @@ def build_library_learner(recipe: Recipe, env: VectorEnvAdapter, common: dict[st
 
 
 def _check_options(algo: str, settings: LibrarySettings, kind: type[Any]) -> None:
-    """Refuse what the class does not take, or what is given to it anyway."""
+    """Check that options are known to the class and not set elsewhere."""
     taken = set(inspect.signature(kind).parameters) - _GIVEN
     for name in settings.options:
         if name in _GIVEN:
@@ -73,7 +73,7 @@ def _find(name: str) -> type[Any]:
 
 
 def _rescaling(kind: type[Any]) -> type[Any]:
-    """The algorithm, scaling observations anew after each update, when no rollout is under way."""
+    """Return the algorithm, extended to rescale observations after each update."""
 
     class Rescaling(kind):  # type: ignore[misc]  # of a class that is looked up
         def train(self, *arguments: Any, **options: Any) -> None:

@@ -52,7 +52,7 @@ class DeterministicLearner(CriticUpdate, TD3):  # type: ignore[misc]  # untyped 
     greatest_reward: float = 0.0
 
     def train(self, gradient_steps: int, batch_size: int = 100) -> None:
-        """Learn from so many minibatches."""
+        """Train on so many minibatches."""
         # The memory holds observations as they were, so all that is learnt from is scaled alike.
         self.scale.refresh()
         self.policy.set_training_mode(True)
@@ -89,7 +89,7 @@ class DeterministicLearner(CriticUpdate, TD3):  # type: ignore[misc]  # untyped 
         return target.clamp(self.least_reward * horizon, self.greatest_reward * horizon)
 
     def _improve_actor(self, features: torch.Tensor, shown: _Imitated | None) -> torch.Tensor:
-        """One step of the actor's optimiser; its loss.
+        """Update the actor by one step; returns its loss.
 
         Args:
             features: Of the minibatch, shape (n, entries).
@@ -124,14 +124,14 @@ class DeterministicLearner(CriticUpdate, TD3):  # type: ignore[misc]  # untyped 
 
     @torch.no_grad()
     def _follow(self) -> None:
-        """Let the targets come nearer."""
+        """Update the target networks."""
         follow(self.critic_target, self.critic, self.tau)
         follow(self.actor_target, self.actor, self.tau)
 
     def _sample_action(
         self, learning_starts: int, action_noise: Any = None, n_envs: int = 1
     ) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
-        """Actions for the environment, and as the memory keeps them: shown, or some drawn evenly."""
+        """Return actions for the environment and for the memory: shown, or some random ones."""
         if self.num_timesteps < learning_starts and self.demonstrator is not None:
             shape = n_envs, *self.action_space.shape
             shown = shown_actions(self.demonstrator, self._last_obs, shape)

@@ -24,7 +24,7 @@ def call_all(
     *,
     workers: int,
 ) -> None:
-    """Have every job done; the next one goes to the worker that is free first.
+    """Run every job; the next one goes to the first free worker.
 
     A worker that is lost is replaced, and its job is tried again.
 
@@ -88,7 +88,7 @@ class _Queue(Generic[JobT]):
             return next(self._jobs)
 
     def finish(self, job: JobT, answer: Any) -> None:
-        """Tell what came of it."""
+        """Report the result of a job."""
         with self._lock:
             self._done(job, answer)
 
@@ -111,7 +111,7 @@ class _Caller(Generic[JobT]):
             raise self._error
 
     def end(self) -> None:
-        """Ask the worker to end, whatever it is doing."""
+        """Terminate the worker, whatever it is doing."""
         self._stopped.set()
         if self._link is not None:
             self._link.end()

@@ -34,11 +34,11 @@ class RayLink:
         self._answer: Any = None
 
     def send(self, method: str, *arguments: Any) -> None:
-        """See `WorkerLink.send`."""
+        """Send a request; see `WorkerLink.send`."""
         self._answer = getattr(self.actor, method).remote(*arguments)
 
     def receive(self) -> Any:
-        """See `WorkerLink.receive`."""
+        """Receive an answer; see `WorkerLink.receive`."""
         ray = connected()
         try:
             return ray.get(self._answer)
@@ -48,11 +48,11 @@ class RayLink:
             raise error.cause from error
 
     def end(self) -> None:
-        """See `WorkerLink.end`."""
+        """Terminate the worker; see `WorkerLink.end`."""
         self.close()
 
     def close(self) -> None:
-        """End the actor; again is harmless."""
+        """Stop the actor; repeated calls are harmless."""
         connected().kill(self.actor)
 
 
@@ -88,7 +88,7 @@ def connect(address: str | None) -> int:
 
 
 def connected() -> Any:
-    """Ray, which `connect` has joined to a cluster."""
+    """Return Ray, which `connect` has joined to a cluster."""
     import ray
 
     return ray

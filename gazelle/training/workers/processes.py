@@ -53,11 +53,11 @@ class ProcessLink:
         return self._process.pid
 
     def send(self, method: str, *arguments: Any) -> None:
-        """See `WorkerLink.send`."""
+        """Send a request; see `WorkerLink.send`."""
         self._write((method, arguments))
 
     def receive(self) -> Any:
-        """See `WorkerLink.receive`."""
+        """Receive an answer; see `WorkerLink.receive`."""
         try:
             error, answer = read(_open(self._process.stdout))
         except (EOFError, OSError) as gone:
@@ -73,12 +73,12 @@ class ProcessLink:
             raise WorkerLostError(str(error)) from error
 
     def end(self) -> None:
-        """See `WorkerLink.end`."""
+        """Terminate the worker; see `WorkerLink.end`."""
         with contextlib.suppress(OSError):
             _open(self._process.stdin).close()
 
     def close(self) -> None:
-        """End the process, by force if it does not."""
+        """Stop the process, by force if necessary."""
         self.end()
         try:
             self._process.wait(_PATIENCE)
@@ -97,7 +97,7 @@ def start_processes(blueprint: Blueprint, workers: int) -> Callable[[Sequence[in
 
 
 def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
-    """A worker's life: answer requests until there are no more."""
+    """Serve requests until there are no more."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)  # for the driver, which saves and ends its workers
     inbox: queue.SimpleQueue[Any] = queue.SimpleQueue()
@@ -118,7 +118,7 @@ def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
 
 
 def _listen(requests: IO[bytes], inbox: queue.SimpleQueue[Any]) -> None:
-    """Pass on requests; when the driver needs the worker no more, or has gone, end it soon."""
+    """Forward requests; end the worker soon after the driver releases it or exits."""
     with contextlib.suppress(EOFError, OSError):
         while True:
             inbox.put(read(requests))

@@ -10,7 +10,7 @@ from gazelle.training.workers.processes import serve
 
 
 def main() -> None:
-    """Keep the channel to ourselves: what anybody prints goes to the error output."""
+    """Serve on the original standard output; all other output goes to standard error."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
     code = 0

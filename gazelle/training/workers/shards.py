@@ -117,11 +117,11 @@ class Shard:
         return self.copies.reset()
 
     def collect(self, actor: Actor, steps: int) -> Rollout | None:
-        """Let a policy act for so many steps."""
+        """Run a policy for so many steps."""
         return play(self.copies, actor, steps, rng=self.rng)
 
     def step(self, actions: npt.NDArray[Any]) -> ShardStep:
-        """One control step."""
+        """Step once."""
         step = self.copies.advance(actions)
         rewards = self.copies.scaled(step)
         ends = (step.terminated, step.truncated)
@@ -135,7 +135,7 @@ class Shard:
         return {"copies": inside, "rng": self.rng.bit_generator.state}
 
     def set_state(self, state: Mapping[str, Any]) -> None:
-        """Go on from a state that `get_state` returned, also in another process."""
+        """Restore a state that `get_state` returned, also in another process."""
         self.copies.set_state(state["copies"])
         self.rng.bit_generator.state = state["rng"]
 
@@ -174,13 +174,13 @@ class ShardHost:
         return {n: (each.reset(seed), each.get_state()) for n, each in self._shards.items()}
 
     def collect(self, actor: Actor, steps: int) -> dict[int, tuple[Rollout | None, Any]]:
-        """Rollouts, and the states after them, by shard."""
+        """Return rollouts, and the states after them, by shard."""
         return {
             n: (each.collect(actor, steps), each.get_state()) for n, each in self._shards.items()
         }
 
     def step(self, actions: Mapping[int, npt.NDArray[Any]]) -> dict[int, tuple[ShardStep, None]]:
-        """One control step; what it brought by shard."""
+        """Step once; returns the results by shard."""
         return {n: (each.step(actions[n]), None) for n, each in self._shards.items()}
 
     def get_state(self) -> dict[int, tuple[None, Any]]:
@@ -188,7 +188,7 @@ class ShardHost:
         return {n: (None, each.get_state()) for n, each in self._shards.items()}
 
     def set_state(self, states: Mapping[int, Any]) -> dict[int, tuple[None, Any]]:
-        """Go on from other states."""
+        """Restore states."""
         for number, each in self._shards.items():
             each.set_state(states[number])
         return self.get_state()

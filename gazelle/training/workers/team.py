@@ -20,7 +20,7 @@ class WorkerLink(Protocol):
     """A way to one worker, in which an object, such as a `ShardHost`, does what it is asked."""
 
     def send(self, method: str, *arguments: Any) -> None:
-        """Have a method of the object called.
+        """Call a method of the object.
 
         Raises:
             WorkerLostError: The worker is not there any more.
@@ -34,10 +34,10 @@ class WorkerLink(Protocol):
         """
 
     def end(self) -> None:
-        """Ask the worker to end, whatever it is doing; does not wait."""
+        """Terminate the worker, whatever it is doing; does not wait."""
 
     def close(self) -> None:
-        """End the worker and wait for it."""
+        """Stop the worker and wait for it."""
 
 
 class Team:
@@ -85,7 +85,7 @@ class Team:
         return spaces
 
     def call(self, method: str, *arguments: Any) -> dict[int, Any]:
-        """Have all workers do something at once.
+        """Call a method of all workers at once.
 
         Args:
             method: Of `ShardHost`.
@@ -118,7 +118,7 @@ class Team:
         return None if not known or None in known.values() else dict(sorted(known.items()))
 
     def close(self) -> None:
-        """End all workers."""
+        """Stop all workers."""
         for link in self._links:
             link.end()
         while self._links:
@@ -138,7 +138,7 @@ class Team:
                 self._states[number] = state
 
     def _again(self, worker: int, method: str, arguments: tuple[Any, ...]) -> Any:
-        """Ask a new worker for what a lost one did not answer."""
+        """Call a new worker for a lost one's request."""
         share = self._shares[worker]
         for _ in range(_TRIES):
             self._links[worker].close()

@@ -75,11 +75,11 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         return None if self._copy is None else self._copy()
 
     def watch(self, on_observations: Callable[[Floats32], None]) -> None:
-        """Have something called with what is observed after each step, shape (N, ...)."""
+        """Call a function with the observations after each step, shape (N, ...)."""
         self._on_observations = on_observations
 
     def seed(self, seed: int | None = None) -> Sequence[int | None]:
-        """Remember the seed for the next reset."""
+        """Store the seed for the next reset."""
         self._seed = seed
         return [seed] * self.num_envs
 
@@ -98,7 +98,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         rng: np.random.Generator,
         on_step: Callable[[], bool] | None = None,
     ) -> Rollout | None:
-        """Have the workers let a policy act, see `rollout.play`; they draw the chances themselves."""
+        """Run a policy on the workers, see `rollout.play`; they sample actions themselves."""
         del rng
         met = join(list(self.team.call("collect", actor, steps).values()))
         self.obs, self.starts = met.last_obs, met.last_starts
@@ -113,11 +113,11 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         return met
 
     def step_async(self, actions: npt.NDArray[Any]) -> None:
-        """Take the actions of the next step."""
+        """Store the actions of the next step."""
         self._actions = actions
 
     def step_wait(self) -> tuple[Floats32, Floats32, Bools, list[dict[str, Any]]]:
-        """Do the step: observations, rewards, dones, infos."""
+        """Step; returns observations, rewards, dones, infos."""
         parts = dict(enumerate(np.split(self._actions, self._ends)))
         answers = self.team.call("step", parts).values()
         before = np.split(self.obs, self._ends)
@@ -136,7 +136,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         return self.obs, rewards, self.starts, infos
 
     def _tell(self, step: ShardStep, shift: int, infos: list[dict[str, Any]]) -> None:
-        """Infos of one shard's copies, as Stable-Baselines3 defines them."""
+        """Fill infos of one shard's copies, as Stable-Baselines3 defines them."""
         if step.ended is not None and self.on_episodes is not None:
             self.on_episodes(step.ended.moved(shift))
         if step.final_obs is not None:
@@ -157,20 +157,23 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         return {"shards": shards, "obs": self.obs, "starts": self.starts}
 
     def set_state(self, state: dict[str, Any]) -> None:
-        """Go on from a state that `get_state` returned, whatever the number of workers then."""
+        """Restore a state that `get_state` returned, whatever the number of workers then."""
         self.team.call("set_state", dict(enumerate(state["shards"])))
         self.obs = np.array(state["obs"], observation_dtype(self.observation_space))
         self.starts = np.array(state["starts"], np.bool_)
 
     def close(self) -> None:
-        """End the workers."""
+        """Stop the workers."""
         self.team.close()
         own = self.__dict__.get("_own_copy")
         if own is not None:
             own.close()
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        """An attribute of this environment, once for each copy: those of the workers stay there."""
+        """Return an attribute of this environment, once for each copy.
+
+        Those of the workers stay there.
+        """
         return [getattr(self, attr_name, None) for _ in self._get_indices(indices)]
 
     def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
