@@ -27,7 +27,7 @@ __all__ = [
 
 
 def root() -> Path:
-    """The folder that holds ``models/``, ``worlds/`` and one folder a ROS package."""
+    """Return the folder that holds ``models/``, ``worlds/`` and one folder a ROS package."""
     return Path(str(resources.files(__name__)))
 
 
@@ -38,7 +38,7 @@ def worlds() -> dict[str, Path]:
 
 
 def robots() -> dict[str, Path]:
-    """Robot files (xacro) by name, such as ``turtlebot3_burger``."""
+    """Return robot files (xacro) by name, such as ``turtlebot3_burger``."""
     files = sorted(root().glob("*_description/urdf/*.urdf.xacro"))
     names = {path.name.removesuffix(".urdf.xacro"): path for path in files}
     # Such as kobuki_standalone: the same robot, by the name that other people's files include.
@@ -53,7 +53,7 @@ def models() -> dict[str, Path]:
 
 
 def world(name: str) -> Path:
-    """The file of a bundled world.
+    """Return the file of a bundled world.
 
     Raises:
         ResolveError: No world has that name; the hint names the closest.
@@ -62,7 +62,7 @@ def world(name: str) -> Path:
 
 
 def robot(name: str) -> Path:
-    """The file of a bundled robot.
+    """Return the file of a bundled robot.
 
     Raises:
         ResolveError: No robot has that name; the hint names the closest.

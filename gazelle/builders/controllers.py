@@ -82,7 +82,7 @@ def control_files(
     kind: Kind = "trajectory",
     rate: float = 50.0,
 ) -> ControlFiles:
-    """Files that bring a robot up under ros_control, here and in Gazebo.
+    """Return files that bring a robot up under ros_control, here and in Gazebo.
 
     Each moving joint that follows no other gets a transmission, if it has none. Gains are a first
     guess from the inertia that each joint moves in its initial pose: a critically damped swing
@@ -126,7 +126,7 @@ def control_files(
 
 
 def _groups(model: Model) -> dict[str, list[str]]:
-    """Joints by the word of the interface that they are commanded through."""
+    """Return joints by the word of their command interface."""
     groups: dict[str, list[str]] = {}
     for each in model.transmissions:
         for joint, interfaces in each.joints[:1]:
@@ -138,7 +138,7 @@ def _groups(model: Model) -> dict[str, list[str]]:
 def _controllers(
     model: Model, word: str, joints: list[str], kind: Kind, *, alone: bool
 ) -> dict[str, dict[str, Any]]:
-    """Controllers of joints that are commanded through one interface."""
+    """Return controllers of joints that are commanded through one interface."""
     prefix = "" if alone else f"{word}_"
     gains = {joint: _gains(model, joint) for joint in joints} if word == "effort" else {}
     if kind == "trajectory":
@@ -177,7 +177,7 @@ def _gains(model: Model, name: str) -> dict[str, float]:
 
 
 def _moved_inertia(model: Model, joint: Joint) -> float:
-    """Of all that a joint carries, about its axis, in the initial pose [kg m² or kg]."""
+    """Return the inertia that a joint moves, about its axis, in the initial pose [kg m² or kg]."""
     links = {link.name: link for link in model.links}
     child = links[joint.child]
     placed = child.pose * joint.pose
@@ -200,7 +200,7 @@ def _carried(model: Model, link: str) -> set[str]:
 
 
 def _about(link: Link, point: Floats, axis: Floats) -> float:
-    """Inertia of a link about an axis [kg m²], by Steiner's theorem."""
+    """Return inertia of a link about an axis [kg m²], by Steiner's theorem."""
     inertial = link.inertial
     if inertial is None:
         return 0.0

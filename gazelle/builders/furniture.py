@@ -233,7 +233,7 @@ def shelf(
 
 
 def _books(row: int, width: float, z: float, room: float) -> list[Part]:
-    """Three blocks of books; what fills a board differs from row to row."""
+    """Return three blocks of books; they differ from row to row."""
     paints: tuple[Paint, ...] = ("red", "blue", "cream", "green", "walnut", "slate")
     parts = []
     y = -width / 2.0 + 0.02

@@ -12,7 +12,7 @@ from gazelle.formats.solids import UnitSolid, inertial_of, joined, solid_of
 
 @checked(BuildError)
 def solid_inertial(parts: Sequence[tuple[Geometry, Pose]], mass: float) -> Inertial:
-    """Mass and inertia of a body of one density, from its shapes and their poses.
+    """Return mass and inertia of a body of one density, from its shapes and their poses.
 
     Where shapes overlap, the common volume counts twice.
 

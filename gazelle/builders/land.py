@@ -48,7 +48,10 @@ class Terrain:
         return ((columns - 1) * self.cell, (rows - 1) * self.cell)
 
     def height(self, x: float, y: float) -> float:
-        """Height of the facet at a point [m]; outside the grid that of the nearest edge."""
+        """Return the height of the facet at a point [m].
+
+        Outside the grid that of the nearest edge.
+        """
         rows, columns = self.heights.shape
         across = min(max(x / self.cell + (columns - 1) / 2.0, 0.0), columns - 1.0)
         up = min(max(y / self.cell + (rows - 1) / 2.0, 0.0), rows - 1.0)
@@ -57,7 +60,7 @@ class Terrain:
         return float(middle + slope_x * (across - column - 0.5) + slope_y * (up - row - 0.5))
 
     def _plane(self, row: int, column: int) -> tuple[float, float, float]:
-        """Middle height of a cell's facet, and its rise [m] over the cell along x and y."""
+        """Return the middle height of a cell's facet, and its rise [m] along x and y."""
         (a, b), (c, d) = self.heights[row : row + 2, column : column + 2].tolist()
         return ((a + b + c + d) / 4.0, (b + d - a - c) / 2.0, (c + d - a - b) / 2.0)
 
@@ -124,7 +127,7 @@ class Terrain:
 
 
 def _square_axes(along_x: Floats, along_y: Floats) -> tuple[Floats, Floats]:
-    """Two unit vectors at a right angle, turned as little as can be from two given ones.
+    """Return two orthogonal unit vectors, turned as little as possible from two given ones.
 
     Sum and difference of two unit vectors are at a right angle; the axes are between them.
     """
@@ -136,7 +139,7 @@ def _square_axes(along_x: Floats, along_y: Floats) -> tuple[Floats, Floats]:
 
 @checked(BuildError)
 def terrain(heights: ArrayLike, *, cell: float = 1.0) -> Terrain:
-    """Ground of given heights [m], shape (rows, columns), ``cell`` [m] apart; see ``Terrain``.
+    """Return ground of given heights [m], shape (rows, columns), ``cell`` [m] apart.
 
     Raises:
         BuildError: There are fewer than 2 x 2 or too many heights, or one is not finite.
@@ -169,7 +172,7 @@ def hills(
     flat: Iterable[Zone] = (),
     blend: float = 6.0,
 ) -> Terrain:
-    """Random hills.
+    """Return random hills.
 
     Smooth value noise: a random height every ``spacing`` metres and half as high ones every
     half, joined by cubic steps (K. Perlin, "An Image Synthesizer", SIGGRAPH 1985).
@@ -219,5 +222,5 @@ def _noise(x: Floats, y: Floats, spacing: float, stream: Stream) -> Floats:
 
 
 def _smooth(t: Floats) -> Floats:
-    """3 t² - 2 t³: from 0 to 1 with level ends."""
+    """Return 3 t² - 2 t³: from 0 to 1 with level ends."""
     return np.asarray(t * t * (3.0 - 2.0 * t), np.float64)

@@ -99,7 +99,7 @@ def planet(name: PlanetName | str) -> Planet:
 
 @checked(BuildError)
 def with_physics(world: World, preset: PresetName | str | Physics) -> World:
-    """The world with one physics profile, that of a name or a given one, in place of its own.
+    """Return the world with one physics profile, given or by name, in place of its own.
 
     Raises:
         BuildError: There is no such preset.

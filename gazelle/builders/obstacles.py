@@ -39,7 +39,7 @@ def random_obstacles(
     movable: bool = False,
     name: str = "obstacle",
 ) -> tuple[Model, ...]:
-    """Obstacles at random places, no two of which overlap.
+    """Return obstacles at random places, no two of which overlap.
 
     Args:
         count: How many.
@@ -86,7 +86,7 @@ def random_plants(
     ground: Callable[[float, float], float] | None = None,
     name: str = "tree",
 ) -> tuple[Model, ...]:
-    """Trees, bushes and rocks at random places, their crowns apart.
+    """Return trees, bushes and rocks at random places, their crowns apart.
 
     Args:
         count: How many.

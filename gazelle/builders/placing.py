@@ -38,7 +38,7 @@ class Disc:
     radius: float = 1.0
 
     def distance(self, x: float, y: float) -> float:
-        """From a point to the zone [m]; not above 0 inside."""
+        """Return the distance from a point to the zone [m]; not above 0 inside."""
         return math.hypot(x - self.x, y - self.y) - self.radius
 
 
@@ -54,7 +54,7 @@ class Rectangle:
     yaw: float = 0.0
 
     def distance(self, x: float, y: float) -> float:
-        """From a point to the zone [m]; not above 0 inside."""
+        """Return the distance from a point to the zone [m]; not above 0 inside."""
         cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
         dx, dy = x - self.x, y - self.y
         along = abs(cosine * dx + sine * dy) - self.length / 2.0
@@ -92,7 +92,7 @@ def scatter(
     keep_clear: Iterable[Zone] = (),
     gap: float = 0.0,
 ) -> list[Place]:
-    """Random places for discs of these radii that overlap neither one another nor a zone.
+    """Return random places for discs that overlap neither one another nor a zone.
 
     The largest are placed first; the places come back in the order of the radii.
 
@@ -157,7 +157,10 @@ def footprints(model: Model) -> list[Rectangle]:
 def along(
     points: Sequence[tuple[float, float]], width: float, pose: Pose | None = None
 ) -> list[Zone]:
-    """Zones that cover a strip of that width [m] along a line of points, in a frame at ``pose``."""
+    """Return zones that cover a strip of that width [m] along a line.
+
+    Its points are in a frame at ``pose``.
+    """
     frame = pose or Pose()
     line = [frame.apply((x, y, 0.0))[:2] for x, y in points]
     strips = [

@@ -82,13 +82,13 @@ def plan_places(plan: str, letter: str, *, cell: float = 0.5) -> list[tuple[floa
 
 @checked(BuildError)
 def plan_size(plan: str, *, cell: float = 0.5) -> tuple[float, float]:
-    """Length along x and width along y of a plan [m]."""
+    """Return length along x and width along y of a plan [m]."""
     rows = _rows(plan)
     return (len(rows[0]) * cell, len(rows) * cell)
 
 
 def _rows(plan: str) -> list[str]:
-    """Lines of equal length, without blank lines and indentation around the drawing."""
+    """Return lines of equal length, without blank lines and indentation around the drawing."""
     lines = [line.rstrip() for line in plan.expandtabs().splitlines()]
     while lines and not lines[0]:
         lines.pop(0)
@@ -108,7 +108,7 @@ def _place(rows: list[str], row: float, column: float, cell: float) -> tuple[flo
 
 
 def _blocks(rows: list[str]) -> list[tuple[int, int, int, int]]:
-    """Rectangles that cover the walls once: row, column, rows down, columns across."""
+    """Return rectangles that cover the walls once: row, column, rows down, columns across."""
     left = {(r, c) for r, line in enumerate(rows) for c, cell in enumerate(line) if cell == _WALL}
     blocks = []
     for row, column in sorted(left):

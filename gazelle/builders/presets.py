@@ -108,12 +108,12 @@ def _office_shell(builder: WorldBuilder) -> None:
 
 
 def _shifted(holes: list[Opening]) -> list[Opening]:
-    """Openings measured from the inner corner, as measures from the middle of the wall."""
+    """Return openings relative to the wall's middle, from those relative to its inner corner."""
     return [Opening(h.wall, h.at + _WALL / 2.0, h.width, h.bottom, h.top) for h in holes]
 
 
 def _office_desks(builder: WorldBuilder, count: int, stream: Stream, *, movable: bool) -> None:
-    """Pairs of desks face to face, in two blocks along the windows, and shelves."""
+    """Add pairs of desks face to face, in two blocks along the windows, and shelves."""
     seats = [
         (x + side * 0.42, y, 0.0 if side < 0 else math.pi)
         for y in (3.6, 1.9)
@@ -246,7 +246,7 @@ def _houses(builder: WorldBuilder, count: int, stream: Stream) -> None:
 
 
 def _grassy(height: float) -> tuple[float, float, float]:
-    """Meadow below, drier and stonier above."""
+    """Return the colour at a height: meadow below, drier and stonier above."""
     share = min(max(height / 5.0, 0.0), 1.0)
     low, high = (0.45, 0.58, 0.29), (0.53, 0.51, 0.38)
     red, green, blue = (a + share * (b - a) for a, b in zip(low, high, strict=True))

@@ -56,7 +56,7 @@ def add_link_properties(
     self_collide: bool | None = None,
     damping: float | None = None,
 ) -> RobotT:
-    """Contact, look and motion of a link; what is None stays as it is.
+    """Set contact, look and motion of a link; those that are None stay.
 
     Args:
         robot: URDF text or a model.
@@ -116,7 +116,7 @@ def add_joint_properties(
     spring_stiffness: float | None = None,
     spring_reference: float | None = None,
 ) -> RobotT:
-    """Terms of a joint that URDF has no words for; what is None stays as it is.
+    """Set terms of a joint that URDF lacks; those that are None stay.
 
     Args:
         robot: URDF text or a model.
@@ -158,7 +158,7 @@ def add_joint_properties(
 
 @checked(BuildError)
 def keep_fixed_joint(text: str, joint: str) -> str:
-    """URDF text whose fixed joint keeps its two links apart, instead of lumping them.
+    """Return URDF text whose fixed joint keeps its two links apart, instead of lumping them.
 
     Raises:
         BuildError: There is no such joint.
@@ -265,7 +265,7 @@ def add_plugin(robot: RobotT, plugin: Plugin) -> RobotT:
 
 
 def _fitted(model: Model, link: str, sensor: Sensor) -> Model:
-    """The model with a sensor on a link, or on a frame that was a link before it was lumped."""
+    """Return the model with a sensor on a link, or on the frame of a lumped link."""
     frame = next((each for each in model.frames if each.name == link and each.attached_to), None)
     if frame is not None:
         link = frame.attached_to
@@ -350,7 +350,7 @@ def _transmissions(robot: str | Model) -> set[str]:
 
 
 def _moving(robot: str | Model) -> list[str]:
-    """Joints that move by themselves and have no transmission."""
+    """Return actuated joints without a transmission."""
     if isinstance(robot, Model):
         driven = {joint for each in robot.transmissions for joint, _ in each.joints}
         return [

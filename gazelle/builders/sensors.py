@@ -289,7 +289,7 @@ def _fan(tag: str, samples: int, low: float, high: float) -> Parameters:
 
 
 def _noise(stddev: float, bias: float = 0.0) -> Parameters:
-    """White noise; with attribute and element for its type, as old and new files have it."""
+    """Return white noise; its type is an attribute and an element, for old and new readers."""
     for value in (stddev, bias):
         if not 0.0 <= value < math.inf:
             raise BuildError(f"a standard deviation must not be negative, found {value:g}")

@@ -63,7 +63,7 @@ def building(
 
 
 def _saddle(length: float, width: float, height: float, roof: Paint, gable: Paint) -> list[Part]:
-    """Two tilted slabs, and steps of wall under them that close the gables."""
+    """Return two tilted slabs, and steps of wall under them that close the gables."""
     rise = 0.32 * width
     tilt = math.atan2(rise, width / 2.0)
     slope = math.hypot(rise, width / 2.0) + 0.5
@@ -81,7 +81,7 @@ def _saddle(length: float, width: float, height: float, roof: Paint, gable: Pain
 
 
 def _windows(length: float, width: float, storeys: int) -> list[Part]:
-    """Panes on all four sides; none where the door is."""
+    """Return panes on all four sides; none where the door is."""
     parts = []
     for storey in range(storeys):
         z = storey * _STOREY + 1.6

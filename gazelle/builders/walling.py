@@ -62,7 +62,7 @@ def walls(
     color: Paint = "plaster",
     pose: Pose = ORIGIN,
 ) -> Model:
-    """Walls along a line of points.
+    """Return walls along a line of points.
 
     Args:
         points: Corners of the middle line [m], at least two.
@@ -113,7 +113,7 @@ def room(
     color: Paint = "plaster",
     pose: Pose = ORIGIN,
 ) -> Model:
-    """Four walls around the frame's origin; ``length`` and ``width`` are inside [m].
+    """Return four walls around the frame's origin; ``length`` and ``width`` are inside [m].
 
     Wall 0 is the one at -y and runs along x; the others follow counter-clockwise.
 
@@ -170,7 +170,7 @@ def _check_openings(holes: Sequence[Opening], length: float, height: float) -> N
 def _pieces(
     holes: Sequence[Opening], start: float, end: float, height: float
 ) -> Iterator[tuple[int, float, float, float, float]]:
-    """Number, start, end, bottom and top [m] of each piece that the holes leave."""
+    """Yield number, start, end, bottom and top [m] of each piece that the holes leave."""
     solid: list[tuple[float, float, float, float]] = []
     reached = start
     for hole in holes:

@@ -84,7 +84,7 @@ class WorldBuilder:
     def place(
         self, make: Callable[..., Model], x: float, y: float, yaw: float = 0.0, **options: Any
     ) -> Self:
-        """Make something and put it at (x, y) [m], turned by ``yaw`` [rad], on the ground.
+        """Place something at (x, y) [m], turned by ``yaw`` [rad], on the ground.
 
         Args:
             make: A builder such as ``desk`` or ``tree``.
@@ -116,7 +116,7 @@ class WorldBuilder:
         return self.add(replace(model, name=name or model.name, pose=pose))
 
     def level(self, x: float, y: float) -> float:
-        """Height of the ground at a point [m]: that of the terrain, or 0."""
+        """Return the height of the ground at a point [m]: that of the terrain, or 0."""
         return 0.0 if self._level is None else max(self._level(x, y), 0.0)
 
     @property
@@ -125,15 +125,17 @@ class WorldBuilder:
         return tuple(self._taken)
 
     def ground(self, **options: Any) -> Self:
-        """The ground plane; options are those of ``builders.ground``."""
+        """Add the ground plane; options are those of ``builders.ground``."""
         return self.add(floors.ground(**options), solid=False)
 
     def floor(self, **options: Any) -> Self:
-        """A floor covering; options are those of ``builders.floor``."""
+        """Add a floor covering; options are those of ``builders.floor``."""
         return self.add(floors.floor(**options), solid=False)
 
     def terrain(self, terrain: Terrain, **options: Any) -> Self:
-        """Hilly ground; what is placed later stands on it. Options are those of its ``model``.
+        """Add hilly ground; what is placed later stands on it.
+
+        Options are those of its ``model``. Options are those of its ``model``.
 
         Where it is below 0 the ground plane, if there is one, counts.
         """
@@ -148,23 +150,23 @@ class WorldBuilder:
         return self
 
     def sun(self, **options: Any) -> Self:
-        """A sun; options are those of ``builders.sun``."""
+        """Add a sun; options are those of ``builders.sun``."""
         return self.light(floors.sun(**options))
 
     def lamp(self, x: float, y: float, **options: Any) -> Self:
-        """A lamp above (x, y) [m]; options are those of ``builders.lamp``."""
+        """Add a lamp above (x, y) [m]; options are those of ``builders.lamp``."""
         return self.light(floors.lamp(x=x, y=y, **options))
 
     def scene(self, **changes: Any) -> Self:
-        """Change the look: ``ambient``, ``background``, ``shadows``, ``sky``, ``grid``."""
+        """Set the look: ``ambient``, ``background``, ``shadows``, ``sky``, ``grid``."""
         return self._set(scene=_changed(self._world.scene, changes))
 
     def walls(self, points: Sequence[Point], **options: Any) -> Self:
-        """Walls along a line of points; options are those of ``builders.walls``."""
+        """Add walls along a line of points; options are those of ``builders.walls``."""
         return self.add(walls(points, **options))
 
     def room(self, length: float, width: float, **options: Any) -> Self:
-        """Four walls; options are those of ``builders.room``."""
+        """Add four walls; options are those of ``builders.room``."""
         return self.add(room(length, width, **options))
 
     def plan(
@@ -175,7 +177,7 @@ class WorldBuilder:
         cell: float = 0.5,
         **options: Any,
     ) -> Self:
-        """Walls of a floor plan, and at each letter of the legend what it stands for.
+        """Add walls of a floor plan, and the things at the letters of the legend.
 
         Args:
             drawing: See ``builders.plan_walls``, whose options are taken too.
@@ -190,31 +192,34 @@ class WorldBuilder:
         return self
 
     def road(self, points: Sequence[Point], **options: Any) -> Self:
-        """A road; options are those of ``builders.road``. Random things keep off it."""
+        """Add a road; options are those of ``builders.road``.
+
+        Random things keep off it. Random things keep off it.
+        """
         made = road(points, **options)
         self._taken += along(points, options.get("width", 6.0), made.pose)
         return self.add(made)
 
     def keep_clear(self, *zones: Zone) -> Self:
-        """Zones that random things added later keep away from."""
+        """Add zones that random things added later keep away from."""
         self._taken += zones
         return self
 
     def obstacles(self, count: int, **options: Any) -> Self:
-        """Random obstacles; options are those of ``builders.random_obstacles``."""
+        """Add random obstacles; options are those of ``builders.random_obstacles``."""
         return self.add(*random_obstacles(count, **self._random(options)))
 
     def plants(self, count: int, **options: Any) -> Self:
-        """Random trees, bushes and rocks; options are those of ``builders.random_plants``."""
+        """Add random trees, bushes and rocks; options are those of ``builders.random_plants``."""
         return self.add(*random_plants(count, **{"ground": self.level, **self._random(options)}))
 
     def physics(self, preset: str | Physics = "default", **changes: float) -> Self:
-        """A physics profile, by name of ``builders.PRESETS`` or as it is."""
+        """Set the physics profile, by name of ``builders.PRESETS`` or as it is."""
         chosen = physics(preset, **changes) if isinstance(preset, str) else preset
         return self._set(physics=(chosen,))
 
     def planet(self, name: str) -> Self:
-        """Gravity, field and air of a place in ``builders.PLANETS``."""
+        """Set gravity, field and air of a place in ``builders.PLANETS``."""
         self._world = on_planet(self._world, name)
         return self
 
@@ -232,11 +237,11 @@ class WorldBuilder:
         return self._set(camera=Pose(*eye, pitch=pitch, yaw=math.atan2(dy, dx)))
 
     def plugin(self, *plugins: Plugin) -> Self:
-        """Plugins of the world."""
+        """Add plugins of the world."""
         return self._set(plugins=(*self._world.plugins, *plugins))
 
     def build(self) -> World:
-        """The world as it is now; the builder can go on."""
+        """Return the world as it is now; the builder can continue."""
         return replace(
             self._world,
             models=tuple(self._models.values()),
@@ -248,7 +253,7 @@ class WorldBuilder:
         return self
 
     def _random(self, options: dict[str, Any]) -> dict[str, Any]:
-        """Options of a random call, with its seed and the zones taken so far."""
+        """Return options of a random call, with its seed and the zones taken so far."""
         self._draws += 1
         zones = (*self._taken, *options.pop("keep_clear", ()))
         seed = options.pop("seed", self._seed * 1_000_003 + self._draws)

@@ -24,7 +24,7 @@ class Inertia:
 
     @classmethod
     def from_matrix(cls, matrix: ArrayLike) -> Inertia:
-        """From a symmetric matrix, shape (3, 3) [kg m²]."""
+        """Create an inertia from a symmetric matrix, shape (3, 3) [kg m²]."""
         rows = np.asarray(matrix, np.float64).tolist()
         (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = rows
         return cls(ixx, iyy, izz, ixy, ixz, iyz)

@@ -107,7 +107,7 @@ class Model:
         return "" if self.stage is None else "stage"
 
     def walk(self, prefix: str = "", pose: Pose | None = None) -> Iterator[PlacedModel]:
-        """This model and all nested ones, depth first, each with its scope and pose.
+        """Yield this model and all nested ones, depth first, each with its scope and pose.
 
         Args:
             prefix: Scope put before the names, such as ``world_name::``.

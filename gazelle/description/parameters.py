@@ -52,14 +52,14 @@ class Parameters(HoldsMappings):
         return None
 
     def find_all(self, tag: str) -> Iterator[Parameters]:
-        """All children with that tag, in file order."""
+        """Return all children with that tag, in file order."""
         return (child for child in self.children if child.tag == tag)
 
     def __contains__(self, tag: object) -> bool:
         return isinstance(tag, str) and self.find(tag) is not None
 
     def get(self, tag: str, default: T) -> T:
-        """The value of a child, read as the type of the default; the default if absent or empty.
+        """Return the value of a child, as the default's type; the default if absent or empty.
 
         Raises:
             FormatError: The text is not of that type.
@@ -95,7 +95,7 @@ class Parameters(HoldsMappings):
             ) from None
 
     def numbers(self, tag: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        """Numbers separated by spaces in a child; the default if absent or empty.
+        """Return numbers separated by spaces in a child; the default if absent or empty.
 
         Raises:
             FormatError: They are not numbers, or not as many as in the default.

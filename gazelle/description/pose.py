@@ -73,7 +73,7 @@ class Pose:
 
     @classmethod
     def exactly(cls, position: Vector3, quaternion: Quaternion) -> Pose:
-        """A pose of the very numbers that ``position`` and ``quaternion`` of another gave."""
+        """Return a pose of the very numbers of another's ``position`` and ``quaternion``."""
         pose = cls(*position)
         pose._quaternion = quaternion  # its own class
         return pose
@@ -130,7 +130,10 @@ class Pose:
         return self.rpy[2]
 
     def __mul__(self, other: Pose) -> Pose:
-        """Compose: ``other``, given in this pose's child frame, in this pose's parent frame."""
+        """Compose poses.
+
+        ``other`` is given in this pose's child frame, the result in this pose's parent frame.
+        """
         moved = rotate(self._quaternion, other._position)
         x, y, z = (a + b for a, b in zip(self._position, moved, strict=True))
         return Pose.from_quaternion((x, y, z), multiply(self._quaternion, other._quaternion))
@@ -185,7 +188,7 @@ class Pose:
 
 
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
-    """The Hamilton product of two quaternions (x, y, z, w): first b, then a."""
+    """Return the Hamilton product of two quaternions (x, y, z, w): first b, then a."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (
@@ -210,7 +213,7 @@ def rotate(q: Quaternion, v: Vector3) -> Vector3:
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
-    """Quaternion (x, y, z, w) of R = Rz(yaw) Ry(pitch) Rx(roll); angles in rad.
+    """Return quaternion (x, y, z, w) of R = Rz(yaw) Ry(pitch) Rx(roll); angles in rad.
 
     Of an angle that is not finite it is no number, which whoever uses the pose refuses.
     """
@@ -228,7 +231,7 @@ def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
 
 
 def rpy_from_quaternion(q: Quaternion) -> Vector3:
-    """(roll, pitch, yaw) [rad] of a unit quaternion; at pitch ±pi/2 roll is taken as 0."""
+    """Return (roll, pitch, yaw) [rad] of a unit quaternion; at pitch ±pi/2 roll is taken as 0."""
     x, y, z, w = q
     sine = max(-1.0, min(1.0, 2.0 * (w * y - z * x)))
     if abs(sine) > 1.0 - 1e-12:
@@ -240,7 +243,7 @@ def rpy_from_quaternion(q: Quaternion) -> Vector3:
 
 
 def quaternion_from_matrix(r: NDArray[np.float64]) -> Quaternion:
-    """Quaternion (x, y, z, w) of a rotation matrix, shape (3, 3).
+    """Return quaternion (x, y, z, w) of a rotation matrix, shape (3, 3).
 
     Shepperd's method: divides by the largest of the four components, so that it is
     well conditioned for every rotation.

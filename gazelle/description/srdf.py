@@ -151,7 +151,7 @@ class Semantics(HoldsMappings):
         )
 
     def joints_of(self, group: str, model: Model) -> tuple[Joint, ...]:
-        """The joints of a group that can move, from the root outwards, as MoveIt orders them.
+        """Return the movable joints of a group, from the root outwards, in MoveIt's order.
 
         Joints that mimic another are among them, passive ones too.
 
@@ -192,7 +192,7 @@ class _Tree:
         self._frames = {frame.name: frame.attached_to for frame in model.frames}
 
     def ordered(self) -> Iterator[Joint]:
-        """The joints that can move, depth first."""
+        """Yield the movable joints, depth first."""
         below: dict[str, list[Joint]] = {}
         for joint in self._model.joints:
             below.setdefault(joint.parent, []).append(joint)
@@ -215,13 +215,13 @@ class _Tree:
         raise _unknown("joint", name, group, known)
 
     def holding(self, link: str, group: JointGroup) -> Iterator[str]:
-        """The joint that holds a link; none for the root and for one lumped into another."""
+        """Yield the joint that holds a link; none for the root and for one lumped into another."""
         self._body(link, group)
         if link in self._holder:
             yield self._holder[link].name
 
     def between(self, base: str, tip: str, group: JointGroup) -> Iterator[str]:
-        """The joints on the way from one link to another."""
+        """Yield the joints on the way from one link to another."""
         up = self._climb(self._body(base, group))
         down = self._climb(self._body(tip, group))
         shared = {joint.name for joint in up} & {joint.name for joint in down}

@@ -255,7 +255,7 @@ class StageModel:
         return tuple(child for child in self.children if child.device_of(StageRanger))
 
     def walk(self, parent: PlacedStageModel | None = None) -> Iterator[PlacedStageModel]:
-        """This model and all below it, depth first, with names and poses in the world.
+        """Yield this model and all below it, depth first, with names and poses in the world.
 
         Args:
             parent: The model that this one is mounted on, already placed.
@@ -346,7 +346,7 @@ class StageWorld:
     source: Source | None = field(default=None, compare=False, repr=False)
 
     def walk(self) -> Iterator[PlacedStageModel]:
-        """All models, depth first, with their names and poses in the world."""
+        """Yield all models, depth first, with their names and poses in the world."""
         for model in self.models:
             yield from model.walk()
 

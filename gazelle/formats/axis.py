@@ -13,7 +13,7 @@ _FALLBACK = (1.0, 0.0, 0.0)
 
 
 def direction(xyz: Vector3, node: Parameters, reading: Reading) -> Vector3:
-    """The vector at length one; x for one that has no length.
+    """Return the vector at length one; x for one without length.
 
     Raises:
         FormatError: It is not finite.
@@ -25,7 +25,7 @@ def direction(xyz: Vector3, node: Parameters, reading: Reading) -> Vector3:
 
 
 def travel(lower: float, upper: float, node: Parameters, reading: Reading) -> tuple[float, float]:
-    """The limits of a joint; ODE heeds none where the lower one is above the upper."""
+    """Return the limits of a joint; ODE has none if the lower one is above the upper."""
     if lower <= upper:
         return lower, upper
     reading.fault(

@@ -15,11 +15,11 @@ class Report(Protocol):
     def __call__(
         self, message: str, source: Source, severity: Literal["error", "warning"] = "error"
     ) -> None:
-        """One fault, and where it is."""
+        """Report a fault and its place."""
 
 
 def plain_bytes(data: bytes, name: str, comment: re.Pattern[str], report: Report) -> bytes:
-    """The text of a file with plain blanks; unusual ones are one warning.
+    """Return the text of a file with plain blanks; unusual ones give one warning.
 
     Args:
         data: What is in the file; it stays as it is where it is not UTF-8.

@@ -58,7 +58,7 @@ def parse(data: bytes) -> list[Piece]:
 
 
 def _document(data: bytes) -> Any:
-    """The file as pycollada has it; what wears a material that is broken wears none.
+    """Return pycollada's document; objects with a broken material have none.
 
     Gazebo shows such geometries, and pycollada leaves them out.
     """
@@ -86,7 +86,7 @@ def _document(data: bytes) -> Any:
 def _instances(
     node: Any, outer: NDArray[np.float64], depth: int, visits: Iterator[int]
 ) -> Iterator[tuple[Any, NDArray[np.float64]]]:
-    """Each node of the scene that puts a geometry somewhere, with its transform."""
+    """Yield each node of the scene that places a geometry, with its transform."""
     if next(visits) > MAX_NODES:
         raise FormatError(
             f"the scene has more than the limit of {MAX_NODES:,} nodes",
@@ -111,7 +111,7 @@ def _geometry(node: Any) -> Any:
 
 
 def _looks(node: Any) -> dict[str, MeshLook]:
-    """The looks that primitives name by symbols."""
+    """Return the looks that primitives name by symbols."""
     return {bound.symbol: _look(bound.target) for bound in node.materials}
 
 

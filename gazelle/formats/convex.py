@@ -79,12 +79,12 @@ class ConvexPieces:
 
 
 def convex_pieces(mesh: MeshData, *, static: bool = False) -> list[MeshData]:
-    """The solids of ``decompose``."""
+    """Return the solids of ``decompose``."""
     return list(decompose(mesh, static=static).solids)
 
 
 def decompose(mesh: MeshData, *, static: bool) -> ConvexPieces:
-    """Convex pieces that together stand for a mesh; one if it is nearly convex.
+    """Return convex pieces that together approximate a mesh; one if it is nearly convex.
 
     The same mesh gives the same pieces. They are kept in memory, and those that took long on
     disk too.
@@ -105,7 +105,7 @@ def decompose(mesh: MeshData, *, static: bool) -> ConvexPieces:
 
 
 def _made(key: str, mesh: MeshData, *, static: bool) -> ConvexPieces:
-    """The pieces of a mesh from disk, or cut."""
+    """Return the pieces of a mesh from disk, or cut."""
     stored = piece_cache.load(key)
     if stored is None:
         if len(mesh.faces) > _LARGE or _SPENT["seconds"] > _PATIENCE:
@@ -133,7 +133,7 @@ def _bound(size: float) -> float:
 
 
 def _cut(surface: WeldedSurface, *, static: bool) -> tuple[list[Solid], bool, float]:
-    """Solids, whether the one is the whole, and how far they are off."""
+    """Return solids, whether there is one for the whole, and their deviation."""
     if not len(surface.faces):
         return [], False, 0.0
     number = components(surface)
@@ -164,7 +164,7 @@ def _cut(surface: WeldedSurface, *, static: bool) -> tuple[list[Solid], bool, fl
 def _solids_of(
     surface: WeldedSurface, number: NDArray[np.intp], parts: NDArray[np.intp]
 ) -> list[Solid]:
-    """Some parts of a surface, each as it is."""
+    """Return some parts of a surface as solids."""
     order = np.argsort(number, kind="stable")
     starts = np.searchsorted(number[order], parts)
     ends = np.searchsorted(number[order], parts, side="right")
@@ -182,7 +182,7 @@ def _turned(surface: WeldedSurface, rows: NDArray[np.bool_]) -> WeldedSurface:
 
 
 def _volumes(surface: WeldedSurface, number: NDArray[np.intp]) -> Floats:
-    """Signed volume within the faces of each part [m³]; negative if they look inwards."""
+    """Return the signed volume of each part [m³]; negative if faces look inwards."""
     corners = surface.vertices[surface.faces] - surface.vertices.mean(axis=0)
     each = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
     volumes: Floats = np.bincount(number, each).astype(np.float64)

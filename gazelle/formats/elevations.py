@@ -39,7 +39,9 @@ _MISSING = "-9999"  # what a grid's head need not say
 
 
 def read_srtm(path: Path) -> Floats:
-    """The elevations of an SRTM tile [m], shape (rows, columns), the north first; NaN if unknown.
+    """Read the elevations of an SRTM tile [m], shape (rows, columns), the north first.
+
+    NaN if unknown.
 
     Raises:
         FormatError: It cannot be read, or is no such file.
@@ -58,7 +60,9 @@ def read_srtm(path: Path) -> Floats:
 
 
 def read_ascii_grid(path: Path) -> Floats:
-    """The values of an ESRI ASCII grid, shape (rows, columns), the north first; NaN if unknown.
+    """Read the values of an ESRI ASCII grid, shape (rows, columns), the north first.
+
+    NaN if unknown.
 
     Raises:
         FormatError: It cannot be read, or is no such file.
@@ -98,7 +102,7 @@ def _bytes_of(path: Path) -> bytes:
 
 
 def _head_of(words: list[str]) -> tuple[dict[str, str], int]:
-    """Values by names at the head of a grid, and where its numbers begin."""
+    """Read values by names at the head of a grid, and the start of its numbers."""
     head: dict[str, str] = {}
     first = 0
     while first + 1 < len(words) and words[first].lower() in (*_REQUIRED, *_OTHERS):
@@ -108,7 +112,7 @@ def _head_of(words: list[str]) -> tuple[dict[str, str], int]:
 
 
 def _count(head: dict[str, str], name: str, path: Path) -> int:
-    """The number of rows or columns that a grid's head says."""
+    """Return the number of rows or columns in a grid's head."""
     text = head.get(name, "")
     count = int(text) if text.isdecimal() else 0
     if not 0 < count <= MAX_PIXELS:

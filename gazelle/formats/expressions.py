@@ -43,7 +43,7 @@ _LOOPS = (ast.GeneratorExp, ast.ListComp, ast.SetComp, ast.DictComp, ast.Lambda)
 
 
 def evaluate(text: str, symbols: dict[str, Any], local: Mapping[str, Any] | None = None) -> Any:
-    """The value of an expression.
+    """Return the value of an expression.
 
     Args:
         text: Python.
@@ -63,7 +63,7 @@ def evaluate(text: str, symbols: dict[str, Any], local: Mapping[str, Any] | None
 
 @lru_cache(maxsize=4096)
 def _compiled(text: str) -> tuple[types.CodeType, bool]:
-    """The guarded code of an expression, and whether it may run in circles."""
+    """Return the guarded code of an expression, and whether it may loop."""
     try:
         tree = ast.parse(text, "<expression>", "eval")
     except (MemoryError, RecursionError):
@@ -74,7 +74,7 @@ def _compiled(text: str) -> tuple[types.CodeType, bool]:
 
 
 def evaluate_plain(text: str, _: dict[str, Any], local: Mapping[str, Any]) -> Any:
-    """The value of a ``$(eval)``, which may use some of Python's own functions.
+    """Return the value of a ``$(eval)``, which may use some of Python's own functions.
 
     Raises:
         FormatError: As ``evaluate``.
@@ -157,7 +157,7 @@ def _check_length(length: int) -> None:
 
 
 def bounded_range(*arguments: int) -> range:
-    """``range`` of at most ``MAX_LENGTH`` numbers.
+    """Return ``range`` of at most ``MAX_LENGTH`` numbers.
 
     Raises:
         FormatError: It is longer.
@@ -168,7 +168,7 @@ def bounded_range(*arguments: int) -> range:
 
 
 def no_vars(*_: object) -> None:
-    """Stands for ``vars``, which leads from any type to what types are made of.
+    """Replace ``vars``, which leads from any type to what types are made of.
 
     Raises:
         FormatError: Always.

@@ -17,7 +17,7 @@ Primitive = Box | Sphere | Cylinder | Capsule | Cone | Ellipsoid
 
 
 def extent(node: Parameters, value: float, what: str, reading: Reading) -> float:
-    """A length, radius or side: one of zero is a tenth of a millimetre, a sign is dropped.
+    """Return a length, radius or side: zero becomes a tenth of a millimetre, a sign is dropped.
 
     Raises:
         FormatError: It is not finite, or too large.
@@ -34,7 +34,7 @@ def extent(node: Parameters, value: float, what: str, reading: Reading) -> float
 
 
 def given(*lengths: float) -> tuple[float, ...]:
-    """The lengths in a file, if others are taken for some of them; else none."""
+    """Return the lengths in a file, if others replace some of them; else none."""
     return () if all(length > 0.0 for length in lengths) else lengths
 
 

@@ -87,7 +87,7 @@ class Polygons:
         self._edges, self._flat = _candidates(surface, self._twin)
 
     def join(self, tolerance: float, *, notches: bool) -> None:
-        """Take out edges until none is left that may be.
+        """Remove edges until none is left that may be removed.
 
         Args:
             tolerance: How far the vertices of a polygon may be apart across its plane [m].
@@ -109,7 +109,7 @@ class Polygons:
         self._edges, self._flat = self._edges[kept], self._flat[kept]
 
     def _join_within(self, edges: Indices, cells: Indices, tolerance: float, depth: float) -> None:
-        """Take out edges between polygons of the same cell, in rounds.
+        """Remove edges between polygons of the same cell, in rounds.
 
         What may not be taken out waits until one of its polygons has grown.
         """
@@ -148,7 +148,10 @@ class Polygons:
         return Rims(vertices[kept], sizes, normals, faces, number[self._label])
 
     def _pairs(self, edges: Indices, cells: Indices) -> _Pairs:
-        """The pairs of polygons on both sides of edges; one for each row of edges between them."""
+        """Return the pairs of polygons on both sides of edges.
+
+        One for each row of edges between them.
+        """
         nxt, before, twin, label = self._next, self._before, self._twin, self._label
         one, two = label[edges // 3], label[twin[edges] // 3]
         apart = (one != two) & ~self._gone[edges] & (cells[one] == cells[two])
@@ -196,7 +199,7 @@ class Polygons:
         return longest[edges] & longest[self._twin[edges]], level
 
     def _ranked(self, pairs: _Pairs) -> Indices:
-        """Rows of pairs, those first that are small and join along much of their rims."""
+        """Return rows of pairs, first those that are small and share much of their rims."""
         ends = self.surface.vertices[self._tail[np.stack([pairs.first, pairs.leave_back])]]
         seam = np.einsum("ij,ij->i", ends[1] - ends[0], ends[1] - ends[0])
         area = self._area[pairs.small] + self._area[pairs.large]
@@ -230,7 +233,7 @@ class Polygons:
         return pairs.large
 
     def _heights(self, pairs: _Pairs) -> tuple[Floats, Floats]:
-        """Between which heights over the larger ones' planes the vertices of both are [m]."""
+        """Return the range of both polygons' vertices over the larger ones' planes [m]."""
         partner = np.full(len(self._label), -1)
         partner[pairs.small] = pairs.large
         other = partner[self._label]
@@ -275,13 +278,13 @@ class Polygons:
         return filled(self._planar(self._tail[edges], rows, pairs.large), depth)
 
     def _planar(self, vertices: Indices, rows: Indices, faces: Indices) -> Planar:
-        """Corners in the planes of their polygons, which go by these faces."""
+        """Return corners in the planes of their polygons, defined by these faces."""
         points = self.surface.vertices[vertices]
         flat = [np.einsum("ij,ij->i", points, u[rows]) for u in across(self.surface.normals[faces])]
         return Planar(np.stack(flat, axis=1), rows, len(faces))
 
     def _rings(self, faces: Indices) -> tuple[Indices, Indices]:
-        """The half-edges around polygons, one polygon after the other, and whose each is."""
+        """Return the half-edges around polygons, polygon by polygon, and their polygons."""
         start = self._start[faces]
         edges, rows = self._walk(self._next[start], start)
         edges, rows = np.concatenate([start, edges]), np.concatenate([np.arange(len(faces)), rows])
@@ -289,7 +292,7 @@ class Polygons:
         return edges[order], rows[order]
 
     def _walk(self, edges: Indices, ends: Indices) -> tuple[Indices, Indices]:
-        """Half-edges from some on, without the last, and by which walk each was found."""
+        """Return half-edges from some on, without the last, and the walk that found each."""
         found, walks = [edges[:0]], [edges[:0]]
         rows = np.flatnonzero(edges != ends)
         here = edges[rows]
@@ -327,12 +330,12 @@ class _Pairs:
     leave_back: Indices
 
     def only(self, rows: NDArray[Any]) -> _Pairs:
-        """Some of them."""
+        """Return some of them."""
         return _Pairs(*(getattr(self, each.name)[rows] for each in fields(self)))
 
 
 def _apart(one: Indices, two: Indices, count: int) -> Indices:
-    """Rows of ranked pairs of which no two share a polygon, the first of each polygon first."""
+    """Return rows of ranked pairs without common polygons, the first of each polygon first."""
     found = []
     rows = np.arange(len(one))
     best = np.empty(count, np.intp)
@@ -350,7 +353,7 @@ def _apart(one: Indices, two: Indices, count: int) -> Indices:
 
 
 def across(normals: Floats) -> tuple[Floats, Floats]:
-    """Two unit vectors across each normal, shapes (n, 3), right-handed with it."""
+    """Return two unit vectors across each normal, shapes (n, 3), right-handed with it."""
     least = np.abs(normals).argmin(axis=1)
     axes = np.eye(3)[least]
     first = np.cross(axes, normals)
@@ -360,7 +363,7 @@ def across(normals: Floats) -> tuple[Floats, Floats]:
 
 
 def _candidates(surface: WeldedSurface, twins: Indices) -> tuple[Indices, Floats]:
-    """Half-edges between two triangles, one of each pair, and how far those are from flat [m].
+    """Return half-edges between two triangles, one of each pair, and their deviations [m].
 
     What is flat but for rounding counts as flat.
     """

@@ -40,7 +40,7 @@ class Ground:
 
 
 def ground_of(mesh: MeshData) -> Ground | None:
-    """The heights of a mesh; None if it has few triangles, or is not ground."""
+    """Return the heights of a mesh; None if it has few triangles, or is not ground."""
     if len(mesh.faces) < FEWEST:
         return None
     if not _one_sided(mesh):
@@ -84,7 +84,7 @@ def _one_sided(mesh: MeshData) -> bool:
 
 
 def _nodes(surface: WeldedSurface, span: Floats) -> tuple[int, int]:
-    """Columns and rows: those of the mesh if it is a grid, else as many as there may be."""
+    """Return columns and rows: those of the mesh if it is a grid, else as many as there may be."""
     places = np.round((surface.vertices[:, :2] - surface.vertices[:, :2].min(axis=0)) / span[:2], 6)
     columns, rows = len(np.unique(places[:, 0])), len(np.unique(places[:, 1]))
     if columns * rows == len(surface.vertices) and columns * rows <= 4 * _MOST_NODES:
@@ -94,7 +94,7 @@ def _nodes(surface: WeldedSurface, span: Floats) -> tuple[int, int]:
 
 
 def _between(heights: Floats, at: Floats) -> tuple[Floats, Floats]:
-    """Heights at places in units of cells, shape (n, 2), for both ways to split cells."""
+    """Return heights at places in units of cells, shape (n, 2), for both ways to split cells."""
     rows, columns = heights.shape
     column = np.minimum(at[:, 0].astype(np.intp), columns - 2)
     row = np.minimum(at[:, 1].astype(np.intp), rows - 2)

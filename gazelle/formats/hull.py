@@ -40,7 +40,7 @@ class Hull:
 
 
 def convex_hull(points: Floats) -> Hull | None:
-    """The hull of points, shape (n, 3); None if they lie in a plane.
+    """Return the hull of points, shape (n, 3); None if they lie in a plane.
 
     A point that stands out of it by less than two millionths of the size may be no corner.
     """
@@ -54,7 +54,10 @@ def convex_hull(points: Floats) -> Hull | None:
 
 
 def hulls_of(clouds: Sequence[Floats]) -> list[Solid]:
-    """Corners and faces of the hulls of points, shapes (n, 3); those in a plane are left out."""
+    """Return corners and faces of the hulls of points, shapes (n, 3).
+
+    Those in a plane are left out.
+    """
     builder = HullBuilder(max(map(len, clouds), default=0))
     found = ((points, builder.hull(points)) for points in clouds)
     return [_used(points, faces) for points, faces in found if faces is not None]
@@ -66,7 +69,7 @@ def _used(points: Floats, faces: Indices) -> Solid:
 
 
 def spread_directions(count: int) -> Floats:
-    """Unit vectors spread evenly over the sphere, along a spiral, shape (count, 3).
+    """Return unit vectors distributed over the sphere, along a spiral, shape (count, 3).
 
     After Vogel, "A better way to construct the sunflower head", Mathematical Biosciences 44, 1979.
     """

@@ -50,7 +50,7 @@ class HullBuilder:
         self.begins = np.zeros(most, np.int32)  # the new face that begins at a corner
 
     def hull(self, points: Floats) -> Indices | None:
-        """Faces of the hull of points.
+        """Return faces of the hull of points.
 
         Args:
             points: Finite [m], shape (n, 3); not more than there is room for.
@@ -80,7 +80,7 @@ class HullBuilder:
         return rows
 
     def normals(self) -> Floats:
-        """Unit vectors out of the faces of the last hull, shape (m, 3)."""
+        """Return unit vectors out of the faces of the last hull, shape (m, 3)."""
         rows = np.asarray(self.corner)[: self.faces, 0] >= 0
         across = np.asarray(self.normal)[: self.faces][rows].astype(np.float64)
         normals: Floats = across / np.linalg.norm(across, axis=1)[:, None]
@@ -101,7 +101,7 @@ class HullBuilder:
         return True
 
     def put_on_grid(self, points: Floats) -> None:
-        """Take down the points in steps from the least corner of their box."""
+        """Store the points in steps from the least corner of their box."""
         count = points.shape[0]
         span = 0.0
         for axis in range(3):
@@ -132,7 +132,7 @@ class HullBuilder:
         return self.height(face, place[point, 0], place[point, 1], place[point, 2]) > 0
 
     def holds(self, x: float, y: float, z: float, last: int) -> int:
-        """-1 if a place is in the hull, else a face that it is in front of.
+        """Return -1 if a place is in the hull, else a face that it is in front of.
 
         Args:
             x: [m].
@@ -163,7 +163,7 @@ class HullBuilder:
         )
 
     def put(self, a: int, b: int, c: int) -> int:
-        """A face with three corners; those beyond its edges are not known yet."""
+        """Add a face with three corners; those beyond its edges are not known yet."""
         if self.freed > 0:
             self.freed -= 1
             face = self.free[self.freed]
@@ -221,7 +221,7 @@ class HullBuilder:
         return True
 
     def join_first(self) -> None:
-        """Tell the first four faces what is beyond their edges."""
+        """Set the neighbours of the first four faces."""
         for face in range(4):
             for i in range(3):
                 tail = self.corner[face, i]
@@ -235,7 +235,10 @@ class HullBuilder:
                             self.across[face, i] = other
 
     def farthest_from(self, a: int, b: int, count: int) -> int:
-        """The point farthest from the line through two others; from the one, if they are one."""
+        """Return the point farthest from the line through two others.
+
+        From the one, if they are one.
+        """
         far, most, place = a, 0.0, self.place
         ux = cython.cast(cython.double, place[b, 0] - place[a, 0])
         uy = cython.cast(cython.double, place[b, 1] - place[a, 1])
@@ -252,7 +255,7 @@ class HullBuilder:
         return far
 
     def give(self, point: int, begin: int, end: int) -> None:
-        """Give a point to the first of the faces in ``patch`` order that it sees, if any."""
+        """Assign a point to the first of the faces in ``patch`` order that it sees, if any."""
         for face in range(begin, end):
             if self.sees(point, face):
                 self.after[point] = self.first[face]
@@ -260,14 +263,14 @@ class HullBuilder:
                 return
 
     def wait_for(self, face: int) -> None:
-        """Come back to a face if there are points outside of it."""
+        """Queue a face if there are points outside of it."""
         if self.first[face] >= 0 and not self.waits[face]:
             self.waits[face] = 1
             self.queue[self.waiting] = face
             self.waiting += 1
 
     def farthest(self, face: int) -> int:
-        """The point outside of a face that is farthest from its plane."""
+        """Return the point outside of a face that is farthest from its plane."""
         best, most = self.first[face], cython.cast(cython.longlong, 0)
         point, place = best, self.place
         while point >= 0:
@@ -278,7 +281,7 @@ class HullBuilder:
         return best
 
     def add(self, point: int, face: int) -> None:
-        """Make a point that sees a face a corner of the hull."""
+        """Add a point that sees a face as a corner of the hull."""
         self.look(point, face)
         orphan = self.take_away(point)
         count = self.edges
@@ -329,7 +332,10 @@ class HullBuilder:
         self.visible = count
 
     def take_away(self, point: int) -> int:
-        """Take away the faces that a point sees; the first of the other points outside of them."""
+        """Remove the faces that a point sees.
+
+        Returns the first of the other points outside of them.
+        """
         orphan = -1
         for k in range(self.visible):
             face = self.patch[k]

@@ -11,7 +11,7 @@ _BEGINS = b"version https://git-lfs"
 
 
 def refuse_pointer(data: bytes, path: Path) -> None:
-    """Say so if what a file holds is no more than a pointer to its content.
+    """Raise an error if a file holds only a pointer to its content.
 
     Raises:
         FormatError: It is.
@@ -26,7 +26,7 @@ def refuse_pointer(data: bytes, path: Path) -> None:
 
 
 def refuse_pointer_file(path: Path) -> None:
-    """As ``refuse_pointer`` of a file that may be large, if there is one."""
+    """Raise an error if there is a file that holds only a pointer to its content."""
     refuse_special(path)
     try:
         with path.open("rb") as file:

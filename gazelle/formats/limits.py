@@ -38,7 +38,7 @@ def read_bounded(path: Path, most: int = MAX_BYTES) -> bytes:
 
 
 def refuse_special(path: Path) -> None:
-    """Refuse a pipe, a socket or a device, which may never end.
+    """Raise an error for a pipe, a socket or a device, which may never end.
 
     Raises:
         FormatError: It is one of them.

@@ -40,7 +40,7 @@ def load(
     xacro_args: Mapping[str, str] | None = None,
     strict: bool = False,
 ) -> World:
-    """The world in a file: SDF, URDF, xacro, Stage, a map, or the folder of a model.
+    """Return the world in a file: SDF, URDF, xacro, Stage, a map, or the folder of a model.
 
     A file of a robot or model gives a world that holds just that (``open_world`` adds ground and
     sun); a map of ``map_server`` (``.yaml``) one with a wall on each occupied cell. What kind any other file is is decided by
@@ -71,7 +71,7 @@ def load_model(
     xacro_args: Mapping[str, str] | None = None,
     strict: bool = False,
 ) -> Model:
-    """The one model in a file; arguments and errors are those of ``load``.
+    """Load the one model in a file; arguments and errors are those of ``load``.
 
     Raises:
         FormatError: The file holds no model, or several.
@@ -90,7 +90,7 @@ def load_string(
     xacro_args: Mapping[str, str] | None = None,
     strict: bool = False,
 ) -> World:
-    """The world in SDF, URDF, xacro or Stage text; ``name`` stands for the file in errors.
+    """Load the world in SDF, URDF, xacro or Stage text; ``name`` stands for the file in errors.
 
     Relative names start nowhere: files are found through ``paths`` and URIs.
 
@@ -122,7 +122,7 @@ def load_model_string(
     xacro_args: Mapping[str, str] | None = None,
     strict: bool = False,
 ) -> Model:
-    """The one model in SDF, URDF or xacro text; see ``load_string``.
+    """Load the one model in SDF, URDF or xacro text; see ``load_string``.
 
     Raises:
         FormatError: The text holds no model, or several.
@@ -147,7 +147,7 @@ def _only_model(world: World, name: str) -> Model:
 
 
 def path_text(path: object) -> str:
-    """A path, URI or bundled name as text.
+    """Return a path, URI or bundled name as text.
 
     Raises:
         ResolveError: It is none of them.
@@ -169,7 +169,7 @@ def path_text(path: object) -> str:
 
 
 def find_file(path: PathLike, reading: Reading, *, model: bool = False) -> Path:
-    """The file that a path, URI or bundled name means.
+    """Return the file of a path, URI or bundled name.
 
     Args:
         path: What was asked for.
@@ -214,7 +214,7 @@ def _beside(file: Path) -> str:
 
 
 def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:
-    """The file or model's folder that a bare name means.
+    """Return the file or model's folder of a bare name.
 
     What comes with Gazelle is not hidden by what the environment has of that name: a task or a
     tutorial that names it counts on it. What else there is, is told once.
@@ -247,7 +247,7 @@ def _tell_other(name: str, resolver: Resolver) -> None:
 
 
 def bundled_names(assets: Path) -> list[str]:
-    """Names of all worlds, models and robots that come with Gazelle."""
+    """Return names of all worlds, models and robots that come with Gazelle."""
     patterns = ("models/*", "*/models/*", "*/models/*/*")
     files = [file for each in patterns for file in assets.glob(f"{each}/model.config")]
     models = [file.parent.name for file in files]
@@ -268,7 +268,7 @@ def _bundled_files(assets: Path) -> dict[str, Path]:
 
 
 def _read_once(file: Path, reading: Reading) -> World:
-    """The world in a file; one of Gazelle's own that gave no remark is read once in a process.
+    """Return the world in a file; a bundled one without a remark is read once in a process.
 
     What such a file names is Gazelle's own, too, and descriptions do not change.
     """
@@ -284,7 +284,7 @@ def _read_once(file: Path, reading: Reading) -> World:
 
 
 def read_path(file: Path, reading: Reading) -> World:
-    """The world in a file.
+    """Read the world in a file.
 
     Raises:
         FormatError: It cannot be read, or says something that cannot be.
@@ -302,7 +302,7 @@ def read_path(file: Path, reading: Reading) -> World:
 
 
 def read_root(root: Parameters, reading: Reading) -> World:
-    """The world of a root element, whatever its format.
+    """Read the world of a root element, whatever its format.
 
     Raises:
         FormatError: It is of no known format.

@@ -31,7 +31,7 @@ _GREY = Material(ambient=(0.5, 0.5, 0.5, 1.0), diffuse=(0.5, 0.5, 0.5, 1.0))
 
 
 def map_world(grid: OccupancyMap, *, height: float = HEIGHT) -> World:
-    """The world of a map: its frame is the map's, unknown cells are free.
+    """Return the world of a map: its frame is the map's, unknown cells are free.
 
     Args:
         grid: The map.

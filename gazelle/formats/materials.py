@@ -93,7 +93,7 @@ _PICTURES: dict[str, Color] = {
 
 
 def script_colors(name: str) -> tuple[Color, Color] | None:
-    """(ambient, diffuse) of a material script such as ``Gazebo/Grey``, or None."""
+    """Return (ambient, diffuse) of a material script such as ``Gazebo/Grey``, or None."""
     short = name.removeprefix(_PREFIX)
     if short in _PLAIN:
         return _PLAIN[short]
@@ -102,13 +102,13 @@ def script_colors(name: str) -> tuple[Color, Color] | None:
 
 
 def brightened(color: Color) -> Color:
-    """A URDF's colour as libsdformat writes it, for Gazebo's light of 0.8."""
+    """Return a URDF's colour as libsdformat writes it, for Gazebo's light of 0.8."""
     red, green, blue, alpha = color
     return (min(1.0, red / 0.8), min(1.0, green / 0.8), min(1.0, blue / 0.8), alpha)
 
 
 def with_urdf_color(material: Material, color: Color) -> Material:
-    """The material that a URDF's colour makes of one without a colour but that of its script."""
+    """Return the material with a URDF's colour, if it has none but that of its script."""
     shown = with_script_colors(material)
     return replace(
         shown,
@@ -119,7 +119,7 @@ def with_urdf_color(material: Material, color: Color) -> Material:
 
 
 def with_script_colors(material: Material) -> Material:
-    """The material with the colours of its script where it has none of its own."""
+    """Return the material with its script's colours where it has none of its own."""
     known = None if material.script is None else script_colors(material.script)
     if known is None:
         return material

@@ -83,7 +83,7 @@ class PieceMerger:
     def _replace(
         self, queue: list[tuple[float, int, int]], one: int, other: int, cloud: Floats
     ) -> None:
-        """Put one piece in the place of two."""
+        """Replace two pieces by one."""
         number = self._next
         self._next += 1
         refused = (self._refused.pop(one) | self._refused.pop(other)) - {one, other}

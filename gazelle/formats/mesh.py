@@ -62,7 +62,7 @@ class MeshData:
 
 
 def load_mesh(mesh: Mesh) -> MeshData:
-    """The triangles of a description's mesh, scaled.
+    """Load the triangles of a description's mesh, scaled.
 
     Raises:
         FormatError: The file was not found, cannot be read, or holds no triangle or not
@@ -72,7 +72,7 @@ def load_mesh(mesh: Mesh) -> MeshData:
 
 
 def load_mesh_parts(mesh: Mesh) -> tuple[MeshPart, ...]:
-    """The pieces of a description's mesh, scaled, with their looks.
+    """Load the pieces of a description's mesh, scaled, with their looks.
 
     Raises:
         FormatError: As ``load_mesh``.
@@ -116,7 +116,7 @@ def _placed(data: MeshData, mesh: Mesh) -> MeshData:
 
 
 def bounds(mesh: Mesh) -> tuple[Vector3, Vector3]:
-    """Smallest and largest corner of a mesh [m], in its frame.
+    """Return smallest and largest corner of a mesh [m], in its frame.
 
     Raises:
         FormatError: As ``load_mesh``.
@@ -126,7 +126,7 @@ def bounds(mesh: Mesh) -> tuple[Vector3, Vector3]:
 
 
 def load_parts(path: Path) -> tuple[MeshPart, ...]:
-    """The pieces of a mesh file, unscaled, in the file's frame turned z up, in metres.
+    """Load the pieces of a mesh file, unscaled, in the file's frame turned z up, in metres.
 
     Raises:
         FormatError: The file cannot be read, or holds no triangle.

@@ -38,7 +38,7 @@ PLAIN = MeshLook()
 
 
 def texture_file(mesh: Path, name: str) -> Path | None:
-    """The picture that a mesh file names, beside it or where Gazebo's models keep theirs.
+    """Return the picture that a mesh file names, beside it or in a Gazebo model's folders.
 
     Only files in the folder of the mesh's model are found: two above the mesh, and what is below.
 
@@ -67,7 +67,7 @@ def texture_file(mesh: Path, name: str) -> Path | None:
 
 
 def look_of_trimesh(mesh: Any) -> MeshLook:
-    """The look of what trimesh read: glTF's and PLY's colours, and pictures inside the file."""
+    """Return the look of a trimesh: glTF's and PLY's colours, and pictures inside the file."""
     visual: Any = getattr(mesh, "visual", None)
     kind = getattr(visual, "kind", None)
     if kind in {"vertex", "face"}:  # one colour is shown: their mean
@@ -90,7 +90,7 @@ def look_of_trimesh(mesh: Any) -> MeshLook:
 
 
 def _factor(factor: Any, material: Any) -> tuple[float, float, float, float]:
-    """Red, green, blue and alpha, 0 to 1, of glTF's base colour or an older material's."""
+    """Return red, green, blue and alpha, 0 to 1, of glTF's base colour or an older material's."""
     given = factor if factor is not None else getattr(material, "diffuse", None)
     if given is None:
         return (1.0, 1.0, 1.0, 1.0)

@@ -17,7 +17,7 @@ _DIGITS = 9
 
 
 def entry_file(path: Path) -> Path:
-    """The file to read: the path itself, or for a folder the one its ``model.config`` names.
+    """Return the file to read: the path itself, or for a folder the file in its ``model.config``.
 
     Of several, the one of the newest SDF version that can be read is taken.
 

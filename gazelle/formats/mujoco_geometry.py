@@ -18,7 +18,7 @@ _FEWEST = 4
 def first_hits(
     surface: WeldedSurface, origins: Floats, directions: Floats
 ) -> tuple[Floats, NDArray[np.bool_]]:
-    """Distance along rays to the first triangle, and whether they come from behind it.
+    """Return distance along rays to the first triangle, and whether they come from behind it.
 
     Args:
         surface: Whose triangles are met from both sides.

@@ -67,7 +67,7 @@ class MapSettings:
 
 
 def load_map(path: PathLike, *, paths: Sequence[PathLike] = ()) -> OccupancyMap:
-    """The map in a ``map_server`` YAML file; PGM, PNG, BMP, JPG and others serve as pictures.
+    """Load a ``map_server`` YAML file; its picture may be PGM, PNG, BMP, JPG and others.
 
     Args:
         path: The YAML file.
@@ -104,7 +104,7 @@ def load_map(path: PathLike, *, paths: Sequence[PathLike] = ()) -> OccupancyMap:
 
 
 def cells(pixels: Bytes, settings: MapSettings, *, blue_first: bool = False) -> NDArray[np.int8]:
-    """The cells that ``map_server`` makes of a picture, shape (height, width), bottom row first.
+    """Return the cells of a picture as in ``map_server``, shape (height, width), bottom first.
 
     In mode ``trinary`` transparency counts as a colour; in the others a cell between the
     thresholds is unknown where the last byte of its pixel is 0: that of transparency, but
@@ -129,7 +129,7 @@ def cells(pixels: Bytes, settings: MapSettings, *, blue_first: bool = False) -> 
 
 
 def _values(average: NDArray[np.float64], settings: MapSettings) -> NDArray[np.int8]:
-    """The cell for each brightness, 0 to 255."""
+    """Return the cell for each brightness, 0 to 255."""
     if settings.mode == "raw":
         return average.astype(np.uint8).view(np.int8)
     dark = (255.0 - average) / 255.0
@@ -154,22 +154,22 @@ class _Node:
     def fail(
         self, message: str, kind: type[FormatError] = FormatError, hint: str | None = None
     ) -> FormatError:
-        """The error to raise about it."""
+        """Return the error to raise about it."""
         return kind(message, source=self.source, hint=hint)
 
     def text(self) -> str:
-        """The scalar as text."""
+        """Return the scalar as text."""
         value = self.value.value
         if not isinstance(value, str):
             raise self.fail(f"expected one value in '{self.key}', found several")
         return value.strip()
 
     def number(self) -> float:
-        """The scalar as a finite number."""
+        """Return the scalar as a finite number."""
         return self._number(self.text())
 
     def numbers(self, count: int) -> tuple[float, ...]:
-        """A list of so many finite numbers."""
+        """Return a list of so many finite numbers."""
         items = self.value.value
         if isinstance(items, str) or len(items) != count:
             raise self.fail(f"expected {count} numbers in '{self.key}', such as [0.0, 0.0, 0.0]")
@@ -186,7 +186,7 @@ class _Node:
 
 
 def _read_nodes(data: bytes, name: str, reading: Reading) -> dict[str, _Node]:
-    """The values of the YAML file by key; all that are required are there."""
+    """Read the values of the YAML file by key; all that are required are there."""
     root = _parse(blanks.plain_bytes(data, name, _COMMENT, reading.misread), name)
     nodes: dict[str, _Node] = {}
     for key_node, value in root.value:
@@ -208,7 +208,7 @@ def _read_nodes(data: bytes, name: str, reading: Reading) -> dict[str, _Node]:
 
 
 def _parse(data: bytes, name: str) -> yaml.MappingNode:
-    """The YAML file as nodes, which know their lines."""
+    """Return the YAML file as nodes, which know their lines."""
     import yaml
 
     if len(data) > MAX_BYTES:

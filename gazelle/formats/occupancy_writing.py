@@ -21,7 +21,7 @@ _DARK, _BRIGHT = 0.65, 0.196
 
 
 def grey_levels(grid: OccupancyMap, *, occupied: float = 65.0, free: float = 25.0) -> Bytes:
-    """The picture of a map, top row first, shape (height, width): black, white and grey.
+    """Return the picture of a map, top row first, shape (height, width): black, white and grey.
 
     Args:
         grid: The map.

@@ -37,7 +37,7 @@ class Octree:
     kind: str = "OcTree"
 
     def cuboids(self) -> tuple[Floats, Floats]:
-        """The occupied space: middles of cuboids and their edges, in the map's frame [m], each (n, 3).
+        """Return middles and edges of the occupied cuboids, in the map's frame [m], each (n, 3).
 
         Leaves, at their own sizes, are joined where several make a larger cuboid.
 
@@ -91,7 +91,7 @@ class Octree:
 
 
 def joined(low: Ints32, edges: Ints32) -> tuple[Ints32, Ints32]:
-    """Cuboids that do not overlap, joined into fewer that fill the same space.
+    """Return disjoint cuboids, joined into fewer that fill the same space.
 
     Those that are beside each other and equally wide are one, along x, then y, then z, until that
     changes nothing.
@@ -109,7 +109,7 @@ def joined(low: Ints32, edges: Ints32) -> tuple[Ints32, Ints32]:
 
 
 def _joined_along(axis: int, low: Ints32, edges: Ints32) -> tuple[Ints32, Ints32]:
-    """Rows of cuboids along an axis as one each."""
+    """Return cuboids joined along an axis."""
     aside = [other for other in range(3) if other != axis]
     section = np.column_stack([low[:, aside], edges[:, aside]])
     order = np.lexsort((low[:, axis], *section.T))

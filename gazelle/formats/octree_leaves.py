@@ -28,7 +28,7 @@ _PARENT = cython.declare(cython.int, 3)
 
 
 def occupied_leaves(data: Bytes, record: int, most: int) -> tuple[int, int, Ints32]:
-    """Leaves that are occupied: as the binary form says, or with log-odds of at least 0.
+    """Find the occupied leaves: by the binary form, or with log-odds of at least 0.
 
     Args:
         data: Shape (n,).
@@ -90,7 +90,7 @@ class OctreeWalk:
         self._edge = 1 << _DEPTH
 
     def walk(self) -> int:
-        """Walk from the root to the end; how that went."""
+        """Walk the tree from the root to the end; returns the outcome."""
         self._walk()
         return int(self._outcome)
 
@@ -155,7 +155,7 @@ class OctreeWalk:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _next(self) -> cython.int:
-        """Go to the next child of the innermost node that has one left; what that is."""
+        """Advance to the next child of the innermost node that has one left; returns its kind."""
         while self._level > 0 and self._stack[self._level - 1, 4] == 8:
             self._level -= 1
         if self._level == 0:

@@ -51,12 +51,12 @@ class ScriptBlock:
     blocks: list[ScriptBlock] = field(default_factory=list)
 
     def first(self, kind: str) -> ScriptBlock | None:
-        """The first block of a kind."""
+        """Return the first block of a kind."""
         return next((each for each in self.blocks if each.head[:1] == (kind,)), None)
 
 
 def find_material(name: str, places: tuple[Path, ...]) -> tuple[ScriptMaterial, Path | None] | None:
-    """A material by its name, and the picture on it if there is one.
+    """Return a material by its name, and its picture if there is one.
 
     Args:
         name: Such as ``Beer/Diffuse``.
@@ -70,7 +70,7 @@ def find_material(name: str, places: tuple[Path, ...]) -> tuple[ScriptMaterial, 
 
 
 def read_scripts(path: Path) -> dict[str, ScriptMaterial]:
-    """All materials of a script by name; none of a file that cannot be read."""
+    """Read all materials of a script by name; empty for an unreadable file."""
     try:
         about = path.stat()
         return {} if about.st_size > MAX_BYTES else _read(path, about.st_mtime_ns)
@@ -84,7 +84,7 @@ def _read(path: Path, _changed: int) -> dict[str, ScriptMaterial]:
 
 
 def parse_scripts(text: str) -> dict[str, ScriptMaterial]:
-    """All materials of a script's text by name; what is not understood is passed over."""
+    """Parse all materials of a script's text by name; unknown parts are skipped."""
     blocks = {}
     for block in _parse(text):
         words = [word for word in block.head if word != "abstract"]
@@ -104,7 +104,7 @@ def parse_scripts(text: str) -> dict[str, ScriptMaterial]:
 
 
 def _refined(material: ScriptMaterial, block: ScriptBlock) -> ScriptMaterial:
-    """The material with what a block says in place of what its base said."""
+    """Return the material with a block's values over those of its base."""
     values = {line[1]: line[2] for line in block.lines if line[0] == "set" and len(line) > 2}
     technique = block.first("technique")
     shown = technique.first("pass") if technique is not None else None
@@ -139,7 +139,10 @@ def _colored(material: ScriptMaterial, key: str, color: Color | None) -> ScriptM
 
 
 def _color(key: str, words: list[str]) -> Color | None:
-    """Three or four numbers; those of a specular colour may be followed by the shininess."""
+    """Return three or four numbers.
+
+    Those of a specular colour may be followed by the shininess.
+    """
     try:
         numbers = [float(word) for word in words]
     except ValueError:
@@ -153,7 +156,7 @@ def _color(key: str, words: list[str]) -> Color | None:
 
 
 def _parse(text: str) -> list[ScriptBlock]:
-    """The blocks of a text; braces that do not match end what they can."""
+    """Return the blocks of a text; braces that do not match end what they can."""
     root = ScriptBlock(())
     stack = [root]
     words: list[str] = []
@@ -191,7 +194,7 @@ def _scripts(places: tuple[Path, ...]) -> Iterator[Path]:
 
 
 def _picture(name: str, script: Path, places: tuple[Path, ...]) -> Path | None:
-    """A picture in the folders that are named, or beside the script as Gazebo's models have it."""
+    """Return a picture in the named folders, or beside the script as Gazebo's models have it."""
     plain = Path(name).name
     if not plain:
         return None

@@ -89,7 +89,7 @@ def _turns_once(polygons: Planar, kept: Bools) -> Bools:
 
 
 def _neighbours(rows: Indices) -> tuple[Indices, Indices]:
-    """The corners before and after each in its polygon, shapes (n,)."""
+    """Return the corners before and after each in its polygon, shapes (n,)."""
     here = np.arange(len(rows))
     starts = np.flatnonzero(np.r_[True, rows[1:] != rows[:-1]][: len(rows)])
     ends = np.r_[starts[1:], len(rows)] - 1 if len(rows) else starts

@@ -45,7 +45,7 @@ class Index:
 
 
 def scan(root: Path, listings: dict[Path, Listing]) -> Index:
-    """All packages and models up to ``MAX_DEPTH`` folders below ``root``, shallow ones first.
+    """Return all packages and models up to ``MAX_DEPTH`` folders below ``root``, shallow first.
 
     Links to folders are not followed, so that the search ends and stays below ``root``.
 
@@ -75,7 +75,7 @@ def scan(root: Path, listings: dict[Path, Listing]) -> Index:
 
 
 def crawl(root: Path) -> dict[str, Path]:
-    """The packages below a folder of ``ROS_PACKAGE_PATH``, by rospack's rules.
+    """Return the packages below a folder of ``ROS_PACKAGE_PATH``, by rospack's rules.
 
     Depth first; a package is not searched further, nor are a folder with ``CATKIN_IGNORE``, one
     with ``rospack_nosubdirs`` and hidden ones. Links are followed. The first of a name wins; which
@@ -115,7 +115,7 @@ def _list(folder: Path) -> Listing:
 
 
 def exported_model_paths(package: Path) -> Iterator[Path]:
-    """Folders that a package exports to Gazebo as places of models.
+    """Yield folders that a package exports to Gazebo as places of models.
 
     These are the ``gazebo_model_path`` attributes of ``<export><gazebo_ros>``.
     """

@@ -58,14 +58,14 @@ class Patches:
 
 
 def joined_flat(surface: WeldedSurface) -> Polygons:
-    """The convex polygons of a surface that are flat but for rounding."""
+    """Return the convex polygons of a surface that are flat up to rounding."""
     joined = Polygons(surface)
     joined.join(_ROUNDING * surface.size, notches=False)
     return joined
 
 
 def thick_patches(joined: Polygons, closed: NDArray[np.bool_]) -> Patches:
-    """Convex solids along a surface.
+    """Return convex solids along a surface.
 
     They follow it exactly if ``_FEW`` are enough for that, within ``FINE`` if ``MOST_PATCHES``
     are, else as well as those can.
@@ -150,7 +150,7 @@ def depths_of(surface: WeldedSurface, rims: Rims, closed: NDArray[np.bool_], ski
 
 
 def prism(rim: Floats, thickness: Floats) -> Solid:
-    """A convex polygon, shape (n, 3), counter-clockwise from outside, thickened inwards.
+    """Return a convex polygon, shape (n, 3), counter-clockwise from outside, thickened inwards.
 
     The thickness is a vector that points out of the polygon [m].
     """
@@ -159,7 +159,7 @@ def prism(rim: Floats, thickness: Floats) -> Solid:
 
 @lru_cache(maxsize=256)
 def _prism_faces(count: int) -> NDArray[np.int32]:
-    """Triangles of a prism over so many corners, those of the other end after them."""
+    """Return triangles of a prism over so many corners, those of the other end after them."""
     here = np.arange(count, dtype=np.int32)
     after = np.roll(here, -1)
     fan = np.stack([np.zeros(count - 2, np.int32), here[1:-1], here[2:]], axis=1)

@@ -28,7 +28,7 @@ _WITH_ALPHA = {"LA", "La", "PA", "RGBa"}
 
 
 def read_picture(path: Path) -> Bytes:
-    """The pixels, shape (height, width, channels): grey, RGB or RGBA; the top row first.
+    """Read pixels, shape (height, width, channels): grey, RGB or RGBA; the top row first.
 
     Grey of 16 bits keeps its upper byte.
 
@@ -39,7 +39,7 @@ def read_picture(path: Path) -> Bytes:
 
 
 def read_elevations(path: Path) -> Floats:
-    """The values of a picture of one channel, as they are, shape (height, width); top row first.
+    """Read a picture of one channel, values unchanged, shape (height, width); top row first.
 
     Raises:
         FormatError: As ``read_picture``, or it has several channels.
@@ -70,7 +70,7 @@ def _read(path: Path, values_of: Callable[[Image], T]) -> T:
 
 @cache
 def _teach_doubles() -> None:
-    """Let Pillow open TIFF files of 64-bit numbers: it can decode those, and has no row for them."""
+    """Register TIFF files of 64-bit numbers with Pillow, which can decode them."""
     from PIL.TiffImagePlugin import II, MM, OPEN_INFO
 
     for order, kind in ((II, "F;64F"), (MM, "F;64BF")):

@@ -19,7 +19,7 @@ VERSION = 6
 
 
 def folder() -> Path:
-    """``$XDG_CACHE_HOME/gazelle/convex``, else below ``~/.cache``."""
+    """Return ``$XDG_CACHE_HOME/gazelle/convex``, else below ``~/.cache``."""
     base = os.environ.get("XDG_CACHE_HOME", "")
     root = Path(base) if Path(base).is_absolute() else Path("~/.cache").expanduser()
     return root / "gazelle" / "convex"
@@ -30,7 +30,7 @@ def _file(digest: str) -> Path:
 
 
 def load(digest: str) -> Stored | None:
-    """The pieces of a mesh; None if they are not there, or the file is damaged."""
+    """Load the pieces of a mesh; None if they are missing, or the file is damaged."""
     try:
         with np.load(_file(digest), allow_pickle=False) as data:
             vertices = np.asarray(data["vertices"], np.float64).reshape(-1, 3)
@@ -60,7 +60,7 @@ def _split(
 
 
 def store(digest: str, pieces: Stored) -> None:
-    """Keep the pieces of a mesh; nothing happens where the folder cannot be written."""
+    """Store the pieces of a mesh, if the folder is writable."""
     solids, whole, gap, closed = pieces
     if not solids:
         return

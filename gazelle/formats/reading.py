@@ -80,7 +80,7 @@ class Reading:
         return not self.resolver.paths and not self.xacro_args
 
     def find(self, uri: str, node: Parameters, *, required: bool = True) -> Path | None:
-        """The file behind a URI; a miss is recorded when it is required."""
+        """Return the file behind a URI; a miss is recorded when it is required."""
         path = self.resolver.find(uri, self.folder)
         if path is None and required and not any(miss.uri == uri for miss in self.misses):
             self.misses.append(Miss(uri, node.source, self.resolver.looked_in(uri)))
@@ -160,7 +160,7 @@ class Reading:
 
 
 def grouped(notes: Iterable[Note]) -> list[str]:
-    """Remarks as lines of text, those that differ only in names and numbers in one."""
+    """Return remarks as lines of text; those that differ only in names and numbers are one."""
     kinds: dict[tuple[str, str | None], list[Note]] = {}
     for note in notes:
         file = None if note.source is None else note.source.file
@@ -180,7 +180,7 @@ def _others(notes: list[Note]) -> str:
 
 
 def note_text(note: Note) -> str:
-    """A remark as one line with its place."""
+    """Return a remark as one line with its place."""
     place = note.source or Source()
     return describe(
         note.message, file=place.file, line=place.line, element=place.element, hint=note.hint
@@ -188,7 +188,7 @@ def note_text(note: Note) -> str:
 
 
 def misses_text(misses: list[Miss]) -> str:
-    """All misses as one line."""
+    """Return all misses as one line."""
     parts = []
     for miss in misses:
         line = f" (line {miss.source.line})" if miss.source and miss.source.line else ""

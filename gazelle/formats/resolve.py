@@ -84,7 +84,7 @@ class Resolver:
                 self._models = {name: at for name, at in self._models.items() if at}
 
     def find(self, uri: str, base: Path | None = None) -> Path | None:
-        """The file or folder a URI or path names, or None.
+        """Return the file or folder of a URI or path, or None.
 
         Args:
             uri: ``model://``, ``package://``, ``file://``, an absolute or a relative path.
@@ -113,13 +113,13 @@ class Resolver:
         return f"looked in {shown}{state}"
 
     def package(self, name: str) -> Path | None:
-        """The folder of a ROS package, or None."""
+        """Return the folder of a ROS package, or None."""
         if name not in self._packages:
             self._packages[name] = self._find_package(name)
         return self._packages[name]
 
     def model(self, name: str) -> Path | None:
-        """The folder of a Gazebo model, or None."""
+        """Return the folder of a Gazebo model, or None."""
         if name not in self._models:
             self._models[name] = self._find_model(name)
         return self._models[name]
@@ -155,7 +155,10 @@ class Resolver:
                 yield from self._plain(path, base)
 
     def _below(self, name: str, inner: str, scheme: str) -> Iterator[Path]:
-        """``model://`` may also name a package, and the other way round, as in Gazebo."""
+        """Yield folders.
+
+        As in Gazebo, ``model://`` may also name a package, and the other way round.
+        """
         first, second = (self.model, self.package)
         if scheme == "package":
             first, second = second, first
@@ -177,7 +180,7 @@ class Resolver:
             yield root / plain
 
     def _local_copy(self, uri: str) -> Iterator[Path]:
-        """A model of the same name that is on disk stands in for one on the network."""
+        """Yield local models of the same name as one on the network."""
         parts = [unquote(part) for part in uri.split("/")]
         if "models" in parts[:-1]:
             at = parts.index("models")
@@ -210,7 +213,7 @@ class Resolver:
 
     @staticmethod
     def _flat(root: Path, name: str) -> Path | None:
-        """The package where it mostly is, which spares the search."""
+        """Return the package at its usual place, which spares the search."""
         if packages.is_package(root, name):
             return root
         for folder in (root, root / "src"):
@@ -226,7 +229,7 @@ class Resolver:
         return self._crawled[root]
 
     def _linked_to(self, package: Path) -> None:
-        """Let files of a package be read that a workspace has as a link, as they often do."""
+        """Allow files of a package that a workspace has as a link."""
         if not self.readable(package):
             self._linked.append(package.resolve())
             self._readable_in = None
@@ -245,22 +248,22 @@ class Resolver:
         )
 
     def bundled_model(self, name: str) -> Path | None:
-        """The folder of a model that comes with Gazelle, or None."""
+        """Return the folder of a model that comes with Gazelle, or None."""
         places = [self.assets / "models" / name]
         places += [folder for pattern in _PACKAGED for folder in self.assets.glob(pattern + name)]
         return next((folder for folder in places if (folder / "model.config").is_file()), None)
 
     def given_model(self, name: str) -> Path | None:
-        """The folder of a model directly in one of ``paths``, or None."""
+        """Return the folder of a model directly in one of ``paths``, or None."""
         return _flat_model(name, self.paths) if _plain_name(name) else None
 
     def environment_model(self, name: str) -> Path | None:
-        """The folder of a model directly in a folder that the environment names, or None."""
+        """Return the folder of a model directly in a folder of the environment, or None."""
         roots = [*self._variable_roots, *self._split(PACKAGE_VARIABLE)]
         return _flat_model(name, roots) if _plain_name(name) else None
 
     def _scanned(self, roots: list[Path], kind: str, name: str) -> Path | None:
-        """A package or model anywhere below the roots: the dearest search, so the last."""
+        """Return a package or model anywhere below the roots: the slowest search, so the last."""
         for root in roots:
             index = self._index(root)
             found = (index.models if kind == "models" else index.packages).get(name)
@@ -323,7 +326,7 @@ def _plain_name(name: str) -> bool:
 
 
 def _ancestors(file: Path) -> list[Path]:
-    """The folders around a file, nearest first, short of a home or a top-level folder."""
+    """Return the folders around a file, nearest first, short of a home or a top-level folder."""
     start = file.absolute()
     folders = [start] if start.is_dir() else []
     for folder in list(start.parents)[:NEIGHBOUR_LEVELS]:

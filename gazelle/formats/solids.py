@@ -58,19 +58,19 @@ class UnitSolid:
         return finite and self.volume > 0.0
 
     def placed(self, pose: Pose) -> UnitSolid:
-        """The same body in the frame that a pose is given in."""
+        """Return the same body in the frame that a pose is given in."""
         turn = pose.matrix()[:3, :3]
         center: Floats = turn @ self.center + np.asarray(pose.position)
         inertia: Floats = turn @ self.inertia @ turn.T
         return UnitSolid(self.volume, center, inertia)
 
     def scaled(self, density: float) -> UnitSolid:
-        """The same body with its volume and inertia times a density [kg/m³]."""
+        """Return the same body with its volume and inertia times a density [kg/m³]."""
         return UnitSolid(self.volume * density, self.center, self.inertia * density)
 
 
 def solid_of(shape: Geometry) -> UnitSolid | None:
-    """The body that a shape encloses; None for one without volume, or of unknown extent.
+    """Return the body enclosed by a shape; None without volume or of unknown extent.
 
     Raises:
         FormatError: A mesh cannot be read.
@@ -87,7 +87,7 @@ def solid_of(shape: Geometry) -> UnitSolid | None:
 
 
 def joined(solids: Iterable[UnitSolid]) -> UnitSolid | None:
-    """Several bodies as one (parallel axis theorem); None if there is none."""
+    """Return several bodies as one (parallel axis theorem); None if there is none."""
     parts = list(solids)
     volume = sum(part.volume for part in parts)
     if volume <= 0.0:
@@ -101,7 +101,7 @@ def joined(solids: Iterable[UnitSolid]) -> UnitSolid | None:
 
 
 def inertial_of(solid: UnitSolid) -> Inertial:
-    """Mass and inertia of a body whose volume is already its mass [kg]."""
+    """Return mass and inertia of a body whose volume is already its mass [kg]."""
     x, y, z = solid.center.tolist()
     return Inertial(solid.volume, Pose(x, y, z), Inertia.from_matrix(solid.inertia))
 
@@ -129,7 +129,7 @@ def _cylinder(shape: Cylinder) -> UnitSolid:
 
 
 def _capsule(shape: Capsule) -> UnitSolid:
-    """A cylinder and two half balls, whose centres lie 3/8 r beyond its ends."""
+    """Return a cylinder and two half balls, whose centres lie 3/8 r beyond its ends."""
     r, h = shape.radius, shape.length
     tube, balls = math.pi * r * r * h, 4.0 / 3.0 * math.pi * r**3
     across = tube * (r * r / 4.0 + h * h / 12.0)
@@ -166,7 +166,7 @@ def _polyline(shape: Polyline) -> UnitSolid | None:
 
 
 def solid_of_triangles(vertices: Floats, faces: NDArray[np.int32]) -> UnitSolid:
-    """The body within closed triangles that look outwards, as signed tetrahedra."""
+    """Return the body within closed triangles that look outwards, as signed tetrahedra."""
     middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2.0
     corners = (vertices - middle)[faces]
     volumes = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0

@@ -44,7 +44,7 @@ LEAST_MASS = 1e-3
 def sound_inertial(
     inertial: Inertial, collisions: Iterable[Collision], node: Parameters, reading: Reading
 ) -> Inertial:
-    """The inertial, or one that a body can have, with a fault that says which.
+    """Return the inertial, or a valid one, with a fault that says which.
 
     An inertia that breaks only the triangle inequality stays, with a note: it can be inverted, and
     ODE takes it as it is.
@@ -98,7 +98,7 @@ def is_sound(inertial: Inertial) -> bool:
 
 
 def check_inertia(inertia: Inertia, node: Parameters) -> None:
-    """Refuse a tensor that is not positive definite.
+    """Raise an error for a tensor that is not positive definite.
 
     Raises:
         FormatError: It is not.
@@ -135,7 +135,7 @@ def _sound_tensor(tensor: Floats, mass: float, collisions: Iterable[Collision]) 
 
 
 def _of_shapes(mass: float, collisions: Iterable[Collision]) -> Floats | None:
-    """The tensor of the shapes with a mass spread over them evenly; None without a volume."""
+    """Return the tensor of the shapes with a uniformly distributed mass; None without a volume."""
     parts = []
     for collision in collisions:
         try:
@@ -152,7 +152,7 @@ def _of_shapes(mass: float, collisions: Iterable[Collision]) -> Floats | None:
 
 
 def _ball_of_water(mass: float) -> float:
-    """The moment of inertia of a ball of water [kg m²]."""
+    """Return the moment of inertia of a ball of water [kg m²]."""
     radius: float = (3.0 * mass / (4.0 * math.pi * WATER)) ** (1.0 / 3.0)
     return 0.4 * mass * radius**2
 

@@ -74,7 +74,7 @@ def load_srdf(
 
 
 def read_root(file: Path, reading: Reading) -> Parameters:
-    """The root element of an SRDF file, expanded if it uses xacro.
+    """Read the root element of an SRDF file, expanded if it uses xacro.
 
     Raises:
         FormatError: The file is no XML, or no valid xacro.
@@ -132,7 +132,7 @@ def read_semantics(root: Parameters, reading: Reading) -> Semantics:
 
 
 def read_group(node: Parameters) -> JointGroup:
-    """``<group>``."""
+    """Read ``<group>``."""
     return JointGroup(
         name=values.attribute(node, "name"),
         joints=_attributes(node, "joint", "name"),
@@ -147,7 +147,7 @@ def read_group(node: Parameters) -> JointGroup:
 
 
 def read_state(node: Parameters, groups: Iterable[str]) -> JointGroupState:
-    """``<group_state>``: one value for each degree of freedom of a joint."""
+    """Read ``<group_state>``: one value for each degree of freedom of a joint."""
     joints = {}
     for child in node.find_all("joint"):
         text = values.attribute(child, "value")
@@ -163,7 +163,7 @@ def read_state(node: Parameters, groups: Iterable[str]) -> JointGroupState:
 
 
 def read_end_effector(node: Parameters, groups: Iterable[str]) -> EndEffector:
-    """``<end_effector>``."""
+    """Read ``<end_effector>``."""
     named = bool(node.attributes.get("parent_group"))
     return EndEffector(
         name=values.attribute(node, "name"),
@@ -175,7 +175,7 @@ def read_end_effector(node: Parameters, groups: Iterable[str]) -> EndEffector:
 
 
 def read_virtual_joint(node: Parameters) -> VirtualJoint:
-    """``<virtual_joint>``."""
+    """Read ``<virtual_joint>``."""
     kind = values.attribute(node, "type").lower()
     if kind not in _VIRTUAL:
         raise values.fail(
@@ -191,7 +191,7 @@ def read_virtual_joint(node: Parameters) -> VirtualJoint:
 
 
 def read_pair(node: Parameters) -> DisabledCollision:
-    """``<disable_collisions>`` or ``<enable_collisions>``."""
+    """Read ``<disable_collisions>`` or ``<enable_collisions>``."""
     return DisabledCollision(
         link1=values.attribute(node, "link1"),
         link2=values.attribute(node, "link2"),

@@ -24,7 +24,7 @@ Triangles = tuple[NDArray[np.float64], NDArray[np.int32]]
 
 
 def parse(data: bytes) -> Triangles:
-    """Vertices, shape (n, 3), and faces, shape (m, 3), of an STL file.
+    """Parse vertices, shape (n, 3), and faces, shape (m, 3), of an STL file.
 
     Whether a file is binary is told by its length: many binary ones begin with the word
     ``solid``, which is meant to mark text. Corners at the same place become one vertex.
@@ -73,7 +73,7 @@ def _text(data: bytes) -> NDArray[np.float64]:
 
 
 def _weld(corners: NDArray[np.float64]) -> Triangles:
-    """Same corners as one vertex, in the order of their first use."""
+    """Merge equal corners into one vertex, in the order of their first use."""
     if not len(corners):
         return corners, np.empty((0, 3), np.int32)
     corners = corners + 0.0  # -0.0 is 0.0

@@ -54,7 +54,7 @@ class WeldedSurface:
         return float(np.einsum("ij,ij->", a, np.cross(b, c))) / 6.0
 
     def part(self, rows: Indices | NDArray[np.bool_]) -> WeldedSurface:
-        """Some of the faces, with their vertices only."""
+        """Return some of the faces, with their vertices only."""
         used, inverse = np.unique(self.faces[rows], return_inverse=True)
         faces = inverse.reshape(-1, 3).astype(np.intp)
         return WeldedSurface(self.vertices[used], faces, self.normals[rows], self.areas[rows])
@@ -65,7 +65,7 @@ class WeldedSurface:
 
 
 def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
-    """Weld corners at the same place; leave out all but one of each face, and those without area.
+    """Weld corners at the same place; remove duplicate faces, and those without area.
 
     Where several corners lie on one line, the triangles without area between them are gone, and
     those beside them are divided there, so that a closed surface stays closed.
@@ -96,7 +96,7 @@ def clean(vertices: Floats, faces: NDArray[np.int32]) -> WeldedSurface:
 
 
 def _packed(rows: Indices) -> NDArray[np.int64]:
-    """Three numbers below 2^21 a row as one, shape (n,)."""
+    """Return three numbers below 2^21 a row as one, shape (n,)."""
     return (rows[:, 0] << 2 * _BITS) + (rows[:, 1] << _BITS) + rows[:, 2]
 
 

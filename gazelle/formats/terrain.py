@@ -22,7 +22,9 @@ _LEAST = 1e-6
 
 
 def load_heights(shape: Heightmap) -> Floats:
-    """Heights over the grid of a heightmap [m], shape (rows, columns), its position apart.
+    """Load heights over the grid of a heightmap [m], shape (rows, columns).
+
+    They are relative to its position.
 
     Row 0 is at the least y, column 0 at the least x; the corners of the grid are those of
     ``size``. As in Gazebo Classic the brightest pixel has the height ``size[2]`` and black
@@ -52,7 +54,7 @@ def load_heights(shape: Heightmap) -> Floats:
 
 
 def _above_ground(elevations: Floats, height: float) -> Floats:
-    """Heights of elevations, the lowest of which lies at 0, unless that is below the sea [m].
+    """Return heights of elevations; the lowest is at 0, unless that is below the sea [m].
 
     What is lower, and what is not known (a large negative number, by custom), is at 0; so it is
     where ``height`` is negative and all is turned over, but for what is lower.
@@ -67,7 +69,7 @@ def _above_ground(elevations: Floats, height: float) -> Floats:
 
 
 def load_boxes(shape: Image) -> Floats:
-    """Centres and sizes along x, y [m] of the boxes of an image, shape (n, 4).
+    """Load centres and sizes along x, y [m] of the boxes of an image, shape (n, 4).
 
     The picture is centred at the origin, its top row at the greatest y; a pixel not
     brighter than the threshold is part of a box.
@@ -88,7 +90,7 @@ def load_boxes(shape: Image) -> Floats:
 
 
 def rectangles(cells: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Rectangles that cover the true cells once: left, top, right, bottom, shape (n, 4).
+    """Return rectangles that cover the true cells once: left, top, right, bottom, shape (n, 4).
 
     Runs of each row, joined with those of the same columns in the rows below.
     """

@@ -41,7 +41,7 @@ class _Profile:
 
 
 def read_usgs_dem(path: Path) -> Floats:
-    """The elevations of a model, shape (rows, columns), the north first; NaN if unknown.
+    """Read the elevations of a model, shape (rows, columns), the north first; NaN if unknown.
 
     Raises:
         FormatError: It cannot be read, or is no such file.
@@ -64,7 +64,7 @@ def read_usgs_dem(path: Path) -> Floats:
 
 
 def _records(data: bytes) -> list[str]:
-    """The records, which some programs part by line ends."""
+    """Return the records, which some programs separate by line ends."""
     text = data.decode("latin-1")
     lines = text.splitlines()
     if len(lines) > 1:
@@ -103,7 +103,7 @@ def _profiles(records: list[str], count: int, unit: float) -> list[_Profile]:
 
 
 def _grid(profiles: list[_Profile], dx: float, dy: float) -> Floats:
-    """The profiles side by side, each where it belongs."""
+    """Return the profiles side by side, at their places."""
     west, south = min(p.x for p in profiles), min(p.y for p in profiles)
     columns = [round((p.x - west) / dx) for p in profiles]
     rows = [round((p.y - south) / dy) for p in profiles]
@@ -118,7 +118,7 @@ def _grid(profiles: list[_Profile], dx: float, dy: float) -> Floats:
 
 
 def _real(text: str) -> float:
-    """A number as Fortran writes it, ``0.3D+02``; NaN and infinities are none.
+    """Return a number as Fortran writes it, ``0.3D+02``; NaN and infinities are rejected.
 
     Raises:
         ValueError: It is no number.

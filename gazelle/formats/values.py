@@ -27,12 +27,12 @@ _FALSE = {"false", "0"}
 
 
 def fail(node: Parameters, message: str, *, hint: str | None = None) -> FormatError:
-    """The error to raise about an element."""
+    """Return the error to raise about an element."""
     return FormatError(message, source=node.source, hint=hint)
 
 
 def parse_real(node: Parameters, text: str, what: str) -> float:
-    """Text as a number; ``what`` names it in the error."""
+    """Parse text as a number; ``what`` names it in the error."""
     word = text.strip()
     if not _NUMBER.fullmatch(word):
         raise fail(node, f"expected a number in {what}, found '{word}'", hint=curly_hint(word))
@@ -40,7 +40,7 @@ def parse_real(node: Parameters, text: str, what: str) -> float:
 
 
 def parse_reals(node: Parameters, text: str, what: str, count: int | None) -> tuple[float, ...]:
-    """Text as numbers separated by spaces; any number of them when ``count`` is None."""
+    """Parse text as numbers separated by spaces; any number of them when ``count`` is None."""
     words = text.split()
     if count is not None and len(words) != count:
         raise fail(node, f"expected {count} numbers in {what}, found '{text.strip()}'")
@@ -48,7 +48,7 @@ def parse_reals(node: Parameters, text: str, what: str, count: int | None) -> tu
 
 
 def parse_integer(node: Parameters, text: str, what: str) -> int:
-    """Text as an int; hexadecimal and a fraction of zero are accepted."""
+    """Parse text as an int; hexadecimal and a fraction of zero are accepted."""
     word = text.strip()
     try:
         return int(word, 16) if word.lower().startswith("0x") else int(word.rstrip("uU"))
@@ -60,7 +60,7 @@ def parse_integer(node: Parameters, text: str, what: str) -> int:
 
 
 def parse_flag(node: Parameters, text: str, what: str) -> bool:
-    """Text as true or false."""
+    """Parse text as true or false."""
     word = text.strip().lower()
     if word in _TRUE:
         return True
@@ -70,7 +70,7 @@ def parse_flag(node: Parameters, text: str, what: str) -> bool:
 
 
 def attribute(node: Parameters, name: str) -> str:
-    """An attribute that must be there and not be empty."""
+    """Return an attribute that must exist and not be empty."""
     value = node.attributes.get(name, "")
     if not value:
         raise fail(node, f"the attribute '{name}' is required in <{node.tag}>")
@@ -78,14 +78,14 @@ def attribute(node: Parameters, name: str) -> str:
 
 
 def attribute_real(node: Parameters, name: str, default: float | None = None) -> float:
-    """A numeric attribute; required when there is no default."""
+    """Return a numeric attribute; required when there is no default."""
     if default is not None and not node.attributes.get(name, "").strip():
         return default
     return parse_real(node, attribute(node, name), f"attribute '{name}'")
 
 
 def attribute_vector(node: Parameters, name: str, default: Vector3) -> Vector3:
-    """An attribute of three numbers."""
+    """Return an attribute of three numbers."""
     text = node.attributes.get(name, "")
     if not text.strip():
         return default
@@ -99,37 +99,37 @@ def _text(node: Parameters, path: str) -> tuple[Parameters, str] | None:
 
 
 def real(node: Parameters, path: str, default: float) -> float:
-    """A number in a child."""
+    """Return a number in a child."""
     found = _text(node, path)
     return default if found is None else parse_real(found[0], found[1], f"<{found[0].tag}>")
 
 
 def limit(node: Parameters, path: str, default: float) -> float:
-    """A number in a child, where 1e16 and more stands for infinity."""
+    """Return a number in a child, where 1e16 and more stands for infinity."""
     value = real(node, path, default)
     return math.copysign(math.inf, value) if abs(value) >= INFINITE else value
 
 
 def whole(node: Parameters, path: str, default: int) -> int:
-    """An int in a child."""
+    """Return an int in a child."""
     found = _text(node, path)
     return default if found is None else parse_integer(found[0], found[1], f"<{found[0].tag}>")
 
 
 def flag(node: Parameters, path: str, *, default: bool) -> bool:
-    """True or false in a child."""
+    """Return True or false in a child."""
     found = _text(node, path)
     return default if found is None else parse_flag(found[0], found[1], f"<{found[0].tag}>")
 
 
 def word(node: Parameters, path: str, default: str = "") -> str:
-    """Text in a child."""
+    """Return text in a child."""
     found = _text(node, path)
     return default if found is None else found[1]
 
 
 def vector(node: Parameters, path: str, default: Vector3) -> Vector3:
-    """Three numbers in a child."""
+    """Return three numbers in a child."""
     found = _text(node, path)
     if found is None:
         return default
@@ -138,13 +138,13 @@ def vector(node: Parameters, path: str, default: Vector3) -> Vector3:
 
 
 def color(node: Parameters, path: str, default: Color) -> Color:
-    """Red, green, blue and perhaps alpha in a child."""
+    """Return red, green, blue and perhaps alpha in a child."""
     found = _text(node, path)
     return default if found is None else parse_color(found[0], found[1])
 
 
 def parse_color(node: Parameters, text: str) -> Color:
-    """Three or four numbers as a colour; alpha is 1 when it is left out."""
+    """Parse three or four numbers as a colour; alpha is 1 when it is left out."""
     numbers = parse_reals(node, text, f"<{node.tag}>", None)
     if len(numbers) == 3:
         numbers = (*numbers, 1.0)
@@ -154,14 +154,14 @@ def parse_color(node: Parameters, text: str) -> Color:
 
 
 def positive(node: Parameters, value: float, what: str) -> float:
-    """The value, which must be finite and greater than zero."""
+    """Return the value, which must be finite and greater than zero."""
     if not (value > 0.0 and math.isfinite(value)):
         raise fail(node, f"{what} must be greater than zero, found {value:g}")
     return value
 
 
 def unit(node: Parameters, xyz: Vector3) -> Vector3:
-    """The vector at length one; one that has it already keeps its numbers."""
+    """Return the vector at length one; one that has it already keeps its numbers."""
     length = math.sqrt(sum(c * c for c in xyz))
     if not math.isfinite(length) or length == 0.0:
         raise fail(node, f"<{node.tag}> must be a vector of some length, found {xyz}")

@@ -51,7 +51,7 @@ def parse(data: bytes) -> list[Piece]:
 
 
 def numbered_lines(data: bytes) -> Iterator[tuple[int, str]]:
-    """Lines with their numbers; those that end with a backslash go on, but comments do not."""
+    """Yield lines with their numbers; a backslash continues a line, but no comment."""
     lines = enumerate(data.decode("utf-8", errors="replace").splitlines(), start=1)
     if b"\\" not in data:
         yield from lines
@@ -74,7 +74,7 @@ def _wrong(number: int, line: str, why: str = "") -> FormatError:
 
 
 def _beyond(data: bytes, count: int) -> FormatError:
-    """The first face that names more than the ``count`` vertices there are."""
+    """Return the error for the first face that names more than the ``count`` vertices."""
     number, line = next(
         (number, line)
         for number, line in numbered_lines(data)
@@ -85,7 +85,10 @@ def _beyond(data: bytes, count: int) -> FormatError:
 
 
 def _corners(line: str, words: list[str], count: int) -> list[int]:
-    """Indices from 1 of a face with ``7``, ``7/1``, ``7/1/2`` or ``-1``, the last of ``count``."""
+    """Return indices from 1 of a face.
+
+    Corners are ``7``, ``7/1``, ``7/1/2`` or ``-1``, the last of ``count``.
+    """
     corners = [int(word.split("/", 1)[0]) for word in corner_words(line, words)]
     if corners and min(corners) < 1:
         if 0 in corners or -min(corners) > count:
@@ -95,13 +98,13 @@ def _corners(line: str, words: list[str], count: int) -> list[int]:
 
 
 def corner_words(line: str, words: list[str]) -> list[str]:
-    """The corners of a face as they are written; a comment may follow them."""
+    """Return the corners of a face as they are written; a comment may follow them."""
     return (line.partition("#")[0].split() if "#" in line else words)[1:]
 
 
 def used_only(
     positions: NDArray[np.float64], faces: NDArray[np.integer[Any]]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Only the vertices that the faces name."""
+    """Return only the vertices that the faces name."""
     used, inverse = np.unique(faces, return_inverse=True)
     return positions[used], inverse.reshape(-1, 3).astype(np.int32)

@@ -47,7 +47,7 @@ class _Painted:
 def painted(
     path: Path, pieces: Sequence[WavefrontPiece]
 ) -> Iterator[tuple[str, Floats, Ints32, MeshLook]]:
-    """The pieces of an OBJ file by their materials.
+    """Yield the pieces of an OBJ file by their materials.
 
     Yields:
         Name, vertices (n, 3), triangles that look alike (m, 3), and their look.
@@ -71,7 +71,7 @@ def painted(
 
 
 def _uv(corners: Ints64, uv: Floats) -> Floats | None:
-    """Places in a picture, shape (m, 3, 2); None where a corner has none."""
+    """Return places in a picture, shape (m, 3, 2); None where a corner has none."""
     if not len(corners) or corners.min() < 1 or corners.max() > len(uv):
         return None
     placed: Floats = uv[corners - 1]
@@ -79,7 +79,7 @@ def _uv(corners: Ints64, uv: Floats) -> Floats | None:
 
 
 def _read(path: Path) -> tuple[dict[str, _Painted], Floats, list[str]]:
-    """Of each object what its triangles look like; places in pictures; material libraries."""
+    """Read looks of each object's triangles, places in pictures, and material libraries."""
     objects: dict[str, _Painted] = {}
     uv: list[tuple[float, float]] = []
     libraries: list[str] = []
@@ -106,7 +106,7 @@ def _read(path: Path) -> tuple[dict[str, _Painted], Floats, list[str]]:
 
 
 def _place(word: str, count: int) -> int:
-    """The number of a corner's place in a picture, from 1; 0 for none."""
+    """Return the number of a corner's place in a picture, from 1; 0 for none."""
     parts = word.split("/")
     if len(parts) < 2 or not parts[1]:
         return 0
@@ -115,7 +115,7 @@ def _place(word: str, count: int) -> int:
 
 
 def _library(mesh: Path, name: str) -> dict[str, MeshLook]:
-    """The materials of an MTL file beside the OBJ file; none if it is not there."""
+    """Return the materials of an MTL file beside the OBJ file; none if it is not there."""
     here = mesh.resolve().parent
     plain = name.replace("\\", "/")
     for candidate in (here / plain, here / plain.rpartition("/")[2]):
@@ -130,7 +130,7 @@ def _library(mesh: Path, name: str) -> dict[str, MeshLook]:
 
 
 def parse_library(text: str) -> dict[str, MeshLook]:
-    """The looks of an MTL file by name; what is not understood is passed over."""
+    """Parse the looks of an MTL file by name; unknown parts are skipped."""
     looks: dict[str, MeshLook] = {}
     name: str | None = None
     for line in text.splitlines():
@@ -162,7 +162,10 @@ def _refined(look: MeshLook, words: list[str]) -> MeshLook:
 
 
 def _file_of(words: list[str]) -> str:
-    """The file's name after the options of a map, such as ``-s 1 1 1``; it may hold spaces."""
+    """Return the file's name after the options of a map, such as ``-s 1 1 1``.
+
+    It may hold spaces.
+    """
     rest = list(words)
     while rest and rest[0].startswith("-") and len(rest) > 1:
         rest.pop(0)

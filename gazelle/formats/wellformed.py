@@ -49,20 +49,20 @@ class _Mending:
         self.found.append((at, message))
 
     def done(self, rest: str = "") -> tuple[str, list[tuple[int, str]]]:
-        """The text, and the lines of what was wrong."""
+        """Return the text, and the lines of faults."""
         ends = [found.start() for found in re.finditer("\n", self.text)]
         lines = [(bisect_left(ends, at) + 1, message) for at, message in self.found]
         return "".join([*self.parts, rest]), lines
 
     def put(self, old: str, new: str, at: int, message: str) -> None:
-        """Take other text, and say so if it is other."""
+        """Append a replacement, and report it if it differs."""
         if new != old:
             self.fault(at, message)
         self.parts.append(new)
 
 
 def well_formed(data: bytes) -> tuple[str, list[tuple[int, str]]] | None:
-    """The text of a file made well-formed, with what was wrong and in which line.
+    """Return a file's text made well-formed, with its faults and their lines.
 
     None where the file is in no encoding that ASCII is a part of; there may still be faults left.
     """
@@ -96,7 +96,7 @@ class _Kind(NamedTuple):
 
 
 def _decoded(data: bytes) -> tuple[str, tuple[int, str] | None] | None:
-    """The text, and where it is not in the encoding that the file names."""
+    """Return the text, and the place where it is not in the file's encoding."""
     named = _ENCODING.match(data)
     encoding = named[1].decode("ascii", "replace").lower() if named else "utf-8"
     if data[:2] in {b"\xff\xfe", b"\xfe\xff"} or not encoding.startswith(_ASCII_BASED):
@@ -110,7 +110,7 @@ def _decoded(data: bytes) -> tuple[str, tuple[int, str] | None] | None:
 
 
 def _pieces(text: str) -> Iterator[tuple[int, int, _Kind | None]]:
-    """Comments, declarations and the like, and tags (no kind), in order."""
+    """Yield comments, declarations and the like, and tags (no kind), in order."""
     at = 0
     while (start := text.find("<", at)) >= 0:
         kind = next((kind for opening, kind in _KINDS if text.startswith(opening, start)), None)
@@ -164,7 +164,7 @@ def _characters(work: _Mending, text: str, at: int) -> None:
 
 
 def _tag(work: _Mending, piece: str, at: int) -> int:
-    """Put a tag; returns by how much it changes the depth."""
+    """Append a tag; returns by how much it changes the depth."""
     match = _TAG.fullmatch(piece)
     if match is None or match[1]:
         work.parts.append(piece)
@@ -182,7 +182,7 @@ def _tag(work: _Mending, piece: str, at: int) -> int:
 
 
 def _attributes(text: str) -> tuple[str, str] | None:
-    """Attributes as they must be, and what was wrong; None where it is no list of them."""
+    """Return well-formed attributes, and their fault; None where it is no list of attributes."""
     inner = text.rstrip()
     inner = inner.removesuffix("/")
     parts, names, wrong, at = [], set(), "", 0
@@ -212,7 +212,7 @@ def _attributes(text: str) -> tuple[str, str] | None:
 
 
 def _behind(work: _Mending, at: int) -> None:
-    """Leave out and report content after the root element."""
+    """Remove and report content after the root element."""
     rest = re.sub(r"<!--.*?-->", "", work.text[at:], flags=re.DOTALL)
     if rest.strip("\x00 \t\r\n"):
         work.fault(

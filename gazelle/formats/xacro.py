@@ -69,7 +69,7 @@ class _Children(NodeList[Any]):
         return at
 
     def remove(self, value: Any) -> None:
-        """Take a child out."""
+        """Remove a child."""
         del self[self.index(value)]
 
 
@@ -79,7 +79,7 @@ class PlacedElement(dom.Element):
     place: tuple[str, int] | None = None
 
     def cloneNode(self, deep: bool) -> Any:  # noqa: N802, FBT001  # the name is the DOM's
-        """A copy with the same place.
+        """Return a copy with the same place.
 
         Raises:
             FormatError: Macros have made more than ``MAX_MADE`` elements.
@@ -111,7 +111,7 @@ def is_xacro(root: Parameters) -> bool:
 
 
 def expand(path: Path, reading: Reading) -> Parameters:
-    """The root element of a xacro file, all macros expanded.
+    """Return the root element of a xacro file, all macros expanded.
 
     Raises:
         FormatError: The file, or one that it includes, is not valid xacro.
@@ -120,7 +120,7 @@ def expand(path: Path, reading: Reading) -> Parameters:
 
 
 def expand_text(text: str | bytes, name: str, reading: Reading) -> Parameters:
-    """The root element of xacro text; ``name`` stands for the file in errors."""
+    """Return the root element of xacro text; ``name`` stands for the file in errors."""
     return _run(name, text.encode() if isinstance(text, str) else text, reading)
 
 
@@ -152,7 +152,7 @@ class _DomBuilder(expatbuilder.ExpatBuilderNS):
         self._file = file
 
     def start_element_handler(self, name: str, attributes: Any) -> None:
-        """Mark the element that has just begun."""
+        """Mark the element that has just started."""
         super().start_element_handler(name, attributes)
         element: Any = self.curNode
         element.__class__ = PlacedElement
@@ -161,14 +161,14 @@ class _DomBuilder(expatbuilder.ExpatBuilderNS):
 
 
 def _parse(data: bytes, name: str, reading: Reading) -> Any:
-    """A DOM whose elements know their lines; entities are refused as elsewhere."""
+    """Parse a DOM whose elements know their lines; entities are rejected as elsewhere."""
     _, text = xml.parsed(data, name=name, report=reading.misread)
     return _DomBuilder(name).parseString(text)
 
 
 @contextlib.contextmanager
 def _patched(reading: Reading) -> Iterator[io.StringIO]:
-    """Let the package find packages and open files only through the resolver."""
+    """Set the package to find packages and open files only through the resolver."""
 
     def find(package: str) -> str:
         folder = reading.resolver.package(package)
@@ -247,7 +247,7 @@ def _reporter(reading: Reading) -> xacro_engine.Report:
 
 
 def _refuse_ring(files: list[Any]) -> None:
-    """Say so if the last of files, each of which includes the next, includes itself time and again.
+    """Raise an error if the last of files that include each other includes itself repeatedly.
 
     Raises:
         FormatError: It does.
@@ -260,7 +260,7 @@ def _refuse_ring(files: list[Any]) -> None:
 
 
 def _plain(path: Path) -> str:
-    """A path without steps up, where that is the same file."""
+    """Return a path without steps up, if that is the same file."""
     plain = os.path.normpath(path)
     return plain if os.path.realpath(plain) == os.path.realpath(path) else str(path)
 
@@ -269,12 +269,12 @@ _evaluate_text = engine.eval_text
 
 
 def _eval_text(text: str, symbols: Any) -> Any:
-    """Most texts hold no expression, and need not be taken apart to find that out."""
+    """Evaluate a text; most hold no expression, and are returned at once."""
     return text if text and "$" not in text else _evaluate_text(text, symbols)
 
 
 def _explain(error: Exception, name: str) -> FormatError:
-    """The error with the place of the element that xacro was at."""
+    """Return the error with the place of the element that xacro was at."""
     root: BaseException = error
     while isinstance(root, engine.XacroException) and isinstance(root.exc, BaseException):
         root = root.exc
@@ -296,7 +296,7 @@ def _current(name: str) -> str:
 
 
 def _place(trace: TracebackType | None) -> tuple[str, int, str] | None:
-    """The innermost element in the local variables of xacro's functions."""
+    """Return the innermost element in the local variables of xacro's functions."""
     found = None
     while trace is not None:
         for variable in ("node", "elt", "tag"):
@@ -309,7 +309,10 @@ def _place(trace: TracebackType | None) -> tuple[str, int, str] | None:
 
 
 def _convert(node: Any, file: str, outer: Source | None, counts: dict[str, int]) -> Parameters:
-    """A DOM element as ``Parameters``; one that xacro made stands where its parent does."""
+    """Convert a DOM element to ``Parameters``.
+
+    One that xacro made stands where its parent does.
+    """
     attributes = {
         key: value for key, value in node.attributes.items() if not key.startswith("xmlns")
     }

@@ -15,7 +15,7 @@ _NAME = re.compile(r"name '([^']+)' is not defined")
 
 
 def hint_of(text: str, trace: TracebackType | None) -> str | None:
-    """A hint on what the ``xacro`` package says, or None.
+    """Return a hint on an error of the ``xacro`` package, or None.
 
     Args:
         text: What it says.
@@ -36,7 +36,7 @@ def hint_of(text: str, trace: TracebackType | None) -> str | None:
 
 
 def _names(trace: TracebackType | None, variable: str) -> Iterator[str]:
-    """The keys of the tables of that name in the functions that were running."""
+    """Yield the keys of the tables of that name in the functions that were running."""
     while trace is not None:
         table: Any = trace.tb_frame.f_locals.get(variable)
         while isinstance(table, dict):

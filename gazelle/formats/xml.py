@@ -36,7 +36,7 @@ _NO_ATTRIBUTES: MappingProxyType[str, str] = MappingProxyType({})
 
 
 def read_bytes(path: Path) -> bytes:
-    """The content of a description file.
+    """Read the content of a description file.
 
     Raises:
         FormatError: The file is missing, unreadable, a pointer of Git LFS, or larger than
@@ -53,7 +53,7 @@ def read_bytes(path: Path) -> bytes:
 
 
 def read_file(path: Path, report: Report | None = None) -> Parameters:
-    """The root element of an XML file; ``report`` as for ``parse``.
+    """Read the root element of an XML file; ``report`` as for ``parse``.
 
     Raises:
         FormatError: The file cannot be read, or is not well-formed XML.
@@ -62,7 +62,7 @@ def read_file(path: Path, report: Report | None = None) -> Parameters:
 
 
 def parse(text: str | bytes, *, name: str, report: Report | None = None) -> Parameters:
-    """The root element of XML text.
+    """Return the root element of XML text.
 
     Args:
         text: The text, or its bytes.
@@ -79,7 +79,7 @@ def parse(text: str | bytes, *, name: str, report: Report | None = None) -> Para
 def parsed(
     text: str | bytes, *, name: str, report: Report | None = None
 ) -> tuple[Parameters, bytes]:
-    """The root element, and the well-formed text that it was read from; as ``parse``."""
+    """Return the root element, and the well-formed text that it was read from; as ``parse``."""
     data = text.encode() if isinstance(text, str) else text
     if report is not None:
         data = blanks.plain_bytes(data, name, characters.XML_COMMENT, report)
@@ -99,7 +99,7 @@ def parsed(
 
 
 def _with_quotes_named(error: FormatError, data: bytes) -> FormatError:
-    """The error, with a hint if it is of a line with a curly quote."""
+    """Return the error, with a hint if it is of a line with a curly quote."""
     lines = data.decode(errors="replace").splitlines()
     at = (error.line or 1) - 1
     hint = characters.curly_hint(lines[at]) if at < len(lines) else None
@@ -125,7 +125,7 @@ def _parsed(data: bytes, name: str, *, is_text: bool) -> tuple[Parameters, bytes
 
 
 def _declaration_first(data: bytes) -> bytes:
-    """Blanks and comments before the XML declaration moved behind it: Gazebo allows them."""
+    """Return the text with blanks and comments before the XML declaration moved behind it."""
     start = data.find(b"<?xml")
     if start <= 0 or _COMMENT.sub(b"", data[:start]).strip(_BLANK):
         return data
@@ -223,7 +223,10 @@ class _TreeBuilder:
 
 
 def _place(tag: str, attributes: dict[str, str], parent: _Open | None) -> str:
-    """The path of an element: by name where it has one, else by number from the second on."""
+    """Return the path of an element.
+
+    Steps are by name if there is one, else by number from the second on.
+    """
     step = label(tag, attributes)
     if parent is None:
         return step
@@ -235,7 +238,7 @@ def _place(tag: str, attributes: dict[str, str], parent: _Open | None) -> str:
 
 
 def label(tag: str, attributes: dict[str, str]) -> str:
-    """One step of an element path, such as ``link[@name='base']``."""
+    """Return one step of an element path, such as ``link[@name='base']``."""
     for key in _NAMED:
         value = attributes.get(key)
         if value:

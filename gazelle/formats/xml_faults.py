@@ -82,7 +82,7 @@ def _mismatch(
 
 
 def _quote(reason: str, data: bytes, at: int) -> tuple[str, str | None]:
-    """A ``<`` within a tag: a quote that is not closed, or a tag."""
+    """Return the message for a ``<`` within a tag: a quote that is not closed, or a tag."""
     before = _TAG_OPEN.search(data[max(0, at - _LONGEST) : at].replace(b">", b" "))
     if before is None:
         return reason, None

@@ -118,7 +118,7 @@ class BoxTree:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _split(self, first: cython.int, last: cython.int, level: cython.int) -> cython.int:
-        """Put what is to be left of what is to be right; returns where the right part begins."""
+        """Partition boxes into left and right; returns where the right part starts."""
         axis: cython.int
         middle: cython.int = self._endless(first, last)
         if middle > first:
@@ -137,7 +137,10 @@ class BoxTree:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _endless(self, first: cython.int, last: cython.int) -> cython.int:
-        """Put endless boxes to the left; returns where the others begin, ``first`` if all are alike."""
+        """Move endless boxes to the left.
+
+        Returns where the others start, ``first`` if all are alike.
+        """
         place: cython.int
         box: cython.int
         found: cython.int = 0
@@ -181,7 +184,7 @@ class BoxTree:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _begin(self, axis: cython.int, place: cython.int) -> cython.void:
-        """Let the box that grows be empty where the one at a place is."""
+        """Reset the growing box to empty at a place."""
         side: cython.int
         box: cython.int = self._orders[axis, place]
         for side in range(3):
@@ -190,7 +193,7 @@ class BoxTree:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _with(self, axis: cython.int, place: cython.int) -> cython.double:
-        """Let the box that grows have the one at a place in it; returns half its surface."""
+        """Extend the growing box by the one at a place; returns half its surface."""
         side: cython.int
         box: cython.int = self._orders[axis, place]
         for side in range(3):
@@ -208,7 +211,7 @@ class BoxTree:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _divide(self, first: cython.int, last: cython.int) -> cython.void:
-        """Bring what is to be left to the left, in all three orders."""
+        """Move the boxes of the left part to the left, in all three orders."""
         axis: cython.int
         place: cython.int
         for axis in range(3):

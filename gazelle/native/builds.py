@@ -57,7 +57,7 @@ def _is_built(build: str) -> bool:
 
 
 def _has_avx2() -> bool:
-    """Ask the processor, by a module that runs on any."""
+    """Return whether the processor has AVX2, from a module that runs on any."""
     package = sys.modules[__package__]
     package.__path__ = [str(_HERE / "_baseline"), *package.__path__]
     return bool(importlib.import_module("gazelle.native.processor").has_avx2())

@@ -32,7 +32,7 @@ def _lawless(function: Callable[..., float]) -> Callable[..., float]:
 
 
 def _or_numpy(function: Callable[..., float], other: Callable[..., float]) -> Callable[..., float]:
-    """Python's, which is the C library's, where it has a value."""
+    """Return Python's function, which is the C library's, where it has a value."""
     spare = _lawless(other)
 
     def lawless(*values: float) -> float:

@@ -64,7 +64,10 @@ for _k, (_angle, _rest) in enumerate(
 @cython.nogil
 @cython.exceptval(check=False)
 def _sine(x: cython.double, low: cython.double) -> cython.double:
-    """sin(x + low) within an eighth of a turn; two sums at a time take half as long as one."""
+    """Return sin(x + low) within an eighth of a turn.
+
+    Two sums at a time take half as long as one.
+    """
     z = x * x
     q = z * z
     plus = 1.0 / 6.0 + q * (1.0 / 5040.0 + q * (1.0 / 39916800.0 + q * (1.0 / 1307674368000.0)))
@@ -79,7 +82,7 @@ def _sine(x: cython.double, low: cython.double) -> cython.double:
 @cython.nogil
 @cython.exceptval(check=False)
 def _cosine(x: cython.double, low: cython.double) -> cython.double:
-    """cos(x + low) within an eighth of a turn."""
+    """Return cos(x + low) within an eighth of a turn."""
     z = x * x
     q = z * z
     plus = 1.0 / 24.0 + q * (1.0 / 40320.0 + q * (1.0 / 479001600.0 + q * (1.0 / 20922789888000.0)))
@@ -94,7 +97,7 @@ def _cosine(x: cython.double, low: cython.double) -> cython.double:
 @cython.nogil
 @cython.exceptval(check=False)
 def _turned(x: cython.double, quarters: cython.double) -> cython.double:
-    """sin(x + quarters of a turn)."""
+    """Return sin(x + quarters of a turn)."""
     if fabs(x) > _FAR:
         x = x - floor(x / _TWO_PI + 0.5) * _TWO_PI
         if not fabs(x) <= _FAR:
@@ -117,7 +120,7 @@ def _turned(x: cython.double, quarters: cython.double) -> cython.double:
 @cython.nogil
 @cython.exceptval(check=False)
 def sin(x: cython.double) -> cython.double:
-    """Sine of an angle [rad]; NaN of what is not finite."""
+    """Return sine of an angle [rad]; NaN of what is not finite."""
     if fabs(x) < 1e-8:
         return x
     return _turned(x, 0.0)
@@ -127,7 +130,7 @@ def sin(x: cython.double) -> cython.double:
 @cython.nogil
 @cython.exceptval(check=False)
 def cos(x: cython.double) -> cython.double:
-    """Cosine of an angle [rad]; NaN of what is not finite."""
+    """Return cosine of an angle [rad]; NaN of what is not finite."""
     return _turned(x, 1.0)
 
 
@@ -135,7 +138,7 @@ def cos(x: cython.double) -> cython.double:
 @cython.nogil
 @cython.exceptval(check=False)
 def atan2(y: cython.double, x: cython.double) -> cython.double:
-    """The angle of (x, y) from the x axis [rad], in [-pi, pi], also of (0, 0)."""
+    """Return the angle of (x, y) from the x axis [rad], in [-pi, pi], also of (0, 0)."""
     if isnan(y) or isnan(x):
         return _NONE
     wide, high = fabs(x), fabs(y)
@@ -174,7 +177,7 @@ def atan2(y: cython.double, x: cython.double) -> cython.double:
 @cython.nogil
 @cython.exceptval(check=False)
 def log(x: cython.double) -> cython.double:
-    """Natural logarithm; -inf of 0, NaN of what is below."""
+    """Return the natural logarithm; -inf of 0, NaN of what is below."""
     if not x > 0.0:
         return -_LIMITLESS if x == 0.0 else _NONE
     if x == _LIMITLESS:
@@ -198,7 +201,7 @@ def log(x: cython.double) -> cython.double:
 
 
 def on_arrays(name: str, first: cython.double[::1], second: cython.double[::1]) -> object:
-    """A function of numbers, or of pairs, by its name; for tests and for NumPy's side.
+    """Return a function of numbers, or of pairs, by its name; for tests and for NumPy's side.
 
     Returns:
         As many numbers.

@@ -25,7 +25,7 @@ if not cython.compiled:
     from _thread import get_ident
 
     def check_signals() -> None:
-        """Do nothing: Python looks for signals between its lines by itself."""
+        """Do nothing: Python checks for signals between its lines by itself."""
 
 
 # How often a waiting thread checks that the owner can ever answer it [s]. A turn wakes it.
@@ -33,7 +33,7 @@ _LOOK: float = 0.25
 
 
 def _wait_on(owner: int) -> None:
-    """Keep waiting for the thread that holds the lock."""
+    """Wait for the thread that holds the lock."""
 
 
 @cython.cclass
@@ -81,11 +81,11 @@ class FairLock:
         """Raise the error of a closed lock; subclasses override it."""
 
     def acquire(self) -> None:
-        """Hold the lock once more, also if it is closed."""
+        """Acquire the lock once more, also if it is closed."""
         self._take()
 
     def release(self) -> None:
-        """Give up what ``acquire`` got.
+        """Release the lock once.
 
         Raises:
             RuntimeError: The calling thread does not hold it.
@@ -111,7 +111,7 @@ class FairLock:
         return bool(self.owner == get_ident())
 
     def lend(self) -> None:
-        """Let those that wait have their turns, and hold the lock again when they had.
+        """Release the lock to the waiting threads, and acquire it again after them.
 
         A thread that holds it more than once keeps it.
 
@@ -132,7 +132,10 @@ class FairLock:
             raise interruption
 
     def submit(self, work: Callable[[], Any]) -> None:
-        """Have work done by whoever holds the lock when its turn comes, or at once by its owner."""
+        """Run work in the thread that holds the lock when its turn comes.
+
+        In the owner it runs at once.
+        """
         me: cython.ulong = get_ident()
         if self.owner == me:
             work()
@@ -191,7 +194,7 @@ class FairLock:
 
     @cython.cfunc
     def _pass_on(self) -> Any:
-        """Do the work that comes first, and hand the lock to the first thread, if any waits."""
+        """Run the work that comes first, and hand the lock to the first waiting thread."""
         while self.waiting:
             turn: Turn = self.waiting[0]
             del self.waiting[0]

@@ -20,7 +20,7 @@ LAST_53 = cython.declare(cython.double, 2.0**-53)
 
 
 def mixed(value: int) -> int:
-    """64 bits, each of which depends on all of a 64 bit value."""
+    """Return 64 bits, each of which depends on all of a 64 bit value."""
     value += GOLDEN
     value = (value ^ (value >> 30)) * MIX_1
     value = (value ^ (value >> 27)) * MIX_2
@@ -28,20 +28,20 @@ def mixed(value: int) -> int:
 
 
 def stream(seed: int, body: int, tick: int) -> int:
-    """The beginning of the random numbers of a body at a time."""
+    """Return the start of the random numbers of a body at a time."""
     start = mixed(cython.cast(cython.ulonglong, seed))
     start = mixed(start ^ cython.cast(cython.ulonglong, body))
     return mixed(start ^ cython.cast(cython.ulonglong, tick))
 
 
 def uniform(start: int, place: int) -> float:
-    """A number in (0, 1]."""
+    """Return a number in (0, 1]."""
     drawn: float = cython.cast(cython.double, (mixed(start ^ place) >> 11) + 1) * LAST_53
     return drawn
 
 
 def normal(start: int, place: int) -> float:
-    """A standard normal number, by Box and Muller's transform; it takes two places."""
+    """Return a standard normal number, by Box and Muller's transform; it takes two places."""
     radius = sqrt(-2.0 * log(uniform(start, place)))
     wave: float = radius * cos(2.0 * PI * uniform(start, place + 1))
     return wave

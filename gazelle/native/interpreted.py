@@ -19,20 +19,20 @@ class _Cimports(MetaPathFinder, Loader):
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Answer for this package's modules only."""
+        """Return a spec for this package's modules only."""
         del path, target
         if not f"{fullname}.".startswith(f"{_PREFIX}gazelle."):
             return None
         return ModuleSpec(fullname, self, is_package=True)
 
     def exec_module(self, module: ModuleType) -> None:
-        """Put the module itself in this one's place, where the import system looks for it."""
+        """Replace this module by the real one, where the import system looks for it."""
         name = module.__name__
         sys.modules[name] = importlib.import_module(name.removeprefix(_PREFIX))
 
 
 def install() -> None:
-    """Begin, once; it needs Cython, which has the types that sources name."""
+    """Install the finder, once; it needs Cython, which has the types that sources name."""
     import cython  # noqa: F401
 
     from gazelle.native import c_math

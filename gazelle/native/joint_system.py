@@ -66,7 +66,7 @@ class JointSystem(System):
         most: NDArray[np.float64],
         motors: NDArray[np.intp],
     ) -> None:
-        """Say where an engine has the joints, shape (joints,) each.
+        """Set the indices of the joints in an engine, shape (joints,) each.
 
         Args:
             places: Among its positions.
@@ -85,7 +85,7 @@ class JointSystem(System):
         np.take(qvel, np.asarray(self.dofs), axis=1, out=self.velocity_in)
 
     def act(self, applied: NDArray[np.float64], user: NDArray[np.float64]) -> None:
-        """Let act what changed, in all worlds."""
+        """Apply the changed commands in all worlds."""
         if self.pushed_out.any():
             most, rows = np.asarray(self.most), np.nonzero(self.pushed_out)
             held = np.clip(self.effort_out[rows], -most[rows[1]], most[rows[1]])
@@ -97,14 +97,14 @@ class JointSystem(System):
             self.driven_out[:] = 0
 
     def update(self, first: int, last: int, time: int) -> None:
-        """``advance`` worlds, of joints as ``position_in`` and ``velocity_in`` have them."""
+        """Call ``advance`` for worlds, with joints from ``position_in`` and ``velocity_in``."""
         for w in range(first, last):
             measured = offset(self.position_at, w * self.count)
             rates = offset(self.velocity_at, w * self.count)
             self.advance(w, measured, rates, time)
 
     def advance(self, world: int, measured: Any, rates: Any, time: int) -> None:
-        """Say what acts now in a world; subclasses do.
+        """Set the commands of a world; subclasses implement it.
 
         Args:
             world: Which.
@@ -116,7 +116,7 @@ class JointSystem(System):
     def exchange(
         self, world: int, qpos: Any, qvel: Any, applied: Any, user: Any, time: int
     ) -> None:
-        """Look at the joints of a world, advance, and let act what changed.
+        """Read the joints of a world, advance, and apply the changed commands.
 
         Args:
             world: Which.
@@ -153,7 +153,7 @@ class JointSystem(System):
             self.drive(world, user)
 
     def drive(self, world: int, user: Any) -> None:
-        """Let motors hold what changed."""
+        """Set the changed velocities of motors."""
         count = self.count
         driven = bytes_offset(self.driven_at, world * count)
         for i in range(count):
@@ -170,7 +170,7 @@ def copy(count: int, start: Any, end: Any) -> None:
 
 
 def act_in_row(count: int, effort: Any, pushed: Any, most: Any, applied: Any) -> None:
-    """Let efforts act that changed, of joints side by side, for several at a time."""
+    """Apply changed efforts of adjacent joints, several at a time."""
     for i in range(count):
         held = min(max(effort[i], -most[i]), most[i])
         applied[i] = held if pushed[i] != 0.0 else applied[i]

@@ -44,7 +44,7 @@ class Pool(Protocol):
 @cython.nogil
 @cython.exceptval(check=False)
 def moment(count: cython.longlong, rate: cython.double) -> cython.longlong:
-    """When something with a rate [Hz] is due for the count-th time [ns]."""
+    """Return the count-th due time of something with a rate [Hz], in ns."""
     return cython.cast(cython.longlong, rint(cython.cast(cython.double, count * 1000000000) / rate))
 
 
@@ -52,7 +52,7 @@ def moment(count: cython.longlong, rate: cython.double) -> cython.longlong:
 @cython.nogil
 @cython.exceptval(check=False)
 def next_due(time: cython.longlong, rate: cython.double) -> cython.longlong:
-    """When something with a rate [Hz] is due for the first time after a time [ns]."""
+    """Return the first due time of something with a rate [Hz] after a time [ns]."""
     count: cython.longlong = cython.cast(cython.longlong, floor(time * rate / 1e9))
     due: cython.longlong = moment(count, rate)
     while due <= time:
@@ -116,7 +116,7 @@ class SystemLoop:
         self._end = np.zeros(1, np.int64)
 
     def run(self, until: cython.longlong, threads: cython.Py_ssize_t = 0) -> None:
-        """Make steps as long as they begin before a time.
+        """Advance by steps that start before a time.
 
         Args:
             until: Simulated time [ns].
@@ -210,7 +210,7 @@ class SystemLoop:
     @cython.nogil
     @cython.exceptval(check=False)
     def _steps_to_due(self, row: cython.Py_ssize_t, until: cython.longlong) -> cython.longlong:
-        """Steps until a system acts between two or a time has come, one at least."""
+        """Return the steps until a system is due or a time has come, one at least."""
         soonest: cython.longlong = until
         index: cython.Py_ssize_t
         for index in range(self._table.shape[0]):
@@ -224,7 +224,7 @@ class SystemLoop:
     @cython.nogil
     @cython.exceptval(check=False)
     def _pass_within(self, row: cython.Py_ssize_t) -> cython.void:
-        """Let systems be due after the steps in which they were updated."""
+        """Advance the due times of systems past the steps in which they were updated."""
         index: cython.Py_ssize_t
         last: cython.longlong = self._end[0] - self.step
         for index in range(self._table.shape[0]):
@@ -237,7 +237,7 @@ class SystemLoop:
     @cython.nogil
     @cython.exceptval(check=False)
     def _pass(self, row: cython.Py_ssize_t, until: cython.longlong) -> cython.void:
-        """Go on with the time, and with when systems are due after it."""
+        """Advance the time and the due times of systems."""
         index: cython.Py_ssize_t
         while self.time < until:
             for index in range(self._table.shape[0]):
@@ -264,7 +264,7 @@ class SystemLoop:
     def _play_worlds(
         self, part: cython.Py_ssize_t, blocks: cython.Py_ssize_t, until: cython.longlong
     ) -> cython.void:
-        """Take blocks of worlds through all steps, as long as there are any left."""
+        """Run blocks of worlds through all steps, as long as there are any left."""
         time: cython.longlong
         block: cython.longlong
         index: cython.Py_ssize_t
@@ -291,7 +291,7 @@ class SystemLoop:
     def _play_together(
         self, part: cython.Py_ssize_t, threads: cython.Py_ssize_t, until: cython.longlong
     ) -> cython.void:
-        """Take a share of every system, and wait for the others before and after each.
+        """Run a share of every system, with a barrier before and after each.
 
         What cannot be shared out, or is not worth it, is done by the last thread, which waits for
         nobody between two of them.
@@ -323,14 +323,14 @@ class SystemLoop:
     @cython.nogil
     @cython.exceptval(check=False)
     def _moment_of(self, index: cython.Py_ssize_t, time: cython.longlong) -> cython.longlong:
-        """The time of an update in the step that begins at a time [ns]."""
+        """Return the time of an update in the step that begins at a time [ns]."""
         return time + self._table[index, LATE] * self.step
 
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
     def _next_block(self) -> cython.longlong:
-        """The number of a block that no thread has taken."""
+        """Return the number of a block that no thread has taken."""
         if cython.compiled:
             return gazelle_fetch_add(cython.address(self._shared[0]), 1)  # type: ignore[name-defined]  # noqa: F821
         self._shared[0] += 1
@@ -348,7 +348,7 @@ class SystemLoop:
     @cython.nogil
     @cython.exceptval(check=False)
     def _begin(self, part: cython.Py_ssize_t) -> cython.void:
-        """Let systems be due for a thread when they were at the beginning of the run."""
+        """Reset the due times of systems for a thread to those at the start of the run."""
         index: cython.Py_ssize_t
         for index in range(self._due.shape[1]):
             self._due[part, index] = self._due[self._due.shape[0] - 1, index]

@@ -10,27 +10,27 @@ from typing import Any
 
 
 def floats(address: int) -> Any:
-    """The doubles from an address on; it can be indexed."""
+    """Return the doubles from an address on; it can be indexed."""
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_double))
 
 
 def singles(address: int) -> Any:
-    """The floats of 32 bits from an address on; it can be indexed."""
+    """Return the floats of 32 bits from an address on; it can be indexed."""
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_float))
 
 
 def integers(address: int) -> Any:
-    """The C ints from an address on; it can be indexed."""
+    """Return the C ints from an address on; it can be indexed."""
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_int))
 
 
 def longs(address: int) -> Any:
-    """The integers of 64 bits from an address on; it can be indexed."""
+    """Return the integers of 64 bits from an address on; it can be indexed."""
     return ctypes.cast(address, ctypes.POINTER(ctypes.c_longlong))
 
 
 def word(address: int) -> int:
-    """The address, or the 64-bit integer, that is kept at an address."""
+    """Return the address, or the 64-bit integer, that is kept at an address."""
     return ctypes.c_size_t.from_address(address).value
 
 

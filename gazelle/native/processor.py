@@ -5,7 +5,7 @@ import cython
 if not cython.compiled:
 
     def gazelle_has_avx2() -> int:
-        """Sources run on any processor."""
+        """Return 0: sources run on any processor."""
         return 0
 
 

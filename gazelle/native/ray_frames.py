@@ -68,7 +68,7 @@ def aim(
 
 
 def settle(distance: Any, normal: Any, along: Any, geom: Any, sheet: Any, inside: Any) -> None:
-    """Do what ``met_from_inside`` says."""
+    """Set the hit as ``met_from_inside`` says."""
     for n in range(distance.shape[0]):
         for ray in range(distance.shape[1]):
             out = (

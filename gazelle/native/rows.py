@@ -17,7 +17,7 @@ from gazelle.array_types import Floats
 
 
 def start(array: Floats) -> Any:
-    """The numbers of an array with two axes, row after row."""
+    """Return the numbers of an array with two axes, row after row."""
     return array.reshape(-1)
 
 
@@ -26,12 +26,12 @@ block_start = start
 
 
 def column(array: Floats) -> Any:
-    """The numbers of an array with one axis."""
+    """Return the numbers of an array with one axis."""
     return array
 
 
 def offset(numbers: Any, first: int) -> Any:
-    """Numbers from one of them on."""
+    """Return numbers from one of them on."""
     if isinstance(numbers, np.ndarray):
         return numbers[first:]
     address = ctypes.addressof(numbers.contents) + 8 * first
@@ -43,6 +43,6 @@ bytes_start, bytes_offset, places_column = start, offset, column
 
 
 def first_of_run(columns: Iterable[int]) -> int:
-    """The first of some columns if they lie side by side in order; else -1."""
+    """Return the first of some columns if they lie side by side in order; else -1."""
     places = [int(each) for each in columns]
     return places[0] if places and places == [*range(places[0], places[0] + len(places))] else -1

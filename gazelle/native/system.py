@@ -57,7 +57,7 @@ class System:
         self.uses: Any = None
 
     def bring(self, first: int, last: int, time: int) -> None:
-        """``update``, for callers in Python; other threads run meanwhile."""
+        """Call ``update`` from Python; other threads run meanwhile."""
         begin: cython.Py_ssize_t = first
         end: cython.Py_ssize_t = last
         when: cython.longlong = time
@@ -70,7 +70,7 @@ class System:
     def update(
         self, first: cython.Py_ssize_t, last: cython.Py_ssize_t, time: cython.longlong
     ) -> cython.void:
-        """Bring the rows from ``first`` to before ``last`` to a time.
+        """Update the rows from ``first`` to before ``last`` to a time.
 
         Called without the interpreter's lock, by several threads for different rows. What comes
         out may not depend on how rows are shared out.

@@ -35,16 +35,16 @@ WRAP = 0xFFFFFFFFFFFFFFFF  # Python's integers, where it runs this file, do not 
 if not cython.compiled:
 
     def gazelle_bits(value: float) -> int:
-        """The bits of a double."""
+        """Return the bits of a double."""
         return int(struct.unpack("<Q", struct.pack("<d", value))[0])
 
     def gazelle_double(bits: int) -> float:
-        """The double that has these bits."""
+        """Return the double that has these bits."""
         return float(struct.unpack("<d", struct.pack("<Q", bits))[0])
 
 
 def uniform_of(key: int, place: int) -> float:
-    """The number at a place of a world's stream, in [0, 1)."""
+    """Return the number at a place of a world's stream, in [0, 1)."""
     z = key + (place + 1) * GOLDEN
     if not cython.compiled:
         z = int(z) & WRAP
@@ -64,7 +64,7 @@ def uniform_of(key: int, place: int) -> float:
 
 
 def fill_normal(key: int, start: int, size: int, drawn: Floats) -> None:
-    """The next normal numbers of a world, by Box and Muller's transform.
+    """Compute the next normal numbers of a world, by Box and Muller's transform.
 
     The logarithm is by the series of the inverse hyperbolic tangent, to 1e-14: Abramowitz and
     Stegun, 4.1.27. Sines and cosines are by their series about the nearest quarter turn, to 1e-13.
@@ -114,7 +114,7 @@ def fill_normal(key: int, start: int, size: int, drawn: Floats) -> None:
 
 
 def draw_uniform(keys: UInts64, counters: UInts64, drawn: Floats) -> None:
-    """The next numbers in [0, 1) of some worlds; counters go on.
+    """Draw the next numbers in [0, 1) of some worlds; counters advance.
 
     Args:
         keys: Of the worlds, shape (n,).
@@ -130,7 +130,7 @@ def draw_uniform(keys: UInts64, counters: UInts64, drawn: Floats) -> None:
 
 
 def draw_normal(keys: UInts64, counters: UInts64, size: int, drawn: Floats) -> None:
-    """The next standard normal numbers of some worlds; counters go on.
+    """Draw the next standard normal numbers of some worlds; counters advance.
 
     Args:
         keys: Of the worlds, shape (n,).

@@ -26,7 +26,7 @@ class _Worker:
         self._thread.start()
 
     def start(self, work: Callable[[], Any] | None) -> None:
-        """Do something; None: end."""
+        """Start work; None ends the thread."""
         self._work = work
         self._go.release()
 
@@ -112,13 +112,13 @@ class WorkerPool:
             return [first, *(_value(*outcome) for outcome in others)]
 
     def _ready(self, count: int) -> list[_Worker]:
-        """So many threads, started if they are not there yet."""
+        """Return so many threads, started if necessary."""
         while len(self._workers) < count:
             self._workers.append(_Worker(f"worker_{len(self._workers)}"))
         return self._workers[:count]
 
     def close(self) -> None:
-        """End the threads."""
+        """Stop the threads."""
         with self._busy:
             _end(self._workers)
 

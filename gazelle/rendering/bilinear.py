@@ -27,7 +27,7 @@ class PixelMeans:
     def about(
         cls, places: Floats, inside: Bools, size: tuple[int, int], first: Indices | int = 0
     ) -> PixelMeans:
-        """Of the pixels about some places.
+        """Return the means of the pixels about some places.
 
         Args:
             places: Column and row, whole numbers in the middle of pixels, shape (rows, columns, 2);
@@ -54,7 +54,7 @@ class PixelMeans:
         return cls((rows, columns), np.stack(indices), np.stack(weights))
 
     def of(self, pixels: Bytes) -> Bytes:
-        """The pictures, shape (n, rows, columns, 3), of all pixels of others, shape (n, m, 3)."""
+        """Return the pictures, (n, rows, columns, 3), of all pixels of others, (n, m, 3)."""
         mixed = sum(
             weight[:, None] * pixels[:, index]
             for index, weight in zip(self.indices, self.weights, strict=True)

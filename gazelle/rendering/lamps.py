@@ -23,7 +23,7 @@ _TONES = 4096
 
 
 def lighting_of(world: World, *, gamma: float = 1.0) -> Lighting:
-    """The lighting of a world.
+    """Return the lighting of a world.
 
     Args:
         world: Whose lights and sky.
@@ -41,14 +41,14 @@ def lighting_of(world: World, *, gamma: float = 1.0) -> Lighting:
 
 
 def table_of(lights: Iterable[Light]) -> Floats:
-    """Lamps as ``columns.KIND`` and what follows say, shape (n, LAMP)."""
+    """Return the lamps in rows, by ``columns.KIND`` and those that follow, shape (n, LAMP)."""
     rows = [_row(light) for light in lights]
     return np.array(rows, np.float64).reshape(-1, c.LAMP)
 
 
 @cache
 def tones(gamma: float) -> Bytes:
-    """Bytes for brightnesses from 0 to 1, evenly spaced."""
+    """Return bytes for brightnesses from 0 to 1, evenly spaced."""
     share = np.linspace(0.0, 1.0, _TONES) ** (1.0 / gamma)
     return np.asarray(share * 255.0 + 0.5, np.uint8)
 

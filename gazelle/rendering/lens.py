@@ -57,7 +57,7 @@ class PinholeLens:
 
     @classmethod
     def of_camera(cls, camera: Camera) -> PinholeLens:
-        """The lens of a description's camera."""
+        """Return the lens of a description's camera."""
         return cls(camera.width, camera.height, camera.horizontal_fov, camera.near, camera.far)
 
     @property

@@ -50,7 +50,7 @@ class Lighting:
         )  # the lamp that has shadows, and what of it falls somewhere
 
     def look(self, cameras: Floats, n: int) -> None:
-        """Turn all lamps into the frame of camera n."""
+        """Transform all lamps to the frame of camera n."""
         for k in range(3):
             self.up[k] = cameras[n, 4 + 3 * k + 2]
         for i in range(self.lamps.shape[0]):
@@ -84,7 +84,7 @@ class Lighting:
                     out[k] += shine * self.lamps[i, COLOR + k]
 
     def reaching(self, k: int, x: float, y: float, z: float, normal: Floats) -> float:
-        """The share of a lamp's light that falls on a surface."""
+        """Return the share of a lamp's light that falls on a surface."""
         if self.lamps[k, KIND] == DIRECTIONAL:
             cosine = -(
                 normal[0] * self.seen[k, 3]
@@ -115,7 +115,7 @@ class Lighting:
         return self.tones[cython.cast(cython.Py_ssize_t, at)]  # type: ignore[no-any-return]
 
     def backdrop(self, up: float, out: Floats) -> None:
-        """The colour of what is infinitely far, in a direction whose z in the world is ``up``."""
+        """Compute the colour at infinity, in a direction whose z in the world is ``up``."""
         share = min(max(up, 0.0), 1.0)
         share = sqrt(share)  # most of the change is near the horizon
         for k in range(3):

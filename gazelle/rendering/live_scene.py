@@ -50,7 +50,7 @@ class LiveScene:
         *,
         want: tuple[str, ...],
     ) -> Frames:
-        """Draw what one camera in each of some worlds sees now; see ``Renderer.render``."""
+        """Render one camera in each of some worlds now; see ``Renderer.render``."""
         renderer = self.renderer
         place = self._engine.links[self._links].placement(worlds)
         renderer.place_all(self._links, place.position, place.quaternion, worlds)

@@ -54,5 +54,5 @@ def painted_world(links: Sequence[str], parts: Iterable[PaintedPart]) -> Visible
 
 
 def plain_surroundings(background: Color) -> World:
-    """A world with nothing in it but one colour behind all."""
+    """Return an empty world with a background of one colour."""
     return World(scene=Scene(ambient=(*_BLACK, 1.0), background=background))

@@ -120,12 +120,12 @@ class Rasterizer:
         )
 
     def draw(self, n: int) -> None:
-        """Draw all that camera n sees, but for what lets see through."""
+        """Draw everything opaque that camera n sees."""
         self.clear()
         self.draw_parts(n, False)
 
     def draw_clear(self, n: int) -> None:
-        """Draw what lets see through and is before all else, after ``draw``; of that the nearest."""
+        """Draw the nearest transparent surfaces in front of all others, after ``draw``."""
         self.count = 0
         for r in range(self.height):
             for c in range(self.width):
@@ -133,7 +133,7 @@ class Rasterizer:
         self.draw_parts(n, True)
 
     def draw_parts(self, n: int, clear: bool) -> None:  # noqa: FBT001
-        """Draw the parts that let see through, or those that do not."""
+        """Draw the transparent parts, or the opaque ones."""
         unseen = cython.cast(cython.Py_ssize_t, self.cameras[n, UNSEEN])
         for p in range(self.shapes.parts.shape[0]):
             if (self.shapes.alpha[p] < 1.0) != clear:
@@ -146,7 +146,7 @@ class Rasterizer:
                 self.draw_part(p)
 
     def clear(self) -> None:
-        """Begin a picture; nothing is drawn that is farther than the lens shows."""
+        """Start a picture; its depth is the lens's far plane."""
         self.count = 0
         inverse, owner = singles(self.inverse_at), integers(self.owner_at)
         least = 1.0 / self.far
@@ -303,7 +303,7 @@ class Rasterizer:
             self.fill(ax, ay, bx, by, cx, cy)
 
     def draw_cut_face(self, p: int, f: int, i: int, j: int, k: int, two_sided: bool) -> None:  # noqa: FBT001
-        """Draw what is before the camera of a triangle that is partly behind it."""
+        """Draw the part before the camera of a triangle that is partly behind it."""
         if not self.find_plane(i, j, k, two_sided):
             return
         m = 0
@@ -353,13 +353,13 @@ class Rasterizer:
         return True
 
     def record(self, p: int, f: int) -> None:
-        """Number a triangle that is drawn."""
+        """Assign a number to a triangle that is drawn."""
         self.part_of[self.count], self.face_of[self.count] = p, f
         self.slot_of[self.count] = -1
         self.count += 1
 
     def fill(self, x0: float, y0: float, x1: float, y1: float, x2: float, y2: float) -> None:
-        """Draw the last triangle that was recorded, or a part of it with these corners [pixel]."""
+        """Draw the last recorded triangle, or a part of it with these corners [pixel]."""
         if y0 > y1 or (y0 == y1 and x0 > x1):
             x0, y0, x1, y1 = x1, y1, x0, y0
         if y1 > y2 or (y1 == y2 and x1 > x2):
@@ -394,6 +394,6 @@ class Rasterizer:
 
 
 def first_middle(edge: float, most: int) -> int:
-    """The first of so many pixels whose middle is not before an edge."""
+    """Return the first of so many pixels whose middle is not before an edge."""
     inside = min(max(edge - 0.5, 0.0), 1.0 * most)
     return cython.cast(cython.int, ceil(inside))  # type: ignore[no-any-return]

@@ -87,7 +87,7 @@ class Renderer:
     def place(
         self, link: str, positions: Floats, quaternions: Floats, worlds: Worlds | None = None
     ) -> None:
-        """Put a link somewhere.
+        """Set the pose of a link.
 
         Args:
             link: Scoped name; a link without visuals is left alone.
@@ -107,7 +107,7 @@ class Renderer:
         quaternions: Floats,
         worlds: Worlds | None = None,
     ) -> None:
-        """Put many links somewhere at once.
+        """Set the poses of many links at once.
 
         Args:
             links: Scoped names of links with visuals.
@@ -133,7 +133,7 @@ class Renderer:
         unseen: Ints64 | None = None,
         channels: int = 3,
     ) -> Frames:
-        """Draw what cameras see.
+        """Render what cameras see.
 
         Args:
             lens: Of all of them.
@@ -174,7 +174,7 @@ class Renderer:
         return frames
 
     def _maps(self, cameras: Floats, lens: PinholeLens) -> ShadowMaps | None:
-        """The pictures that shadows are looked up in, if there are any."""
+        """Return the pictures that shadows are looked up in, if there are any."""
         lamp = casting_lamp(self._lights) if self.shadows else None
         if lamp is None:
             return None

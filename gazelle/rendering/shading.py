@@ -114,7 +114,7 @@ class Shader:
                 self.put_labels(n, True)
 
     def put_color(self, n: int) -> None:
-        """Colour all pixels."""
+        """Set the colours of all pixels."""
         color, owner, last = self.color, self.seen.owner, -2
         self.slots = 1
         self.flat[0, 3] = 1
@@ -140,7 +140,7 @@ class Shader:
                     self.shade(n, r, c, s, t)
 
     def put_clear(self, n: int) -> None:
-        """Mix what lets see through into what is behind it."""
+        """Blend transparent surfaces with what is behind them."""
         self.slots = 1
         for r in range(self.seen.height):
             for c in range(self.seen.width):
@@ -159,7 +159,7 @@ class Shader:
                     self.color[n, r, c, k] = cython.cast(cython.uchar, mixed + 0.5)
 
     def shade(self, n: int, r: int, c: int, s: int, t: int) -> None:
-        """Colour a pixel of a triangle that does not look the same all over."""
+        """Compute the colour of a pixel of a triangle without a uniform look."""
         if self.flat[s, 3] == EVEN:
             self.shade_evenly(n, r, c, s)
         elif self.lighting.local:
@@ -170,7 +170,7 @@ class Shader:
             self.shade_smoothly(n, r, c, s)
 
     def shade_evenly(self, n: int, r: int, c: int, s: int) -> None:
-        """Colour a pixel of a triangle that looks the same all over but for shadows."""
+        """Compute the colour of a pixel of a triangle with a uniform look except shadows."""
         z = 1.0 / self.seen.inverse[r, c]
         x = (c + 0.5 - self.seen.cx) / self.seen.fx * z
         y = (r + 0.5 - self.seen.cy) / self.seen.fy * z
@@ -181,7 +181,7 @@ class Shader:
             )
 
     def shade_smoothly(self, n: int, r: int, c: int, s: int) -> None:
-        """Colour a pixel by what lies between the corners of its triangle."""
+        """Compute the colour of a pixel by interpolation between the corners of its triangle."""
         z = 1.0 / self.seen.inverse[r, c]
         for k in range(3):
             value = z * (
@@ -192,7 +192,7 @@ class Shader:
             self.color[n, r, c, k] = self.lighting.tone(value)
 
     def shade_picture(self, n: int, r: int, c: int, s: int, p: int) -> None:
-        """Colour a pixel by what lies between the corners of its triangle, and a texture."""
+        """Compute the colour of a pixel by interpolation between corners, and a texture."""
         z = 1.0 / self.seen.inverse[r, c]
         self.find_base(s, p, r, c, z)
         for k in range(3):
@@ -235,7 +235,7 @@ class Shader:
                 self.base[k] += u * self.seen.shapes.texels[at, k]
 
     def shade_exactly(self, n: int, r: int, c: int, s: int, t: int) -> None:
-        """Colour a pixel by the light that falls on it."""
+        """Compute the colour of a pixel by the light that falls on it."""
         z = 1.0 / self.seen.inverse[r, c]
         for k in range(3):
             self.normal[k] = z * (
@@ -264,7 +264,7 @@ class Shader:
             self.color[n, r, c, k] = self.lighting.tone(self.base[k] * self.light[k] + b)
 
     def put_backdrop(self, n: int, r: int, c: int) -> None:
-        """Colour a pixel that shows nothing."""
+        """Compute the colour of a pixel without a surface."""
         x = (c + 0.5 - self.seen.cx) / self.seen.fx
         y = (r + 0.5 - self.seen.cy) / self.seen.fy
         up = x * self.lighting.up[0] + y * self.lighting.up[1] + self.lighting.up[2]
@@ -273,7 +273,7 @@ class Shader:
             self.color[n, r, c, k] = self.lighting.tone(self.light[k])
 
     def prepare(self, t: int) -> int:
-        """Light a triangle when its first pixel is coloured.
+        """Compute the light of a triangle when its first pixel is coloured.
 
         Returns:
             Where it is in ``planes`` and ``flat``: at 0 is what is behind all.
@@ -304,7 +304,7 @@ class Shader:
         return s
 
     def light_corners(self, p: int) -> bool:
-        """Put what a triangle's corners look like in place of normals; whether all are alike.
+        """Replace normals by the looks of a triangle's corners; returns whether all are alike.
 
         Those of a surface with a texture are as if it were white.
         """
@@ -409,7 +409,7 @@ class Shader:
             self.shares[i, 2] = z + x * (0.5 - self.seen.cx) + y * (0.5 - self.seen.cy)
 
     def put_depth(self, n: int, over: bool) -> None:  # noqa: FBT001
-        """Turn inverse depths into depths; ``over`` leaves alone where nothing is."""
+        """Convert inverse depths to depths; ``over`` skips pixels without a surface."""
         depth, inverse, owner = self.depth, self.seen.inverse, self.seen.owner
         for r in range(self.seen.height):
             for c in range(self.seen.width):
@@ -419,7 +419,7 @@ class Shader:
                     depth[n, r, c] = NOTHING
 
     def put_labels(self, n: int, over: bool) -> None:  # noqa: FBT001
-        """Say which labels are seen; ``over`` leaves alone where nothing is."""
+        """Set the visible labels; ``over`` skips pixels without a surface."""
         for r in range(self.seen.height):
             for c in range(self.seen.width):
                 t = self.seen.owner[r, c]

@@ -49,7 +49,7 @@ class ShadowMaps:
 
 
 def casting_lamp(lights: tuple[Light, ...]) -> int | None:
-    """The first directional light in which things throw shadows, as in Gazebo; None for none."""
+    """Return the first directional light that casts shadows, as in Gazebo; None without one."""
     for number, light in enumerate(lights):
         if light.type == "directional" and light.cast_shadows:
             return number
@@ -57,12 +57,12 @@ def casting_lamp(lights: tuple[Light, ...]) -> int | None:
 
 
 def side_of(lens: PinholeLens) -> int:
-    """Pixels along a side of the lamp's picture: twice as many as the camera's has."""
+    """Return the pixels along a side of the lamp's picture: twice as many as the camera's."""
     return min(_MOST, max(_LEAST, 2 * max(lens.width, lens.height)))
 
 
 def extent_of_shapes(shapes: DrawnShapes, placed: Floats) -> tuple[Floats, float]:
-    """Middle (3,) and radius [m] of a ball around all that is no ground.
+    """Return middle (3,) and radius [m] of a ball around everything except ground.
 
     Args:
         shapes: What there is.
@@ -111,7 +111,7 @@ def shadow_maps(
 
 
 def _frame(along: Floats) -> Floats:
-    """Axes of a camera that looks along a direction, by rows: right, down, forward."""
+    """Return axes of a camera that looks along a direction, by rows: right, down, forward."""
     other = np.eye(3)[int(np.argmin(np.abs(along)))]
     right = np.cross(along, other)
     right /= np.linalg.norm(right)

@@ -48,7 +48,7 @@ class ShapePiece:
 
 
 def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
-    """A shape by looks; one piece unless it is a mesh whose file has several.
+    """Return a shape by looks; one piece unless it is a mesh whose file has several.
 
     Raises:
         FormatError: Its file cannot be read.
@@ -70,7 +70,7 @@ def pieces_of(shape: Geometry) -> tuple[ShapePiece, ...]:
 
 
 def triangles_of(shape: Geometry) -> TriangleMesh:
-    """Triangles with normals; none of a shape whose file is missing.
+    """Return triangles with normals; empty for a shape whose file is missing.
 
     Raises:
         FormatError: Its file cannot be read.

@@ -31,7 +31,7 @@ class Sunlight:
         self.shadow.draw(n)
 
     def share(self, n: int, x: float, y: float, z: float, a: float, b: float, c: float) -> float:
-        """The share of the lamp that falls on a place: 0 in shadow.
+        """Return the share of the lamp that falls on a place: 0 in shadow.
 
         The place is lifted off its surface by one and a half pixels of the lamp's picture, so that it
         is not in the shadow of itself.

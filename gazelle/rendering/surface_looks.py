@@ -34,7 +34,7 @@ class SurfaceLook:
 
 
 def surface_look(visual: Visual, piece: ShapePiece) -> SurfaceLook:
-    """The look of a piece of a visual: its material goes before what is in the mesh file."""
+    """Return the look of a piece of a visual: its material precedes what is in the mesh file."""
     clear = 1.0 - visual.transparency
     material = visual.material
     if material is None:

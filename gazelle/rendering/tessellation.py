@@ -16,7 +16,7 @@ CREASE = math.cos(math.radians(40.0))
 
 
 def polyline(shape: Polyline) -> TriangleMesh:
-    """Prisms on outlines."""
+    """Return prisms on outlines."""
     from gazelle.formats.patches import prism
 
     pieces = []
@@ -27,7 +27,7 @@ def polyline(shape: Polyline) -> TriangleMesh:
 
 
 def terrain(heights: Floats, size: tuple[float, float]) -> TriangleMesh:
-    """Heights [m] over a rectangle about the origin, shape (rows along y, columns along x)."""
+    """Return heights [m] as triangles about the origin, shape (rows along y, columns along x)."""
     rows, columns = heights.shape
     x = np.linspace(-size[0] / 2.0, size[0] / 2.0, columns)
     y = np.linspace(-size[1] / 2.0, size[1] / 2.0, rows)
@@ -44,7 +44,7 @@ def terrain(heights: Floats, size: tuple[float, float]) -> TriangleMesh:
 def creased(
     vertices: Floats, faces: Ints32, uv: Floats | None = None, *, crease: float = CREASE
 ) -> TriangleMesh:
-    """A mesh with normals: the mean of the faces about a vertex that are nearly level.
+    """Return a mesh with normals: the mean of the faces about a vertex that are nearly level.
 
     Each corner of a triangle takes the mean over the triangles at its vertex whose normals are
     within the crease of its own, weighted by their areas. Corners that agree share a vertex.

@@ -35,7 +35,7 @@ class TextureTable:
         return len(self._pixels)
 
     def number(self, picture: Path | Bytes) -> int | None:
-        """The number of a texture; None, with a warning, if it cannot be read.
+        """Return the number of a texture; None, with a warning, if it cannot be read.
 
         Args:
             picture: A file, or red, green and blue of shape (height, width, 3), top row first.
@@ -58,12 +58,12 @@ class TextureTable:
         return self._numbers[path]
 
     def mean(self, number: int) -> Rgb:
-        """The colour of a texture from afar."""
+        """Return the colour of a texture from afar."""
         red, green, blue = (self._pixels[number].reshape(-1, 3).mean(axis=0) / 255.0).tolist()
         return (red, green, blue)
 
     def rows(self) -> Ints64:
-        """As ``columns.FIRST_TEXEL`` and what follows say, shape (t, TEXTURE)."""
+        """Return rows by ``columns.FIRST_TEXEL`` and those that follow, shape (t, TEXTURE)."""
         made = np.zeros((len(self._pixels), c.TEXTURE), np.int64)
         first = 0
         for row, pixels in zip(made, self._pixels, strict=True):
@@ -72,13 +72,13 @@ class TextureTable:
         return made
 
     def texels(self) -> Bytes:
-        """Red, green and blue of all pixels, bottom row first, shape (x, 3)."""
+        """Return red, green and blue of all pixels, bottom row first, shape (x, 3)."""
         flat = [pixels.reshape(-1, 3) for pixels in self._pixels]
         return np.ascontiguousarray(np.vstack([np.zeros((0, 3), np.uint8), *flat]))
 
 
 def _read(path: Path) -> Bytes:
-    """Red, green, blue, bottom row first, shape (height, width, 3)."""
+    """Read red, green, blue, bottom row first, shape (height, width, 3)."""
     from gazelle.formats.picture import read_picture
 
     pixels = read_picture(path)
@@ -87,7 +87,7 @@ def _read(path: Path) -> Bytes:
 
 
 def _ready(color: Bytes) -> Bytes:
-    """A picture that is not too large, bottom row first."""
+    """Return a picture of limited size, bottom row first."""
     from PIL import Image
 
     size = max(color.shape[:2])

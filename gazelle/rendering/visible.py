@@ -68,7 +68,7 @@ def visible_world(world: World) -> VisibleWorld:
 
 
 def rows_of(positions: Floats, quaternions: Floats) -> Floats:
-    """Poses as they are drawn: rotation by rows and place, shape (..., 12).
+    """Return poses for drawing: rotation by rows and place, shape (..., 12).
 
     Args:
         positions: [m], shape (..., 3).
@@ -128,7 +128,7 @@ class GatheredShapes:
         self._looks.append(look)
 
     def drawn(self) -> DrawnShapes:
-        """All as arrays."""
+        """Return all as arrays."""
         meshes = self._meshes
         together = joined(meshes)
         count = len(together.vertices)

@@ -64,7 +64,7 @@ class LensMapping:
         return self.c1 * self.f * _FUNCTIONS[self.fun][0](angle / self.c2 + self.c3)
 
     def angles(self, radii: Floats) -> Floats:
-        """The angles of light that falls at some radii [rad]; NaN where none does."""
+        """Return the angles of light that falls at some radii [rad]; NaN where none does."""
         with np.errstate(invalid="ignore"):
             bare: Floats = _FUNCTIONS[self.fun][1](radii / (self.c1 * self.f))
         return (bare - self.c3) * self.c2
@@ -112,7 +112,7 @@ class WideLens:
 
     @classmethod
     def of_camera(cls, camera: Camera) -> WideLens:
-        """The lens of a description's wide-angle camera, by SDF's defaults."""
+        """Return the lens of a description's wide-angle camera, by SDF's defaults."""
         lens = camera.lens
         mapping = _TYPES["stereographic"] if lens is None else _mapping_of(lens)
         scaled = True if lens is None else lens.get("scale_to_hfov", True)
@@ -143,7 +143,7 @@ class WideLens:
 
 
 def _mapping_of(lens: Parameters) -> tuple[float, float, float, float, str]:
-    """c1, c2, c3, f and the function that ``<lens>`` names."""
+    """Return c1, c2, c3, f and the function that ``<lens>`` names."""
     kind = lens.get("type", "stereographic").strip()
     custom = lens.find("custom_function")
     if kind == "custom" and custom is not None:
@@ -173,7 +173,7 @@ def _warn(node: Parameters, what: str, instead: str) -> None:
 
 
 def _scaled(mapping: LensMapping, fov: float, *, whether: bool) -> LensMapping:
-    """With the focal length at which the field of view fills the picture's width, if so."""
+    """Return the mapping with the focal length that fills the width with the field of view."""
     if not whether:
         return mapping
     c1, c2, c3, fun = mapping.c1, mapping.c2, mapping.c3, mapping.fun

@@ -61,7 +61,7 @@ class WideView:
     def color(
         self, scene: LiveScene, positions: Floats, quaternions: Floats, worlds: Worlds
     ) -> Bytes:
-        """Draw the view of one camera in each of some worlds, shape (n, height, width, 3).
+        """Render one camera in each of some worlds, shape (n, height, width, 3).
 
         Args:
             scene: Draws.

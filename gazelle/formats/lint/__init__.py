@@ -21,5 +21,5 @@ __all__ = ["Diagnostic", "lint"]
 
 
 def lint(world: World) -> list[Diagnostic]:
-    """Everything about a world that deserves a second look, room by room."""
+    """Return all diagnostics of a world, check by check."""
     return [finding for rule in _RULES for finding in rule(world)]

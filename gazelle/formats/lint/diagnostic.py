@@ -45,7 +45,7 @@ class LinkPlace:
 
 
 def links_of(world: World) -> Iterator[LinkPlace]:
-    """All links of a world, nested models' too."""
+    """Yield all links of a world, including nested models."""
     for top in world.models:
         for placed in top.walk():
             for link in placed.model.links:
@@ -53,7 +53,7 @@ def links_of(world: World) -> Iterator[LinkPlace]:
 
 
 def moving_links_of(world: World) -> Iterator[LinkPlace]:
-    """All links whose mass matters: not those of immovable or scripted models."""
+    """Return all links whose mass matters: not those of immovable or scripted models."""
     return (
         place
         for place in links_of(world)

@@ -33,7 +33,7 @@ _SIMPLE = (Box, Capsule, Cylinder, Ellipsoid, Sphere)
 
 
 def lint(world: World) -> Iterator[Diagnostic]:
-    """Findings on every link that moves."""
+    """Yield findings on every link that moves."""
     for place in moving_links_of(world):
         name = f"{place.scope}::{place.link.name}"
         inertial = place.link.inertial
@@ -51,14 +51,14 @@ def lint(world: World) -> Iterator[Diagnostic]:
 
 
 def _strangest(name: str, link: Link, inertial: Inertial) -> Iterator[Diagnostic]:
-    """One finding on a link at most; none where the reader has replaced the inertia, and said so."""
+    """Yield at most one finding on a link; none if the reader has replaced the inertia."""
     if inertial.written is None:
         found = [*_triangle(name, inertial), *_compared_with_shape(name, link, inertial)]
         yield from found[:1]
 
 
 def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
-    """Principal moments of inertia, smallest first [kg m²]."""
+    """Return principal moments of inertia, smallest first [kg m²]."""
     tensor = inertia.matrix()
     if not np.isfinite(tensor).all():
         return (math.nan, math.nan, math.nan)
@@ -67,7 +67,10 @@ def principal_moments(inertia: Inertia) -> tuple[float, float, float]:
 
 
 def solid_moments(shape: Geometry, mass: float) -> tuple[float, float, float] | None:
-    """Principal moments of a solid of even density, smallest first [kg m²]; None if unknown."""
+    """Return principal moments of a solid of even density, smallest first [kg m²].
+
+    None if unknown.
+    """
     # Others are seldom in files, and a mesh is a hull as often as it is the part itself.
     solid = solid_of(shape) if isinstance(shape, _SIMPLE) else None
     if solid is None:
@@ -89,7 +92,7 @@ def _triangle(name: str, inertial: Inertial) -> Iterator[Diagnostic]:
 
 
 def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[Diagnostic]:
-    """Only links of one simple collision can be compared with a solid."""
+    """Yield findings on links of one simple collision, which compare with a solid."""
     if len(link.collisions) != 1:
         return
     expected = solid_moments(link.collisions[0].geometry, inertial.mass)
@@ -115,7 +118,7 @@ def _compared_with_shape(name: str, link: Link, inertial: Inertial) -> Iterator[
 
 
 def _plain(factor: float) -> str:
-    """A factor with three digits that count, as people write it: 1,630 and not 1.63e+03."""
+    """Return a factor with three significant digits, written as 1,630 and not 1.63e+03."""
     return f"{float(f'{factor:.3g}'):,.10g}" if factor < 1e9 else f"{factor:.3g}"
 
 

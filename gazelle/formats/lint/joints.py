@@ -11,7 +11,7 @@ from gazelle.formats.lint.diagnostic import Diagnostic
 
 
 def lint(world: World) -> Iterator[Diagnostic]:
-    """Findings on every joint of a model that moves."""
+    """Yield findings on every joint of a model that moves."""
     for top in world.models:
         for placed in top.walk():
             for joint in placed.model.joints:

@@ -37,7 +37,7 @@ _LINK_TAGS = frozenset({"bodyName", "linkName", "palm_link", "gripper_link"})
 
 
 def lint(world: World) -> Iterator[Diagnostic]:
-    """Findings on every model plugin."""
+    """Yield findings on every model plugin."""
     for top in world.models:
         for placed in top.walk():
             joints, links = _names(top, placed.model)

@@ -33,7 +33,7 @@ _SLACK = 1e-6
 
 
 def lint(root: Parameters, robot: str, tree: UrdfTree) -> Iterator[Diagnostic]:
-    """Findings about an SRDF.
+    """Yield findings about an SRDF.
 
     Args:
         root: Its ``<robot>``.
@@ -80,7 +80,7 @@ def _missing(node: Parameters, attribute: str, kind: str, known: set[str]) -> It
 
 
 def _chain(node: Parameters, tree: UrdfTree) -> Iterator[Diagnostic]:
-    """A chain goes down the tree, from its base to its tip."""
+    """Yield findings on chains that do not go down the tree, from base to tip."""
     base, tip = (node.attributes.get(key, "") for key in ("base_link", "tip_link"))
     if base not in tree.links or tip not in tree.links:
         return

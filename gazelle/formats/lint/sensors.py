@@ -29,7 +29,7 @@ _LOOKS = 12
 
 
 def lint(world: World) -> Iterator[Diagnostic]:
-    """Findings on every sensor."""
+    """Yield findings on every sensor."""
     for place in links_of(world):
         for sensor in place.link.sensors:
             name = f"{place.scope}::{place.link.name}::{sensor.name}"
@@ -69,7 +69,7 @@ def _lidar(name: str, sensor: Sensor, lidar: Lidar) -> Iterator[Diagnostic]:
 
 
 def _inside(name: str, sensor: Sensor, lidar: Lidar, link: Link) -> Iterator[Diagnostic]:
-    """Rays start at the smallest range: what is wholly nearer is not seen."""
+    """Yield findings on obstacles nearer than the smallest range, which rays do not see."""
     for collision in link.collisions:
         reach = _reach_from(sensor, collision)
         if reach is not None and reach > lidar.range_min:

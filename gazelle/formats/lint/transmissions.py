@@ -13,7 +13,7 @@ _PLUGIN = "gazebo_ros_control"
 
 
 def lint(world: World) -> Iterator[Diagnostic]:
-    """Findings on every model with the plugin of ros_control."""
+    """Yield findings on every model with the plugin of ros_control."""
     for model in world.models:
         yield from _strangers(model)
         if any(_PLUGIN in plugin.filename for plugin in model.plugins):
@@ -21,7 +21,7 @@ def lint(world: World) -> Iterator[Diagnostic]:
 
 
 def _strangers(model: Model) -> Iterator[Diagnostic]:
-    """Transmissions of joints that are not there."""
+    """Yield transmissions of unknown joints."""
     known = {joint.name for joint in model.joints}
     for each in model.transmissions:
         for name, _ in each.joints:
@@ -43,7 +43,7 @@ def _rolls(joint: Joint) -> bool:
 
 
 def _left_out(model: Model) -> Iterator[Diagnostic]:
-    """Joints that move and have no transmission."""
+    """Yield movable joints without a transmission."""
     driven = {name for each in model.transmissions for name, _ in each.joints}
     if not driven:  # those of the parameter robot_description count, which no file shows
         return

@@ -21,7 +21,7 @@ _RIGID = 1e9
 
 
 def lint(world: World) -> Iterator[Diagnostic]:
-    """Findings on steps, contacts, meshes, names and support."""
+    """Yield findings on steps, contacts, meshes, names and support."""
     yield from _step(world)
     yield from _contacts(world)
     yield from _meshes(world)
@@ -106,7 +106,7 @@ def _names(world: World) -> Iterator[Diagnostic]:
 
 
 def _falling(world: World) -> Iterator[Diagnostic]:
-    """Things that nothing can hold: only in worlds that have a ground."""
+    """Yield unsupported things, in worlds that have a ground."""
     grounded = any(model.static and _solid(model) for model in world.models)
     for model in world.models:
         held = any(j.parent == "world" for p in model.walk() for j in p.model.joints)

@@ -24,7 +24,7 @@ _WALKER = "ActorPlugin"
 
 
 def as_model(node: Parameters) -> Parameters:
-    """The static ``<model>`` of an actor, moved by Gazelle's plugin of scripted motion.
+    """Return the static ``<model>`` of an actor, moved by Gazelle's plugin of scripted motion.
 
     It has the actor's own links; one of a skin has a link that shows the skin. It collides
     with nothing, as in Gazebo, but lidars see it: links without collisions get those of their
@@ -47,7 +47,7 @@ def as_model(node: Parameters) -> Parameters:
 
 
 def _body(node: Parameters) -> Parameters:
-    """A link that shows the actor's skin, if it has one."""
+    """Return a link that shows the actor's skin, if it has one."""
     skin = node.find("skin")
     file = "" if skin is None else values.word(skin, "filename")
     if skin is None or not file:
@@ -82,7 +82,7 @@ def _stance(node: Parameters, factor: float) -> Pose:
 
 
 def _seen(link: Parameters) -> Parameters:
-    """A link with something for lidars to see, if it shows anything."""
+    """Return a link with a shape that lidars see, if it shows anything."""
     if link.find("collision") is not None:
         return link
     ghosts = [
@@ -94,7 +94,7 @@ def _seen(link: Parameters) -> Parameters:
 
 
 def _ghost(name: str, pose: Parameters | None, shape: Parameters) -> Parameters:
-    """A collision that pushes nothing."""
+    """Return a collision without contacts."""
     touch = made("collide_without_contact", "true", like=shape)
     surface = made("surface", "", made("contact", "", touch, like=shape), like=shape)
     parts = [surface, shape] if pose is None else [pose, surface, shape]
@@ -102,7 +102,7 @@ def _ghost(name: str, pose: Parameters | None, shape: Parameters) -> Parameters:
 
 
 def _script(node: Parameters) -> Parameters | None:
-    """The plugin that moves the actor; None if it has no trajectory, or does not start."""
+    """Return the plugin that moves the actor; None if it has no trajectory, or does not start."""
     script = node.find("script")
     if script is None or _walks(node) or not values.flag(script, "auto_start", default=True):
         return None
@@ -122,7 +122,7 @@ def _script(node: Parameters) -> Parameters | None:
 
 
 def _trajectories(script: Parameters) -> Iterator[Parameters]:
-    """The trajectories with waypoints, which follow each other in the order of their ids.
+    """Yield the trajectories with waypoints, which follow each other in the order of their ids.
 
     Each counts its time from its own start and lasts until its last waypoint; of several
     waypoints at one time the last holds, as in Gazebo Classic.

@@ -22,7 +22,7 @@ def is_automatic(node: Parameters) -> bool:
 def automatic_inertial(
     link: Parameters, collisions: tuple[Collision, ...], reading: Reading
 ) -> Inertial:
-    """The inertial of all collisions together, each of its own density or the link's.
+    """Return the inertial of all collisions together, each of its own density or the link's.
 
     A ``<mass>`` in the file decides over the densities, which then only share it out.
 

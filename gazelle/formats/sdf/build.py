@@ -15,12 +15,12 @@ def made(
     like: Parameters,
     attributes: Mapping[str, str] | None = None,
 ) -> Parameters:
-    """An element that stands where another one does."""
+    """Return an element at the place of another one."""
     return Parameters(tag, text, dict(attributes or {}), children, like.source)
 
 
 def pose_element(pose: Pose, like: Parameters, relative_to: str = "") -> Parameters:
-    """A ``<pose>`` that loses no digit."""
+    """Return a ``<pose>`` with all digits."""
     numbers = " ".join(map(repr, (*pose.position, *pose.quaternion)))
     attributes = {"rotation_format": "quat_xyzw"}
     if relative_to:
@@ -29,11 +29,11 @@ def pose_element(pose: Pose, like: Parameters, relative_to: str = "") -> Paramet
 
 
 def with_child(node: Parameters, child: Parameters) -> Parameters:
-    """The element with a child in the place of all of the same tag, first of its children."""
+    """Return the element with a child in place of all of the same tag, first of its children."""
     others = (other for other in node.children if other.tag != child.tag)
     return replace(node, children=(child, *others))
 
 
 def with_attributes(node: Parameters, **attributes: str) -> Parameters:
-    """The element with some attributes set."""
+    """Return the element with some attributes set."""
     return replace(node, attributes={**node.attributes, **attributes})

@@ -25,7 +25,7 @@ CAMERA: Pattern = {
 
 
 def read_camera(node: Parameters) -> Camera:
-    """One camera; defaults are SDF 1.7's."""
+    """Read one camera; defaults are SDF 1.7's."""
     k1, k2, k3, p1, p2 = (values.real(node, f"distortion/{tag}", 0.0) for tag in _DISTORTION)
     center = node.find("distortion/center")
     cx, cy = (0.5, 0.5)

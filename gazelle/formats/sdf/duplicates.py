@@ -16,7 +16,7 @@ _LEFT_OUT = frozenset({"joint"})
 
 
 def with_own_names(node: Parameters, tags: Collection[str], reading: Reading) -> Parameters:
-    """The element with no two children of a tag called the same.
+    """Return the element without two children of one tag and name.
 
     Of two joints the first stays; of others the second is called ``NAME_1``.
     """
@@ -54,7 +54,7 @@ class FreeNames:
         self._last: dict[str, int] = {}
 
     def after(self, name: str) -> str:
-        """The name with the first number behind it that is free; it is taken from now on."""
+        """Reserve the name with the first free number behind it, and return it."""
         number = self._last.get(name, 0) + 1
         while f"{name}_{number}" in self.taken:
             number += 1

@@ -84,7 +84,7 @@ class Scope:
             )
 
     def pose(self, name: str, node: Parameters) -> Pose:
-        """The pose of a frame in the frame of this scope.
+        """Return the pose of a frame in the frame of this scope.
 
         Raises:
             FormatError: Its poses lead in a circle; without a reading also when there is no such
@@ -121,7 +121,10 @@ class Scope:
             name, node = entry.relative_to, entry.node
 
     def _resolve_inner(self, name: str, node: Parameters) -> Pose:
-        """A name scoped by ``::`` leads into a nested model, whose own names may hold ``::``."""
+        """Return a pose in a nested model, by a name scoped by ``::``.
+
+        The parts of the name may hold ``::`` themselves.
+        """
         parts = name.split("::")
         for count in range(len(parts) - 1, 0, -1):
             outer = self.entries.get("::".join(parts[:count]))
@@ -147,7 +150,7 @@ class Scope:
         return head in self.missing or unnamed or (head == self.name and self.lacks(rest))
 
     def own(self, name: str) -> str:
-        """The name without that of this model before it, which old files write."""
+        """Return the name without that of this model before it, which old files write."""
         if name in self.entries:
             return name
         head, separator, rest = name.partition("::")
@@ -165,7 +168,7 @@ class Scope:
         return False
 
     def link_of(self, name: str, node: Parameters) -> str:
-        """The link (or nested model's link) that a frame moves with; empty for the scope.
+        """Return the link (or nested model's link) that a frame moves with; empty for the scope.
 
         Raises:
             FormatError: There is no such frame, or the frames are attached in a circle.
@@ -194,7 +197,7 @@ class Scope:
         return ""
 
     def body_of(self, name: str, node: Parameters) -> str:
-        """Like ``link_of``, but a model is stood for by its canonical link.
+        """Return the same as ``link_of``, with a model's canonical link for the model.
 
         Raises:
             FormatError: As ``link_of``; or the model has no link.
@@ -208,7 +211,7 @@ class Scope:
         return f"{link}::{scope.canonical}" if link else scope.canonical
 
     def scope_of(self, name: str) -> Scope | None:
-        """The scope that a name leads to, if it is that of a model; itself for no name."""
+        """Return the scope of a name, if it is that of a model; itself for no name."""
         if not name:
             return self
         entry = self.entries.get(name)

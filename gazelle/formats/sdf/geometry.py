@@ -28,7 +28,7 @@ from gazelle.formats.reading import Reading
 
 
 def read_geometry(node: Parameters | None, reading: Reading) -> Geometry:
-    """The first shape in a ``<geometry>``; Empty when there is none."""
+    """Read the first shape in a ``<geometry>``; Empty without any."""
     if node is not None:
         for child in node.children:
             reader = SHAPES.get(child.tag)
@@ -40,7 +40,7 @@ def read_geometry(node: Parameters | None, reading: Reading) -> Geometry:
 
 
 def _polylines(nodes: list[Parameters], reading: Reading) -> Polyline:
-    """Several outlines make one shape, if they are of one height."""
+    """Return one shape of several outlines, if they have the same height."""
     shapes = [read_polyline(node, reading) for node in nodes]
     for node, shape in zip(nodes, shapes, strict=True):
         if shape.height != shapes[0].height:
@@ -52,7 +52,7 @@ _ROUND = TypeVar("_ROUND", Cylinder, Capsule, Cone)
 
 
 def _round(kind: type[_ROUND], node: Parameters, usual: float, reading: Reading) -> _ROUND:
-    """A shape of a radius and a length."""
+    """Return a shape of a radius and a length."""
     radius, length = values.real(node, "radius", usual), values.real(node, "length", 1.0)
     return kind(
         extent(node, radius, "<radius>", reading),
@@ -62,47 +62,47 @@ def _round(kind: type[_ROUND], node: Parameters, usual: float, reading: Reading)
 
 
 def _sides(node: Parameters, path: str, reading: Reading) -> tuple[Vector3, tuple[float, ...]]:
-    """The lengths along x, y, z that are taken, and those in the file if they are others."""
+    """Return the used lengths along x, y, z, and those in the file if they differ."""
     sides = values.vector(node, path, (1.0, 1.0, 1.0))
     x, y, z = (extent(node, side, f"<{path}>", reading) for side in sides)
     return (x, y, z), given(*sides)
 
 
 def read_box(node: Parameters, reading: Reading) -> Box:
-    """``<box><size>``."""
+    """Read ``<box><size>``."""
     sides, others = _sides(node, "size", reading)
     return Box(sides, given=others)
 
 
 def read_sphere(node: Parameters, reading: Reading) -> Sphere:
-    """``<sphere><radius>``."""
+    """Read ``<sphere><radius>``."""
     radius = values.real(node, "radius", 1.0)
     return Sphere(extent(node, radius, "<radius>", reading), given=given(radius))
 
 
 def read_cylinder(node: Parameters, reading: Reading) -> Cylinder:
-    """``<cylinder><radius><length>``."""
+    """Read ``<cylinder><radius><length>``."""
     return _round(Cylinder, node, 1.0, reading)
 
 
 def read_capsule(node: Parameters, reading: Reading) -> Capsule:
-    """``<capsule><radius><length>``."""
+    """Read ``<capsule><radius><length>``."""
     return _round(Capsule, node, 0.5, reading)
 
 
 def read_cone(node: Parameters, reading: Reading) -> Cone:
-    """``<cone><radius><length>``."""
+    """Read ``<cone><radius><length>``."""
     return _round(Cone, node, 1.0, reading)
 
 
 def read_ellipsoid(node: Parameters, reading: Reading) -> Ellipsoid:
-    """``<ellipsoid><radii>``."""
+    """Read ``<ellipsoid><radii>``."""
     radii, others = _sides(node, "radii", reading)
     return Ellipsoid(radii, given=others)
 
 
 def read_plane(node: Parameters, _: Reading) -> Plane:
-    """``<plane><normal><size>``."""
+    """Read ``<plane><normal><size>``."""
     normal = values.vector(node, "normal", (0.0, 0.0, 1.0))
     size = node.find("size")
     width, depth = (1.0, 1.0)
@@ -112,7 +112,7 @@ def read_plane(node: Parameters, _: Reading) -> Plane:
 
 
 def read_mesh(node: Parameters, reading: Reading) -> Mesh:
-    """``<mesh><uri><scale><submesh>``; old files have ``<filename>`` for the URI."""
+    """Read ``<mesh><uri><scale><submesh>``; old files have ``<filename>`` for the URI."""
     uri = values.word(node, "uri") or values.word(node, "filename")
     if not uri:
         raise values.fail(node, "a <mesh> needs a <uri>")
@@ -131,7 +131,7 @@ _LOOKS = {"texture", "blend", "use_terrain_paging"}
 
 
 def read_heightmap(node: Parameters, reading: Reading) -> Heightmap:
-    """``<heightmap><uri><size><pos><sampling>``; what it looks like is kept as it is."""
+    """Read ``<heightmap><uri><size><pos><sampling>``; what it looks like is kept as it is."""
     uri = values.word(node, "uri")
     return Heightmap(
         uri=uri,
@@ -145,7 +145,7 @@ def read_heightmap(node: Parameters, reading: Reading) -> Heightmap:
 
 
 def read_image(node: Parameters, reading: Reading) -> Image:
-    """``<image><uri><scale><threshold><height><granularity>``."""
+    """Read ``<image><uri><scale><threshold><height><granularity>``."""
     uri = values.word(node, "uri")
     return Image(
         uri=uri,
@@ -159,7 +159,7 @@ def read_image(node: Parameters, reading: Reading) -> Image:
 
 
 def read_polyline(node: Parameters, _: Reading) -> Polyline:
-    """``<polyline><point>...<height>``."""
+    """Read ``<polyline><point>...<height>``."""
     points = []
     for child in node.find_all("point"):
         x, y = values.parse_reals(child, child.text, "<point>", 2)
@@ -168,7 +168,7 @@ def read_polyline(node: Parameters, _: Reading) -> Polyline:
 
 
 def read_empty(_: Parameters, __: Reading) -> Empty:
-    """``<empty>``."""
+    """Read ``<empty>``."""
     return Empty()
 
 

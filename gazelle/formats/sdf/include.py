@@ -32,7 +32,7 @@ class Included:
 
 
 def open_include(node: Parameters, reading: Reading) -> Included | None:
-    """The element that an include names; None when its file is not found.
+    """Return the element that an include names; None when its file is not found.
 
     Raises:
         FormatError: It names a file that holds nothing to include.
@@ -67,7 +67,7 @@ def open_include(node: Parameters, reading: Reading) -> Included | None:
 
 
 def _with_params(root: Parameters, include: Parameters, reading: Reading) -> Parameters:
-    """A file with what the include says in ``<experimental:params>`` done to its model."""
+    """Return a file with the include's ``<experimental:params>`` applied to its model."""
     if TAG not in include:
         return root
 
@@ -85,7 +85,7 @@ def _with_params(root: Parameters, include: Parameters, reading: Reading) -> Par
 
 
 def _written(model: Model, file: Path) -> Parameters:
-    """A model that is read already, as the file that would say it in SDF."""
+    """Return a model that is read already, as the SDF file of it."""
     from gazelle.formats.write.sdf import write_sdf  # it imports what reads worlds
     from gazelle.formats.write.writing import Writing
 
@@ -101,7 +101,7 @@ def _file_of(found: Path) -> Path | None:
 
 
 def include_model(node: Parameters, version: Version, reading: Reading) -> ModelFrames | None:
-    """The draft of an included model; None when it is not found."""
+    """Return the draft of an included model; None when it is not found."""
     _ = version  # the included file has its own
     included = open_include(node, reading)
     if included is None:
@@ -112,7 +112,7 @@ def include_model(node: Parameters, version: Version, reading: Reading) -> Model
 
 
 def draft_included(node: Parameters, included: Included, reading: Reading) -> ModelFrames:
-    """The draft of a model, with the name, pose and so on that the include gives it."""
+    """Return the draft of a model, with the name, pose and so on that the include gives it."""
     with reading.inside(included.file, node):
         if included.model is None:
             draft = draft_model(included.node, included.version, reading, include_model)
@@ -132,7 +132,7 @@ def draft_included(node: Parameters, included: Included, reading: Reading) -> Mo
 
 
 def draft_read(node: Parameters, model: Model) -> ModelFrames:
-    """The draft of a model that is already read: its frames under their names."""
+    """Return the draft of a model that is already read: its frames under their names."""
     draft = ModelFrames(node, (1, 11), model.name, model.pose, model=model)
     name_frames(draft.scope, model)
     draft.scope.canonical = model.canonical_link or (model.links[0].name if model.links else "")
@@ -140,7 +140,7 @@ def draft_read(node: Parameters, model: Model) -> ModelFrames:
 
 
 def version_of(root: Parameters, reading: Reading) -> Version:
-    """The version of an ``<sdf>`` element.
+    """Return the version of an ``<sdf>`` element.
 
     Raises:
         FormatError: It is not of the form 1.6.

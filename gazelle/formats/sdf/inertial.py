@@ -11,7 +11,7 @@ _PRODUCTS = ("ixy", "ixz", "iyz")
 
 
 def read_inertial(node: Parameters | None) -> Inertial | None:
-    """Mass, centre of mass and inertia as written; None where the link has none."""
+    """Read mass, centre of mass and inertia as written; None where the link has none."""
     if node is None:
         return None
     inertia = node.find("inertia")
@@ -24,7 +24,7 @@ def read_inertial(node: Parameters | None) -> Inertial | None:
 
 
 def read_inertia(node: Parameters) -> Inertia:
-    """The six numbers."""
+    """Read the six numbers."""
     moments = [values.real(node, name, 1.0) for name in _MOMENTS]
     products = [values.real(node, name, 0.0) for name in _PRODUCTS]
     return Inertia(*moments, *products)

@@ -41,7 +41,7 @@ _AXES: dict[str, int] = {
 def read_joints(
     node: Parameters, scope: Scope, version: tuple[int, int], reading: Reading
 ) -> tuple[Joint, ...]:
-    """The joints of a model or world, without those that Gazebo cannot make.
+    """Read the joints of a model or world, without those that Gazebo cannot make.
 
     These are of an unknown type, or of a link that is not there.
 
@@ -65,7 +65,7 @@ def read_joints(
 
 
 def _joined(node: Parameters, scope: Scope) -> tuple[JointType, str, str]:
-    """The type of a joint and the links that it joins.
+    """Return the type of a joint and the links that it joins.
 
     Raises:
         FormatError: It names no link that is there, an unknown type, or one link twice.
@@ -83,7 +83,7 @@ def read_joint(
     version: tuple[int, int],
     reading: Reading,
 ) -> Joint:
-    """A joint, its pose and axes turned into the child link's and its own frame."""
+    """Read a joint, its pose and axes turned into the child link's and its own frame."""
     name = values.attribute(node, "name")
     kind, parent, child = joined
     pose = _pose_in_child(node, name, child, scope)
@@ -113,13 +113,13 @@ def read_joint(
 
 
 def _axes(node: Parameters, kind: JointType) -> list[Parameters]:
-    """The axis elements that the type has; the default one where the file gives none."""
+    """Return the axis elements that the type has; the default one where the file gives none."""
     count = _AXES.get(kind, 1)
     return [node.find(tag) or Parameters("axis", source=node.source) for tag in _AXIS_TAGS[:count]]
 
 
 def joint_type(node: Parameters) -> JointType:
-    """The type of a joint.
+    """Return the type of a joint.
 
     Raises:
         FormatError: There is no such type.
@@ -132,7 +132,7 @@ def joint_type(node: Parameters) -> JointType:
 
 
 def body(node: Parameters, tag: str, scope: Scope) -> str:
-    """The link that a joint's ``<parent>`` or ``<child>`` means: a frame stands for its link.
+    """Return the link of a joint's ``<parent>`` or ``<child>``: a frame stands for its link.
 
     Raises:
         FormatError: It is missing, or there is no such link or frame.
@@ -156,7 +156,7 @@ def body(node: Parameters, tag: str, scope: Scope) -> str:
 
 
 def _pose_in_child(node: Parameters, name: str, child: str, scope: Scope) -> Pose:
-    """The joint frame in the child link: SDF writes it in the child or a named frame."""
+    """Return the joint frame in the child link: SDF writes it in the child or a named frame."""
     written = node.find("pose")
     named = values.word(node, "child")
     if not frame_of(written) and named == child:
@@ -167,7 +167,7 @@ def _pose_in_child(node: Parameters, name: str, child: str, scope: Scope) -> Pos
 def read_axis(
     node: Parameters, joint: str, scope: Scope, version: tuple[int, int], reading: Reading
 ) -> JointAxis:
-    """``<axis>`` or ``<axis2>``, its direction turned into the joint frame."""
+    """Read ``<axis>`` or ``<axis2>``, its direction turned into the joint frame."""
     lower, upper = _travel(node, reading)
     return JointAxis(
         xyz=_direction(node, joint, scope, version, reading),
@@ -199,7 +199,7 @@ def _or_endless(node: Parameters, path: str) -> float:
 def _direction(
     node: Parameters, joint: str, scope: Scope, version: tuple[int, int], reading: Reading
 ) -> Vector3:
-    """The axis in the joint frame.
+    """Return the axis in the joint frame.
 
     Up to SDF 1.4 it is written in the model frame; in 1.5 and 1.6
     ``<use_parent_model_frame>`` says so; since 1.7 ``expressed_in`` names the frame.
@@ -230,7 +230,7 @@ def _mimic(node: Parameters | None) -> Mimic | None:
 
 
 def _thread_pitch(node: Parameters) -> float:
-    """rad/m, left-handed; ``<screw_thread_pitch>`` is metres a turn, right-handed."""
+    """Return rad/m, left-handed; ``<screw_thread_pitch>`` is metres a turn, right-handed."""
     pitch = node.find("screw_thread_pitch")
     if pitch is None or not pitch.text:
         return values.real(node, "thread_pitch", 1.0)
@@ -241,7 +241,7 @@ def _thread_pitch(node: Parameters) -> float:
 
 
 def read_joint_physics(node: Parameters | None) -> JointPhysics:
-    """``<physics>`` of a joint."""
+    """Read ``<physics>`` of a joint."""
     if node is None:
         return JointPhysics()
     feedback = values.flag(node, "ode/provide_feedback", default=False)

@@ -23,7 +23,7 @@ _READ_ATTRIBUTES = {
 
 
 def leftover(node: Parameters, pattern: Pattern) -> Parameters:
-    """The element without what the pattern names, and without what is empty then."""
+    """Return the element without what the pattern names, and without what is empty then."""
     taken = {key[1:] for key in pattern if key.startswith("@")}
     children = (
         _left(child, pattern[child.tag]) if child.tag in pattern else child
@@ -35,7 +35,7 @@ def leftover(node: Parameters, pattern: Pattern) -> Parameters:
 
 
 def without(node: Parameters, names: set[str]) -> Parameters:
-    """The element without some attributes."""
+    """Return the element without some attributes."""
     if names.isdisjoint(node.attributes):
         return node
     kept = {name: text for name, text in node.attributes.items() if name not in names}

@@ -26,7 +26,7 @@ _NOISES = {"", "custom", "gaussian", "gaussian_quantized", "none"}
 
 
 def real(node: Parameters, text: str, what: str, reading: Reading) -> str:
-    """A number: what the text begins with.
+    """Return a number: the beginning of the text.
 
     Raises:
         FormatError: It does not begin with a number.
@@ -43,7 +43,7 @@ def real(node: Parameters, text: str, what: str, reading: Reading) -> str:
 
 
 def integer(node: Parameters, text: str, what: str, reading: Reading) -> str:
-    """An int, likewise."""
+    """Return an int: the beginning of the text."""
     try:
         values.parse_integer(node, text, what)
     except FormatError:
@@ -52,7 +52,7 @@ def integer(node: Parameters, text: str, what: str, reading: Reading) -> str:
 
 
 def flag(node: Parameters, text: str, what: str, _: Reading) -> str:
-    """True or false; nothing else is taken for one.
+    """Return true or false; nothing else is accepted.
 
     Raises:
         FormatError: It is neither.
@@ -62,7 +62,7 @@ def flag(node: Parameters, text: str, what: str, _: Reading) -> str:
 
 
 def vector(count: int) -> Callable[[Parameters, str, str, Reading], str]:
-    """Reads so many numbers; what is missing is 0, and 1 in a ``<scale>``."""
+    """Return a reader of so many numbers; missing ones are 0, and 1 in a ``<scale>``."""
 
     def read(node: Parameters, text: str, what: str, reading: Reading) -> str:
         try:
@@ -81,7 +81,7 @@ def vector(count: int) -> Callable[[Parameters, str, str, Reading], str]:
 
 
 def color(node: Parameters, text: str, _: str, reading: Reading) -> str:
-    """Three or four numbers; a component that is missing is 0, and alpha 1."""
+    """Return three or four numbers; a missing component is 0, and alpha 1."""
     try:
         values.parse_color(node, text)
     except FormatError as error:
@@ -93,7 +93,7 @@ def color(node: Parameters, text: str, _: str, reading: Reading) -> str:
 
 
 def pose(node: Parameters, reading: Reading) -> Parameters:
-    """A ``<pose>``: of more than six numbers the first six, of fewer the position alone.
+    """Return a ``<pose>``: of more than six numbers the first six, of fewer the position alone.
 
     Raises:
         FormatError: It does not begin with a number, or is a quaternion of another length.
@@ -114,7 +114,7 @@ def pose(node: Parameters, reading: Reading) -> Parameters:
 
 
 def noise(node: Parameters, reading: Reading) -> Parameters:
-    """A ``<noise>``; one of an unknown type is none."""
+    """Return a ``<noise>``; one of an unknown type is none."""
     child = node.find("type")
     kind = node.attributes.get("type", "") or ("" if child is None else child.text)
     if kind in _NOISES:
@@ -128,7 +128,7 @@ def noise(node: Parameters, reading: Reading) -> Parameters:
 
 
 def span(node: Parameters, reading: Reading) -> Parameters:
-    """A ``<range>`` of a lidar: it grows from 0.
+    """Return a ``<range>`` of a lidar: it grows from 0.
 
     Raises:
         FormatError: A limit is no number.
@@ -157,13 +157,13 @@ PARTS: dict[str, Callable[[Parameters, Reading], Parameters]] = {
 
 
 def part(node: Parameters, reading: Reading) -> Parameters:
-    """The element, mended if it is one of ``PARTS``."""
+    """Return the element, repaired if it is one of ``PARTS``."""
     mend = PARTS.get(node.tag)
     return node if mend is None else mend(node, reading)
 
 
 def _numbers(text: str) -> list[str]:
-    """The numbers that a text begins with; a comma behind one does no harm."""
+    """Return the numbers that a text begins with; a comma behind one does no harm."""
     found = []
     for word in text.replace(",", " ").split():
         start = _START.match(word)

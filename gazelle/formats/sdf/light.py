@@ -15,7 +15,7 @@ _TYPES: dict[str, Literal["directional", "point", "spot"]] = {
 
 
 def read_light(node: Parameters, pose: Pose) -> Light:
-    """A light at a pose that is already resolved.
+    """Read a light at a pose that is already resolved.
 
     Raises:
         FormatError: It has no name, or an unknown type.

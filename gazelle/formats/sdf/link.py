@@ -28,7 +28,7 @@ _VISUAL: Pattern = dict.fromkeys((*_LOOKS, "geometry", "material", "plugin", "po
 
 
 def read_link(node: Parameters, scope: Scope, reading: Reading, *, static: bool = False) -> Link:
-    """A link, its pose and those of its parts resolved.
+    """Read a link, its pose and those of its parts resolved.
 
     In a static model an inertia that cannot be is noted and left out: it does not matter.
     """
@@ -82,7 +82,7 @@ def _inertial(
 
 
 def placer(link: str, scope: Scope) -> Placer:
-    """A function that gives the pose of a link's part in the link's frame."""
+    """Return a function for the pose of a link's part in the link's frame."""
 
     def place(part: Parameters) -> Pose:
         node = part.find("pose")
@@ -96,7 +96,7 @@ def placer(link: str, scope: Scope) -> Placer:
 
 
 def read_collision(node: Parameters, place: Placer, reading: Reading) -> Collision:
-    """``<collision>``."""
+    """Read ``<collision>``."""
     return Collision(
         name=values.attribute(node, "name"),
         geometry=read_geometry(node.find("geometry"), reading),
@@ -109,7 +109,7 @@ def read_collision(node: Parameters, place: Placer, reading: Reading) -> Collisi
 
 
 def read_visual(node: Parameters, place: Placer, reading: Reading) -> Visual:
-    """``<visual>``."""
+    """Read ``<visual>``."""
     return Visual(
         name=values.attribute(node, "name"),
         geometry=read_geometry(node.find("geometry"), reading),

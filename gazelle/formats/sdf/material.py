@@ -25,7 +25,7 @@ _PATTERN: Pattern = {
 
 
 def read_material(node: Parameters | None, reading: Reading) -> Material | None:
-    """Colours, script and texture; None where the visual has no material."""
+    """Read colours, script and texture; None where the visual has no material."""
     if node is None:
         return None
     script = node.find("script")
@@ -68,7 +68,7 @@ def _places(uris: tuple[str, ...], node: Parameters, reading: Reading) -> tuple[
 
 
 def _texture(node: Parameters, reading: Reading) -> Path | None:
-    """The base colour map; a missing picture changes only the look, so it is no miss."""
+    """Return the base colour map; a missing picture changes only the look, so it is no miss."""
     for workflow in ("metal", "specular"):
         uri = values.word(node, f"pbr/{workflow}/albedo_map")
         if uri:

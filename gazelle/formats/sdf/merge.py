@@ -27,7 +27,7 @@ _FILES = {"uri", "filename"}
 def with_merges(
     node: Parameters, version: Version, reading: Reading, include: Includer
 ) -> Parameters:
-    """A model or world with its merged includes written out; those not found stay.
+    """Return a model or world with its merged includes expanded; those not found stay.
 
     Raises:
         FormatError: A world includes what it cannot hold.
@@ -78,7 +78,7 @@ def _parts(
 
 
 def _first_of(draft: ModelFrames) -> str:
-    """The model that a frame of the world is attached to: that of the canonical link."""
+    """Return the model that a frame of the world is attached to: that of the canonical link."""
     return draft.scope.canonical.rpartition("::")[0]
 
 
@@ -92,7 +92,7 @@ class _Mover:
         self._resolver = reading.resolver
 
     def part(self, node: Parameters) -> Parameters:
-        """A child of the included model."""
+        """Return a child of the included model."""
         node = self._inside(node)
         if node.tag in _POSED:
             pose = node.find("pose") or made("pose", like=node)
@@ -103,7 +103,7 @@ class _Mover:
         return self._joint(node, self._frame) if node.tag == "joint" else node
 
     def _inside(self, node: Parameters, *, nested: bool = False) -> Parameters:
-        """An element with the names of frames and files in it changed, all below it too."""
+        """Return an element with the names of frames and files in it changed, all below it too."""
         if node.tag == "plugin":
             return node
         if node.tag in _FILES:
@@ -118,14 +118,14 @@ class _Mover:
         return node
 
     def _file(self, node: Parameters) -> Parameters:
-        """A relative name starts from the folder of the included file."""
+        """Return a relative name as one from the folder of the included file."""
         if self._folder is None or re.match(r"\w+://|/", node.text):
             return node
         path = self._folder / node.text
         return replace(node, text=str(path)) if self._resolver.readable(path) else node
 
     def _joint(self, node: Parameters, model: str) -> Parameters:
-        """A joint with its axes written as since SDF 1.7."""
+        """Return a joint with its axes written as since SDF 1.7."""
         return replace(node, children=tuple(self._in_joint(c, model) for c in node.children))
 
     def _in_joint(self, node: Parameters, model: str) -> Parameters:

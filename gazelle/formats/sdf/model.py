@@ -21,7 +21,7 @@ _EXTRAS = ("gripper",)
 
 
 def read_model(draft: ModelFrames, outer: Scope, reading: Reading) -> Model:
-    """The model, posed in the scope around it."""
+    """Read the model, posed in the scope around it."""
     pose = draft.placed
     if draft.relative_to:
         pose = outer.pose(draft.relative_to, draft.node) * pose
@@ -74,7 +74,7 @@ def _holds_static(draft: ModelFrames) -> bool:
 
 
 def read_frame(node: Parameters, scope: Scope) -> Frame:
-    """An explicit frame, posed in the link that it moves with."""
+    """Read an explicit frame, posed in the link that it moves with."""
     name = values.attribute(node, "name")
     link = scope.link_of(name, node)
     place = node.find("pose")

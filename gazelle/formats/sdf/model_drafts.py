@@ -24,7 +24,7 @@ from gazelle.formats.sdf.pose import frame_of, read_pose
 def draft_model(
     node: Parameters, version: Version, reading: Reading, include: Includer
 ) -> ModelFrames:
-    """The draft of a ``<model>`` and all models in it.
+    """Return the draft of a ``<model>`` and all models in it.
 
     Raises:
         FormatError: A name is missing, or one that SDF keeps for itself.
@@ -62,7 +62,7 @@ def draft_model(
 
 
 def _rename_second(inner: ModelFrames, names: FreeNames, reading: Reading) -> None:
-    """Another model of one name: Gazebo loads both."""
+    """Rename another model of one name: Gazebo loads both."""
     if inner.name in names.taken:
         free = names.after(inner.name)
         reading.fault(

@@ -70,7 +70,7 @@ def add_model(scope: Scope, draft: ModelFrames) -> None:
 
 
 def draft_part(node: Parameters, scope: Scope) -> None:
-    """The frame of a link, joint or frame; nothing for other elements.
+    """Add the frame of a link, joint or frame; ignore other elements.
 
     Raises:
         FormatError: It has no name, or one that SDF keeps for itself.
@@ -82,7 +82,7 @@ def draft_part(node: Parameters, scope: Scope) -> None:
 
 
 def _note_reserved(node: Parameters, scope: Scope) -> None:
-    """SDF keeps some names for itself, and Gazebo takes them; but not for two frames at once.
+    """Note a reserved name, which Gazebo accepts, unless two frames have it.
 
     Raises:
         FormatError: It is the name of the model's own frame.
@@ -97,14 +97,14 @@ def _note_reserved(node: Parameters, scope: Scope) -> None:
 
 
 def draft_link(node: Parameters, scope: Scope) -> None:
-    """A link's frame."""
+    """Add a link's frame."""
     pose = node.find("pose")
     name = values.attribute(node, "name")
     scope.add(name, NamedFrame(node, read_pose(pose), frame_of(pose)))
 
 
 def draft_joint(node: Parameters, scope: Scope) -> None:
-    """A joint's frame, which is written in its child's unless it says otherwise."""
+    """Add a joint's frame, which is written in its child's unless it says otherwise."""
     pose = node.find("pose")
     child = values.word(node, "child")
     name = values.attribute(node, "name")
@@ -112,7 +112,7 @@ def draft_joint(node: Parameters, scope: Scope) -> None:
 
 
 def draft_frame(node: Parameters, scope: Scope) -> None:
-    """An explicit frame, which is written in the frame it is attached to."""
+    """Add an explicit frame, which is written in the frame it is attached to."""
     pose = node.find("pose")
     attached = node.attributes.get("attached_to", "")
     name = values.attribute(node, "name")
@@ -120,7 +120,7 @@ def draft_frame(node: Parameters, scope: Scope) -> None:
 
 
 def name_frames(scope: Scope, model: Model) -> None:
-    """Put the links, frames and joints of a model that is already read into a scope."""
+    """Add the links, frames and joints of a model that is already read to a scope."""
     for link in model.links:
         place = Parameters("link", source=link.source)
         scope.add(link.name, NamedFrame(place, link.pose))

@@ -13,7 +13,7 @@ _TYPES: dict[str, NoiseType] = {
 
 
 def read_noise(node: Parameters | None, default: NoiseType = "none") -> Noise:
-    """The noise; without a type it is of the ``default`` one, as in the schema.
+    """Read the noise; without a type it is of the ``default`` one, as in the schema.
 
     Raises:
         FormatError: The type is unknown, or a standard deviation is negative.

@@ -17,7 +17,7 @@ _GROUPS = {"rate": "angular_velocity", "accel": "linear_acceleration"}
 
 
 def with_noise_by_axis(node: Parameters) -> Parameters:
-    """The element with the noise of all IMUs below it written for each axis."""
+    """Return the element with the noise of all IMUs below it written for each axis."""
     if node.tag == "plugin":
         return node
     children = tuple(map(with_noise_by_axis, node.children))

@@ -38,10 +38,10 @@ def own_static(node: Parameters) -> bool:
 
 
 def own_transmissions(node: Parameters, reading: Reading) -> tuple[Transmission, ...]:
-    """The transmissions of a model."""
+    """Return the transmissions of a model."""
     return tuple(read_transmission(child, reading) for child in node.find_all(TRANSMISSION))
 
 
 def own_safety(node: Parameters) -> SafetyController | None:
-    """The soft limits of a joint."""
+    """Return the soft limits of a joint."""
     return read_safety(node.find(SAFETY))

@@ -18,7 +18,7 @@ TYPE = "gazelle:type"
 
 
 def with_own_joints(node: Parameters) -> Parameters:
-    """The model or world with joints of Gazelle's own namespace as plain ones."""
+    """Return the model or world with joints of Gazelle's own namespace as plain ones."""
     if JOINT not in node:
         return node
     children = (replace(c, tag="joint") if c.tag == JOINT else c for c in node.children)

@@ -38,7 +38,7 @@ Change = Callable[[Parameters, str], Parts]
 def with_params(
     model: Parameters, include: Parameters, reading: Reading, name_of: Callable[[Parameters], str]
 ) -> Parameters:
-    """A model, light or actor as the parameters of its include change it.
+    """Return a model, light or actor with the changes of its include's parameters.
 
     Args:
         model: The element, as its own file has it.
@@ -59,7 +59,7 @@ class _Passing:
     name_of: Callable[[Parameters], str]
 
     def applied(self, model: Parameters, entry: Parameters) -> Parameters:
-        """The model with one element changed; as it is where that cannot be done."""
+        """Return the model with one element changed; unchanged where that is impossible."""
         path = entry.attributes.get("element_id")
         if path is None:
             return self._left(model, entry, "it has no 'element_id' that says what it changes")
@@ -126,7 +126,7 @@ class _Passing:
         entry: Parameters,
         change: Change,
     ) -> Parameters | None:
-        """The element with what a path leads to changed; None where it leads nowhere."""
+        """Return the element with the target of a path changed; None without a target."""
         for index, child, rest in self._steps(node, path):
             new: Parts | None
             if child.tag == "include":
@@ -151,7 +151,10 @@ class _Passing:
                 yield child
 
     def _steps(self, node: Parameters, path: str) -> list[tuple[int, Parameters, str]]:
-        """The children that a path may go through: index, child, rest of the path; longest names first."""
+        """Return the next children of a path: index, child, rest of the path.
+
+        Longest names first.
+        """
         found = []
         for index, child in enumerate(node.children):
             name = self._name(child)
@@ -165,7 +168,7 @@ class _Passing:
         return self.name_of(node) if node.tag == "include" else node.attributes.get("name", "")
 
     def _handed_on(self, include: Parameters, entry: Parameters, rest: str) -> Parts | None:
-        """An include within the included model: the change is made when that is read."""
+        """Return an include within the included model; the change is made when that is read."""
         action = entry.attributes.get("action", "")
         if not rest and action in {"remove", "replace"} and entry.tag == "model":
             return () if action == "remove" else (_plain(entry),)
@@ -189,7 +192,7 @@ class _Passing:
     # What becomes of it.
 
     def _changed_inside(self, node: Parameters, entry: Parameters, kind: str) -> Parameters:
-        """The element with each child of the entry doing what its own action says."""
+        """Return the element with the actions of the entry's children applied."""
         for child in entry.children:
             action = child.attributes.get("action", "")
             if action not in _ACTIONS:
@@ -210,7 +213,7 @@ class _Passing:
         return node
 
     def _without(self, node: Parameters, entry: Parameters) -> Parts:
-        """Nothing, or the element without some of its parts."""
+        """Return nothing, or the element without some of its parts."""
         if not entry.children:
             return ()
         for child in entry.children:
@@ -262,7 +265,7 @@ class _Passing:
         return replace(node, attributes=changed)
 
     def _find(self, node: Parameters, part: Parameters, *, renaming: bool = False) -> int | None:
-        """The index of the child that a part means: by tag and name, else the first of the tag."""
+        """Return the index of a part's child: by tag and name, else the first of the tag."""
         alike = [i for i, child in enumerate(node.children) if child.tag == part.tag]
         name = part.attributes.get("name")
         if name is None or not alike:
@@ -284,7 +287,7 @@ class _Passing:
 
 
 def _plain(entry: Parameters) -> Parameters:
-    """A part of the parameters as it stands in the model."""
+    """Return a part of the parameters as it stands in the model."""
     kept = {name: text for name, text in entry.attributes.items() if name not in _OWN}
     return replace(entry, attributes=kept)
 
@@ -294,13 +297,13 @@ def _without_name(entry: Parameters) -> dict[str, str]:
 
 
 def _kind(kind: str, tag: str) -> str:
-    """The kind of a child in the schema; empty where there is none."""
+    """Return the kind of a child in the schema; empty without one."""
     known = schema.types().get(kind, {}).get("children", {}).get(tag)
     return str(known[0]) if known else ""
 
 
 def _names(node: Parameters, tag: str) -> set[str]:
-    """The paths of all elements of a tag, or of all with a name."""
+    """Return the paths of all elements of a tag, or of all with a name."""
     found = set()
     for child in node.children:
         name = child.attributes.get("name", "")

@@ -19,7 +19,7 @@ _PATTERN: Pattern = {
 
 
 def read_physics(node: Parameters) -> Physics:
-    """One physics profile; defaults are SDF 1.7's.
+    """Read one physics profile; defaults are SDF 1.7's.
 
     Raises:
         FormatError: The step is not positive.
@@ -42,7 +42,7 @@ def read_physics(node: Parameters) -> Physics:
 
 
 def read_solver(node: Parameters) -> Ode:
-    """ODE's terms; without them those of Bullet that go by the same names."""
+    """Read ODE's terms; without them Bullet's of the same names."""
     bullet = node.find("bullet")
     if "ode" in node or bullet is None:
         return read_ode(node.find("ode"))
@@ -50,7 +50,7 @@ def read_solver(node: Parameters) -> Ode:
 
 
 def read_ode(node: Parameters | None) -> Ode:
-    """``<ode>``."""
+    """Read ``<ode>``."""
     if node is None:
         return Ode()
     return Ode(

@@ -9,7 +9,7 @@ _NAMES = {"filename", "name"}
 
 
 def read_plugin(node: Parameters) -> Plugin:
-    """A plugin with its parameters; one without a name is called after its file."""
+    """Read a plugin with its parameters; one without a name is named after its file."""
     filename = node.attributes.get("filename", "")
     return Plugin(
         name=node.attributes.get("name", "") or filename,
@@ -20,5 +20,5 @@ def read_plugin(node: Parameters) -> Plugin:
 
 
 def read_plugins(node: Parameters) -> tuple[Plugin, ...]:
-    """All plugins directly in an element, in file order."""
+    """Read all plugins directly in an element, in file order."""
     return tuple(map(read_plugin, node.find_all("plugin")))

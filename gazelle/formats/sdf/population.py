@@ -48,7 +48,7 @@ class Region:
         return np.zeros(3) if self.round else np.asarray(self.size) / 2.0
 
     def draw(self, chance: np.random.Generator, count: int) -> Floats:
-        """Points in it, shape (count, 3).
+        """Sample points in the region, shape (count, 3).
 
         They are counted from the least corner of a box, from the middle of a cylinder's base;
         in a cylinder they are denser around its axis, as Gazebo's are.
@@ -61,7 +61,7 @@ class Region:
 
 
 def expanded(node: Parameters, reading: Reading) -> Iterator[Parameters]:
-    """The models of a population, named ``NAME_clone_0`` and so on.
+    """Yield the models of a population, named ``NAME_clone_0`` and so on.
 
     Chance is seeded with the population's name: the same file gives the same places. One whose
     model, distribution or region is missing or makes no sense is left out, as Gazebo Classic
@@ -88,7 +88,7 @@ def expanded(node: Parameters, reading: Reading) -> Iterator[Parameters]:
 
 
 def _limit(node: Parameters) -> None:
-    """Refuse more models than a world can hold, which no program could go on with."""
+    """Raise an error for more models than a world can hold."""
     count = values.whole(node, "model_count", 1)
     if values.word(node, "distribution/type", "random") == "grid":
         rows, columns = (values.whole(node, f"distribution/{side}", 1) for side in ("rows", "cols"))
@@ -98,7 +98,7 @@ def _limit(node: Parameters) -> None:
 
 
 def _places(node: Parameters) -> tuple[Floats, Floats]:
-    """The middle of the region seen from its least corner, and places seen from there."""
+    """Return the middle of the region from its least corner, and places relative to it."""
     kind = values.word(node, "distribution/type", "random")
     if kind == "grid":
         return _grid(node)
@@ -152,7 +152,7 @@ def _random(region: Region, count: int, chance: np.random.Generator) -> Floats:
 
 
 def _uniform(region: Region, count: int, chance: np.random.Generator) -> Floats:
-    """Centres of clusters of random points (Lloyd's k-means), which keep their distance."""
+    """Return centres of clusters of random points (Lloyd's k-means), which keep their distance."""
     centres = region.draw(chance, count)
     points = region.draw(chance, max(_FEWEST * count, min(_MOST, _SAMPLES * count)))
     for _ in range(_ROUNDS if 1 < count <= _CLUSTERS else 0):
@@ -167,7 +167,10 @@ def _uniform(region: Region, count: int, chance: np.random.Generator) -> Floats:
 
 
 def _along(axis: int) -> Callable[[Region, int, np.random.Generator], Floats]:
-    """In a row along an axis, in the middle of the others; the first at the edge."""
+    """Return a sampler of a row along an axis, in the middle of the others.
+
+    The first at the edge.
+    """
 
     def spread(region: Region, count: int, _: np.random.Generator) -> Floats:
         places = np.tile(region.middle, (count, 1))

@@ -15,7 +15,7 @@ _ROUNDED = 1e-9
 
 
 def read_pose(node: Parameters | None) -> Pose:
-    """The pose as written, relative to whatever frame it names.
+    """Read the pose as written, relative to whatever frame it names.
 
     Raises:
         FormatError: It does not hold the numbers that its ``rotation_format`` asks for.
@@ -33,7 +33,7 @@ def read_pose(node: Parameters | None) -> Pose:
 
 
 def _exact(node: Parameters, pose: Pose) -> Pose:
-    """The pose with its quaternion as saved, unless somebody has changed the angles since."""
+    """Return the pose with its quaternion as saved, unless the angles were changed since."""
     saved = node.attributes.get(QUATERNION, "")
     if not saved:
         return pose
@@ -49,7 +49,7 @@ def _finite(node: Parameters, numbers: tuple[float, ...]) -> tuple[float, ...]:
 
 
 def frame_of(node: Parameters | None) -> str:
-    """The frame that a pose is written in, or nothing for the usual one."""
+    """Return the frame that a pose is written in; empty for the usual one."""
     if node is None:
         return ""
     return node.attributes.get("relative_to", "") or node.attributes.get("frame", "")

@@ -17,7 +17,7 @@ _CHANGES = ("insertions", "deletions")
 
 
 def prepared(world: Parameters, reading: Reading) -> Parameters:
-    """The world as plain elements.
+    """Return the world as plain elements.
 
     Raises:
         FormatError: An actor makes no sense, or a population is too large.
@@ -42,7 +42,10 @@ def _plain(nodes: tuple[Parameters, ...], reading: Reading) -> Iterator[Paramete
 def _changed(
     children: tuple[Parameters, ...], state: Parameters, reading: Reading
 ) -> Iterator[Parameters]:
-    """The children after the state's deletions and insertions, which it then no longer names."""
+    """Yield the children after the state's deletions and insertions.
+
+    The state no longer names them then.
+    """
     gone = {name.text for part in state.find_all("deletions") for name in part.find_all("name")}
     own = {(node.tag, node.attributes.get("name", "")) for node in children}
     for node in children:

@@ -20,7 +20,7 @@ from gazelle.formats.sdf.world import read_world
 
 
 def read_sdf(root: Parameters, reading: Reading) -> World:
-    """The first world of a file; one that holds just the models where there is none.
+    """Read the first world of a file; without one, a world of just the models.
 
     Raises:
         FormatError: The file says something that cannot be.

@@ -28,14 +28,14 @@ _HOLDERS = {"insertions", "population"}
 
 @cache
 def types() -> dict[str, dict[str, Any]]:
-    """The schema: attributes, children and type of value by kind of element."""
+    """Return the schema: attributes, children and type of value by kind of element."""
     text = (resources.files(__package__) / "schema.json").read_text()
     loaded: dict[str, dict[str, Any]] = json.loads(text)
     return loaded
 
 
 def checked(node: Parameters, kind: str, reading: Reading) -> Parameters:
-    """An element with all below it, values that are not of their type as Gazebo takes them.
+    """Return an element with all below it; wrong values become those that Gazebo uses.
 
     Unknown elements and such values become notes of the reading.
 
@@ -55,7 +55,7 @@ def checked(node: Parameters, kind: str, reading: Reading) -> Parameters:
 
 
 def with_children(node: Parameters, change: Callable[[Parameters], Parameters]) -> Parameters:
-    """The element with its children changed; the same object where none is."""
+    """Return the element with its children changed; the same object where none is."""
     children = tuple(map(change, node.children))
     same = all(new is old for new, old in zip(children, node.children, strict=True))
     return node if same else replace(node, children=children)
@@ -91,7 +91,7 @@ def _child(
 
 
 def tolerated(node: Parameters, reading: Reading) -> Parameters:
-    """An element that the schema does not check: only poses and the like in it, and models."""
+    """Return an element that the schema does not check, except poses and models in it."""
     if node.tag == "plugin":
         return node
     whole = {"model", "light"} if node.tag in _HOLDERS else set()

@@ -19,7 +19,7 @@ Placer = Callable[[Parameters], Pose]
 
 
 def read_sensor(node: Parameters, place: Placer) -> Sensor:
-    """A sensor with what its type adds.
+    """Read a sensor with what its type adds.
 
     Args:
         node: The element.
@@ -57,12 +57,12 @@ def read_settings(node: Parameters, kind: str) -> Parameters:
 
 
 def lidar_tag(kind: str) -> str:
-    """The element that holds the rays of a sensor of a type: Gazebo Classic's, or the later one."""
+    """Return the element with the rays of a sensor type: Gazebo Classic's, or the later one."""
     return "lidar" if "lidar" in kind else "ray"
 
 
 def _with_lidar_tag(settings: Parameters, node: Parameters, kind: str) -> Parameters:
-    """The settings with the element of the rays, empty, where it has the other name than usual."""
+    """Return the settings with an empty element of the rays, if its name is unusual."""
     other = {"lidar": "ray", "ray": "lidar"}[lidar_tag(kind)]
     read = FAMILIES.get(kind) is read_lidar_sensor and other in node
     if not read or lidar_tag(kind) in node or other in settings:
@@ -76,13 +76,13 @@ def _topic(node: Parameters) -> str:
 
 
 def read_lidar_sensor(sensor: Sensor, node: Parameters) -> Sensor:
-    """Types ``ray``, ``gpu_ray``, ``lidar``, ``gpu_lidar``."""
+    """Read types ``ray``, ``gpu_ray``, ``lidar``, ``gpu_lidar``."""
     inner = node.find("ray") or node.find("lidar")
     return sensor if inner is None else replace(sensor, lidar=read_lidar(inner))
 
 
 def read_lidar(node: Parameters) -> Lidar:
-    """``<ray>`` or ``<lidar>``."""
+    """Read ``<ray>`` or ``<lidar>``."""
     nearest = values.real(node, "range/min", 0.0)
     farthest = values.limit(node, "range/max", 0.0)
     place = node.find("range") or node
@@ -100,7 +100,7 @@ def read_lidar(node: Parameters) -> Lidar:
 
 
 def read_scan(node: Parameters | None, samples: int) -> Scan:
-    """``<horizontal>`` or ``<vertical>``."""
+    """Read ``<horizontal>`` or ``<vertical>``."""
     if node is None:
         return Scan(samples=samples)
     count = values.whole(node, "samples", samples)
@@ -117,13 +117,13 @@ def read_scan(node: Parameters | None, samples: int) -> Scan:
 
 
 def read_imu_sensor(sensor: Sensor, node: Parameters) -> Sensor:
-    """Type ``imu``."""
+    """Read type ``imu``."""
     inner = node.find("imu")
     return replace(sensor, imu=Imu() if inner is None else read_imu(inner))
 
 
 def read_imu(node: Parameters) -> Imu:
-    """``<imu>``."""
+    """Read ``<imu>``."""
     return Imu(
         angular_velocity=_axes(node, "angular_velocity"),
         linear_acceleration=_axes(node, "linear_acceleration"),
@@ -139,12 +139,12 @@ def _axes(node: Parameters, tag: str) -> tuple[Noise, Noise, Noise]:
 
 
 def read_camera_sensor(sensor: Sensor, node: Parameters) -> Sensor:
-    """Types with one or several ``<camera>``."""
+    """Read types with one or several ``<camera>``."""
     return replace(sensor, cameras=tuple(map(read_camera, node.find_all("camera"))))
 
 
 def read_contact_sensor(sensor: Sensor, node: Parameters) -> Sensor:
-    """Type ``contact``."""
+    """Read type ``contact``."""
     inner = node.find("contact")
     if inner is None:
         return sensor

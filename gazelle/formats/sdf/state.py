@@ -9,7 +9,7 @@ from gazelle.formats.sdf.pose import read_pose
 
 
 def apply(world: World) -> World:
-    """The world with the poses of its first state, which is the one that Gazebo restores."""
+    """Return the world with the poses of its first state, the one that Gazebo restores."""
     if not world.states:
         return world
     state = world.states[0]
@@ -31,7 +31,7 @@ def apply(world: World) -> World:
 
 
 def unapplied(world: World) -> World | None:
-    """The world as its file has it, which ``apply`` makes this of; None if it does not."""
+    """Return the world as its file has it, the inverse of ``apply``; None if they differ."""
     if not world.states:
         return world
     before = world.unrestored
@@ -48,7 +48,10 @@ def _saved(node: Parameters | None) -> Pose | None:
 
 
 def _restore(model: Model, node: Parameters, outer: Pose) -> Model:
-    """The model with its saved pose and those of its links; ``outer`` is its parent's pose."""
+    """Return the model with its saved pose and those of its links.
+
+    ``outer`` is its parent's pose.
+    """
     saved = _saved(node)
     placed = outer * model.pose if saved is None else saved
     links = {child.attributes.get("name", ""): child for child in node.find_all("link")}

@@ -33,7 +33,7 @@ _PATTERN: Pattern = {
 
 
 def read_surface(node: Parameters | None) -> Surface:
-    """All contact properties of a collision; SDF's defaults where the file says nothing."""
+    """Read all contact properties of a collision; SDF's defaults for missing ones."""
     if node is None:
         return Surface()
     return Surface(
@@ -45,7 +45,7 @@ def read_surface(node: Parameters | None) -> Surface:
 
 
 def read_friction(node: Parameters | None) -> Friction:
-    """``<friction>``, of which ODE's terms and the torsional ones are kept."""
+    """Read ``<friction>``, of which ODE's terms and the torsional ones are kept."""
     if node is None:
         return Friction()
     return Friction(
@@ -59,13 +59,13 @@ def read_friction(node: Parameters | None) -> Friction:
 
 
 def _coefficient(node: Parameters, ode: str, bullet: str) -> float:
-    """A coefficient of friction; Gazebo takes a negative one as "no slip"."""
+    """Return a coefficient of friction; Gazebo takes a negative one as "no slip"."""
     value = values.real(node, ode, values.real(node, bullet, 1.0))
     return NO_SLIP if value < 0.0 else value
 
 
 def read_torsional(node: Parameters | None) -> TorsionalFriction | None:
-    """``<torsional>``."""
+    """Read ``<torsional>``."""
     if node is None:
         return None
     return TorsionalFriction(
@@ -78,7 +78,7 @@ def read_torsional(node: Parameters | None) -> TorsionalFriction | None:
 
 
 def read_contact(node: Parameters | None) -> Contact:
-    """``<contact>``: masks and ODE's terms (Bullet's where ODE's are missing)."""
+    """Read ``<contact>``: masks and ODE's terms (Bullet's where ODE's are missing)."""
     if node is None:
         return Contact()
     own = next((tag for tag in ("ode", "bullet") if tag in node), "ode")
@@ -97,7 +97,7 @@ def read_contact(node: Parameters | None) -> Contact:
 
 
 def read_bounce(node: Parameters | None) -> Bounce:
-    """``<bounce>``."""
+    """Read ``<bounce>``."""
     if node is None:
         return Bounce()
     return Bounce(

@@ -33,13 +33,13 @@ _VALUE_ATTRIBUTES = {"enabled", "link", "pose", "rgba", "xyz"}
 
 
 def upgraded(root: Parameters, version: Version) -> Parameters:
-    """The root element of an old file, with all in it where it stands today."""
+    """Return the root element of an old file, upgraded to the present version."""
     root = _element(root, "root") if version < SINCE else root
     return with_noise_by_axis(root) if version < old_noise.SINCE else root
 
 
 def _element(node: Parameters, kind: str) -> Parameters:
-    """An element and all below it; ``kind`` is its entry in the schema."""
+    """Return an element and all below it; ``kind`` is its entry in the schema."""
     entry = types().get(kind)
     if node.tag == "plugin" or entry is None:
         return node
@@ -56,7 +56,7 @@ def _element(node: Parameters, kind: str) -> Parameters:
 
 
 def _without_values(node: Parameters, entry: dict[str, Any]) -> Parameters:
-    """The element with attributes that are children today, or its text, turned into them."""
+    """Return the element with former attributes, or its text, turned into children."""
     attributes, text, made = {}, node.text, []
     for name, value in node.attributes.items():
         if name in entry["attributes"]:
@@ -72,13 +72,13 @@ def _without_values(node: Parameters, entry: dict[str, Any]) -> Parameters:
 
 
 def _values_only(node: Parameters) -> Parameters:
-    """An element that the schema does not know: all its attributes become children."""
+    """Return an element that the schema does not know: all its attributes become children."""
     made = (Parameters(name, text, source=node.source) for name, text in node.attributes.items())
     return replace(node, attributes={}, children=(*made, *node.children))
 
 
 def _moved_up(node: Parameters, inner: str, tag: str, new: str) -> Parameters:
-    """The element with a grandchild made its own child, under a new tag."""
+    """Return the element with a grandchild made its own child, under a new tag."""
     holder = node.find(inner)
     moved = None if holder is None else holder.find(tag)
     if holder is None or moved is None:
@@ -90,7 +90,7 @@ def _moved_up(node: Parameters, inner: str, tag: str, new: str) -> Parameters:
 
 
 def _dropped(node: Parameters, path: str, holder: Parameters, inner: Parameters) -> Parameters:
-    """The element without one child of the element at a path below it."""
+    """Return the element without one child of the element at a path below it."""
     head, _, rest = path.partition("/")
     if not head:
         return replace(node, children=tuple(c for c in node.children if c is not inner))
@@ -126,7 +126,7 @@ def _include(node: Parameters) -> Parameters:
 
 
 def _sky(node: Parameters) -> Parameters:
-    """The sky's material has no place today: it was always that of clouds."""
+    """Return the sky without its material, which was always that of clouds."""
     return replace(node, children=tuple(c for c in node.children if c.tag != "material"))
 
 

@@ -59,7 +59,7 @@ class _Contents:
 
 
 def read_world(node: Parameters, version: Version, reading: Reading) -> World:
-    """A world with everything in it; the first ``<state>`` is applied."""
+    """Read a world with everything in it; the first ``<state>`` is applied."""
     node = with_own_joints(with_merges(prepared(node, reading), version, reading, include_model))
     contents = _collect(node, version, reading)
     scope = contents.scope
@@ -137,12 +137,12 @@ def _light(node: Parameters, scope: Scope) -> Light:
 
 
 def _since_1_6(node: Parameters, tag: str, default: Vector3) -> Vector3:
-    """A field of the world, that stood in ``<physics>`` up to SDF 1.5."""
+    """Return a field of the world, which stood in ``<physics>`` up to SDF 1.5."""
     return values.vector(node, tag, values.vector(node, f"physics/{tag}", default))
 
 
 def _extra(node: Parameters, camera: Parameters | None) -> Parameters | None:
-    """An element that is kept whole; of ``<gui>`` what the world's camera does not say."""
+    """Return an element that is kept whole; of ``<gui>`` what the world's camera does not say."""
     if node.tag not in _EXTRAS:
         return None
     if node.tag != "gui" or camera is None or camera not in node.children:
@@ -154,7 +154,7 @@ def _extra(node: Parameters, camera: Parameters | None) -> Parameters | None:
 
 
 def read_scene(node: Parameters | None) -> Scene:
-    """``<scene>``."""
+    """Read ``<scene>``."""
     if node is None:
         return Scene()
     return Scene(
@@ -168,7 +168,7 @@ def read_scene(node: Parameters | None) -> Scene:
 
 
 def read_atmosphere(node: Parameters | None) -> Atmosphere:
-    """``<atmosphere>``."""
+    """Read ``<atmosphere>``."""
     if node is None:
         return Atmosphere()
     return Atmosphere(
@@ -180,7 +180,7 @@ def read_atmosphere(node: Parameters | None) -> Atmosphere:
 
 
 def read_spherical(node: Parameters | None) -> SphericalCoordinates | None:
-    """``<spherical_coordinates>``."""
+    """Read ``<spherical_coordinates>``."""
     if node is None:
         return None
     return SphericalCoordinates(

@@ -66,7 +66,7 @@ def load_stage(
 
 
 def read_stage(data: bytes, name: str, reading: Reading) -> World:
-    """The world of a Stage file's text; ``World.stage`` holds all that the file says.
+    """Read the world of a Stage file's text; ``World.stage`` holds the file's content.
 
     Args:
         data: The text.

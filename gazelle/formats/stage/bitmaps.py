@@ -25,7 +25,7 @@ class BitmapCells:
     cells: dict[Path, NDArray[np.bool_]] = field(default_factory=dict)
 
     def load(self, path: Path, given: Property) -> NDArray[np.bool_]:
-        """The walls of a picture, the row of least y first, cut to what is drawn.
+        """Load the walls of a picture, the row of least y first, cropped to what is drawn.
 
         Raises:
             FormatError: It cannot be read, or nothing is drawn in it.

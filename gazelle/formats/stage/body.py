@@ -35,7 +35,7 @@ class ModelBody:
 
 
 def read_body(given: Properties, size: StageSize, context: Context, *, solid: bool) -> ModelBody:
-    """The blocks, bitmap and boundary of a model, scaled to its size.
+    """Read the blocks, bitmap and boundary of a model, scaled to its size.
 
     Args:
         given: The model's properties.
@@ -63,7 +63,7 @@ def read_body(given: Properties, size: StageSize, context: Context, *, solid: bo
 
 
 def gripper_body(device: StageGripper, size: StageSize) -> ModelBody:
-    """A gripper's base and its two paddles, as they are at the start."""
+    """Return a gripper's base and its two paddles, as they are at the start."""
     length, width, height = device.paddle_size
     inwards = (0.5 - width) if device.paddles == "closed" else 0.0
     bottom = (1.0 - height) if device.lift == "up" else 0.0
@@ -92,7 +92,7 @@ def is_block(entity: Entity) -> bool:
 
 
 def read_block(entity: Entity, outer: Properties) -> StageBlock:
-    """``block ( points N point[0] [ x y ] ... z [ low high ] )``.
+    """Read ``block ( points N point[0] [ x y ] ... z [ low high ] )``.
 
     Raises:
         FormatError: It has too few points, or a wrong one.
@@ -131,7 +131,7 @@ def _block(given: Properties, prefix: str, entity: Entity) -> StageBlock:
 
 
 def _old_blocks(given: Properties) -> list[StageBlock]:
-    """``blocks N block[0].points ...``, as files of Stage 3 have it."""
+    """Return ``blocks N block[0].points ...``, as files of Stage 3 have it."""
     count = given.whole("blocks", 0, least=0)
     entity = given.entity
     found = []
@@ -159,7 +159,7 @@ def _read_bitmap(given: Properties, context: Context) -> StageBitmap | None:
 
 
 def _scaled(blocks: Sequence[StageBlock], bitmap: StageBitmap | None, size: StageSize) -> ModelBody:
-    """All parts, so that the box around them is as large as the model, centred in x and y.
+    """Return all parts, scaled so that their box is as large as the model, centred in x and y.
 
     Heights are scaled too, but not moved: what begins above 0 still does.
     """
@@ -199,7 +199,7 @@ def _scaled(blocks: Sequence[StageBlock], bitmap: StageBitmap | None, size: Stag
 
 
 def _walls(size: StageSize) -> list[StageBlock]:
-    """Four walls inside of the box around the body."""
+    """Return four walls inside of the box around the body."""
     x, y = size.x / 2.0, size.y / 2.0
     thick = min(BOUNDARY, x, y)
     sides = (

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def no_garbage() -> Iterator[None]:
-    """Let the collector of cyclic garbage rest meanwhile.
+    """Disable the collector of cyclic garbage while it lasts.
 
     Nothing that is built here is garbage, and looking through ten thousand robots again and
     again would take as long as building them.

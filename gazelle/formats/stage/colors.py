@@ -27,7 +27,7 @@ _ONLY_X11 = {
 
 
 def color_of(name: str) -> Color | None:
-    """(red, green, blue, alpha) of a name such as ``DarkRed``, ``light blue`` or ``gray30``.
+    """Return (red, green, blue, alpha) of a name such as ``DarkRed`` or ``light blue``.
 
     Shades that X11 mixes by hand, such as ``red3``, mostly come out within some hundredths.
     """

@@ -35,7 +35,7 @@ _USUAL_SIZE = StageSize()
 
 
 def read_position(given: Properties) -> StagePosition:
-    """``position``."""
+    """Read ``position``."""
     default = StagePosition()
     given.note("odom", "'odom' is no longer used", "say 'localization_origin'")
     drive = given.choice("drive", ("diff", "omni", "car"), "diff")
@@ -56,7 +56,7 @@ def read_position(given: Properties) -> StagePosition:
 
 
 def quartet(given: Properties, name: str, default: Quartet) -> Quartet:
-    """x, y, z and an angle."""
+    """Return x, y, z and an angle."""
     x, y, z, yaw = given.numbers(name, "llla", default)
     return (x, y, z, yaw)
 
@@ -85,13 +85,13 @@ def _bounds(given: Properties, name: str, default: Bounds) -> Bounds:
 
 
 def read_ranger(given: Properties) -> StageRanger:
-    """``ranger`` with its ``sensor`` parts."""
+    """Read ``ranger`` with its ``sensor`` parts."""
     parts = [part for part in given.entity.parts if part.type == "sensor"]
     return StageRanger(tuple(read_sensor(part, given) for part in parts))
 
 
 def read_sensor(entity: Entity, outer: Properties) -> StageSensor:
-    """``sensor``."""
+    """Read ``sensor``."""
     given = Properties(entity, outer.reading, outer.units)
     default = StageSensor()
     size = given.size("size", StageSize(*default.size))
@@ -140,7 +140,7 @@ def _samples(given: Properties, default: int) -> int:
 
 
 def read_laser(given: Properties) -> StageRanger:
-    """``laser`` of Stage 3, which is a ranger with one sensor now."""
+    """Read ``laser`` of Stage 3, which is a ranger with one sensor now."""
     low, high = given.length("range_min", 0.0), given.length("range_max", 8.0)
     fov = given.angle("fov", math.pi)
     given.reading.remark(
@@ -152,7 +152,7 @@ def read_laser(given: Properties) -> StageRanger:
 
 
 def read_camera(given: Properties) -> StageCamera:
-    """``camera``; its angles are in degrees whatever the file's unit."""
+    """Read ``camera``; its angles are in degrees whatever the file's unit."""
     default = StageCamera()
     columns, rows = given.numbers("resolution", "ff", default.resolution)
     fov = given.numbers("fov", "dd", default.fov)
@@ -169,7 +169,7 @@ def read_camera(given: Properties) -> StageCamera:
 
 
 def read_blobfinder(given: Properties) -> StageBlobfinder:
-    """``blobfinder``."""
+    """Read ``blobfinder``."""
     default = StageBlobfinder()
     columns, rows = given.numbers("image", "ff", default.image)
     return StageBlobfinder(
@@ -197,7 +197,7 @@ def _blob_colors(given: Properties) -> tuple[Color, ...]:
 
 
 def read_fiducial(given: Properties) -> StageFiducial:
-    """``fiducial``."""
+    """Read ``fiducial``."""
     default = StageFiducial()
     return StageFiducial(
         range=(
@@ -211,7 +211,7 @@ def read_fiducial(given: Properties) -> StageFiducial:
 
 
 def read_bumper(given: Properties) -> StageBumper:
-    """``bumper``."""
+    """Read ``bumper``."""
     count = given.whole("bcount", 0, least=0)
     common = given.length("blength", 0.0)
     given.matching("bpose["), given.matching("blength[")
@@ -224,7 +224,7 @@ def read_bumper(given: Properties) -> StageBumper:
 
 
 def read_gripper(given: Properties) -> StageGripper:
-    """``gripper``."""
+    """Read ``gripper``."""
     default = StageGripper()
     x, y, z = given.numbers("paddle_size", "lll", default.paddle_size)
     paddles, lift = "open", "down"
@@ -247,7 +247,7 @@ def read_gripper(given: Properties) -> StageGripper:
 
 
 def read_actuator(given: Properties) -> StageActuator:
-    """``actuator``; its positions have no unit in Stage, so they are metres or radians."""
+    """Read ``actuator``; its positions have no unit in Stage, so they are metres or radians."""
     default = StageActuator()
     kind = given.choice("type", ("linear", "rotational"), default.type)
     x, y, z = given.numbers("axis", "fff", default.axis)
@@ -264,7 +264,7 @@ def read_actuator(given: Properties) -> StageActuator:
 
 
 def read_blinkenlight(given: Properties) -> StageBlinkenlight:
-    """``blinkenlight``."""
+    """Read ``blinkenlight``."""
     default = StageBlinkenlight()
     return StageBlinkenlight(
         period=given.number("period", default.period * 1000.0) / 1000.0,
@@ -274,7 +274,7 @@ def read_blinkenlight(given: Properties) -> StageBlinkenlight:
 
 
 def read_light_indicator(_: Properties) -> StageLightIndicator:
-    """``lightindicator``, which has no properties of its own."""
+    """Read ``lightindicator``, which has no properties of its own."""
     return StageLightIndicator()
 
 

@@ -43,7 +43,7 @@ class Property(NamedTuple):
         return self.script.source(self.offset, self.name)
 
     def fail(self, message: str, hint: str | None = None, kind: Kind = FormatError) -> FormatError:
-        """The error to raise about it."""
+        """Return the error to raise about it."""
         return kind(message, source=self.source, hint=hint)
 
 
@@ -89,5 +89,5 @@ class Entity:
         return self.script.source(self.offset, self.word)
 
     def fail(self, message: str, hint: str | None = None, kind: Kind = FormatError) -> FormatError:
-        """The error to raise about it."""
+        """Return the error to raise about it."""
         return kind(message, source=self.source, hint=hint)

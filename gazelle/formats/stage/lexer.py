@@ -73,22 +73,22 @@ class Script:
     _starts: list[int] = field(default_factory=list)
 
     def line(self, offset: int) -> int:
-        """The line that an offset is in, counted from 1."""
+        """Return the line of an offset, counted from 1."""
         if not self._starts:
             self._starts = [0, *(found.end() for found in _BREAK.finditer(self.text))]
         return bisect_right(self._starts, offset)
 
     def source(self, offset: int, element: str | None = None) -> Source:
-        """The place of an offset."""
+        """Return the place of an offset."""
         return Source(self.name, self.line(offset), element)
 
     def fail(self, message: str, offset: int, hint: str | None = None) -> FormatError:
-        """The error to raise about a place."""
+        """Return the error to raise about a place."""
         return FormatError(message, source=self.source(offset), hint=hint)
 
 
 def tokenize(script: Script) -> list[Token]:
-    """All tokens of a file, and one of kind ``END`` behind them.
+    """Return all tokens of a file, and one of kind ``END`` behind them.
 
     Raises:
         FormatError: There is a character that no token begins with.
@@ -126,7 +126,7 @@ def _unexpected(script: Script, token: Token) -> FormatError:
 
 
 def parse_value(script: Script, token: Token) -> Value:
-    """The value of a number, string or tuple.
+    """Parse the value of a number, string or tuple.
 
     Raises:
         FormatError: A tuple holds something else than numbers and strings.

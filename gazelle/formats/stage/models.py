@@ -42,7 +42,7 @@ _MAX_INTERVAL = 3600.0
 def read_models(
     entities: Iterable[Entity], context: Context, *, on_ground: bool = False
 ) -> tuple[StageModel, ...]:
-    """Models that stand beside each other, numbered by their types.
+    """Read models that stand beside each other, numbered by their types.
 
     Args:
         entities: What the file says of them.
@@ -63,7 +63,7 @@ def read_models(
 
 
 def read_model(entity: Entity, default_name: str, context: Context) -> StageModel:
-    """One model; ``default_name`` is for one without a name of its own.
+    """Read one model; ``default_name`` is for one without a name of its own.
 
     A model that only gives a macro another pose or name shares all else with it.
 
@@ -150,7 +150,7 @@ def _name(given: Properties, default: str) -> str:
 
 
 def _extent(given: Properties, size: StageSize) -> tuple[StageSize, StagePose]:
-    """``size`` and ``origin``, or what Stage 2 called them."""
+    """Return ``size`` and ``origin``, or what Stage 2 called them."""
     old_size, old_origin = given.get("size3"), given.get("origin3")
     for name, new in (("size3", "size"), ("origin3", "origin")):
         given.note(name, f"'{name}' is of Stage 2; it is read as '{new}'", f"write {new}")
@@ -181,7 +181,7 @@ def _returns(given: Properties) -> StageReturns:
 
 
 def _controllers(given: Properties) -> tuple[StageController, ...]:
-    """``ctrl "NAME ARGUMENTS"``, or a tuple of such strings."""
+    """Return ``ctrl "NAME ARGUMENTS"``, or a tuple of such strings."""
     written = given.get("ctrl")
     if written is None:
         return ()
@@ -244,7 +244,7 @@ def _power(given: Properties) -> StagePower:
 
 
 def _old_words(given: Properties) -> None:
-    """Words that Stage 4 reads over, or that only matter inside of Stage."""
+    """Remark on words that Stage 4 ignores, or that only matter inside of Stage."""
     for name in ("debug", "event_queue"):
         given.get(name)
     given.note("laser_return", "'laser_return' is of Stage 3, and ignored", "say 'ranger_return'")

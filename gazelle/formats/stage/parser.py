@@ -31,7 +31,7 @@ _VALUES = {TokenKind.NUMBER, TokenKind.STRING, TokenKind.TUPLE}
 def parse(
     script: Script, reading: Reading, folder: Path | None
 ) -> tuple[Entity, dict[str, Entity]]:
-    """The whole file as one entity ``world``, what it includes too; and its macros by name.
+    """Parse the whole file as one entity ``world``, with what it includes; and its macros by name.
 
     Args:
         script: The top-level file.
@@ -49,7 +49,7 @@ def parse(
 
 
 def script_of(name: str, data: bytes, reading: Reading) -> Script:
-    """The text of a file; what is not UTF-8 is read as Latin-1, as old files are."""
+    """Return the text of a file; what is not UTF-8 is read as Latin-1, as old files are."""
     data = blanks.plain_bytes(data, name, _COMMENT, reading.misread)
     try:
         return Script(name, data.decode("utf-8-sig"))
@@ -87,7 +87,7 @@ class _Parser:
                 self._item(self._world, token, depth=1)
 
     def _next(self) -> Token:
-        """The next token; at the end of the file again and again its end."""
+        """Return the next token; at the end of the file its end, repeatedly."""
         token = self._tokens[self._at]
         self._at = min(self._at + 1, len(self._tokens) - 1)
         return token
@@ -97,7 +97,7 @@ class _Parser:
         return self._script.fail(text, token.offset, hint)
 
     def _item(self, parent: Entity, word: Token, depth: int) -> None:
-        """``PROPERTY VALUE`` or ``TYPE ( ... )``."""
+        """Parse ``PROPERTY VALUE`` or ``TYPE ( ... )``."""
         token = self._next()
         if token.kind in _VALUES:
             parent.own[word.text] = Property(self._script, word.text, token, word.offset)
@@ -138,7 +138,7 @@ class _Parser:
             self._item(entity, token, depth + 1)
 
     def _define(self) -> None:
-        """``define NAME BASE ( ... )``; a second of a name is read, and not used."""
+        """Parse ``define NAME BASE ( ... )``; a second of a name is read, and not used."""
         name, base, opening = self._next(), self._next(), self._next()
         for token, wanted, kind in (
             (name, "a name", TokenKind.WORD),
@@ -187,7 +187,7 @@ class _Parser:
 
 
 def find_beside(uri: str, script: Script, reading: Reading, folder: Path | None) -> Path | None:
-    """A file that a Stage file names.
+    """Return a file that a Stage file names.
 
     It is looked for from the top-level file's folder, then from that of the file that names
     it, then by its last name in the folders of ``STAGEPATH``.

@@ -20,11 +20,11 @@ class Names:
     prefix: str
 
     def frame(self, name: str) -> str:
-        """A frame."""
+        """Return a frame."""
         return f"{self.prefix}/{name}" if self.prefix else name
 
     def parameters(self, same: tuple[tuple[str, str], ...], **values: str) -> Parameters:
-        """Of a plugin: its namespace, what is the same for all robots, and what is not."""
+        """Return a plugin's parameters: its namespace, those of all robots, and the others."""
         own = {"robotNamespace": self.prefix, **values} if self.prefix else values
         children = (*_shared(same), *(_parameter(tag, text) for tag, text in own.items()))
         return Parameters("plugin", children=children)
@@ -47,7 +47,7 @@ class Names:
         )
 
     def published(self, sensor: Sensor, index: int, count: int) -> Sensor:
-        """A lidar, of so many on the robot, with its topic."""
+        """Return a lidar, of so many on the robot, with its topic."""
         suffix = f"_{index}" if count > 1 else ""
         plugin = StagePlugin(
             "laser",
@@ -67,5 +67,5 @@ def _shared(values: tuple[tuple[str, str], ...]) -> tuple[Parameters, ...]:
 
 @lru_cache(maxsize=64)
 def _parameter(tag: str, text: str) -> Parameters:
-    """The same for all plugins of a robot: a file may have tens of thousands."""
+    """Return a parameter, shared by all plugins of a robot: a file may have tens of thousands."""
     return Parameters(tag, text)

@@ -28,7 +28,10 @@ class Units:
     angle: float = ANGLES["degrees"]
 
     def factor(self, code: str) -> float:
-        """Of a field: ``l`` is a length, ``a`` an angle, ``d`` degrees always, ``f`` a number."""
+        """Return a field's factor.
+
+        ``l`` is a length, ``a`` an angle, ``d`` always degrees, ``f`` a number.
+        """
         return {"l": self.length, "a": self.angle, "d": ANGLES["degrees"]}.get(code, 1.0)
 
 
@@ -58,23 +61,23 @@ class Properties:
         return self.get(name) is not None
 
     def get(self, name: str) -> Property | None:
-        """One by name."""
+        """Return a property by name."""
         self._known.add(name)
         return self._all.get(name)
 
     def matching(self, prefix: str) -> list[Property]:
-        """All whose names begin so."""
+        """Return all properties whose names begin so."""
         found = [each for name, each in self._all.items() if name.startswith(prefix)]
         self._known.update(each.name for each in found)
         return found
 
     def number(self, name: str, default: float, code: str = "f") -> float:
-        """A number; ``code`` is that of its unit, see ``Units``."""
+        """Return a number; ``code`` is that of its unit, see ``Units``."""
         given = self.get(name)
         return default if given is None else _number(given, given.value) * self.units.factor(code)
 
     def length(self, name: str, default: float) -> float:
-        """A length [m]; not negative."""
+        """Return a length [m]; not negative."""
         given = self.get(name)
         if given is None:
             return default
@@ -84,11 +87,11 @@ class Properties:
         return value
 
     def angle(self, name: str, default: float) -> float:
-        """An angle [rad]."""
+        """Return an angle [rad]."""
         return self.number(name, default, "a")
 
     def whole(self, name: str, default: int, least: int | None = None) -> int:
-        """An int; a fraction is cut off, as Stage does."""
+        """Return an int; a fraction is cut off, as in Stage."""
         given = self.get(name)
         if given is None:
             return default
@@ -98,11 +101,11 @@ class Properties:
         return value
 
     def flag(self, name: str, *, default: bool) -> bool:
-        """A number that is 0 or not."""
+        """Return whether a number is not 0."""
         return bool(self.whole(name, int(default)))
 
     def text(self, name: str, default: str = "") -> str:
-        """A string."""
+        """Return a string."""
         given = self.get(name)
         if given is None:
             return default
@@ -112,7 +115,7 @@ class Properties:
         return value
 
     def choice(self, name: str, options: tuple[str, ...], default: str) -> str:
-        """One of some strings."""
+        """Return one of some strings."""
         value = self.text(name, default)
         given = self.get(name)
         if value not in options and given is not None:
@@ -120,7 +123,7 @@ class Properties:
         return value
 
     def numbers(self, name: str, codes: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        """A tuple of numbers, one for each code of a unit; more are left out, as Stage does.
+        """Return a tuple of numbers, one for each code of a unit; more are left out, as in Stage.
 
         Raises:
             FormatError: It is shorter, or holds something else.
@@ -140,11 +143,11 @@ class Properties:
         )
 
     def pose(self, name: str, default: StagePose | None = None) -> StagePose:
-        """x, y, z and heading."""
+        """Return x, y, z and heading."""
         return StagePose(*self.numbers(name, "llla", default or StagePose()))
 
     def size(self, name: str, default: StageSize) -> StageSize:
-        """Three lengths, none negative."""
+        """Return three lengths, none negative."""
         values = self.numbers(name, "lll", default)
         given = self.get(name)
         if given is not None and min(values) < 0.0:
@@ -152,7 +155,7 @@ class Properties:
         return StageSize(*values)
 
     def color(self) -> StageColor | None:
-        """(red, green, blue, alpha), ``random``, or None; a name counts more than numbers."""
+        """Return (red, green, blue, alpha), ``random``, or None; a name precedes numbers."""
         named, mixed = self.get("color"), self.get("color_rgba")
         if mixed is not None and named is None:
             red, green, blue, alpha = self.numbers("color_rgba", "ffff", (0.0,) * 4)
@@ -170,13 +173,13 @@ class Properties:
         return found or (1.0, 0.0, 0.0, 1.0)
 
     def note(self, name: str, message: str, hint: str | None = None) -> None:
-        """Remark on one if it is there."""
+        """Remark on a property if it is present."""
         given = self.get(name)
         if given is not None:
             self.reading.remark(message, given.source, hint)
 
     def report_unknown(self) -> None:
-        """Remark on each property that nobody asked for."""
+        """Remark on each property that was never read."""
         for name, given in self._all.items():
             if name not in self._known:
                 self.reading.remark(
@@ -192,7 +195,7 @@ def _suggestion(name: str, known: set[str]) -> str | None:
 
 
 def items_of(given: Property, value: Value) -> tuple[float | str, ...]:
-    """The items of a tuple.
+    """Return the items of a tuple.
 
     Raises:
         FormatError: It is none.

@@ -71,7 +71,7 @@ _GOLDEN = 0.61803398875
 
 
 def scene_of(stage: StageWorld, reading: Reading) -> World:
-    """The world with ``models`` for all that a Stage file says, and itself as ``stage``.
+    """Return the world with ``models`` for the content of a Stage file, and itself as ``stage``.
 
     Args:
         stage: What the file says.
@@ -90,7 +90,7 @@ def scene_of(stage: StageWorld, reading: Reading) -> World:
 
 
 def _physics(stage: StageWorld) -> Physics:
-    """Steps that bodies can bear, at the pace that the file asks for."""
+    """Return physics with steps that bodies can bear, at the file's real-time factor."""
     step = min(stage.interval_sim, _STEP)
     speed = max(stage.speedup, 0.0)
     return Physics(
@@ -120,14 +120,14 @@ class _SceneBuilder:
     robots: itertools.count[int] = field(default_factory=itertools.count)
 
     def ground(self) -> Model:
-        """The floor, which Stage has without saying so."""
+        """Return the floor, which Stage has implicitly."""
         plane = Plane()
         look = Visual("visual", Plane(size=(100.0, 100.0)), material=_material((0.9,) * 3 + (1.0,)))
         link = Link("link", collisions=(Collision("collision", plane),), visuals=(look,))
         return Model(self.unique("ground_plane"), static=True, links=(link,))
 
     def unique(self, name: str) -> str:
-        """The name, with a number behind it if it is taken."""
+        """Return the name, with a number behind it if it is used already."""
         found, numbers = name, itertools.count(1)
         while found in self.names:
             found = f"{name}_{next(numbers)}"
@@ -135,7 +135,7 @@ class _SceneBuilder:
         return found
 
     def model(self, model: StageModel) -> Model:
-        """A top-level model with all that is mounted on it."""
+        """Return a top-level model with all that is mounted on it."""
         key = (id(model.blocks), id(model.children), id(model.device), model.color, model.size)
         link = self.links.get(key)
         if link is None or model.color == "random":
@@ -156,7 +156,7 @@ class _SceneBuilder:
         )
 
     def link(self, model: StageModel) -> Link:
-        """One body of a model and all below it."""
+        """Return one body of a model and all below it."""
         collisions: list[Collision] = []
         visuals: list[Visual] = []
         sensors: list[Sensor] = []
@@ -183,21 +183,21 @@ class _SceneBuilder:
         )
 
     def color(self, model: StageModel) -> Color:
-        """Its colour; random ones are far apart from each other."""
+        """Return its colour; random ones are far apart from each other."""
         if model.color != "random":
             return model.color
         red, green, blue = colorsys.hsv_to_rgb(next(self.colors) * _GOLDEN % 1.0, 0.7, 0.9)
         return (red, green, blue, 1.0)
 
     def shapes(self, model: StageModel) -> list[tuple[Geometry, Pose]]:
-        """The prisms and boxes of a body, in the body frame."""
+        """Return the prisms and boxes of a body, in the body frame."""
         found = [_prism(block) for block in model.blocks]
         if model.bitmap is not None:
             found += self.boxes(model.bitmap, model.source)
         return found
 
     def boxes(self, bitmap: StageBitmap, source: Source | None) -> list[tuple[Geometry, Pose]]:
-        """Boxes that cover the walls of a bitmap."""
+        """Return boxes that cover the walls of a bitmap."""
         cells, step = bitmap.cells, 1
         while _runs(cells) > _MANY * MAX_BOXES:
             cells, step = _coarser(cells), 2 * step
@@ -225,7 +225,7 @@ class _SceneBuilder:
 
 
 def _published(link: Link, names: Names) -> Link:
-    """The link with topics for the lidars that stage_ros publishes: the first of each ranger.
+    """Return the link with topics for stage_ros' lidars: the first of each ranger.
 
     Those are the rangers on the robot itself: in their names there is no dot.
     """
@@ -245,7 +245,7 @@ def _published(link: Link, names: Names) -> Link:
 
 
 def _runs(cells: NDArray[np.bool_]) -> int:
-    """Walls in the rows, each counted once."""
+    """Return the number of walls in the rows, each counted once."""
     return int(np.count_nonzero(cells[:, 1:] & ~cells[:, :-1]) + np.count_nonzero(cells[:, 0]))
 
 
@@ -254,7 +254,7 @@ def _extent(bitmap: StageBitmap) -> list[float]:
 
 
 def _coarser(cells: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Four cells as one, which is a wall if any of them is."""
+    """Return four cells as one, which is a wall if any of them is."""
     rows, columns = cells.shape
     even = np.zeros((rows + rows % 2, columns + columns % 2), np.bool_)
     even[:rows, :columns] = cells
@@ -280,7 +280,7 @@ def _material(color: Color) -> Material:
 
 
 def _inertial(model: StageModel) -> Inertial:
-    """Of a homogeneous box of the model's size."""
+    """Return the inertial of a homogeneous box of the model's size."""
     mass = model.mass if model.mass > 0.0 else DEFAULT_MASS
     x, y, z = (max(length, _FLATTEST) for length in model.size)
     return Inertial(
@@ -295,7 +295,7 @@ def _inertial(model: StageModel) -> Inertial:
 
 
 def _sensors(model: StageModel, pose: StagePose, name: str) -> list[Sensor]:
-    """The sensors of SDF that a device amounts to."""
+    """Return the sensors of SDF that represent a device."""
     device = model.device
     rate = 1.0 / model.update_interval if model.update_interval > 0.0 else 0.0
     if isinstance(device, StageRanger):
@@ -329,7 +329,7 @@ def _lidar(sensor: StageSensor, pose: StagePose, name: str, rate: float) -> Sens
 
 
 def _past(sensor: Sensor, collisions: list[Collision]) -> Sensor:
-    """A lidar that begins to see where its own model ends: in Stage it never sees that."""
+    """Return a lidar that starts where its own model ends: in Stage it never sees that."""
     lidar = sensor.lidar
     if lidar is None:
         return sensor

@@ -69,7 +69,7 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
 
 
 def _try_macros(macros: dict[str, Entity], context: Context) -> None:
-    """Remark on what is wrong with macros of a file that others include, as nobody uses them here."""
+    """Remark on errors in macros of an included file, as nobody uses them here."""
     for macro in macros.values():
         if macro.type not in KINDS:
             continue
@@ -99,7 +99,7 @@ def _resolution(given: Properties) -> float:
 
 
 def read_window(entity: Entity, world: Properties) -> StageWindow:
-    """``window``; all of its properties are kept.
+    """Read ``window``; all of its properties are kept.
 
     Raises:
         FormatError: One of those with a field is of the wrong type.

@@ -23,7 +23,7 @@ _TERMS = {"fdir1", "kd", "kp", "maxVel", "minDepth", "mu1", "mu2"}
 
 
 def applied(body: LumpedLink, extensions: Extensions, tag: str, name: str) -> list[Parameters]:
-    """The ``<gazebo>`` elements for one part of a body.
+    """Return the ``<gazebo>`` elements for one part of a body.
 
     Args:
         body: The body.
@@ -41,7 +41,7 @@ def applied(body: LumpedLink, extensions: Extensions, tag: str, name: str) -> li
 
 
 def blob(elements: list[Parameters], tag: str) -> Parameters:
-    """All SDF that the elements add to a ``<collision>`` or ``<visual>``, in file order."""
+    """Return all SDF that the elements add to a ``<collision>`` or ``<visual>``, in file order."""
     children = (
         inner
         for element in elements
@@ -53,7 +53,7 @@ def blob(elements: list[Parameters], tag: str) -> Parameters:
 
 
 def surface(elements: list[Parameters]) -> Surface:
-    """The surface: a whole ``<surface>`` replaces what was said before, single terms what it says."""
+    """Return the surface. A whole ``<surface>`` replaces earlier ones, a single term its value."""
     whole: Parameters | None = None
     terms: dict[str, Parameters] = {}
     for element in elements:
@@ -97,13 +97,13 @@ def _number(node: Parameters) -> float:
 
 
 def real(elements: list[Parameters], tag: str, default: float) -> float:
-    """The number that the last element with such a child gives."""
+    """Return the number of the last element with such a child."""
     found = [child for element in elements for child in element.children if child.tag == tag]
     return _number(found[-1]) if found else default
 
 
 def material(elements: list[Parameters], reading: Reading) -> Material | None:
-    """The material that the elements give a visual, as written; None where they say nothing.
+    """Return a visual's material from the elements, as written; None without one.
 
     A whole ``<material>`` replaces what was said before; the name of a script goes into it.
     """

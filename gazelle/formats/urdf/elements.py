@@ -31,7 +31,7 @@ _MOMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 def read_origin(node: Parameters | None) -> Pose:
-    """``<origin xyz rpy>``; also with a quaternion ``quat_xyzw``, as URDF 1.2 allows."""
+    """Read ``<origin xyz rpy>``; also with a quaternion ``quat_xyzw``, as URDF 1.2 allows."""
     if node is None:
         return Pose()
     x, y, z = values.attribute_vector(node, "xyz", (0.0, 0.0, 0.0))
@@ -47,7 +47,7 @@ def read_origin(node: Parameters | None) -> Pose:
 
 
 def read_inertial(node: Parameters | None, reading: Reading) -> Inertial | None:
-    """``<inertial>``; a mass of zero is allowed here and means "no body of its own".
+    """Read ``<inertial>``; a mass of zero is allowed here and means "no body of its own".
 
     So it is where the mass is missing or no number, as libsdformat has it; moments that are
     missing or no numbers are zero.
@@ -106,7 +106,7 @@ def _round(kind: type[_ROUND], node: Parameters, reading: Reading) -> _ROUND:
 
 
 def read_box(node: Parameters, reading: Reading) -> Box | Empty:
-    """``<box size>``; one without any size, which stands for a frame, touches nothing."""
+    """Read ``<box size>``; one without any size, which stands for a frame, touches nothing."""
     sides = values.parse_reals(node, values.attribute(node, "size"), "attribute 'size'", 3)
     if not any(sides):
         reading.note("a box without size is left out", node)
@@ -116,23 +116,23 @@ def read_box(node: Parameters, reading: Reading) -> Box | Empty:
 
 
 def read_sphere(node: Parameters, reading: Reading) -> Sphere:
-    """``<sphere radius>``."""
+    """Read ``<sphere radius>``."""
     radius = values.attribute_real(node, "radius")
     return Sphere(extent(node, radius, "the radius", reading), given=given(radius))
 
 
 def read_cylinder(node: Parameters, reading: Reading) -> Cylinder:
-    """``<cylinder radius length>``."""
+    """Read ``<cylinder radius length>``."""
     return _round(Cylinder, node, reading)
 
 
 def read_capsule(node: Parameters, reading: Reading) -> Capsule:
-    """``<capsule radius length>``, of URDF 1.2."""
+    """Read ``<capsule radius length>``, of URDF 1.2."""
     return _round(Capsule, node, reading)
 
 
 def read_mesh(node: Parameters, reading: Reading) -> Mesh:
-    """``<mesh filename scale>``."""
+    """Read ``<mesh filename scale>``."""
     uri = values.attribute(node, "filename")
     return Mesh(
         uri=uri,
@@ -152,7 +152,7 @@ SHAPES: dict[str, Callable[[Parameters, Reading], Geometry]] = {
 
 
 def read_geometry(node: Parameters, reading: Reading) -> Geometry:
-    """The shape in the ``<geometry>`` of a collision or visual.
+    """Read the shape in the ``<geometry>`` of a collision or visual.
 
     Raises:
         FormatError: There is none, or an unknown one.
@@ -169,7 +169,7 @@ def read_geometry(node: Parameters, reading: Reading) -> Geometry:
 
 
 def shape_if_any(node: Parameters, reading: Reading) -> Geometry | None:
-    """The same; None where it cannot be read: urdfdom says so, and goes on without that part."""
+    """Return the shape; None where it is unreadable: urdfdom reports it, and skips that part."""
     try:
         return read_geometry(node, reading)
     except FormatError as error:
@@ -186,7 +186,7 @@ class Paint:
 
 
 def read_paint(node: Parameters, reading: Reading) -> Paint:
-    """``<material><color rgba><texture filename>``."""
+    """Read ``<material><color rgba><texture filename>``."""
     color = node.find("color")
     texture = node.find("texture")
     rgba = None

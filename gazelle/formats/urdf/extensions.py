@@ -50,12 +50,12 @@ class Extensions:
     by_reference: dict[str, list[Parameters]] = field(default_factory=dict)
 
     def of(self, reference: str) -> Iterator[Parameters]:
-        """The children of all elements with that reference, in file order."""
+        """Yield the children of all elements with that reference, in file order."""
         for node in self.by_reference.get(reference, ()):
             yield from node.children
 
     def last(self, reference: str, *tags: str) -> Parameters | None:
-        """The last child with one of the tags, which is the one that counts."""
+        """Return the last child with one of the tags, which is the one that counts."""
         found = None
         for child in self.of(reference):
             if child.tag in tags:
@@ -63,7 +63,7 @@ class Extensions:
         return found
 
     def real(self, reference: str, tag: str, default: float) -> float:
-        """A number."""
+        """Return a number."""
         child = self.last(reference, tag)
         return default if child is None else values.parse_real(child, text(child), f"<{tag}>")
 
@@ -74,12 +74,12 @@ class Extensions:
 
 
 def text(node: Parameters) -> str:
-    """The value of a child, which may also stand in an attribute."""
+    """Return the value of a child, which may also stand in an attribute."""
     return node.attributes.get("value", "").strip() or node.text
 
 
 def read_extensions(root: Parameters, reading: Reading) -> Extensions:
-    """All ``<gazebo>`` elements of a ``<robot>``."""
+    """Read all ``<gazebo>`` elements of a ``<robot>``."""
     extensions = Extensions()
     for node in root.find_all("gazebo"):
         reference = node.attributes.get("reference", "")
@@ -90,7 +90,7 @@ def read_extensions(root: Parameters, reading: Reading) -> Extensions:
 def drop_unused(
     extensions: Extensions, links: set[str], joints: set[str], reading: Reading
 ) -> None:
-    """Leave out what refers to nothing, and note it and children that mean nothing there."""
+    """Remove elements without a target, and note them and meaningless children."""
     for reference, nodes in list(extensions.by_reference.items()):
         if reference and reference not in links and reference not in joints:
             reading.note(

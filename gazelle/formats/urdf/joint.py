@@ -44,7 +44,7 @@ class UrdfJoint:
 
 
 def read_joint(node: Parameters, reading: Reading) -> UrdfJoint:
-    """One joint.
+    """Read one joint.
 
     Raises:
         FormatError: Something that a joint needs is missing or wrong.
@@ -78,7 +78,7 @@ def _link(node: Parameters, tag: str) -> str:
 
 
 def read_axis(node: Parameters, kind: JointType, reading: Reading) -> JointAxis:
-    """The axis with limits, dynamics and mimic.
+    """Read the axis with limits, dynamics and mimic.
 
     Raises:
         FormatError: A revolute or prismatic joint has no limits.
@@ -142,7 +142,7 @@ def _mimic(node: Parameters | None) -> Mimic | None:
 
 
 def read_safety(node: Parameters | None) -> SafetyController | None:
-    """``<safety_controller>``."""
+    """Read ``<safety_controller>``."""
     if node is None:
         return None
     return SafetyController(

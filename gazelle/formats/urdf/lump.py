@@ -17,7 +17,7 @@ NO_MASS = 1e-6
 
 
 def body_inertial(body: LumpedLink) -> Inertial | None:
-    """The inertial of a body; None when all its links together have no mass.
+    """Return the inertial of a body; None when its links have no mass.
 
     A body of one link keeps its numbers to the last bit. A link without mass may still add an
     inertia, as it does in libsdformat.
@@ -39,7 +39,7 @@ def body_inertial(body: LumpedLink) -> Inertial | None:
 
 
 def combine(parts: Sequence[tuple[Pose, Inertial]], rotation: Pose) -> Inertial | None:
-    """The sum of inertials at poses, in axes turned by ``rotation``; None without mass."""
+    """Return the sum of inertials at poses, in axes turned by ``rotation``; None without mass."""
     whole = joined(
         UnitSolid(inertial.mass, np.zeros(3), inertial.inertia.matrix()).placed(
             pose * inertial.pose

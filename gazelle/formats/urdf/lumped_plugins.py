@@ -29,7 +29,7 @@ class _LumpedStep:
 
 
 def plugins(found: list[LumpedLink], extensions: Extensions) -> tuple[Parameters, ...]:
-    """The ``<plugin>`` elements of a robot: those of the model, then those of its links."""
+    """Return the ``<plugin>`` elements of a robot: those of the model, then those of its links."""
     steps = list(_steps(found))
     references = ["", *(name for name in extensions.by_reference if name)]
     return tuple(
@@ -41,7 +41,7 @@ def plugins(found: list[LumpedLink], extensions: Extensions) -> tuple[Parameters
 
 
 def _steps(found: list[LumpedLink]) -> Iterator[_LumpedStep]:
-    """The links that are lumped, the outermost first."""
+    """Yield the lumped links, the outermost first."""
     for body in found:
         for member in reversed(body.members):
             if member.joint is not None:

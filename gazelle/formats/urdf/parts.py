@@ -48,7 +48,7 @@ class PartReader:
 
 
 def part_names(body: LumpedLink, tag: str) -> list[tuple[Member, Parameters, str, str]]:
-    """Each ``<collision>`` or ``<visual>`` of a body: member, element, name, name unlumped.
+    """Return each ``<collision>`` or ``<visual>`` of a body: member, element, name, name unlumped.
 
     The names are those that libsdformat gives, which contact sensors refer to.
     """
@@ -65,7 +65,7 @@ def part_names(body: LumpedLink, tag: str) -> list[tuple[Member, Parameters, str
 
 
 def read_collisions(body: LumpedLink, robot: PartReader) -> tuple[Collision, ...]:
-    """All collisions of a body."""
+    """Read all collisions of a body."""
     return tuple(
         _collision(body, member, node, name, shape, robot)
         for member, node, name, _ in part_names(body, "collision")
@@ -95,7 +95,7 @@ def _collision(
 
 
 def read_visuals(body: LumpedLink, robot: PartReader) -> tuple[Visual, ...]:
-    """All visuals of a body."""
+    """Read all visuals of a body."""
     return tuple(
         _visual(body, member, node, name, shape, robot)
         for member, node, name, _ in part_names(body, "visual")
@@ -143,7 +143,7 @@ def _material(node: Parameters, elements: list[Parameters], robot: PartReader) -
 
 
 def read_sensors(body: LumpedLink, robot: PartReader) -> tuple[Sensor, ...]:
-    """All sensors of a body, moved to its frame; contact sensors name its collisions."""
+    """Read all sensors of a body, moved to its frame; contact sensors name its collisions."""
     renamed = {plain: name for _, __, name, plain in part_names(body, "collision")}
     sensors = []
     for member in body.members:
@@ -155,7 +155,7 @@ def read_sensors(body: LumpedLink, robot: PartReader) -> tuple[Sensor, ...]:
 
 
 def _placer(member: Member, body: LumpedLink, robot: PartReader) -> Placer:
-    """A function that gives the pose of a part in the body's frame.
+    """Return a function for the pose of a part in the body's frame.
 
     A pose ``relative_to`` a link or joint is one in that frame; any other is in the link's.
     """
@@ -184,7 +184,7 @@ def _renamed(sensor: Sensor, names: Mapping[str, str]) -> Sensor:
 
 
 def read_lights(body: LumpedLink, robot: PartReader) -> tuple[Light, ...]:
-    """Lights that ``<gazebo>`` puts on a body.
+    """Read the lights of ``<gazebo>`` on a body.
 
     Those of a lumped link are where they would be on the body itself: libsdformat moves sensors
     and projectors along with such a link, but no light.

@@ -54,7 +54,7 @@ _LINK_EXTRAS = {"audio_sink", "audio_source", "battery", "must_be_base_link", "p
 
 
 def read_robot(root: Parameters, reading: Reading) -> Model:
-    """The model of a ``<robot>``, links joined by fixed joints lumped into one.
+    """Read the model of a ``<robot>``, links joined by fixed joints lumped into one.
 
     Each lumped link stays as a ``Frame`` of the model, so that its name can be found.
 
@@ -86,7 +86,7 @@ def read_robot(root: Parameters, reading: Reading) -> Model:
 
 
 def _poses(found: Iterable[LumpedLink], tree: UrdfTree) -> dict[str, Pose]:
-    """Poses of links and joints in the model; a joint's frame is that of its child."""
+    """Return poses of links and joints in the model; a joint's frame is that of its child."""
     links = {member.link.name: body.pose * member.pose for body in found for member in body.members}
     joints = {
         name: links[joint.child] for name, joint in tree.joints.items() if joint.child in links
@@ -95,7 +95,7 @@ def _poses(found: Iterable[LumpedLink], tree: UrdfTree) -> dict[str, Pose]:
 
 
 def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
-    """Materials by name: those of the robot, then those that a visual defines in passing.
+    """Return materials by name: those of the robot, then those defined in visuals.
 
     A name stands for its first definition, whatever others say later: so in urdfdom.
     """
@@ -112,7 +112,7 @@ def _paints(root: Parameters, reading: Reading) -> dict[str, Paint]:
 
 
 def _with_mass(found: list[LumpedLink], root: Parameters, reading: Reading) -> list[LumpedLink]:
-    """Bodies that have a mass and hang on one that has; the rest is noted and left out.
+    """Return bodies with a mass whose parents have one; others are noted and left out.
 
     A robot with no mass at all is kept whole: it can still be shown and planned for.
     """
@@ -201,7 +201,7 @@ def _inertial(
 
 
 def _sdf_children(names: list[str], extensions: Extensions) -> Parameters:
-    """Children in SDF's words of all links of a body, as those of one ``<link>``."""
+    """Return SDF children of all links of a body, as those of one ``<link>``."""
     children = [child for name in names for child in extensions.of(name) if child.tag in LINK_SDF]
     return Parameters("link", children=tuple(children))
 
@@ -269,7 +269,7 @@ def _physics(joint: str, extensions: Extensions) -> JointPhysics:
 def _with_model_extensions(
     model: Model, robot: PartReader, plugin_nodes: tuple[Parameters, ...]
 ) -> Model:
-    """Plugins, SDF links and joints, and flags of ``<gazebo>`` elements without a reference.
+    """Add plugins, SDF links and joints, and flags of ``<gazebo>`` elements without a reference.
 
     Plugins on a link become the model's, as Gazebo runs them there.
     """
@@ -301,7 +301,7 @@ def _with_model_extensions(
 
 
 def _draft_parts(nodes: list[Parameters], scope: Scope, reading: Reading) -> list[ModelFrames]:
-    """The SDF models among some elements; the scope knows the frames of all of them then.
+    """Return the SDF models among some elements; the scope has the frames of all of them then.
 
     A joint may be called as the model that it holds, and means that model's links.
     """

@@ -90,7 +90,7 @@ _ROBOT = _kind(
 
 
 def note_unknown(root: Parameters, reading: Reading) -> None:
-    """Note elements and attributes of a ``<robot>`` that mean nothing."""
+    """Note unknown elements and attributes of a ``<robot>``."""
     _judge(root, _ROBOT, reading)
 
 

@@ -11,7 +11,7 @@ from gazelle.formats.reading import Reading
 
 
 def read_transmission(node: Parameters, reading: Reading) -> Transmission:
-    """One transmission; old files write its type and reduction in other places."""
+    """Read one transmission; old files write its type and reduction in other places."""
     reduction = _reduction(node, 1.0, reading)
     # Before ROS Indigo the interface was the actuator's.
     before = tuple(text for actuator in node.find_all("actuator") for text in _interfaces(actuator))
@@ -41,7 +41,7 @@ def read_transmission(node: Parameters, reading: Reading) -> Transmission:
 
 
 def _of_joints(node: Parameters, tag: str, default: float, reading: Reading) -> tuple[float, ...]:
-    """A number of each joint; none where no joint has another than the default."""
+    """Return a number of each joint; empty if all have the default."""
     numbers = tuple(_number(joint, tag, default, reading) for joint in node.find_all("joint"))
     return numbers if any(each != default for each in numbers) else ()
 
@@ -60,7 +60,7 @@ def _reduction(node: Parameters, default: float, reading: Reading) -> float:
 
 
 def _number(node: Parameters, tag: str, default: float, reading: Reading) -> float:
-    """A number; Gazebo reads a URDF with another text, for it reads no transmissions."""
+    """Return a number; Gazebo reads a URDF with another text, for it reads no transmissions."""
     try:
         return values.real(node, tag, default)
     except FormatError as error:

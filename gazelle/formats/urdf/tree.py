@@ -82,7 +82,7 @@ class UrdfTree:
 
 
 def read_tree(root: Parameters, reading: Reading) -> UrdfTree:
-    """The links and joints of a ``<robot>``.
+    """Read the links and joints of a ``<robot>``.
 
     Raises:
         FormatError: They are not one tree.
@@ -184,7 +184,7 @@ def lumps(joint: UrdfJoint, extensions: Extensions) -> bool:
 
 
 def bodies(tree: UrdfTree, extensions: Extensions) -> list[LumpedLink]:
-    """All bodies, parents before children; the world is none."""
+    """Return all bodies, parents before children, without the world."""
     done: list[LumpedLink] = []
     if tree.root == WORLD:
         waiting = [

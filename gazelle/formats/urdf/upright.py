@@ -10,7 +10,7 @@ _STEEP = 0.99999
 
 
 def upright(pose: Pose) -> Pose:
-    """The pose with a pitch within 0.26 degrees of a right angle made one.
+    """Return the pose; a pitch within 0.26 degrees of a right angle becomes one.
 
     That is what ``urdf::Rotation::getRPY`` does, by which libsdformat writes the poses of
     collisions, visuals and lumped sensors: a pitch of 1.57 stands upright in Gazebo.

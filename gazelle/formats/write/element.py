@@ -21,40 +21,40 @@ ENDLESS = "1e16"
 
 
 def element(tag: str, *children: Parameters | None, text: str = "", **names: str) -> Parameters:
-    """An element; children that are None are left out, and so are empty attributes."""
+    """Return an element; children that are None are left out, and so are empty attributes."""
     attributes = {name: value for name, value in names.items() if value}
     kept = tuple(child for child in children if child is not None)
     return Parameters(tag, text, MappingProxyType(attributes), kept)
 
 
 def group(tag: str, *children: Parameters | None) -> Parameters | None:
-    """An element that is there only if it holds something."""
+    """Return an element if it has content."""
     return element(tag, *children) if any(child is not None for child in children) else None
 
 
 def leaf(tag: str, value: Value | None, default: Value | None = None) -> Parameters | None:
-    """An element that holds a value; None where the value is the default."""
+    """Return an element that holds a value; None where the value is the default."""
     if value is None or value == default:
         return None
     return element(tag, text=written(value))
 
 
 def limit(tag: str, value: float, default: float | None = None) -> Parameters | None:
-    """Like ``leaf``, for a number that may be infinite."""
+    """Return an element like ``leaf``, for a number that may be infinite."""
     if value == default or not math.isinf(value):
         return leaf(tag, value, default)
     return element(tag, text=endless(value))
 
 
 def endless(value: float) -> str:
-    """A number of which one that is infinite is written as a very large one."""
+    """Return a number as text; an infinite one becomes a very large one."""
     if not math.isinf(value):
         return written(value)
     return ENDLESS if value > 0 else f"-{ENDLESS}"
 
 
 def written(value: Value) -> str:
-    """A value as text that reads as the very same one.
+    """Return a value as text that reads as the very same one.
 
     Raises:
         FormatError: It is, or holds, what is not a number.
@@ -79,7 +79,9 @@ def _number(value: float) -> str:
 
 
 def pose_leaf(pose: Pose, *, always: bool = False) -> Parameters | None:
-    """``<pose>`` in angles; where they cost the last digit, with the quaternion beside them.
+    """Return ``<pose>`` in angles.
+
+    Where they cost the last digit, with the quaternion beside them.
 
     SDF 1.9 has a ``rotation_format`` for it, which Gazebo Classic takes for angles; so the
     quaternion stands in an attribute of Gazelle's own namespace.
@@ -97,7 +99,7 @@ def pose_leaf(pose: Pose, *, always: bool = False) -> Parameters | None:
 
 
 def exact_angles(pose: Pose) -> Vector3 | None:
-    """Roll, pitch and yaw, as short as may be, that give this very pose; None if none do."""
+    """Return the shortest roll, pitch and yaw that give this very pose; None if none do."""
     for found in (pose.rpy, angles_of(pose)):
         for digits in (4, 6, 9, 12, 15, 17):
             roll, pitch, yaw = (float(f"{angle:.{digits}g}") for angle in found)
@@ -107,7 +109,7 @@ def exact_angles(pose: Pose) -> Vector3 | None:
 
 
 def angles_of(pose: Pose) -> Vector3:
-    """Roll, pitch and yaw, precise also where pitch is near a right angle.
+    """Return roll, pitch and yaw, precise also where pitch is near a right angle.
 
     Yaw is ill-defined there, so roll and pitch are taken from what is left of the rotation
     once it is turned back by that yaw: an error of yaw ends in roll, not in the rotation.
@@ -123,12 +125,12 @@ def angles_of(pose: Pose) -> Vector3:
 
 
 def _within(angle: float) -> float:
-    """The angle in [-pi, pi]."""
+    """Return the angle in [-pi, pi]."""
     return math.remainder(angle, 2.0 * math.pi)
 
 
 def overlay(base: Parameters, over: Parameters) -> Parameters:
-    """An element with the values of ``over`` put into ``base``, which keeps its order.
+    """Return an element with the values of ``over`` put into ``base``, which keeps its order.
 
     Children go together by tag, the first of each with the first of the other and so on.
     """
@@ -163,7 +165,7 @@ class NamedElement(Protocol):
 
 @contextmanager
 def inside(tag: str, part: NamedElement) -> Iterator[None]:
-    """Errors raised in it say where: in the file that the part came from, or by its name.
+    """Add the place to errors raised in it: the part's file, or its name.
 
     Raises:
         FormatError: The part has no name.
@@ -182,7 +184,7 @@ def inside(tag: str, part: NamedElement) -> Iterator[None]:
 
 
 def distinct(tag: str, parts: Sequence[NamedElement]) -> None:
-    """Refuse two parts of one name.
+    """Raise an error for two parts of one name.
 
     Raises:
         FormatError: Two have one.

@@ -56,7 +56,7 @@ def to_string(
     *,
     folder: str | os.PathLike[str] | None = None,
 ) -> str:
-    """The text that ``save`` would write.
+    """Return the text that ``save`` would write.
 
     Args:
         content: What to write.
@@ -71,7 +71,7 @@ def to_string(
 
 
 def format_of(file: Path) -> Format:
-    """The format that a file's suffix stands for.
+    """Return the format of a file's suffix.
 
     Raises:
         FormatError: None of those that can be written.

@@ -30,7 +30,7 @@ class Writing:
             self.notes.append(note)
 
     def uri(self, uri: str, path: Path | None) -> str:
-        """A URI that leads to the same file from the new place.
+        """Return a URI that leads to the same file from the new place.
 
         Only relative names change: to the way from there, or to an absolute one.
         """

@@ -20,7 +20,7 @@ _DECLARED = {"xml", "xmlns"}
 
 
 def document(root: Parameters) -> str:
-    """A whole XML file; prefixes that nothing declares are declared in the root.
+    """Return a whole XML file; undeclared prefixes are declared in the root.
 
     Raises:
         FormatError: A name or text cannot stand in XML.
@@ -31,7 +31,7 @@ def document(root: Parameters) -> str:
 
 
 def fragment(node: Parameters, indent: str = "") -> str:
-    """The text of one element, two blanks a level, with a line break at its end.
+    """Return the text of one element, two blanks a level, with a line break at its end.
 
     Raises:
         FormatError: As ``document``.

@@ -23,7 +23,7 @@ COUNT, PER_ROW, APART = 72, 12, 3.0
 
 
 def main() -> None:
-    """Let every four neighbours change places in a ring, then all shift together and back."""
+    """Drive every four neighbours around a ring, then all aside and back."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--connect", action="store_true", help="to a world that runs already")
     parser.add_argument("--rounds", type=int, default=4, help="changes of places (default 4)")
@@ -43,7 +43,7 @@ def main() -> None:
 
 
 def drive(fleet: AGVFleet, rounds: int) -> None:
-    """Way-points for all, one after another."""
+    """Send waypoints to all, one after another."""
     home = fleet.poses[:, :2]
     total, nearest = 0.0, np.inf
     for number in range(rounds):
@@ -58,7 +58,7 @@ def drive(fleet: AGVFleet, rounds: int) -> None:
 def leg(
     fleet: AGVFleet, goals: np.ndarray, name: str, total: float, nearest: float
 ) -> tuple[float, float]:
-    """One way-point for each, and how near any two came to each other."""
+    """Send one waypoint to each, and return time and least distance of any two."""
     done = threading.Event()
     seen = [nearest]
 
@@ -92,7 +92,7 @@ def ring(turn: int) -> np.ndarray:
 
 @contextlib.contextmanager
 def world(rate: float) -> Iterator[str]:
-    """The bundled world on a graph of its own, run by a thread; its master."""
+    """Run the bundled world on a graph of its own, in a thread; yields its master."""
     from gazelle import assets
     from gazelle.ros import Master
     from gazelle.simulation import Simulation

@@ -28,7 +28,7 @@ PATIENCE = 600.0
 
 
 def goal_at(x: float, y: float) -> Any:
-    """A goal on the map."""
+    """Return a goal on the map."""
     goal: Any = load_message("move_base_msgs/MoveBaseGoal")()
     goal.target_pose.header.frame_id = "map"
     goal.target_pose.pose.position.x, goal.target_pose.pose.position.y = x, y

@@ -20,7 +20,7 @@ _WORLD_JOINTS = (1, 10)
 
 
 def write_sdf(content: World | Model, writing: Writing) -> Parameters:
-    """The root element, of the oldest version since 1.7 that can say it all.
+    """Write the root element, of the oldest version since 1.7 that can say it all.
 
     Older programs read older versions only, so no newer one is asked for than is needed.
     """

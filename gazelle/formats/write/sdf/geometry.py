@@ -28,14 +28,14 @@ from gazelle.formats.write.writing import Writing
 
 
 def model_uri(uri: str, path: Path | None, writing: Writing) -> str:
-    """The URI as SDF has it, which does not know ``package://``: as ``model://``, like libsdformat."""
+    """Return the URI as SDF has it: ``package://`` becomes ``model://``, as in libsdformat."""
     if uri.startswith("package://"):
         return f"model://{uri.removeprefix('package://')}"
     return writing.uri(uri, path)
 
 
 def write_geometry(shape: Geometry, writing: Writing) -> Parameters:
-    """A shape in its ``<geometry>``."""
+    """Write a shape in its ``<geometry>``."""
     return element("geometry", *SHAPES[type(shape)](shape, writing))
 
 

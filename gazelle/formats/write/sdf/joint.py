@@ -15,7 +15,7 @@ _NOT_SDF = {"planar", "floating"}
 
 
 def write_joint(joint: Joint, writing: Writing) -> Parameters:
-    """A joint."""
+    """Write a joint."""
     if joint.type in _NOT_SDF:
         writing.note(
             f"SDF has no '{joint.type}' joint: for other programs '{joint.name}' is not there",
@@ -42,13 +42,16 @@ def write_joint(joint: Joint, writing: Writing) -> Parameters:
 
 
 def note_armature(joint: Joint, writing: Writing) -> None:
-    """Say that no format has a word for what resists acceleration in a joint."""
+    """Warn that no format can hold a joint's resistance to acceleration."""
     if any(axis.armature for axis in joint.axes):
         writing.note(f"no format has an armature: that of '{joint.name}' is left out", joint.source)
 
 
 def _types(joint: Joint) -> dict[str, str]:
-    """The type as an attribute: Gazebo Classic has no continuous joints, but free revolute ones."""
+    """Return the type as an attribute.
+
+    Gazebo Classic has free revolute joints, no continuous ones.
+    """
     axis = joint.axes[0] if joint.axes else JointAxis()
     if joint.type == "continuous" and axis.lower == -math.inf and axis.upper == math.inf:
         return {"type": "revolute", TYPE: joint.type}
@@ -56,7 +59,7 @@ def _types(joint: Joint) -> dict[str, str]:
 
 
 def write_axis(tag: str, axis: JointAxis) -> Parameters:
-    """``<axis>`` or ``<axis2>``, its direction in the joint frame."""
+    """Write ``<axis>`` or ``<axis2>``, its direction in the joint frame."""
     return element(
         tag,
         leaf("xyz", axis.xyz),
@@ -81,7 +84,7 @@ def write_axis(tag: str, axis: JointAxis) -> Parameters:
 
 
 def write_mimic(mimic: Mimic) -> Parameters:
-    """``<mimic>``, of SDF 1.11."""
+    """Write ``<mimic>``, of SDF 1.11."""
     return element(
         "mimic",
         leaf("multiplier", mimic.multiplier),
@@ -93,7 +96,7 @@ def write_mimic(mimic: Mimic) -> Parameters:
 
 
 def write_joint_physics(physics: JointPhysics) -> Parameters | None:
-    """``<physics>`` with ODE's terms that differ from the defaults.
+    """Write ``<physics>`` with ODE's terms that differ from the defaults.
 
     Two stand twice, under their old names too, as libsdformat writes them.
     """
@@ -124,7 +127,7 @@ def write_joint_physics(physics: JointPhysics) -> Parameters | None:
 
 
 def write_safety(safety: SafetyController, tag: str) -> Parameters:
-    """URDF's soft limits."""
+    """Write URDF's soft limits."""
     return element(
         tag,
         k_velocity=written(safety.k_velocity),

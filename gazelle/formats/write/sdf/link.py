@@ -37,7 +37,7 @@ _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 def write_link(link: Link, writing: Writing, *, static: bool = False) -> Parameters:
-    """A link; in a static model an inertia that cannot be does not matter and is left out."""
+    """Write a link; a static model's invalid inertia does not matter and is left out."""
     with inside("link", link):
         return element(
             "link",
@@ -74,7 +74,9 @@ def _inertial(link: Link, writing: Writing, *, static: bool) -> Parameters | Non
 
 
 def write_inertial(inertial: Inertial) -> Parameters:
-    """``<inertial>``, with every number; a mended inertia as the file had it, as libsdformat does.
+    """Write ``<inertial>``, with every number.
+
+    A repaired inertia as in the file, as in libsdformat.
 
     Raises:
         FormatError: It is that of no body, which readers of SDF refuse.
@@ -93,7 +95,7 @@ def write_inertial(inertial: Inertial) -> Parameters:
 
 
 def write_collision(collision: Collision, writing: Writing) -> Parameters:
-    """``<collision>``."""
+    """Write ``<collision>``."""
     with inside("collision", collision):
         return element(
             "collision",
@@ -107,7 +109,7 @@ def write_collision(collision: Collision, writing: Writing) -> Parameters:
 
 
 def write_visual(visual: Visual, writing: Writing) -> Parameters:
-    """``<visual>``."""
+    """Write ``<visual>``."""
     with inside("visual", visual):
         return element(
             "visual",
@@ -132,7 +134,7 @@ def visual_extras(visual: Visual) -> tuple[Parameters | None, ...]:
 
 
 def write_material(material: Material, writing: Writing) -> Parameters:
-    """``<material>``; colours that its script gives anyway are left to it."""
+    """Write ``<material>``; colours of its script are left to it."""
     texture = material.texture
     albedo = None if texture is None else leaf("albedo_map", writing.name(texture))
     ambient, diffuse = _own_colors(material)
@@ -157,7 +159,7 @@ def write_material(material: Material, writing: Writing) -> Parameters:
 
 
 def _own_colors(material: Material) -> tuple[Color | None, Color | None]:
-    """Ambient and diffuse colour as they are written: for a URDF's as libsdformat does."""
+    """Return ambient and diffuse colour as written: for a URDF's as in libsdformat."""
     if material.urdf_color is not None:
         bright = brightened(material.urdf_color)
         return (bright, bright)
@@ -176,7 +178,7 @@ def _script_uris(material: Material) -> tuple[str, ...]:
 
 
 def write_light(light: Light) -> Parameters:
-    """``<light>`` of a world or a link."""
+    """Write ``<light>`` of a world or a link."""
     with inside("light", light):
         return element(
             "light",

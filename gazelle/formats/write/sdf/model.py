@@ -15,7 +15,7 @@ from gazelle.formats.write.writing import Writing
 
 
 def write_model(model: Model, writing: Writing) -> Parameters:
-    """A model and all that is nested in it."""
+    """Write a model and all that is nested in it."""
     with inside("model", model):
         if model.actor is not None:
             return write_actor(model, model.actor)
@@ -40,12 +40,12 @@ def write_model(model: Model, writing: Writing) -> Parameters:
 
 
 def write_actor(model: Model, actor: Parameters) -> Parameters:
-    """The actor that a model stands for, where the model is now."""
+    """Write the actor that a model stands for, where the model is now."""
     return element("actor", pose_leaf(model.pose), *actor.children, name=model.name)
 
 
 def write_part(model: Model, writing: Writing) -> Parameters:
-    """A model of a world or of a model.
+    """Write a model of a world or of a model.
 
     One without links is saved as static, as which readers take it: nothing moves it anyway.
     """
@@ -86,7 +86,7 @@ def _refuse_unreadable(model: Model) -> None:
 
 
 def write_frame(frame: Frame) -> Parameters:
-    """``<frame>``."""
+    """Write ``<frame>``."""
     with inside("frame", frame):
         return element(
             "frame", pose_leaf(frame.pose), name=frame.name, attached_to=frame.attached_to
@@ -94,7 +94,7 @@ def write_frame(frame: Frame) -> Parameters:
 
 
 def write_transmission(transmission: Transmission, tag: str) -> Parameters:
-    """URDF's ``<transmission>``."""
+    """Write URDF's ``<transmission>``."""
     count = len(transmission.joints)
     numbers = zip(
         transmission.joint_roles or ("",) * count,

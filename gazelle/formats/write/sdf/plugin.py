@@ -9,7 +9,7 @@ from gazelle.description import Parameters, Plugin
 
 
 def write_plugin(plugin: Plugin) -> Parameters:
-    """A plugin with its parameters, word for word."""
+    """Write a plugin with its parameters, word for word."""
     attributes = {
         "name": plugin.name,
         "filename": plugin.filename,

@@ -35,7 +35,7 @@ _DISTORTION = ("k1", "k2", "k3", "p1", "p2")
 
 
 def write_sensor(sensor: Sensor) -> Parameters:
-    """A sensor with all that its file said."""
+    """Write a sensor with all contents of its file."""
     with inside("sensor", sensor):
         own = element(
             "sensor",
@@ -56,7 +56,7 @@ def write_sensor(sensor: Sensor) -> Parameters:
 
 
 def _lidar_tag(sensor: Sensor) -> str:
-    """The element that holds the rays; the one that is kept already, if there is one."""
+    """Return the element that holds the rays; the one that is kept already, if there is one."""
     for tag in ("ray", "lidar"):
         if tag in sensor.settings:
             return tag
@@ -64,14 +64,14 @@ def _lidar_tag(sensor: Sensor) -> str:
 
 
 def write_noise(noise: Noise) -> Parameters | None:
-    """``<noise>``; None for none at all."""
+    """Write ``<noise>``; None for none at all."""
     if noise == Noise():
         return None
     return element("noise", *_noise_values(noise), type=noise.type)
 
 
 def _plain_noise(noise: Noise) -> Parameters | None:
-    """``<noise>`` of rays and cameras, where the type is an element, not an attribute."""
+    """Return ``<noise>`` of rays and cameras, where the type is an element, not an attribute."""
     if noise == Noise():
         return None
     return element("noise", leaf("type", noise.type), *_noise_values(noise))
@@ -82,7 +82,7 @@ def _noise_values(noise: Noise) -> Iterator[Parameters | None]:
 
 
 def write_lidar(lidar: Lidar, tag: str) -> Parameters:
-    """``<ray>`` or ``<lidar>``."""
+    """Write ``<ray>`` or ``<lidar>``."""
     return element(
         tag,
         element(
@@ -102,7 +102,7 @@ def write_lidar(lidar: Lidar, tag: str) -> Parameters:
 
 
 def write_scan(scan: Scan, tag: str) -> Parameters:
-    """``<horizontal>`` or ``<vertical>``."""
+    """Write ``<horizontal>`` or ``<vertical>``."""
     return element(
         tag,
         leaf("samples", scan.samples),
@@ -113,7 +113,7 @@ def write_scan(scan: Scan, tag: str) -> Parameters:
 
 
 def write_imu(imu: Imu) -> Parameters:
-    """``<imu>``."""
+    """Write ``<imu>``."""
     return element(
         "imu",
         _axes("angular_velocity", imu.angular_velocity),
@@ -133,7 +133,7 @@ def _axes(tag: str, noises: tuple[Noise, Noise, Noise]) -> Parameters | None:
 
 
 def write_camera(camera: Camera) -> Parameters:
-    """``<camera>``."""
+    """Write ``<camera>``."""
     depth = group("clip", _optional("near", camera.depth_near), _optional("far", camera.depth_far))
     return element(
         "camera",
@@ -168,7 +168,7 @@ def _distortion(camera: Camera) -> Parameters | None:
 
 
 def write_contact(contact: ContactSensor) -> Parameters:
-    """``<contact>``."""
+    """Write ``<contact>``."""
     return element(
         "contact",
         *(leaf("collision", name) for name in contact.collisions),

@@ -7,7 +7,7 @@ from gazelle.formats.write.element import element, group, leaf, overlay
 
 
 def write_surface(surface: Surface) -> Parameters | None:
-    """Friction, contact and bounce; None where all is as by default."""
+    """Write friction, contact and bounce; None if all are the defaults."""
     known = group(
         "surface",
         write_friction(surface.friction),
@@ -21,7 +21,7 @@ def write_surface(surface: Surface) -> Parameters | None:
 
 
 def write_friction(friction: Friction) -> Parameters | None:
-    """``<friction>``."""
+    """Write ``<friction>``."""
     usual = Friction()
     return group(
         "friction",
@@ -38,7 +38,7 @@ def write_friction(friction: Friction) -> Parameters | None:
 
 
 def write_torsional(torsional: TorsionalFriction) -> Parameters:
-    """``<torsional>``."""
+    """Write ``<torsional>``."""
     return element(
         "torsional",
         leaf("coefficient", torsional.coefficient),
@@ -50,7 +50,7 @@ def write_torsional(torsional: TorsionalFriction) -> Parameters:
 
 
 def write_contact(contact: Contact) -> Parameters | None:
-    """``<contact>``."""
+    """Write ``<contact>``."""
     usual = Contact()
     masks = (
         "collide_bitmask",
@@ -67,7 +67,7 @@ def write_contact(contact: Contact) -> Parameters | None:
 
 
 def write_bounce(bounce: Bounce) -> Parameters | None:
-    """``<bounce>``."""
+    """Write ``<bounce>``."""
     usual = Bounce()
     names = ("restitution_coefficient", "threshold")
     return group(

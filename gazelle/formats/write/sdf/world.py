@@ -26,7 +26,7 @@ from gazelle.formats.write.writing import Writing
 
 
 def write_world(world: World, writing: Writing) -> Parameters:
-    """A world with everything in it."""
+    """Write a world with everything in it."""
     usual = World()
     world = _unrestored(world, writing)
     with inside("world", world):
@@ -52,7 +52,7 @@ def write_world(world: World, writing: Writing) -> Parameters:
 
 
 def write_physics(physics: Physics) -> Parameters:
-    """``<physics>``: one profile."""
+    """Write ``<physics>``: one profile."""
     usual = Physics()
     with inside("physics", physics):
         known = element(
@@ -70,7 +70,7 @@ def write_physics(physics: Physics) -> Parameters:
 
 
 def write_ode(ode: Ode) -> Parameters | None:
-    """``<ode>``, what differs from the defaults."""
+    """Write ``<ode>``, what differs from the defaults."""
     usual = Ode()
     solver = ("min_step_size", "iters", "precon_iters", "sor", "friction_model")
     constraints = ("cfm", "erp", "contact_max_correcting_vel", "contact_surface_layer")
@@ -89,7 +89,7 @@ def write_ode(ode: Ode) -> Parameters | None:
 
 
 def write_atmosphere(air: Atmosphere) -> Parameters | None:
-    """``<atmosphere>``; None for the usual one."""
+    """Write ``<atmosphere>``; None for the usual one."""
     if air == Atmosphere():
         return None
     return element(
@@ -102,7 +102,7 @@ def write_atmosphere(air: Atmosphere) -> Parameters | None:
 
 
 def write_spherical(place: SphericalCoordinates | None) -> Parameters | None:
-    """``<spherical_coordinates>``."""
+    """Write ``<spherical_coordinates>``."""
     if place is None:
         return None
     return element(
@@ -116,7 +116,7 @@ def write_spherical(place: SphericalCoordinates | None) -> Parameters | None:
 
 
 def write_scene(scene: Scene) -> Parameters | None:
-    """``<scene>``; None for the usual one."""
+    """Write ``<scene>``; None for the usual one."""
     if scene == Scene():
         return None
     known = element(
@@ -146,7 +146,7 @@ def _gui(camera: Pose) -> Parameters:
 
 
 def _unrestored(world: World, writing: Writing) -> World:
-    """The world before its saved state was applied, as libsdformat leaves it.
+    """Return the world before its saved state was applied, as libsdformat leaves it.
 
     Without its states, if they would move what is no longer where the first one put it.
     """

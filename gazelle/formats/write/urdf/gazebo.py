@@ -40,7 +40,7 @@ PartT = TypeVar("PartT", Sensor, Light)
 
 
 def gazebo_of_link(link: Link, shift: Pose, writing: Writing) -> Parameters | None:
-    """Surfaces, materials, sensors and flags of a link."""
+    """Return surfaces, materials, sensors and flags of a link."""
     names = read_names(link)
     solid = surfaces(link)
     return _referring(
@@ -63,7 +63,7 @@ def gazebo_of_link(link: Link, shift: Pose, writing: Writing) -> Parameters | No
 
 
 def gazebo_of_joint(joint: Joint, shift: Pose) -> Parameters | None:
-    """Springs, engine terms and sensors of a joint, and that a fixed one is to stay."""
+    """Return springs, engine terms and sensors of a joint, and the mark of a kept fixed one."""
     axis = joint.axes[0] if joint.axes else None
     return _referring(
         joint.name,
@@ -76,7 +76,7 @@ def gazebo_of_joint(joint: Joint, shift: Pose) -> Parameters | None:
 
 
 def gazebo_of_model(model: Model, tree: WrittenTree, writing: Writing) -> Parameters | None:
-    """Flags, plugins, and joints that close loops, in SDF's words."""
+    """Return flags, plugins, and joints that close loops, in SDF's words."""
     held = any(joint.parent == WORLD for joint in tree.joints.values())
     loops = (
         replace(joint, pose=_moved(tree.shifts[joint.child], joint.pose)) for joint in tree.loops
@@ -107,12 +107,12 @@ def _placed(part: PartT, shift: Pose) -> PartT:
 
 
 def gazebo_of_surface(link: Link, group: int) -> Parameters | None:
-    """The surface of a link that holds further collisions of another one."""
+    """Return the surface of a link that holds further collisions of another one."""
     return _referring(surface_link(link, group), *_surface(surfaces(link)[group][0]))
 
 
 def _surface(first: Collision) -> Iterable[Parameters | None]:
-    """Contact terms of a collision, that all of its link share."""
+    """Return contact terms of a collision, which all of its link share."""
     friction, contact = first.surface.friction, first.surface.contact
     usual, normal = Friction(), Contact()
     rest = replace(
@@ -141,7 +141,7 @@ def _surface(first: Collision) -> Iterable[Parameters | None]:
 
 
 def _visuals(link: Link, writing: Writing) -> Iterable[Parameters | None]:
-    """Looks, which ``<gazebo>`` gives to all visuals of a link alike."""
+    """Return looks, which ``<gazebo>`` assigns to all visuals of a link alike."""
     shown = visuals_of(link)
     if not shown:
         return ()

@@ -12,7 +12,7 @@ from gazelle.formats.write.writing import Writing
 
 
 def write_joint(joint: Joint, origin: Pose, writing: Writing) -> Parameters:
-    """A joint that stands, as its child's frame does, at ``origin`` in its parent's frame."""
+    """Write a joint at ``origin`` in its parent's frame, as its child's frame is."""
     note_armature(joint, writing)
     with inside("joint", joint):
         kind = joint_kind(joint)
@@ -32,7 +32,7 @@ def write_joint(joint: Joint, origin: Pose, writing: Writing) -> Parameters:
 
 
 def joint_kind(joint: Joint) -> str:
-    """URDF's type: a revolute joint without limits is called continuous there."""
+    """Return URDF's type: a revolute joint without limits is called continuous there."""
     free = joint.axes and joint.axes[0].lower == -math.inf and joint.axes[0].upper == math.inf
     return "continuous" if joint.type == "revolute" and free else joint.type
 
@@ -61,7 +61,7 @@ def _limit(axis: JointAxis, kind: str) -> Parameters | None:
 
 
 def _mimic(mimic: Mimic) -> Parameters:
-    """URDF has no reference position: it goes into the offset."""
+    """Return the mimic; the reference position, which URDF lacks, goes into the offset."""
     offset = mimic.offset - mimic.multiplier * mimic.reference
     return element(
         "mimic",

@@ -33,7 +33,7 @@ _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 def write_link(link: Link, shift: Pose, writing: Writing, *, massless: bool = False) -> Parameters:
-    """A link whose SDF frame is at ``shift`` in its URDF frame.
+    """Write a link whose SDF frame is at ``shift`` in its URDF frame.
 
     Of its collisions only those of the first surface are in it: see ``surfaces``.
     """
@@ -51,7 +51,7 @@ def write_link(link: Link, shift: Pose, writing: Writing, *, massless: bool = Fa
 
 
 def write_collisions(link: Link, group: int, shift: Pose, writing: Writing) -> list[Parameters]:
-    """The collisions of a link that have one surface."""
+    """Write the collisions of a link that have one surface."""
     return [
         _collision(collision, collision_name(collision, link, group), shift, writing)
         for each in surfaces(link)[group : group + 1]
@@ -60,7 +60,7 @@ def write_collisions(link: Link, group: int, shift: Pose, writing: Writing) -> l
 
 
 def visuals_of(link: Link) -> list[Visual]:
-    """The visuals whose shapes URDF has."""
+    """Return the visuals whose shapes URDF has."""
     return [visual for visual in link.visuals if _has_words(visual.geometry)]
 
 
@@ -70,7 +70,7 @@ def _has_words(shape: Geometry) -> bool:
 
 
 def surfaces(link: Link) -> list[list[Collision]]:
-    """The collisions whose shapes URDF has, by surface, which URDF has one of a link.
+    """Return the collisions whose shapes URDF has, by surface; URDF has one a link.
 
     So those of each further one go to a link of their own, that readers lump into this one.
     """
@@ -97,12 +97,12 @@ def surface_link(link: Link, group: int) -> str:
 
 
 def plain_name(part: Collision | Visual, tag: str) -> str:
-    """The name without what readers of URDF put behind it: the tag, and perhaps a number."""
+    """Return the name without the suffix of URDF readers: the tag, and perhaps a number."""
     return re.sub(rf"_{tag}(_\d+)?$", "", part.name)
 
 
 def collision_name(collision: Collision, link: Link, group: int) -> str:
-    """The name to write, by which readers find the surface in the ``<gazebo>`` of its link.
+    """Return the name by which readers find the surface in the ``<gazebo>`` of its link.
 
     libsdformat takes a collision whose name does not begin as its link's for a lumped one, and
     gives it the surface of a link only if it is called after that.
@@ -138,7 +138,7 @@ def read_names(link: Link) -> dict[str, str]:
 
 
 def write_origin(pose: Pose) -> Parameters | None:
-    """``<origin>``; None for the identity.
+    """Write ``<origin>``; None for the identity.
 
     Raises:
         FormatError: The pose is not finite.
@@ -153,7 +153,7 @@ def write_origin(pose: Pose) -> Parameters | None:
 
 
 def write_inertial(inertial: Inertial, shift: Pose) -> Parameters:
-    """``<inertial>``."""
+    """Write ``<inertial>``."""
     tensor = {name: written(getattr(inertial.inertia, name)) for name in _MOMENTS}
     return element(
         "inertial",
@@ -229,7 +229,7 @@ def _mesh(shape: Mesh, writing: Writing) -> Parameters:
 
 
 def package_uri(uri: str, path: Path | None, writing: Writing) -> str:
-    """The URI as programs that read URDF know it: ``model://`` of a package as ``package://``."""
+    """Return the URI for programs that read URDF: ``model://`` of a package as ``package://``."""
     package, _, _ = uri.removeprefix("model://").partition("/")
     if uri.startswith("model://") and path is not None:
         for folder in path.parents:

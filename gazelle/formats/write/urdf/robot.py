@@ -29,7 +29,7 @@ _OF_WORLDS = ("extras", "frames", "joints", "lights", "plugins", "states")
 
 
 def write_urdf(content: World | Model, writing: Writing) -> Parameters:
-    """The root element.
+    """Write the root element.
 
     Raises:
         FormatError: There is not one model; or it has nested ones, a joint that URDF lacks,
@@ -87,7 +87,7 @@ def _content(model: Model, tree: WrittenTree, writing: Writing) -> Iterator[Para
 
 
 def _surfaces(link: Link, tree: WrittenTree, writing: Writing) -> Iterator[Parameters | None]:
-    """Links for the collisions of a link that have other surfaces than its first."""
+    """Yield links for the collisions of a link that have other surfaces than its first."""
     for group in range(1, len(surfaces(link))):
         name = surface_link(link, group)
         shift = tree.shifts[link.name]
@@ -108,7 +108,7 @@ def _fixed(name: str, parent: str, child: str, pose: Pose) -> Parameters:
 
 
 def _frame(frame: Frame, model: Model, tree: WrittenTree, writing: Writing) -> Iterator[Parameters]:
-    """A frame as a link without mass, fixed where the frame is, which readers lump again."""
+    """Yield a frame as a link without mass, fixed at the frame, which readers lump again."""
     if frame.name in tree.links or frame.name == WORLD:
         writing.note(f"URDF names links only: the frame '{frame.name}' is left out", frame.source)
         return

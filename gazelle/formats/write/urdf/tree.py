@@ -36,14 +36,14 @@ class WrittenTree:
     shifts: dict[str, Pose] = field(default_factory=dict)
 
     def origin(self, joint: Joint) -> Pose:
-        """The joint, and the child's frame, in the frame of the parent."""
+        """Return the joint, and the child's frame, in the frame of the parent."""
         if joint.parent == WORLD:
             return self.frames[joint.child]
         return self.frames[joint.parent].inverse() * self.frames[joint.child]
 
 
 def tree_of(model: Model, writing: Writing) -> WrittenTree:
-    """The tree of a model.
+    """Return the tree of a model.
 
     Raises:
         FormatError: The links and joints are no tree, or a joint is of a type that URDF lacks.
@@ -65,7 +65,7 @@ def tree_of(model: Model, writing: Writing) -> WrittenTree:
 
 
 def _holding(model: Model, links: Mapping[str, Link]) -> tuple[dict[str, Joint], list[Joint]]:
-    """The joint that holds each link, and those that are left."""
+    """Return the joint that holds each link, and those that are left."""
     held: dict[str, Joint] = {}
     rest: list[Joint] = []
     for joint in model.joints:
@@ -88,7 +88,7 @@ def _holding(model: Model, links: Mapping[str, Link]) -> tuple[dict[str, Joint],
 
 
 def _join_roots(model: Model, tree: WrittenTree, writing: Writing) -> None:
-    """Hold all roots of a static model together; of another one only one is allowed."""
+    """Join all roots of a static model; another one may have only one."""
     roots = [name for name in tree.links if name not in tree.joints]
     on_world = any(joint.parent == WORLD for joint in tree.joints.values())
     if len(roots) + on_world <= 1:
