@@ -111,7 +111,7 @@ class AGVFleet(Closeable):
     def move_l(
         self, x: ArrayLike, y: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
     ) -> Floats:
-        """Let robots go straight to points [m], together; see ``gazelle.navigation.Motions``.
+        """Drive robots straight to points [m], together; see ``gazelle.navigation.Motions``.
 
         Returns:
             The simulated time that each took [s].
@@ -126,7 +126,7 @@ class AGVFleet(Closeable):
     def move_c(
         self, angle: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
     ) -> Floats:
-        """Let robots turn by angles [rad]; as ``move_l``."""
+        """Turn robots by angles [rad]; as ``move_l``."""
         with self._lock:
             self.motions.move_c(angle, robots, timeout=timeout)
         return self._finish(robots)
@@ -134,13 +134,13 @@ class AGVFleet(Closeable):
     def move_ofsc(
         self, heading: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
     ) -> Floats:
-        """Let robots turn to absolute headings [rad]; as ``move_l``."""
+        """Turn robots to absolute headings [rad]; as ``move_l``."""
         with self._lock:
             self.motions.move_ofsc(heading, robots, timeout=timeout)
         return self._finish(robots)
 
     def cancel(self, robots: ArrayLike | None = None) -> None:
-        """End motions, from any thread; who waits for one gets a ClientError."""
+        """Cancel motions, from any thread; waiting calls raise a ClientError."""
         with self._lock:
             self.motions.cancel(robots)
 
@@ -177,7 +177,7 @@ class AGVFleet(Closeable):
         return taken
 
     def _run(self) -> None:
-        """Answer new poses with commands."""
+        """Send commands for new poses."""
         try:
             while not self._stop.is_set():
                 if self._source.await_news(0.1):
@@ -255,7 +255,7 @@ class AGV(Closeable):
         return x, y, heading
 
     def move_l(self, x: float, y: float, *, timeout: float = 60.0) -> float:
-        """Go straight to a point [m]; returns the simulated time that took [s].
+        """Drive straight to a point [m]; returns the simulated time it took [s].
 
         Raises:
             ClientError: It did not get there in time, or was cancelled.
@@ -271,7 +271,7 @@ class AGV(Closeable):
         return float(self._fleet.move_ofsc(heading, timeout=timeout)[0])
 
     def cancel(self) -> None:
-        """End the motion, from any thread; who waits for it gets a ClientError."""
+        """Cancel the motion, from any thread; a waiting call raises a ClientError."""
         self._fleet.cancel()
 
     def close(self) -> None:

@@ -44,7 +44,7 @@ class PoseSource(ABC):
         return not np.isnan(self._poses).any()
 
     def latest(self) -> tuple[Floats, float]:
-        """x, y [m] and heading [rad], shape (count, 3), and when [s]."""
+        """Return x, y [m] and heading [rad], shape (count, 3), and their time [s]."""
         with self._news:
             return self._poses.copy(), self._time
 
@@ -58,7 +58,7 @@ class PoseSource(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Ask and listen no more."""
+        """Stop requests and subscriptions."""
 
 
 class TopicPoses(PoseSource):
@@ -90,7 +90,7 @@ class TopicPoses(PoseSource):
                 self._news.notify_all()
 
     def close(self) -> None:
-        """Leave the topics."""
+        """Unsubscribe."""
         for subscriber in self._subscribers:
             subscriber.close()
 
@@ -128,7 +128,7 @@ class ServicePoses(PoseSource):
             self._node.clock.sleep(self._period, self._stop.is_set)
 
     def close(self) -> None:
-        """Ask no more."""
+        """Stop requests."""
         self._stop.set()
         self._thread.join(timeout=15.0)
         for client in self._clients:

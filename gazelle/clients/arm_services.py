@@ -61,7 +61,7 @@ class ArmCommander(Closeable):
         return ModelState((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
 
     def rpy(self) -> Vector:
-        """Roll, pitch and yaw of the end effector [rad]; the service has the last two exchanged."""
+        """Return roll, pitch and yaw of the end effector [rad]; the service swaps the last two."""
         answer = self._caller.call("ee_rpy_srv", "fetch_train/EeRpy")
         return (answer.r, answer.y, answer.p)
 

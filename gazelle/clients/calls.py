@@ -43,7 +43,7 @@ class Caller:
         return self._call_until(name, kind, fields, self.retries)[0]
 
     def call_once(self, name: str, kind: str, /, **fields: Any) -> Any:
-        """The same, for what must not be done twice: never made again.
+        """Call a service that must not be repeated: it is never called again.
 
         Raises:
             ClientError: As ``call``; after a connection broke off it may have been done.
@@ -51,7 +51,7 @@ class Caller:
         return self._call_until(name, kind, fields, 0)[0]
 
     def call_again(self, name: str, kind: str, /, **fields: Any) -> tuple[Any, bool]:
-        """The same; also tells whether an earlier try may have been carried out.
+        """Call a service; also returns whether an earlier try may have been carried out.
 
         Raises:
             ClientError: As ``call``.
@@ -89,7 +89,7 @@ class Caller:
         return self.accept(name, self.call(name, kind, **fields))
 
     def demand_once(self, name: str, kind: str, /, **fields: Any) -> Any:
-        """The same, for what must not be done twice.
+        """Call a service that must not be repeated, and check its success.
 
         Raises:
             ClientError: As ``call_once``, and when it answers that it did not succeed.

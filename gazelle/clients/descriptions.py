@@ -45,7 +45,7 @@ def load_urdf(
     xacro_args: Mapping[str, str] | None = None,
     parameter: str = "robot_description",
 ) -> str:
-    """Put the text of a URDF file, with xacro expanded, into a parameter; returns the text.
+    """Load the text of a URDF file, with xacro expanded, into a parameter; returns the text.
 
     Args:
         node: Sets it.

@@ -64,23 +64,23 @@ class Gazebo(PhysicsCalls, Closeable):
     # -- time --------------------------------------------------------------------------------
 
     def pause(self) -> None:
-        """Let time stand still."""
+        """Pause the simulation."""
         self._caller.call("pause_physics", "std_srvs/Empty")
 
     def unpause(self) -> None:
-        """Let time go on."""
+        """Unpause the simulation."""
         self._caller.call("unpause_physics", "std_srvs/Empty")
 
     def reset_simulation(self) -> None:
-        """Put everything back, time too."""
+        """Reset everything, time too."""
         self._caller.call("reset_simulation", "std_srvs/Empty")
 
     def reset_world(self) -> None:
-        """Put the models back; time goes on."""
+        """Reset the models; time continues."""
         self._caller.call("reset_world", "std_srvs/Empty")
 
     def step(self, steps: int = 1) -> float:
-        """Make steps of a paused world; Gazelle only. Returns the time then [s].
+        """Advance a paused world by steps; Gazelle only. Returns the time then [s].
 
         Raises:
             ClientError: The world is not paused, or this is no Gazelle.
@@ -104,7 +104,7 @@ class Gazebo(PhysicsCalls, Closeable):
     # -- models ------------------------------------------------------------------------------
 
     def spawn_urdf(self, name: str, text: str, **where: Unpack[Where]) -> None:
-        """Put a robot there; see ``spawn_sdf`` for where.
+        """Spawn a robot; see ``spawn_sdf`` for where.
 
         Args:
             name: Of the model.
@@ -125,13 +125,13 @@ class Gazebo(PhysicsCalls, Closeable):
         xacro_args: Mapping[str, str] | None = None,
         **where: Unpack[Where],
     ) -> None:
-        """Put a robot of a URDF or xacro file there; see ``read_urdf`` and ``spawn_sdf``."""
+        """Spawn a robot of a URDF or xacro file; see ``read_urdf`` and ``spawn_sdf``."""
         self.spawn_urdf(name, read_urdf(path, package=package, xacro_args=xacro_args), **where)
 
     def spawn_urdf_parameter(
         self, name: str, parameter: str = "robot_description", **where: Unpack[Where]
     ) -> None:
-        """Put a robot there whose URDF a parameter holds; see ``spawn_sdf`` for where.
+        """Spawn a robot whose URDF a parameter holds; see ``spawn_sdf`` for where.
 
         Raises:
             ClientError: The parameter holds no text, or the robot cannot be spawned.
@@ -139,7 +139,7 @@ class Gazebo(PhysicsCalls, Closeable):
         self.spawn_urdf(name, self._parameter(parameter), **where)
 
     def spawn_sdf(self, name: str, text: str, **where: Unpack[Where]) -> None:
-        """Put a model or a light there.
+        """Spawn a model or a light.
 
         Args:
             name: Of the model.
@@ -155,11 +155,11 @@ class Gazebo(PhysicsCalls, Closeable):
     def spawn_sdf_file(
         self, name: str, path: str | Path, *, package: str | None = None, **where: Unpack[Where]
     ) -> None:
-        """Put a model of an SDF file there; see ``spawn_sdf``."""
+        """Spawn a model of an SDF file; see ``spawn_sdf``."""
         self.spawn_sdf(name, read_text(find_file(path, package)), **where)
 
     def spawn_sdf_parameter(self, name: str, parameter: str, **where: Unpack[Where]) -> None:
-        """Put a model there whose SDF a parameter holds; see ``spawn_sdf`` for where.
+        """Spawn a model whose SDF a parameter holds; see ``spawn_sdf`` for where.
 
         Raises:
             ClientError: The parameter holds no text, or the model cannot be spawned.
@@ -199,7 +199,7 @@ class Gazebo(PhysicsCalls, Closeable):
         self._caller.accept(service, answer)
 
     def delete(self, name: str) -> None:
-        """Take a model away.
+        """Delete a model.
 
         Raises:
             ClientError: There is none of that name.
@@ -234,7 +234,7 @@ class Gazebo(PhysicsCalls, Closeable):
         angular: Vector = (0.0, 0.0, 0.0),
         frame: str = "world",
     ) -> None:
-        """Put a model somewhere with a velocity, seen from a frame [m, rad, m/s, rad/s].
+        """Set pose and velocity of a model, relative to a frame [m, rad, m/s, rad/s].
 
         Raises:
             ClientError: There is no such model or frame.
@@ -245,7 +245,7 @@ class Gazebo(PhysicsCalls, Closeable):
         self._caller.demand("set_model_state", "gazebo_msgs/SetModelState", model_state=state)
 
     def set_joints(self, name: str, positions: Mapping[str, float]) -> None:
-        """Put joints of a model somewhere [m or rad].
+        """Set joint positions of a model [m or rad].
 
         Raises:
             ClientError: There is no such model.
@@ -269,7 +269,7 @@ class Gazebo(PhysicsCalls, Closeable):
         duration: float | None = None,
         frame: str = "",
     ) -> None:
-        """Push a link, ``model::link``, for some seconds, for ever if None [N, N m].
+        """Apply a wrench to a link, ``model::link``, for some seconds, for ever if None [N, N m].
 
         Raises:
             ClientError: There is no such link or frame.
@@ -288,11 +288,11 @@ class Gazebo(PhysicsCalls, Closeable):
         )
 
     def clear_wrenches(self, link: str) -> None:
-        """End all wrenches on a link."""
+        """Remove all wrenches from a link."""
         self._caller.call("clear_body_wrenches", "gazebo_msgs/BodyRequest", body_name=link)
 
     def apply_effort(self, joint: str, effort: float, *, duration: float | None = None) -> None:
-        """Let an effort act on a joint for some seconds, for ever if None [N or N m].
+        """Apply an effort to a joint for some seconds, for ever if None [N or N m].
 
         Raises:
             ClientError: There is no such joint.
@@ -307,7 +307,7 @@ class Gazebo(PhysicsCalls, Closeable):
         )
 
     def clear_efforts(self, joint: str) -> None:
-        """End all efforts on a joint."""
+        """Remove all efforts from a joint."""
         self._caller.call("clear_joint_forces", "gazebo_msgs/JointRequest", joint_name=joint)
 
     # -- watching ----------------------------------------------------------------------------

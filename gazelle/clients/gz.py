@@ -26,7 +26,7 @@ _PLACES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Do it; returns the exit code.
+    """Run the command; returns the exit code.
 
     Raises:
         ClientError: The simulator refuses.
@@ -139,7 +139,7 @@ def _model(gazebo: Gazebo, options: argparse.Namespace) -> int:
 
 
 def _spawn(gazebo: Gazebo, name: str, file: str, place: Sequence[float]) -> None:
-    """Put a model there, by what is in the file as Gazebo does.
+    """Spawn a model from a file as Gazebo does.
 
     Raises:
         RosError: The file cannot be read.
@@ -155,7 +155,7 @@ def _spawn(gazebo: Gazebo, name: str, file: str, place: Sequence[float]) -> None
 
 
 def _move(gazebo: Gazebo, name: str, place: Sequence[float | None]) -> None:
-    """Put a model elsewhere; what is not given stays."""
+    """Set the pose of a model; missing values stay."""
     state = gazebo.model_state(name)
     now = (*state.position, *rpy_from_quaternion(state.quaternion))
     x, y, z, roll, pitch, yaw = (

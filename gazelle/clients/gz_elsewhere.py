@@ -48,7 +48,7 @@ def add_elsewhere(commands: argparse._SubParsersAction) -> None:  # type: ignore
 
 
 def elsewhere(options: argparse.Namespace, rest: Sequence[str]) -> int | None:
-    """Do what another command does; returns its exit code, or None for what needs a simulator.
+    """Run a command without a simulator; returns its exit code, or None if it needs one.
 
     Args:
         options: As parsed.

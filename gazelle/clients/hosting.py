@@ -91,7 +91,7 @@ class SimulatorProcess(Closeable):
         return self._process.poll() is None
 
     def close(self) -> None:
-        """End it and wait until it is gone."""
+        """Stop it and wait until it has ended."""
         self.gazebo.close()
         self._end()
 
@@ -134,7 +134,7 @@ def _client(uri: str) -> Gazebo:
 
 
 def _refuse_another(uri: str) -> None:
-    """Make sure that no other simulator will be taken for the one that starts."""
+    """Check that no other simulator is running, which could be taken for the new one."""
     with contextlib.suppress(MasterUnreachableError), GraphInspector("clients", uri) as graph:
         if node_tools.alive(graph, "/gazebo"):
             raise ClientError(

@@ -124,7 +124,7 @@ class JointCommander(Closeable):
                 raise ClientError(self._not_there(left, wanted, timeout))
 
     def close(self) -> None:
-        """Leave the topics; the last command holds."""
+        """Leave the topics; the last command stays in effect."""
         self._publisher.close()
         self._subscriber.close()
 
@@ -157,7 +157,7 @@ class JointCommander(Closeable):
 
 
 def _by_name(targets: Mapping[str, float], joints: Sequence[str], topic: str) -> list[float]:
-    """Targets in a controller's order.
+    """Return targets in a controller's order.
 
     Raises:
         ClientError: One is missing, or is of no joint of it.

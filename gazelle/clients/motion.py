@@ -77,11 +77,11 @@ class Driver(Closeable):
         self._publisher.publish(twist_message((linear, sideways, 0.0), (0.0, 0.0, angular)))
 
     def forward(self) -> None:
-        """Go ahead."""
+        """Drive forward."""
         self.drive(self._linear)
 
     def back(self) -> None:
-        """Go back."""
+        """Drive backward."""
         self.drive(-self._linear)
 
     def left(self) -> None:
@@ -93,11 +93,11 @@ class Driver(Closeable):
         self.drive(angular=-self._angular)
 
     def stop(self) -> None:
-        """Stand still."""
+        """Stop."""
         self.drive()
 
     def close(self) -> None:
-        """Stand still and leave the topics."""
+        """Stop and leave the topics."""
         self.stop()
         self._publisher.close()
         self._subscriber.close()

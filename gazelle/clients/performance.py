@@ -80,7 +80,7 @@ class PerformanceWatch(Closeable):
     # -- results -----------------------------------------------------------------------------
 
     def summary(self) -> dict[str, dict[str, float]]:
-        """Mean, least and most of everything that was seen.
+        """Return mean, least and most of everything that was measured.
 
         Raises:
             ClientError: Nothing was seen yet.
@@ -98,7 +98,7 @@ class PerformanceWatch(Closeable):
         return found
 
     def report(self) -> str:
-        """The same as a table, for people.
+        """Return the summary as a table of text.
 
         Raises:
             ClientError: Nothing was seen yet.
@@ -133,7 +133,7 @@ class PerformanceWatch(Closeable):
             raise ClientError("samples are saved as .csv or .json", file=str(file))
 
     def plot(self, path: str | Path) -> None:
-        """Draw real-time factor, processor and memory over time into a picture.
+        """Plot real-time factor, processor and memory over time into a picture.
 
         Raises:
             MissingExtraError: Matplotlib is not installed.
@@ -185,7 +185,7 @@ class PerformanceWatch(Closeable):
 
 
 def _cpu_seconds(pid: int) -> float:
-    """Processor time a process took so far (proc(5)); 0 if it is gone."""
+    """Return processor time of a process so far (proc(5)); 0 if it has ended."""
     try:
         text = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8")
     except OSError:
@@ -196,7 +196,7 @@ def _cpu_seconds(pid: int) -> float:
 
 
 def _memory(pid: int) -> float:
-    """Resident memory of a process in bytes (proc(5)); 0 if it is gone."""
+    """Return resident memory of a process in bytes (proc(5)); 0 if it has ended."""
     try:
         text = Path(f"/proc/{pid}/statm").read_text(encoding="utf-8")
     except OSError:

@@ -52,7 +52,7 @@ class PhysicsCalls:
         gravity: Vector | None = None,
         **ode: Any,
     ) -> None:
-        """Change how the physics runs; what is None stays.
+        """Set properties of the physics; those that are None stay.
 
         Args:
             time_step: [s].

@@ -53,7 +53,7 @@ class Where(ModelPlace, total=False):
 
 
 def three(value: Sequence[float], what: str) -> Vector:
-    """Three numbers.
+    """Return three numbers.
 
     Raises:
         ClientError: They are not three.

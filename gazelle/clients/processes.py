@@ -118,7 +118,7 @@ class Processes:
         return node_tools.list_nodes(GraphInspector("clients", self._uri)).splitlines()
 
     def stop(self, name: str) -> None:
-        """End what was started here under a name.
+        """Stop what was started here under a name.
 
         Raises:
             ClientError: Nothing was.
@@ -132,20 +132,20 @@ class Processes:
             self._launches.remove(each)
 
     def stop_all(self) -> None:
-        """End everything that was started here, the youngest first."""
+        """Stop everything that was started here, the youngest first."""
         while self._launches:
             self._launches.pop().close()
 
     def kill(self, *nodes: str) -> list[str]:
-        """Ask any nodes of the graph to end; returns those that could not be asked."""
+        """Request any nodes of the graph to shut down; returns those that did not answer."""
         return node_tools.kill(GraphInspector("clients", self._uri), nodes)
 
     def kill_all(self) -> list[str]:
-        """Ask all nodes of the graph to end, whoever started them; see ``kill``."""
+        """Request all nodes of the graph to shut down, whoever started them; see ``kill``."""
         return self.kill(*self.nodes())
 
     def kill_master(self) -> None:
-        """Ask the master to end.
+        """Request the master to shut down.
 
         Raises:
             MasterUnreachableError: There is none.
@@ -193,7 +193,7 @@ class _Running:
         return not self._launch.idle
 
     def close(self) -> None:
-        """End its nodes."""
+        """Stop its nodes."""
         self._launch.end()
         self._thread.join()
         self._launch.close()

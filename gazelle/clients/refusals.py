@@ -17,7 +17,7 @@ _SHARED = {
 
 
 def why_not_loaded(place: str, kind: object, types: Callable[[], Sequence[str]]) -> str:
-    """Why a controller is not loaded.
+    """Return the reason why a controller is not loaded.
 
     Args:
         place: Full name of its parameters.
@@ -35,7 +35,7 @@ def why_not_loaded(place: str, kind: object, types: Callable[[], Sequence[str]])
 
 
 def why_not_unloaded(name: str, states: Mapping[str, str]) -> str:
-    """Why a controller is not unloaded, after what each does."""
+    """Return the reason why a controller is not unloaded, from the states of all."""
     if name not in states:
         return _unknown(name, states)
     if states[name] == "running":
@@ -44,7 +44,10 @@ def why_not_unloaded(name: str, states: Mapping[str, str]) -> str:
 
 
 def why_not_switched(start: Sequence[str], stop: Sequence[str], loaded: Sequence[Any]) -> str:
-    """Why controllers are not switched, after what is loaded (``ControllerState`` messages)."""
+    """Return the reason why controllers are not switched.
+
+    It comes from the loaded ones (``ControllerState`` messages).
+    """
     states = {each.name: each.state for each in loaded}
     for name in (*start, *stop):
         if name not in states:

@@ -66,7 +66,7 @@ class _Spawner:
         self._gazebo = "/" + options.gazebo_namespace.strip("/")
 
     def spawn(self) -> bool:
-        """Do what the command line says; False if Gazebo does not."""
+        """Spawn the model of the command line; False if Gazebo fails."""
         options = self._options
         if options.wait:
             self._wait_for(options.wait)
@@ -96,7 +96,7 @@ class _Spawner:
         return self._configure() and self._unpause()
 
     def delete(self) -> None:
-        """Take the model away again."""
+        """Delete the model again."""
         _log.info("Deleting model %s", self._options.model)
         self._call("delete_model", "DeleteModel", model_name=self._options.model)
 
@@ -125,7 +125,7 @@ class _Spawner:
         return True
 
     def _wait_for(self, model: str) -> None:
-        """Until a model is there, however long it takes."""
+        """Wait for a model, however long it takes."""
         _log.info("Waiting for model %s before proceeding.", model)
         while True:
             answer = self._call("get_world_properties", "GetWorldProperties")
@@ -141,7 +141,7 @@ class _Spawner:
         return self._node.client(full, service).call(request)
 
     def _wait_for_service(self, name: str) -> None:
-        """Until Gazebo is there, however long it takes."""
+        """Wait for Gazebo, however long it takes."""
         try:
             self._node.wait_for_service(name, timeout=_PATIENCE_S)
         except RosTimeoutError:
@@ -235,7 +235,7 @@ def _read_file(path: str) -> str:
 
 
 def _wait_for_the_end(node: Node) -> None:
-    """Until Ctrl-C, or until the node is asked to end."""
+    """Wait for Ctrl-C, or for a request to shut down."""
     with stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
         stop.wait()

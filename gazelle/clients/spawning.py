@@ -27,7 +27,7 @@ def spawn_robot(
     controllers: Sequence[str] = (),
     **where: Unpack[ModelPlace],
 ) -> None:
-    """Put a robot into a running world, with what usually goes with it.
+    """Spawn a robot in a running world, with its usual nodes.
 
     Args:
         gazebo: Where.

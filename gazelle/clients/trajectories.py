@@ -93,7 +93,7 @@ class TrajectoryRun:
         return self._outcome()
 
     def cancel(self) -> None:
-        """Give it up: the joints hold where they are."""
+        """Cancel the goal: the joints hold where they are."""
         self._handle.cancel()
 
     def _outcome(self) -> TrajectoryOutcome:
@@ -144,7 +144,7 @@ class TrajectoryClient(Closeable):
         timeout: float = 60.0,
         progress: Callable[[TrajectoryProgress], object] | None = None,
     ) -> TrajectoryOutcome:
-        """Bring joints to positions in some time, at rest in the end; wait until they are there.
+        """Move joints to positions in some time, at rest in the end; wait until they arrive.
 
         Args:
             targets: Positions by joint [rad or m]; a controller with ``allow_partial_joints_goal``
@@ -224,7 +224,7 @@ class TrajectoryClient(Closeable):
         return TrajectoryRun(self._client, goal, progress)
 
     def close(self) -> None:
-        """Leave the topics; what was sent goes on."""
+        """Leave the topics; a sent trajectory continues."""
         self._client.stop()
 
     def _wait_for_controller(self) -> None:

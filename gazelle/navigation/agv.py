@@ -114,7 +114,7 @@ class Motions:
     def move_l(
         self, x: ArrayLike, y: ArrayLike, robots: ArrayLike | None = None, *, timeout: float = 60.0
     ) -> None:
-        """Go straight to a point, turning to it first.
+        """Drive straight to a point, turning to it first.
 
         Args:
             x: Of the point [m], one for all or shape (n,).
@@ -152,7 +152,7 @@ class Motions:
         self._heading[rows] = heading
 
     def cancel(self, robots: ArrayLike | None = None) -> None:
-        """End the motions of these robots, all if None; the next update lets them stand."""
+        """Cancel the motions of these robots, all if None; the next update stops them."""
         rows = self._rows(robots)
         moving = rows[self.outcome[rows] == Outcome.MOVING]
         self.outcome[moving] = Outcome.CANCELLED

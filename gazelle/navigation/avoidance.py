@@ -55,7 +55,10 @@ def safe_velocity(
 
 
 def _choices(wanted: float, low: float, high: float, count: int) -> Floats:
-    """Values of a range, with the one nearest to what is wanted, and zero if it is in it."""
+    """Return values of a range, with the one nearest to the wanted value.
+
+    Zero is among them if the range contains it.
+    """
     special = np.clip((wanted, 0.0), low, high)
     return np.unique(np.concatenate((np.linspace(low, high, count), special)))
 
@@ -63,7 +66,7 @@ def _choices(wanted: float, low: float, high: float, count: int) -> Floats:
 def _room(
     tried: Floats, points: Floats, interval: float, limits: BaseLimits
 ) -> tuple[Floats, float]:
-    """Least distance of the base's rim to obstacles until it stands [m], for each velocity.
+    """Return the least distance of the base's rim to obstacles until it stops [m], by velocity.
 
     Also what it is now. Stopping takes the reaction, the interval and the braking.
     """

@@ -38,7 +38,7 @@ class ExploreSettings:
 
     @classmethod
     def read(cls, values: Values) -> ExploreSettings:
-        """From parameters.
+        """Read the parameters.
 
         Raises:
             Error: One is of the wrong kind, or it would never look.
@@ -92,7 +92,7 @@ class Explorer:
         )
 
     def give_up(self, place: Place) -> None:
-        """Do not go there any more; there is no way."""
+        """Exclude an unreachable place from now on."""
         self.given_up.append(place)
 
     def decide(self, time: float, frontiers: Sequence[Frontier]) -> NextGoal:

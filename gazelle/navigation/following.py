@@ -22,7 +22,7 @@ def wrapped(angle: float) -> float:
 
 
 def wanted_velocity(path: Floats, pose: Pose2, limits: BaseLimits) -> tuple[float, float]:
-    """Forward [m/s] and turning [rad/s] velocity that follow a path, were there nothing around.
+    """Return forward [m/s] and turning [rad/s] velocity that follow a path without obstacles.
 
     The base steers for a point of the path a little ahead of it, on an arc (pure pursuit,
     R. C. Coulter, CMU-RI-TR-92-01, 1992), and brakes for the end.
@@ -52,7 +52,7 @@ def wanted_velocity(path: Floats, pose: Pose2, limits: BaseLimits) -> tuple[floa
 
 
 def turn_to(heading: float, pose: Pose2, limits: BaseLimits) -> float:
-    """Turning rate towards a heading on the spot [rad/s]."""
+    """Return the turning rate towards a heading on the spot [rad/s]."""
     return _bounded(_TURNING_GAIN * wrapped(heading - pose[2]), limits.angular)
 
 

@@ -80,7 +80,7 @@ def find_frontiers(
 
 
 def _beside(cells: Bools) -> Bools:
-    """Cells that have one of these on a side."""
+    """Return the cells with one of these on a side."""
     found = np.zeros_like(cells)
     found[1:] |= cells[:-1]
     found[:-1] |= cells[1:]

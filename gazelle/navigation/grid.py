@@ -56,16 +56,16 @@ class OccupancyGrid:
         return self.cells > _OBSTACLE
 
     def cell_of(self, points: ArrayLike) -> Indices:
-        """Indices of the cells that points are in, shape (..., 2); they may lie outside."""
+        """Return indices of the cells that points are in, shape (..., 2); they may lie outside."""
         scaled = (np.asarray(points, np.float64) - self.origin) / self.resolution
         return np.floor(scaled).astype(np.intp)
 
     def centre_of(self, cells: ArrayLike) -> Floats:
-        """Middles of cells [m], shape (..., 2)."""
+        """Return the middles of cells [m], shape (..., 2)."""
         return self.origin + (np.asarray(cells, np.float64) + 0.5) * self.resolution
 
     def include(self, points: ArrayLike) -> None:
-        """Grow until points, shape (n, 2), are on the map, with some ground around them."""
+        """Extend the map until points, shape (n, 2), are on it, with some margin."""
         places = np.asarray(points, np.float64).reshape(-1, 2)
         if not self.cells.size:
             first = np.floor((places[0] - _MARGIN) / self.resolution)
@@ -87,7 +87,7 @@ class OccupancyGrid:
         self.origin = self.origin - before * self.resolution
 
     def insert(self, place: ArrayLike, ends: Floats, seen: Bools) -> None:
-        """Learn from one scan: cells on the way of rays are free, those at their ends are not.
+        """Insert one scan: cells along rays become free, those at their ends occupied.
 
         Args:
             place: Of the scanner (x, y) [m].
@@ -111,7 +111,7 @@ class OccupancyGrid:
         np.clip(self.cells, _LEAST, _MOST, out=self.cells)
 
     def near_obstacles(self, distance: float) -> Bools:
-        """Cells within a distance [m] of an obstacle."""
+        """Return cells within a distance [m] of an obstacle."""
         return dilate(self.occupied, distance / self.resolution)
 
     def is_near(self, points: ArrayLike, distance: float) -> Bools:
@@ -129,7 +129,7 @@ class OccupancyGrid:
 
 @functools.lru_cache(maxsize=8)
 def _disc(radius: float) -> Indices:
-    """Offsets of the cells within a radius [cells], shape (n, 2)."""
+    """Return offsets of the cells within a radius [cells], shape (n, 2)."""
     reach = np.arange(-int(radius), int(radius) + 1)
     across, along = np.meshgrid(reach, reach, indexing="ij")
     return np.argwhere(across**2 + along**2 <= radius * radius) - int(radius)

@@ -43,7 +43,7 @@ class LiveMap:
         return self._slam.map_to_odom
 
     def update(self, time: float, odom: Pose2, scan: PlanarScan) -> OccupancyMap | None:
-        """Take a scan; returns a new map if it is time for one.
+        """Process a scan; returns a new map if one is due.
 
         Args:
             time: Of the scan [s].

@@ -28,7 +28,7 @@ _ROUND = 12
 
 
 def outline_of(model: Model) -> Floats | None:
-    """The corners of a robot seen from above, in its frame, shape (n, 2) [m]; None if it has no shape."""
+    """Return the footprint of a robot, in its frame, shape (n, 2) [m]; None without a shape."""
     corners = [
         pose.apply(point)[:2]
         for link, place in _links(model, Pose())
@@ -51,7 +51,7 @@ def _links(model: Model, pose: Pose) -> Iterator[tuple[Link, Pose]]:
 
 
 def _corners(collision: Collision) -> list[tuple[float, float, float]]:
-    """Points that a shape's hull is made of, or is within."""
+    """Return points whose hull is, or contains, a shape."""
     shape = collision.geometry
     if isinstance(shape, Box):
         return _box(*(side / 2.0 for side in shape.size))

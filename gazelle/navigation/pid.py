@@ -61,7 +61,7 @@ class BoundedPid:
         return self._sum.copy()
 
     def update(self, error: ArrayLike, dt: float, rows: Rows | None = None) -> Floats:
-        """Outputs for the errors now.
+        """Return the outputs for the errors now.
 
         Args:
             error: Shape (n,), or one number for all.
@@ -89,6 +89,6 @@ class BoundedPid:
         return out
 
     def reset(self, rows: Rows | None = None) -> None:
-        """Forget the past of these loops, all if None."""
+        """Reset these loops, all if None."""
         which = slice(None) if rows is None else rows
         self._sum[which], self._last[which] = 0.0, math.nan

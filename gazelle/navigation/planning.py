@@ -44,7 +44,7 @@ def plan(grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits) -
 def _way(
     grid: OccupancyGrid, start: Floats, goal: Floats, limits: BaseLimits, room: float
 ) -> list[Cell] | None:
-    """The cells of the cheapest way that keeps so far from obstacles [m]; None if there is none."""
+    """Return the cells of the cheapest path with a clearance [m]; None without one."""
     prices = _prices(grid, start, room)
     last = _nearest_open(grid, prices, start, goal, limits)
     return None if last is None else find_way(prices, _cell(grid, start), last)
@@ -68,7 +68,7 @@ def _prices(grid: OccupancyGrid, start: Floats, room: float) -> Floats:
 
 
 def _around(grid: OccupancyGrid, place: Floats, distance: float) -> Bools:
-    """Cells within a distance of a place."""
+    """Return cells within a distance of a place."""
     columns, rows = grid.cells.shape
     x = grid.origin[0] + (np.arange(columns) + 0.5) * grid.resolution - place[0]
     y = grid.origin[1] + (np.arange(rows) + 0.5) * grid.resolution - place[1]

@@ -80,7 +80,7 @@ class GoToGoal(ModelPlugin):
         return np.array([seeker is not None and seeker.arrived for seeker in seekers])
 
     def seek(self, goal: GoalPose, worlds: Worlds | None = None) -> None:
-        """Go there.
+        """Set a goal.
 
         Args:
             goal: In the frame of the odometry.
@@ -138,14 +138,14 @@ class GoToGoal(ModelPlugin):
         self._scan = unit.reading(unit.current())
 
     def _fall_asleep(self) -> None:
-        """Let the laser sleep while there is no goal."""
+        """Put the laser to sleep while there is no goal."""
         if self._sleep is not None:
             self._sleep()
             self._sleep = None
         self._scan = None
 
     def _scan_of(self, world: int) -> LaserScan | None:
-        """One world's scan: the middle row, if there are several."""
+        """Return one world's scan: the middle row, if there are several."""
         scan = self._scan
         if scan is None:
             return None
@@ -166,7 +166,7 @@ class GoToGoal(ModelPlugin):
         return odometry
 
     def _poses(self, time: float) -> list[Pose2]:
-        """x, y and heading in every world: the last odometry, moved on to now."""
+        """Return x, y and heading in every world: the last odometry, advanced to now."""
         odometry = self._odometry()
         since = time - odometry.stamp / 1e9
         place = odometry.position + since * rotate(odometry.quaternion, odometry.linear)
@@ -206,14 +206,14 @@ class GoToGoal(ModelPlugin):
             self._seekers.pop(world, None)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Have no goal and know nothing of the ground."""
+        """Clear goals and maps."""
         self._forget(worlds)
         self._shown_at = -math.inf
         if not self.active:
             self._fall_asleep()
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Goals, maps and paths of the worlds that had a goal."""
+        """Return goals, maps and paths of the worlds that had a goal."""
         held: dict[str, NDArray[np.generic]] = {
             f"{world}/{name}": values
             for world, seeker in self._seekers.items()
@@ -225,7 +225,7 @@ class GoToGoal(ModelPlugin):
         return held
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._seekers.clear()
         parts: dict[int, dict[str, NDArray[np.generic]]] = {}
         for name, values in state.items():

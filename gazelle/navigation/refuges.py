@@ -77,7 +77,7 @@ class RefugeMap:
         return found
 
     def way(self, robot: RobotDisc, goal: Sequence[float]) -> Floats:
-        """The way to a place as if no other robot were there, shape (n, 2) [m]; empty if there is none."""
+        """Return the path to a place without other robots, shape (n, 2) [m]; empty without one."""
         start, end = self._cell(robot.x, robot.y), self._cell(goal[0], goal[1])
         if start is None or end is None:
             return np.zeros((0, 2))
@@ -129,7 +129,10 @@ class RefugeMap:
         return RobotDisc(x, y, robot.inscribed, robot.circumscribed)
 
     def _prices(self, robot: RobotDisc) -> Floats32:
-        """Of a cell's length for a robot, 0 where it is closed; shape (rows, columns)."""
+        """Return the cost of a cell's length for a robot, 0 where it is closed.
+
+        Shape (rows, columns).
+        """
         spare = self._room - robot.inscribed
         prices = _NEUTRAL + _NEAR_WALLS * np.exp(-_DECAY * np.maximum(spare, 0.0))
         prices[spare < 0.0] = 0.0
@@ -155,7 +158,7 @@ class RefugeMap:
         return within
 
     def _cell(self, x: float, y: float) -> tuple[int, int] | None:
-        """Column and row of a place; None at the rim, where nothing goes, and beyond."""
+        """Return column and row of a place; None at the closed rim, and beyond."""
         column = math.floor((x - self._corner[0]) / self._side)
         row = math.floor((y - self._corner[1]) / self._side)
         rows, columns = self._room.shape

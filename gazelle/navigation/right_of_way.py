@@ -51,7 +51,7 @@ class RightOfWaySettings:
 
     @classmethod
     def read(cls, values: Values) -> RightOfWaySettings:
-        """From parameters of ``move_base``.
+        """Read the parameters of ``move_base``.
 
         Raises:
             Error: One is of the wrong kind.
@@ -90,10 +90,10 @@ class Traveller(Protocol):
         """Wait."""
 
     def step_aside(self, x: float, y: float, time: float) -> None:
-        """Go to a place and wait there."""
+        """Move to a place and wait there."""
 
     def go_on(self, time: float, known: RefugeMap, others: Sequence[RobotDisc]) -> None:
-        """Go to its own goal, and forget what was seen that is neither on the map nor another robot."""
+        """Resume its own goal, and clear observations of neither the map nor other robots."""
 
 
 @dataclass(slots=True)
@@ -163,7 +163,7 @@ class RightOfWay:
         self._maps: dict[int, tuple[OccupancyMap, RefugeMap]] = {}
 
     def update(self, time: float, travellers: Sequence[Traveller]) -> None:
-        """Look at all robots, when it is due.
+        """Update all robots, when it is due.
 
         Args:
             time: Now [s].
@@ -203,7 +203,7 @@ class RightOfWay:
         )
 
     def _map(self, grid: OccupancyMap) -> RefugeMap:
-        """Made once for each map that robots have."""
+        """Return the map of a grid, made once for each."""
         found = self._maps.get(id(grid))
         if found is None or found[0] is not grid:
             found = self._maps[id(grid)] = grid, RefugeMap(grid)
@@ -212,7 +212,7 @@ class RightOfWay:
     # Who waits for whom -------------------------------------------------------------------
 
     def _meet(self, time: float, free: Sequence[Traveller], everyone: Sequence[Traveller]) -> None:
-        """Let the first of those that hang together go on."""
+        """Let the first robot of a group that blocks itself continue."""
         standing = [each for each in free if self._stands(time, each)]
         ways = {each.name: self._way(each) for each in standing}
         groups = [{each.name} for each in standing]
@@ -245,7 +245,7 @@ class RightOfWay:
         members: Sequence[Traveller],
         everyone: Sequence[Traveller],
     ) -> bool:
-        """Let others make way for one, if there is room to."""
+        """Start an encounter: others make way for one, if there is room."""
         reached = {each.name: _blocks(each, leader, way) for each in members}
         # The nearest chooses first: who stands behind it can go farther back.
         in_way = sorted(
@@ -301,7 +301,7 @@ class RightOfWay:
     # Going on -----------------------------------------------------------------------------
 
     def _go_on(self, time: float, met: _Encounter, present: Sequence[Traveller]) -> bool:
-        """Take an encounter further; returns whether it lasts."""
+        """Advance an encounter; returns whether it lasts."""
         met.waiting = [
             each
             for each in met.waiting
@@ -351,7 +351,7 @@ class RightOfWay:
         return False
 
     def _end(self, time: float, met: _Encounter) -> bool:
-        """Let all go on."""
+        """End an encounter: all continue."""
         if not met.under_way and met.leader.goal == met.goal:
             self._send(time, met.leader)
         for each in met.waiting:

@@ -49,7 +49,7 @@ class RobotNavigation(ModelPlugin):
     update_rate = 10.0
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
-        """Look for a laser and a drive.
+        """Find a laser and a drive.
 
         Raises:
             SimulationError: There is none.
@@ -77,7 +77,7 @@ class RobotNavigation(ModelPlugin):
         self.traffic: dict[int, RightOfWay] = next((p.traffic for p in self._peers()), {})
 
     def _peers(self) -> Iterator[RobotNavigation]:
-        """All of the simulation that are there, by now."""
+        """Yield all present ones of the simulation."""
         for entry in self._robot.simulation.plugins:
             if isinstance(entry.plugin, RobotNavigation):
                 yield entry.plugin
@@ -89,7 +89,7 @@ class RobotNavigation(ModelPlugin):
         grid: OccupancyMap | None = None,
         localization: str = "truth",
     ) -> None:
-        """Use other parameters, another map, or another way to know where the robot is.
+        """Set other parameters, another map, or another localisation.
 
         Goals are forgotten.
 
@@ -123,7 +123,7 @@ class RobotNavigation(ModelPlugin):
         self.pilots.clear()
 
     def _keep_to(self, rate: float) -> None:
-        """Take cycles at another rate [Hz]."""
+        """Set the rate of cycles [Hz]."""
         self.update_rate = rate
         simulation = self._robot.simulation
         for entry in simulation.plugins:
@@ -134,7 +134,7 @@ class RobotNavigation(ModelPlugin):
     def go_to(
         self, x: float, y: float, yaw: float | None = None, *, worlds: Worlds | None = None
     ) -> GoalTask:
-        """Go there; the simulation has to run, by itself or by ``wait`` of what is returned.
+        """Set a goal; the simulation has to run, by itself or by ``wait`` of what is returned.
 
         Args:
             x: In the map's frame: the world's, unless a map was given [m].
@@ -159,7 +159,7 @@ class RobotNavigation(ModelPlugin):
     def explore(
         self, settings: ExploreSettings | None = None, *, worlds: Worlds | None = None
     ) -> GoalTask:
-        """Go from frontier to frontier of the map until none is left; the simulation has to run.
+        """Explore frontiers of the map until none is left; the simulation has to run.
 
         With ``localization="slam"`` that is until the map is whole. The law is that of ``explore_lite``.
 
@@ -174,11 +174,14 @@ class RobotNavigation(ModelPlugin):
         return GoalTask(self._robot, [self.pilots[world] for world in some])
 
     def map(self, world: int = 0) -> OccupancyMap | None:
-        """The map that a world's robot works on; None before the first scan of one that is made."""
+        """Return the map that a world's robot uses.
+
+        None before the first scan of one that is made.
+        """
         return self._pilot(one_world(world, self._robot.simulation.nworld)).grid
 
     def cancel(self, worlds: Worlds | None = None) -> None:
-        """Have no goal, and stand."""
+        """Cancel the goal and stop."""
         some = list(self.pilots) if worlds is None else self._some(worlds)
         for world in some:
             pilot = self.pilots.get(world)
@@ -202,7 +205,7 @@ class RobotNavigation(ModelPlugin):
         }
 
     def on_update(self, time: float) -> None:
-        """Take a cycle in each world with a goal."""
+        """Run a cycle in each world with a goal."""
         busy = {world: pilot for world, pilot in self.pilots.items() if pilot.busy}
         scan = self._scan
         if not busy or scan is None:
@@ -227,7 +230,7 @@ class RobotNavigation(ModelPlugin):
             self._make_way(time, world)
 
     def _make_way(self, time: float, world: int) -> None:
-        """See to it that the robots of a world do not wait for one another for ever."""
+        """Resolve deadlocks between robots of a world."""
         traffic = self.traffic.setdefault(world, RightOfWay())
         if time < traffic.due - 1e-6:
             return
@@ -266,7 +269,7 @@ class RobotNavigation(ModelPlugin):
         return outline_of(self._robot.description)
 
     def _height(self) -> float:
-        """Of the laser above the ground [m]."""
+        """Return the height of the laser above the ground [m]."""
         unit = self._unit
         for link in self._robot.links.values():
             if unit.description in link.description.sensors:
@@ -281,7 +284,7 @@ class RobotNavigation(ModelPlugin):
         return self._grid
 
     def _planar(self, scan: LaserScan, world: int) -> PlanarScan:
-        """One world's scan: the middle row, if there are several."""
+        """Return one world's scan: the middle row, if there are several."""
         rows = self._unit.model.rows
         ranges = np.array(scan.ranges[world].reshape(rows, -1)[rows // 2], np.float64)
         count = np.arange(len(ranges), dtype=np.float64)
@@ -296,14 +299,14 @@ class RobotNavigation(ModelPlugin):
         self._scan = unit.reading(unit.current())
 
     def _fall_asleep(self) -> None:
-        """Let the laser sleep while there is no goal."""
+        """Put the laser to sleep while there is no goal."""
         if self._sleep is not None:
             self._sleep()
             self._sleep = None
         self._scan = None
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Have no goal and know nothing but the map."""
+        """Clear the goal and all but the map."""
         for world in [*self.pilots] if worlds is None else worlds.tolist():
             self.pilots.pop(world, None)
             self.traffic.pop(world, None)

@@ -82,7 +82,7 @@ class GoalSeeker:
         return None if self._goal is None else tuple(self._goal[~np.isnan(self._goal)].tolist())
 
     def seek(self, goal: Sequence[float]) -> None:
-        """Go to another goal.
+        """Set another goal.
 
         Args:
             goal: (x, y) or (x, y, yaw) [m, rad].
@@ -93,7 +93,7 @@ class GoalSeeker:
         self._planned_at, self._best = -math.inf, math.inf
 
     def stop(self) -> None:
-        """Go nowhere; the map stays."""
+        """Clear the goal; the map stays."""
         self._goal = None
         self.path = np.zeros((0, 2))
         self._turning = False
@@ -150,7 +150,7 @@ class GoalSeeker:
         return math.dist(self.path[-1], self._goal[:2]) > 1e-6
 
     def _finish(self, pose: Pose2) -> tuple[float, float]:
-        """Turn to the heading of the goal, if it has one, and stand still."""
+        """Return the turn to the heading of the goal, if it has one, or rest."""
         yaw = math.nan if self._goal is None else float(self._goal[2])
         self._turning = True
         if not math.isnan(yaw) and abs(wrapped(yaw - pose[2])) > self._yaw_tolerance:
@@ -188,7 +188,7 @@ class GoalSeeker:
         return waiting > _STUCK_AFTER
 
     def _look(self, scan: LaserScan) -> None:
-        """Put a scan on the map, from where the base was when it was made."""
+        """Insert a scan into the map, from the pose of the base at its time."""
         self._scanned_at = scan.stamp / 1e9
         x, y, yaw = self._pose_at(self._scanned_at)
         at_x, at_y, turned = self._laser
@@ -223,7 +223,7 @@ class GoalSeeker:
         )
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         goal = np.full(3, math.inf) if self._goal is None else self._goal
         numbers = [*self._velocity, self._scanned_at, self._planned_at, self._best, self._best_at]
         return {
@@ -237,7 +237,7 @@ class GoalSeeker:
         }
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         held = {name: np.array(values, np.float64) for name, values in state.items()}
         self.grid.cells, self.grid.origin = held["cells"], held["origin"]
         self._goal = None if np.isinf(held["goal"]).all() else held["goal"]
@@ -251,7 +251,7 @@ class GoalSeeker:
 
 
 def _in_frame(points: Floats, pose: Pose2) -> Floats:
-    """Points of the ground as the base sees them, shape (n, 2)."""
+    """Return points of the ground in the frame of the base, shape (n, 2)."""
     x, y, yaw = pose
     cos, sin = math.cos(yaw), math.sin(yaw)
     turn = np.array([[cos, -sin], [sin, cos]])

@@ -85,7 +85,7 @@ def _links(model: Model, pose: Pose) -> Iterator[tuple[Link, Pose]]:
 
 
 def _edges(parts: list[PlanarPart]) -> Floats:
-    """Ends of the edges of what is there, shape (n, 4) [m]; circles as polygons."""
+    """Return ends of the edges of all shapes, shape (n, 4) [m]; circles as polygons."""
     rows: list[tuple[float, float, float, float]] = []
     for part in parts:
         points = _circle(part) if len(part.points) == 1 else list(part.points)
@@ -107,7 +107,7 @@ def _extent(
     margin: float,
     area: tuple[float, float, float, float] | None,
 ) -> tuple[Floats, tuple[int, int]]:
-    """Lower left corner [m], on a whole number of cells, and rows and columns."""
+    """Return the lower left corner [m], on a whole number of cells, and rows and columns."""
     if area is not None:
         low, high = np.array(area[:2], np.float64), np.array(area[2:], np.float64)
     else:
@@ -129,7 +129,7 @@ def _extent(
 
 
 def _stamp(occupied: Bools, edges: Floats) -> None:
-    """Occupy the cells that edges run through, and those within them by the even-odd rule."""
+    """Mark the cells that edges cross as occupied, and those within by the even-odd rule."""
     _fill(occupied, edges)
     lengths = np.hypot(edges[:, 2] - edges[:, 0], edges[:, 3] - edges[:, 1])
     counts = np.ceil(4.0 * lengths).astype(int) + 1
@@ -157,7 +157,7 @@ def _taken(occupied: Bools, points: Floats) -> Bools:
 
 
 def _fill(occupied: Bools, edges: Floats) -> None:
-    """Occupy the cells whose middles are within closed edges."""
+    """Mark the cells whose middles are within closed edges as occupied."""
     rows, columns = occupied.shape
     first = max(math.floor(edges[:, 1::2].min()), 0)
     last = min(math.ceil(edges[:, 1::2].max()), rows)

@@ -43,7 +43,7 @@ USUAL: Mapping[str, Any] = {
 
 
 def merged(usual: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
-    """Parameters over others, level by level.
+    """Merge parameters over others, level by level.
 
     Raises:
         SimulationError: They are no mapping.
@@ -61,7 +61,7 @@ def merged(usual: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]
 
 
 def with_outline(values: Mapping[str, Any], outline: Floats | None) -> dict[str, Any]:
-    """Both costmaps with the robot's outline, where they have none."""
+    """Return both costmaps with the robot's outline, where they have none."""
     found = {}
     for name in ("global_costmap", "local_costmap"):
         own = dict(values[name])

@@ -28,7 +28,7 @@ class WorldExploration:
         self._due = -math.inf
 
     def ended(self, outcome: GoalOutcome) -> None:
-        """The last goal is over; the next one is looked for at once."""
+        """Handle the end of the last goal; the next one is chosen at once."""
         if (
             outcome is GoalOutcome.ABORTED
             and self._explorer is not None
@@ -38,7 +38,7 @@ class WorldExploration:
         self._due = -math.inf
 
     def step(self, time: float, pose: Pose2, grid: OccupancyMap, law: MoveBase) -> bool:
-        """Look where to go if it is time to; whether nothing is left to explore.
+        """Choose a goal if one is due; returns whether exploration is complete.
 
         Args:
             time: Now [s].

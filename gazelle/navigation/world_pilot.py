@@ -74,7 +74,7 @@ class WorldPilot:
             self._lay(grid)
 
     def _lay(self, grid: OccupancyMap) -> None:
-        """Work on a map from now on."""
+        """Use a map from now on."""
         self.grid = grid
         for setup in (self._stack.whole, self._stack.local):
             for layer in setup.costmap.layers:
@@ -106,21 +106,21 @@ class WorldPilot:
         return RobotDisc(*self._pose[:2], costmap.inscribed, costmap.circumscribed)
 
     def go(self, goal: Pose2, time: float) -> None:
-        """Go there."""
+        """Set a goal."""
         self.outcome, self.text, self.path = None, "", np.zeros((0, 3))
         self._exploration = None
         self._have_way()
         self._stack.move_base.set_goal(goal, time)
 
     def explore(self, settings: ExploreSettings) -> None:
-        """Go from frontier to frontier of the map until none is left."""
+        """Explore frontiers of the map until none is left."""
         self.outcome, self.text, self.path = None, "", np.zeros((0, 3))
         self._have_way()
         self._stack.move_base.cancel()
         self._exploration = WorldExploration(settings)
 
     def cancel(self) -> None:
-        """Have no goal."""
+        """Cancel the goal."""
         self._exploration = None
         self._have_way()
         self._stack.move_base.cancel()
@@ -133,14 +133,14 @@ class WorldPilot:
         self._stack.move_base.cancel()
 
     def step_aside(self, x: float, y: float, time: float) -> None:
-        """Go to a place and wait there, in whatever heading."""
+        """Move to a place and wait there, in whatever heading."""
         heading = 0.0 if self._pose is None else self._pose[2]
         self._refuge, self.aside = (x, y, heading), False
         self._look_anew()
         self._stack.move_base.set_goal(self._refuge, time)
 
     def go_on(self, time: float, known: RefugeMap, others: Sequence[RobotDisc]) -> None:
-        """Go to the goal that was put off, and forget what was seen that is neither on the map nor a robot.
+        """Resume the deferred goal, and clear observations of neither the map nor robots.
 
         Where others stood their outlines stay else, as a beam that meets nothing takes none away. Walls
         and robots beside and behind this one are kept, as it may not see them again.
@@ -169,7 +169,7 @@ class WorldPilot:
         self._put_off, self._refuge, self.aside = None, None, False
 
     def _look_anew(self) -> None:
-        """Forget all obstacles of the global costmap: others have moved since they were seen."""
+        """Clear all obstacles of the global costmap: others have moved since they were seen."""
         for layer in self._stack.whole.costmap.layers:
             if isinstance(layer, ObstacleLayer):
                 layer.reset()
@@ -183,7 +183,7 @@ class WorldPilot:
         scan: PlanarScan,
         stamp: int,
     ) -> Velocity | None:
-        """Take a cycle; returns the velocity to have, None to leave it.
+        """Run a cycle; returns the velocity to command, None to leave it.
 
         Args:
             time: Now [s].
@@ -253,7 +253,7 @@ class WorldPilot:
     def _locate(
         self, localizer: Localizer | LiveMap, time: float, odom: Pose2, scan: PlanarScan
     ) -> None:
-        """Take a scan, and the map if there is a new one."""
+        """Process a scan, and the map if there is a new one."""
         if isinstance(localizer, Localizer):
             localizer.update(odom, scan)
             return
@@ -263,7 +263,7 @@ class WorldPilot:
 
 
 def _ends(scan: PlanarScan, height: float) -> Floats:
-    """Ends of beams in the robot's frame, shape (n, 3) [m]."""
+    """Return the ends of beams in the robot's frame, shape (n, 3) [m]."""
     good = (scan.ranges >= scan.range_min) & (scan.ranges < scan.range_max)
     turned = scan.angles[good] + scan.laser[2]
     points = np.full((int(good.sum()), 3), height)

@@ -22,7 +22,7 @@ class AllowedCollisionMatrix:
 
     @classmethod
     def of_robot(cls, model: Model, semantics: Semantics) -> Self:
-        """As an SRDF says; without any pair there, links that one joint holds together may touch."""
+        """Return the rules of an SRDF; without any pair there, adjacent links may touch."""
         made = cls()
         for link in semantics.unchecked_links:
             made.set_default(link, allowed=True)
@@ -41,25 +41,25 @@ class AllowedCollisionMatrix:
         return made
 
     def set_pair(self, first: str, second: str, *, allowed: bool) -> None:
-        """Say of a pair whether it may touch."""
+        """Set whether a pair may touch."""
         self._pairs[_key(first, second)] = allowed
 
     def set_default(self, name: str, *, allowed: bool) -> None:
-        """Say of a name whether it may touch what no pair says anything of."""
+        """Set whether a name may touch others that no pair covers."""
         self._names[name] = allowed
 
     def forget(self, name: str) -> None:
-        """Drop all entries of a name."""
+        """Remove all entries of a name."""
         self._names.pop(name, None)
         self._pairs = {pair: value for pair, value in self._pairs.items() if name not in pair}
 
     def clear(self) -> None:
-        """Drop all entries: nothing may touch."""
+        """Remove all entries: nothing may touch."""
         self._pairs.clear()
         self._names.clear()
 
     def copy(self) -> AllowedCollisionMatrix:
-        """Another one that says the same."""
+        """Return an equal matrix."""
         made = AllowedCollisionMatrix()
         made._pairs, made._names = dict(self._pairs), dict(self._names)  # its own class
         return made
@@ -73,7 +73,7 @@ class AllowedCollisionMatrix:
         return bool(said) and all(said)
 
     def allowed_among(self, names: Iterable[str]) -> list[Pair]:
-        """All pairs of some names that may touch."""
+        """Return all pairs of some names that may touch."""
         known = sorted(set(names))
         if not self._names:
             here = set(known)

@@ -41,7 +41,10 @@ class PathPieces:
         return float(self.begins[-1])
 
     def at(self, places: Floats) -> tuple[Floats, Floats, Floats]:
-        """Positions, and their first and second derivatives by the place, shape (m, n) each."""
+        """Return positions, and their first and second derivatives by the place.
+
+        Each has shape (m, n).
+        """
         index = np.searchsorted(self.begins, places, "right") - 1
         index = np.clip(index, 0, len(self.radii) - 1)
         along = (places - self.begins[index])[:, None]
@@ -59,7 +62,7 @@ class PathPieces:
 
 
 def blended(points: Floats, deviation: float) -> PathPieces:
-    """A path through points, its corners rounded off.
+    """Return a path through points, its corners rounded off.
 
     Args:
         points: Each another one than the last, shape (m, n), m at least 2.
@@ -103,7 +106,10 @@ def _add_line(
 def _arc(
     before: Floats, corner: Floats, after: Floats, deviation: float
 ) -> tuple[float, float, Floats, Floats, Floats, Floats] | None:
-    """Angle, radius, centre, axes and end of the arc at a corner; None if it is straight."""
+    """Return angle, radius, centre, axes and end of the arc at a corner.
+
+    None if it is straight.
+    """
     one, two = corner - before, after - corner
     length1, length2 = float(np.linalg.norm(one)), float(np.linalg.norm(two))
     one, two = one / length1, two / length2

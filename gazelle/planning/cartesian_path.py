@@ -89,7 +89,7 @@ class CartesianPlanner:
         self._why = ""
 
     def follow(self, poses: Sequence[Pose], jumps: JumpLimits | None = None) -> CartesianPath:
-        """A path of the link through poses in the robot's frame, from where it is.
+        """Return a path of the link through poses in the robot's frame, from its present one.
 
         Args:
             poses: One after another.
@@ -119,7 +119,10 @@ class CartesianPlanner:
         return self._ik.robot.pose(self._state, self._ik.link)
 
     def _reach(self, here: Floats, before: Pose, pose: Pose, depth: int) -> list[Floats] | None:
-        """Positions from one pose to the next, with others between where joints bend the way."""
+        """Return positions from one pose to the next.
+
+        Others are between them where joints bend the path.
+        """
         self._state[self._columns] = here
         found = self._ik.solve(pose, self._state)
         if found is None:
@@ -164,7 +167,7 @@ class CartesianPlanner:
 
 
 def between(first: Pose, second: Pose, fraction: float) -> Pose:
-    """A pose on the straight way from one to another, turned evenly."""
+    """Return a pose on the straight line between two, turned uniformly."""
     turn = np.array(rotation_vector(first.matrix()[:3, :3].T @ second.matrix()[:3, :3]))
     angle = float(np.linalg.norm(turn)) * fraction
     q = (0.0, 0.0, 0.0, 1.0)
@@ -189,6 +192,6 @@ def _pairs(here: Pose, poses: Sequence[Pose]) -> list[tuple[Pose, Pose]]:
 
 
 def _apart(first: Pose, second: Pose) -> tuple[float, float]:
-    """Distance [m] and angle [rad]."""
+    """Return distance [m] and angle [rad]."""
     turn = rotation_vector(first.matrix()[:3, :3].T @ second.matrix()[:3, :3])
     return math.dist(first.position, second.position), math.hypot(*turn)

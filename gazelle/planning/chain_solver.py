@@ -146,7 +146,7 @@ class ChainSolver:
         weights: Floats,
         tolerance: tuple[float, float],
     ) -> None:
-        """Go from many states as near to as many poses as one descent from each gets.
+        """Descend from many states as near as possible to as many poses.
 
         Args:
             targets: The poses, shape (n, 12).
@@ -181,7 +181,7 @@ class ChainSolver:
     def _descend(
         self, wanted: cython.double[::1], near: cython.double, straight: cython.double
     ) -> cython.bint:
-        """Go from where the variables are towards the pose; whether it is reached."""
+        """Descend from the variables towards the pose; returns whether it is reached."""
         best: cython.double = -1.0
         since: cython.int = 0
         step: cython.int
@@ -204,7 +204,7 @@ class ChainSolver:
     def _approach(
         self, wanted: cython.double[::1], near: cython.double, straight: cython.double
     ) -> cython.void:
-        """Go towards the pose, and keep in ``_nearest`` where the error was least."""
+        """Descend towards the pose, and keep the nearest variables in ``_nearest``."""
         best: cython.double = -1.0
         since: cython.int = 0
         left: cython.int = self._steps
@@ -255,7 +255,7 @@ class ChainSolver:
     @cython.nogil
     @cython.exceptval(check=False)
     def _find_error(self, wanted: cython.double[::1]) -> cython.void:
-        """The way that is missing, and the turn as a rotation vector, along the root's axes."""
+        """Compute the missing translation, and the rotation vector, along the root's axes."""
         i: cython.int
         j: cython.int
         for i in range(3):
@@ -295,7 +295,7 @@ class ChainSolver:
     @cython.nogil
     @cython.exceptval(check=False)
     def _step(self, square: cython.double) -> cython.void:
-        """Change the variables, none of them beyond its limits."""
+        """Update the variables, none of them beyond its limits."""
         k: cython.int
         self._find_jacobian()
         for k in range(self._size):
@@ -371,7 +371,7 @@ class ChainSolver:
     @cython.nogil
     @cython.exceptval(check=False)
     def _factorize(self, damping: cython.double) -> cython.void:
-        """The lower triangle of J J' + damping, without the columns of what is held."""
+        """Compute the lower triangle of J J' + damping, without the columns of fixed variables."""
         i: cython.int
         j: cython.int
         k: cython.int

@@ -134,7 +134,10 @@ class OrientationConstraint:
         return None
 
     def distance(self, robot: RobotModel, state: Floats) -> float:
-        """The sum of the angles by which the link is turned away [rad], in a state, shape (variables,)."""
+        """Return the sum of a link's angles off the constraint [rad].
+
+        The state has shape (variables,).
+        """
         return float(sum(map(abs, self._angles(robot, state))))
 
     def _angles(self, robot: RobotModel, state: Floats) -> tuple[float, float, float]:
@@ -160,7 +163,7 @@ class ConstraintSet:
     name: str = field(default="", compare=False)
 
     def check(self, robot: RobotModel) -> None:
-        """See that links and joints are there.
+        """Check that links and joints exist.
 
         Raises:
             PlanningError: One is not, or a tolerance is below zero.
@@ -186,7 +189,7 @@ class ConstraintSet:
         return [text for part in self.all if (text := part.violation(robot, state)) is not None]
 
     def alternatives(self) -> Iterator[ConstraintSet]:
-        """Constraints whose regions have one part each; what fulfils any of these fulfils all of this."""
+        """Yield constraints with regions of one part each; any of them fulfils this set."""
         for positions in itertools.product(*(each.parts for each in self.positions)):
             yield replace(self, positions=positions)
 
@@ -213,7 +216,7 @@ def _outside(region: Region, point: Sequence[float]) -> float:
 
 
 def _euler(r: Floats) -> tuple[float, float, float]:
-    """Angles a, b, c of R = Rx(a) Ry(b) Rz(c)."""
+    """Return angles a, b, c of R = Rx(a) Ry(b) Rz(c)."""
     sine = max(-1.0, min(1.0, float(r[0, 2])))
     if abs(sine) > 1.0 - 1e-12:
         return (math.atan2(r[2, 1], r[1, 1]), math.asin(sine), 0.0)
@@ -221,7 +224,7 @@ def _euler(r: Floats) -> tuple[float, float, float]:
 
 
 def rotation_vector(r: Floats) -> tuple[float, float, float]:
-    """Axis times angle [rad] of a rotation matrix, shape (3, 3)."""
+    """Return axis times angle [rad] of a rotation matrix, shape (3, 3)."""
     x, y, z, w = Pose.from_matrix(r).quaternion
     sine = math.sqrt(x * x + y * y + z * z)
     if sine < 1e-12:
@@ -233,7 +236,7 @@ def rotation_vector(r: Floats) -> tuple[float, float, float]:
 def goal_of_pose(
     link: str, pose: Pose, distance: float = 1e-4, angle: float = 1e-3
 ) -> ConstraintSet:
-    """A link at a pose in the robot's frame, within a distance [m] and angles [rad]."""
+    """Return a link at a pose in the robot's frame, within a distance [m] and angles [rad]."""
     at = Pose.from_quaternion(pose.position)
     return ConstraintSet(
         positions=(PositionConstraint(link, Sphere(distance), at),),
@@ -242,7 +245,7 @@ def goal_of_pose(
 
 
 def nearest_on(constraints: ConstraintSet, robot: RobotModel, state: Floats) -> list[Pose]:
-    """For each constraint of orientation: the pose of its link turned into what it allows."""
+    """Return the nearest allowed pose of each orientation constraint's link."""
     made = []
     for each in constraints.orientations:
         here = robot.pose(state, each.link)

@@ -122,7 +122,7 @@ class Execution:
 
 
 def trajectory_controllers(robot: Robot) -> dict[str, tuple[str, ...]]:
-    """Joints of each running controller that follows trajectories, by its name."""
+    """Return joints of each running controller that follows trajectories, by its name."""
     found = {}
     for each in robot.controllers.loaded:
         if each.state == "running" and _ACTION in each.controller.actions:
@@ -134,7 +134,7 @@ def trajectory_controllers(robot: Robot) -> dict[str, tuple[str, ...]]:
 
 
 def begin_execution(robot: Robot, plan: MotionPlan, world: int) -> Execution:
-    """Give a plan to the controllers of its joints.
+    """Send a plan to the controllers of its joints.
 
     Joints of such a controller that the plan does not move are held where they are.
 
@@ -158,7 +158,7 @@ def begin_execution(robot: Robot, plan: MotionPlan, world: int) -> Execution:
 def choose_controllers(
     known: Mapping[str, tuple[str, ...]], wanted: tuple[str, ...]
 ) -> dict[str, tuple[str, ...]]:
-    """Controllers that together move some joints: those with the fewest others first."""
+    """Return controllers that together move some joints: those with the fewest others first."""
     left = set(wanted)
     order = sorted(known.items(), key=lambda item: (len({*item[1]} - {*wanted}), -len(item[1])))
     chosen: dict[str, tuple[str, ...]] = {}
@@ -178,7 +178,7 @@ def choose_controllers(
 def _trajectory(
     robot: Robot, plan: MotionPlan, joints: tuple[str, ...], world: int
 ) -> JointTrajectory:
-    """The part of a plan that is of some joints; others stay."""
+    """Return the part of a plan for some joints; others stay."""
     timed = plan.trajectory
     count = len(timed.times)
     positions = np.zeros((count, len(joints)))

@@ -49,7 +49,9 @@ class GoalStates:
         self._link, self._seed = link, seed
 
     def find(self, goal: Goal) -> Floats:
-        """Valid positions, endless joints the shorter way round from the start, shape (k, n).
+        """Return valid positions, shape (k, n).
+
+        Continuous joints go the shorter way round from the start.
 
         Args:
             goal: A pose of the link in the robot's frame, the name of a state, positions by name or
@@ -68,7 +70,7 @@ class GoalStates:
         return self._of_positions(self._group.positions(named, self._start))
 
     def _of_positions(self, wanted: Floats) -> Floats:
-        """One goal, which is valid or is none."""
+        """Return one goal if it is valid, else none."""
         near = self._start + self._group.difference(self._start, wanted)
         beyond = self._group.beyond(near)
         if beyond:
@@ -99,7 +101,7 @@ class GoalStates:
         raise failure or NoPlanError("the goal says nothing", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
 
     def _poses(self, goal: ConstraintSet) -> tuple[list[Pose], Aim]:
-        """Poses that fulfil constraints of one link, and what of them counts."""
+        """Return poses that fulfil constraints of one link, and the constrained parts."""
         random = np.random.default_rng(self._seed)
         poses = [_drawn(goal, random, first=number == 0) for number in range(_DRAWN)]
         if goal.positions and goal.orientations:
@@ -107,7 +109,7 @@ class GoalStates:
         return poses, "position" if goal.positions else "orientation"
 
     def _of_links(self, goal: ConstraintSet, links: Sequence[str]) -> Floats:
-        """Positions that bring several links, each moved by joints of its own, to their poses."""
+        """Return positions with several links, each moved by joints of its own, at their poses."""
         found = [self._alone(goal, link, links) for link in links]
         good: list[Floats] = []
         bad: list[Floats] = []
@@ -160,7 +162,7 @@ class GoalStates:
         raise NoPlanError(self._why_not(link, aim, poses[0]), PlanOutcome.NO_IK_SOLUTION)
 
     def _moving(self, link: str) -> set[str]:
-        """Variables of the group that move a link."""
+        """Return variables of the group that move a link."""
         return {
             each.name
             for each, column in zip(self._group.variables, self._group.columns, strict=True)
@@ -168,7 +170,7 @@ class GoalStates:
         }
 
     def _of_joints(self, goal: ConstraintSet) -> Floats:
-        """A goal of joints alone: the middle of each, within its limits."""
+        """Return a goal of joints alone: the middle of each, within its limits."""
         own: dict[str, float] = {}
         for each in goal.joints:
             source, factor, offset = self._robot.leader(self._robot.column(each.joint))
@@ -192,7 +194,7 @@ class GoalStates:
         return self._of_positions(wanted)
 
     def _of_pose(self, link: str, aim: Aim, poses: Sequence[Pose], goal: ConstraintSet) -> Floats:
-        """Positions that bring a link to one of some poses."""
+        """Return positions with a link at one of some poses."""
         solver = InverseKinematics(self._robot, self._group, link, aim=aim, seed=self._seed)
         good: list[Floats] = []
         bad: list[Floats] = []
@@ -215,7 +217,7 @@ class GoalStates:
         raise NoPlanError(self._why_not(link, aim, poses[0]), PlanOutcome.NO_IK_SOLUTION)
 
     def _refuse(self, positions: Sequence[Floats], goal: ConstraintSet | None = None) -> None:
-        """Say what is wrong with positions that would fulfil the goal.
+        """Raise an error with the reasons against positions that would fulfil the goal.
 
         Raises:
             NoPlanError: Always.
@@ -244,7 +246,7 @@ class GoalStates:
         raise NoPlanError(f"the goal cannot be{among}: " + "; ".join(texts), outcome)
 
     def _why_not(self, link: str, aim: Aim, pose: Pose) -> str:
-        """Explain which part of a pose cannot be reached."""
+        """Return an explanation which part of a pose cannot be reached."""
         x, y, z = pose.position
         place = f"({x:.3f}, {y:.3f}, {z:.3f})"
         state = self._validity.full(self._start)
@@ -266,7 +268,7 @@ class GoalStates:
 
 
 def _drawn(goal: ConstraintSet, random: np.random.Generator, *, first: bool) -> Pose:
-    """A pose that fulfils constraints: the middle of them, then others."""
+    """Return a pose that fulfils constraints: first the middle of them, then random ones."""
     position: tuple[float, ...] = (0.0, 0.0, 0.0)
     turned = Pose()
     if goal.orientations:

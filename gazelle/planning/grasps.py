@@ -28,7 +28,7 @@ class GripperTranslation:
     frame: str = ""
 
     def __post_init__(self) -> None:
-        """See that it is a way.
+        """Check length and direction.
 
         Raises:
             PlanningError: A length is not finite, or the direction is zero.
@@ -127,7 +127,7 @@ class ParallelHand:
 def box_grasps(
     hand: ParallelHand, pose: Pose, size: Vector3, *, approach: float = 0.1, lift: float = 0.1
 ) -> tuple[Grasp, ...]:
-    """Ways to take a box: from above and from its sides, with the fingers on two faces.
+    """Return grasps of a box: from above and from its sides, with the fingers on two faces.
 
     Args:
         hand: That takes it.

@@ -78,7 +78,7 @@ class RobotGripper:
         self.joints = tuple(dict.fromkeys(joint for joints in claimed for joint in joints))
 
     def move(self, position: float, effort: float = 0.0) -> GripperReport:
-        """Go somewhere, stepping the simulation until it is there, stalls, or takes too long.
+        """Move the gripper, stepping the simulation until it arrives, stalls, or times out.
 
         Args:
             position: As its controller takes it: of its joint, or the whole opening [m or rad].
@@ -101,7 +101,7 @@ class RobotGripper:
         return GripperReport(reached, bool(result.stalled), float(result.position), text, seconds)
 
     def take(self, posture: Mapping[str, float], effort: float = 0.0) -> GripperReport:
-        """Bring its joints to positions by name; of a controller of several joints their sum is told.
+        """Move its joints to positions by name; a controller of several joints gets their sum.
 
         Raises:
             PlanningError: None of its joints is named.

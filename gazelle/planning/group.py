@@ -57,7 +57,7 @@ class GroupPlan:
         return self.plan.trajectory.duration
 
     def start(self) -> Execution:
-        """Give it to the robot's trajectory controllers; whoever steps the simulation moves it.
+        """Send the plan to the robot's trajectory controllers, without stepping the simulation.
 
         Raises:
             PlanningError: The robot is not where the plan begins, or no running controllers move
@@ -68,7 +68,7 @@ class GroupPlan:
         return begin_execution(self.group.robot, self.plan, self.group.world)
 
     def run(self) -> ExecutionReport:
-        """Go there, stepping the simulation; returns when it is done, or takes too long.
+        """Execute the plan, stepping the simulation; returns when it is done, or times out.
 
         Raises:
             PlanningError: As ``start``.
@@ -169,7 +169,7 @@ class Group:
         return Pose.from_quaternion(placed.position[0].tolist(), placed.quaternion[0].tolist())
 
     def see(self, *names: str) -> None:
-        """Take other models of the simulation into the scene, as they stand now.
+        """Add other models of the simulation to the scene, at their present poses.
 
         Each of their links becomes an object ``MODEL::LINK``; seen again it is replaced.
 
@@ -207,7 +207,7 @@ class Group:
     def plan(
         self, goal: Goal, *, constraints: ConstraintSet | None = None, link: str | None = None
     ) -> GroupPlan:
-        """A plan from where the robot is to a goal.
+        """Return a plan from the robot's state to a goal.
 
         Args:
             goal: A pose of the tip in the frame of the robot's root link, the name of a state of the
@@ -234,7 +234,7 @@ class Group:
         avoid_collisions: bool = True,
         constraints: ConstraintSet | None = None,
     ) -> GroupPlan:
-        """A plan along straight ways of the tip, as far as it can go; see its ``fraction``.
+        """Return a plan along straight paths of the tip, as far as possible; see its ``fraction``.
 
         Args:
             poses: One after another, in the frame of the robot's root link.
@@ -272,7 +272,7 @@ class Group:
         gripper: RobotGripper | None = None,
         rules: ContactRules | None = None,
     ) -> Manipulation:
-        """A plan to take a thing of the scene with the gripper; ``run`` it.
+        """Return a plan to pick up an object of the scene with the gripper; ``run`` it.
 
         Args:
             name: Of the thing, as ``scene`` has it.
@@ -299,7 +299,7 @@ class Group:
         gripper: RobotGripper | None = None,
         rules: ContactRules | None = None,
     ) -> Manipulation:
-        """A plan to put down a thing that is held; see ``pick``.
+        """Return a plan to place an attached object; see ``pick``.
 
         Raises:
             NoPlanError: It can be put down at none of the places, and why.
@@ -311,7 +311,7 @@ class Group:
         return Manipulation(plan, self, gripper or RobotGripper(self.robot, world=self.world))
 
     def check_start(self, plan: MotionPlan) -> None:
-        """See that the robot is where a plan begins.
+        """Check that the robot is at the start of a plan.
 
         Raises:
             PlanningError: It is not.
@@ -339,7 +339,7 @@ class Group:
         self.robot.simulation.events.planned.tell(self.robot, self.world, motion)
 
     def with_options(self, **changes: object) -> None:
-        """Change how it plans, such as ``velocity=0.5``; see ``PlanOptions``."""
+        """Set options, such as ``velocity=0.5``; see ``PlanOptions``."""
         self.options = replace(self.options, **changes)  # type: ignore[arg-type]
 
     def _planner(self) -> MotionPlanner:
@@ -347,7 +347,7 @@ class Group:
 
 
 def _semantics(robot: Robot, given: Semantics | str | PathLike[str] | None) -> Semantics | None:
-    """The SRDF that was given, or that of the robot's MoveIt package, where there is one."""
+    """Return the given SRDF, or that of the robot's MoveIt package, if there is one."""
     if isinstance(given, Semantics):
         return given
     if given is not None:
@@ -365,7 +365,7 @@ def _semantics(robot: Robot, given: Semantics | str | PathLike[str] | None) -> S
 def _controlled(
     robot: Robot, model: RobotModel, name: str, groups: Sequence[str]
 ) -> JointModelGroup:
-    """The joints of a trajectory controller as a group."""
+    """Return the joints of a trajectory controller as a group."""
     from gazelle.planning.execution import trajectory_controllers
 
     joints = trajectory_controllers(robot)

@@ -101,7 +101,7 @@ class InverseKinematics:
         valid: Callable[[Floats], bool] | None = None,
         timeout: float = math.inf,
     ) -> Floats | None:
-        """Positions of the group's joints for one pose.
+        """Return positions of the group's joints for one pose.
 
         Args:
             pose: In the robot's frame.
@@ -117,7 +117,7 @@ class InverseKinematics:
         return self._solve_one(np.array(flat(pose)), full, valid, timeout)[0]
 
     def solve_many(self, poses: ArrayLike, states: ArrayLike | None = None) -> IkSolutions:
-        """Positions for many poses, each by itself.
+        """Return positions for many poses, each by itself.
 
         Args:
             poses: Homogeneous transforms in the robot's frame, shape (n, 4, 4).
@@ -137,7 +137,7 @@ class InverseKinematics:
         return IkSolutions(positions, np.isfinite(positions).all(axis=1), attempts)
 
     def follow(self, poses: ArrayLike, states: ArrayLike) -> Floats:
-        """Positions as near to poses as one descent from each state leads, compiled for all.
+        """Return positions near poses by one descent from each state, compiled for all.
 
         For poses a little way off, time after time. Where a pose is out of reach, or the arm is
         caught, the nearest of that descent is taken, never farther than the state that it began
@@ -160,7 +160,7 @@ class InverseKinematics:
         return given[:, columns] + self.group.difference(given[:, columns], found[:, columns])
 
     def _asked(self, poses: ArrayLike, states: ArrayLike | None) -> tuple[Floats, Floats]:
-        """Poses as rows of shape (n, 12) and states of shape (n, variables)."""
+        """Return poses as rows of shape (n, 12) and states of shape (n, variables)."""
         wanted = np.asarray(poses, np.float64)
         if wanted.ndim != 3 or wanted.shape[1:] != (4, 4):
             raise PlanningError(f"poses have the shape (n, 4, 4), not {wanted.shape}")
@@ -179,7 +179,7 @@ class InverseKinematics:
         valid: Callable[[Floats], bool] | None,
         timeout: float = math.inf,
     ) -> tuple[Floats | None, int]:
-        """Positions and how often it began; ``state`` is written into."""
+        """Return positions and the number of starts; ``state`` is overwritten."""
         columns = self.group.columns
         seed = np.clip(state[columns], self.group.lower, self.group.upper)
         starts = np.concatenate((seed[None], self._starts[1:]))

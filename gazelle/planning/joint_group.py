@@ -83,7 +83,7 @@ class JointModelGroup:
         return np.array([variable.bounds.acceleration for variable in self.variables])
 
     def named(self, state: str) -> Mapping[str, float]:
-        """A named posture: values by name of variable.
+        """Return a named posture: values by name of variable.
 
         Raises:
             PlanningError: There is none of that name.
@@ -96,13 +96,13 @@ class JointModelGroup:
         return self.states[state]
 
     def sample(self, random: np.random.Generator, count: int) -> Floats:
-        """Positions drawn evenly between the limits, shape (count, n)."""
+        """Return positions sampled uniformly between the limits, shape (count, n)."""
         low = np.where(np.isfinite(self.lower), self.lower, -SAMPLED_SPAN)
         high = np.where(np.isfinite(self.upper), self.upper, SAMPLED_SPAN)
         return random.uniform(low, high, (count, len(low)))
 
     def difference(self, first: ArrayLike, second: ArrayLike) -> Floats:
-        """The way from the first positions to the second, endless joints the shorter way round.
+        """Return the differences to the second positions; continuous joints the shorter way round.
 
         Args:
             first: Shape (..., n).
@@ -113,7 +113,7 @@ class JointModelGroup:
         return np.where(self.endless, turned, way)
 
     def distance(self, first: ArrayLike, second: ArrayLike) -> Floats:
-        """Lengths of these ways, all variables alike [m and rad], shape (...)."""
+        """Return lengths of the differences, all variables alike [m and rad], shape (...)."""
         length: Floats = np.linalg.norm(self.difference(first, second), axis=-1)
         return length
 
@@ -130,7 +130,7 @@ class JointModelGroup:
         return found
 
     def positions(self, given: Mapping[str, float] | ArrayLike, start: ArrayLike) -> Floats:
-        """Positions of all variables, from a mapping or a whole sequence.
+        """Return positions of all variables, from a mapping or a whole sequence.
 
         Args:
             given: By name, the others staying as in ``start``; or shape (n,).
@@ -166,6 +166,6 @@ class JointModelGroup:
 
 
 def ends_of(links: Sequence[str], parents: Mapping[str, str]) -> tuple[str, ...]:
-    """Those of some links that are no parents of others of them, in their order."""
+    """Return those of some links that are no parents of others of them, in their order."""
     inner = {parents.get(link, "") for link in links}
     return tuple(link for link in links if link not in inner)

@@ -23,7 +23,7 @@ def compose(
     made: cython.double[:, ::1],
     k: cython.int,
 ) -> cython.void:
-    """Row k of ``made`` becomes row i of ``first`` times row j of ``second``; not in place."""
+    """Set row k of ``made`` to row i of ``first`` times row j of ``second``; not in place."""
     row: cython.int
     column: cython.int
     for row in range(3):
@@ -122,7 +122,7 @@ class JointTree:
             frames[me, 3 * row + 2] = d * c + along * z + (a * y - b * x) * s
 
     def forward(self, variables: Floats, joints: Indices, offsets: Floats) -> Floats:
-        """Frames that are fixed to joints.
+        """Compute frames that are fixed to joints.
 
         Args:
             variables: Shape (n, variables).
@@ -194,7 +194,7 @@ class JointTree:
         return made
 
     def path(self, joint: int) -> Ints32:
-        """The joints from the root to one, itself the last, shape (k,)."""
+        """Return the joints from the root to one, itself the last, shape (k,)."""
         found: list[int] = []
         while joint >= 0:
             found.insert(0, joint)
@@ -206,7 +206,7 @@ class JointTree:
         return np.array(self._columns, np.int32)
 
     def root(self) -> Floats:
-        """Room for frames of the root and all joints, the root's being the identity."""
+        """Return memory for frames of the root and all joints, the root's being the identity."""
         frames = np.zeros((self.joints + 1, 12))
         frames[0, [0, 4, 8]] = 1.0
         return frames
@@ -221,7 +221,7 @@ class JointTree:
         tip: cython.double[:, ::1],
         out: cython.double[::1],
     ) -> cython.void:
-        """Velocity of a tip and its angular velocity, for a unit speed of a joint's variable."""
+        """Compute velocity and angular velocity of a tip, per unit speed of a joint's variable."""
         row: cython.int
         me: cython.int = joint + 1
         for row in range(3):

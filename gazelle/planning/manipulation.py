@@ -26,7 +26,7 @@ class MovingGroup(Protocol):
         """Return the positions of all joints; update the scene."""
 
     def check_start(self, plan: MotionPlan) -> None:
-        """See that the robot is where a plan begins."""
+        """Check that the robot is at the start of a plan."""
 
     def tell(self, plan: MotionPlan) -> None:
         """Show a plan to who looks."""
@@ -41,7 +41,9 @@ class Manipulation:
     gripper: RobotGripper
 
     def run(self) -> ExecutionReport:
-        """Do all of it, stepping the simulation; the group's scene knows who holds the thing.
+        """Execute all of it, stepping the simulation.
+
+        The scene has the object attached or detached.
 
         Returns:
             How it ended; what fails is the last that was done.

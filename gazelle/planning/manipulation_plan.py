@@ -71,7 +71,7 @@ class ContactRules:
 
 
 def reversed_plan(plan: MotionPlan) -> MotionPlan:
-    """The same way back, as fast."""
+    """Return the reversed plan, as fast."""
     timed = plan.trajectory
     back = TimedPath(
         timed.times[-1] - timed.times[::-1],
@@ -84,7 +84,7 @@ def reversed_plan(plan: MotionPlan) -> MotionPlan:
 
 
 def turned_plan(plan: MotionPlan, turns: Floats) -> MotionPlan:
-    """A plan with some joints some turns further."""
+    """Return a plan with some joints shifted by full turns."""
     whole = np.round(turns / (2.0 * np.pi)) * 2.0 * np.pi * plan.group.endless
     if not whole.any():
         return plan

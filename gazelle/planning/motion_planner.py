@@ -132,7 +132,7 @@ class MotionPlanner:
         link: str | None = None,
         constraints: ConstraintSet | None = None,
     ) -> MotionPlan:
-        """A trajectory from a state to a goal.
+        """Return a trajectory from a state to a goal.
 
         Args:
             goal: A pose of the link in the robot's frame, the name of a state of the group, positions
@@ -174,7 +174,7 @@ class MotionPlanner:
         avoid_collisions: bool = True,
         constraints: ConstraintSet | None = None,
     ) -> tuple[MotionPlan, CartesianPath]:
-        """A trajectory along straight ways of a link, as far as it can go.
+        """Return a trajectory along straight ways of a link, as far as it can go.
 
         Args:
             poses: One after another, in the robot's frame.
@@ -223,7 +223,7 @@ class MotionPlanner:
     def _begin(
         self, start: ArrayLike | None, constraints: ConstraintSet | None
     ) -> tuple[Floats, StateValidity]:
-        """The start within limits, and what judges states.
+        """Return the start within limits, and the check of states.
 
         Raises:
             NoPlanError: The start cannot be.
@@ -250,7 +250,7 @@ class MotionPlanner:
     def _search(
         self, here: Floats, goals: Floats, validity: StateValidity, until: float, attempt: int
     ) -> Floats:
-        """A short path to one of the goals.
+        """Return a short path to one of the goals.
 
         Raises:
             NoPlanError: None was found in time.
@@ -289,7 +289,7 @@ class MotionPlanner:
         )
 
     def _project(self, validity: StateValidity, positions: Floats) -> Floats | None:
-        """Positions nearby with links turned as constraints of orientation want them."""
+        """Return positions nearby with links turned to fulfil orientation constraints."""
         robot = self.scene.robot
         state = validity.full(positions)
         wanted = nearest_on(validity.constraints, robot, state)
@@ -311,7 +311,7 @@ class MotionPlanner:
         return self._turners[link]
 
     def _timed(self, points: Floats, validity: StateValidity) -> TimedPath | None:
-        """Times for a path, corners rounded off as far as nothing collides; None if it does."""
+        """Return times for a path with corners rounded off; None if that collides."""
         timing = self.options.timing
         if timing != "time optimal":
             timed = parameterize(points, self._limits, timing)

@@ -19,7 +19,7 @@ _MOST_BOXES: Final = 50_000
 
 
 def octree_object(octree: Octree, pose: Pose | None = None, name: str = OCTOMAP) -> SceneObject:
-    """The occupied space of an octree, as boxes.
+    """Return the occupied space of an octree, as boxes.
 
     Args:
         octree: The map.

@@ -34,7 +34,7 @@ def plan_with_ompl(
     until: float,
     edge: float = 0.0,
 ) -> Floats | None:
-    """A path from a start to one of some goals.
+    """Return a path from a start to one of some goals.
 
     Args:
         start: Valid positions, shape (n,).
@@ -87,7 +87,10 @@ def plan_with_ompl(
 
 
 def _space(base: Any, start: Floats, goals: Floats, validity: StateValidity) -> Any:
-    """Positions between the limits; of endless joints those within half a turn of what is asked."""
+    """Return positions between the limits.
+
+    Of continuous joints those within half a turn of the query.
+    """
     group = validity.group
     around = np.concatenate((start[None], goals))
     low = np.where(np.isfinite(group.lower), group.lower, around.min(axis=0) - np.pi)

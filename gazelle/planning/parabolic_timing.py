@@ -16,7 +16,7 @@ _SMALL = 1e-4
 
 
 def iterative_parabolic(points: Floats, velocity: Floats, acceleration: Floats) -> Floats:
-    """Times of points.
+    """Return times of points.
 
     Args:
         points: Each another one than the last, shape (m, n), m at least 2.

@@ -52,7 +52,7 @@ class SpeedProfile:
         self._least = self._most = 0.0
 
     def squares(self, ceilings: Floats) -> Floats:
-        """Squares of the speed at the places, shape (m,).
+        """Return squares of the speed at the places, shape (m,).
 
         Args:
             ceilings: That they do not exceed, shape (m,).
@@ -75,7 +75,7 @@ class SpeedProfile:
     @cython.nogil
     @cython.exceptval(check=False)
     def _highest(self, i: cython.int, step: cython.double, ceiling: cython.double) -> cython.double:
-        """The highest square of the speed here from which the next place's can be met."""
+        """Return the highest square of the speed here that still allows the next place's."""
         k: cython.int
         high: cython.double = min(_LARGE, ceiling)
         for k in range(self._velocity.shape[0]):
@@ -109,7 +109,7 @@ class SpeedProfile:
     @cython.nogil
     @cython.exceptval(check=False)
     def _bound(self, i: cython.int, x: cython.double) -> cython.void:
-        """Least and most acceleration along the path that all joints allow at a speed."""
+        """Compute least and most acceleration along the path that all joints allow at a speed."""
         k: cython.int
         self._least, self._most = -_LARGE, _LARGE
         for k in range(self._velocity.shape[0]):

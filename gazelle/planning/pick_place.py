@@ -79,7 +79,7 @@ class PickPlacePlanner:
         rules: ContactRules | None = None,
         constraints: ConstraintSet | None = None,
     ) -> ManipulationPlan:
-        """A plan to take a thing of the scene.
+        """Return a plan to pick up an object of the scene.
 
         Args:
             name: Of the thing.
@@ -115,7 +115,7 @@ class PickPlacePlanner:
         rules: ContactRules | None = None,
         constraints: ConstraintSet | None = None,
     ) -> ManipulationPlan:
-        """A plan to put down a thing that is held; see ``pick``.
+        """Return a plan to place an attached object; see ``pick``.
 
         Raises:
             NoPlanError: It can be put down at none of the places, or is not held.
@@ -144,7 +144,7 @@ class PickPlacePlanner:
         what: str,
         begun: float,
     ) -> ManipulationPlan:
-        """The first that can be done, best ones first."""
+        """Return the first feasible plan, best candidates first."""
         if not quality:
             raise NoPlanError(f"no {what} is given", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
         why: dict[str, PlanOutcome] = {}
@@ -188,7 +188,7 @@ class PickPlacePlanner:
         near = self._near(name, opened, rules, grasp.touches)
 
         def after(there: Floats) -> MotionPlan:
-            """The way back with the thing."""
+            """Return the way back with the object."""
             held = near.copy()
             held.state = self._with(there, grasp.closed)
             held.attach(name, self._link, self._hand | {*rules.touch_links})
@@ -228,7 +228,7 @@ class PickPlacePlanner:
         near = self._near(name, start, rules, place.touches)
 
         def after(there: Floats) -> MotionPlan:
-            """The way back without the thing."""
+            """Return the way back without the object."""
             left = near.copy()
             left.state = there
             left.detach(name)
@@ -262,7 +262,10 @@ class PickPlacePlanner:
         held: str = "",
         rules: ContactRules | None = None,
     ) -> tuple[MotionPlan, MotionPlan, MotionPlan]:
-        """To the approach, along it, and back; with the first posture of the arm that can do all."""
+        """Return plans to the approach, along it, and back.
+
+        With the first feasible posture of the arm.
+        """
         state, why = near.state.copy(), list[NoPlanError]()
         found: list[tuple[MotionPlan, MotionPlan, MotionPlan]] = []
         validity = [StateValidity(near, self._group, state)]
@@ -313,7 +316,7 @@ class PickPlacePlanner:
         sign: float,
         what: str,
     ) -> MotionPlan:
-        """A straight way of the tip from a state.
+        """Return a straight path of the tip from a state.
 
         Raises:
             NoPlanError: It ends too soon.
@@ -336,7 +339,7 @@ class PickPlacePlanner:
     def _near(
         self, name: str, state: Floats, rules: ContactRules, touches: Sequence[str]
     ) -> PlanningScene:
-        """The scene where the hand may touch the thing, and what it may touch beside."""
+        """Return the scene in which the hand may touch the object, and its allowed neighbours."""
         scene = self._scene.copy()
         scene.state = state.copy()
         beside = [*rules.touches, *touches]
@@ -350,7 +353,7 @@ class PickPlacePlanner:
         return scene
 
     def _let_rest(self, scene: PlanningScene, name: str, rules: ContactRules) -> None:
-        """Let a thing that is held touch what it stands on, in the scene's state."""
+        """Allow an attached object to touch its support, in the scene's state."""
         if rules.support:
             scene.allow(name, rules.support)
             return
@@ -375,7 +378,7 @@ class PickPlacePlanner:
 
 
 def _check_valid(validity: StateValidity, positions: Floats) -> None:
-    """See that positions are valid.
+    """Check that positions are valid.
 
     Raises:
         NoPlanError: They are not.

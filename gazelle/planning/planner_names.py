@@ -53,7 +53,7 @@ _PLAIN = re.compile(r"^(?:\w+\[)?(?:geometric::)?(\w+?)(?:kConfigDefault|ConfigD
 
 
 def planner_of(name: str) -> str:
-    """The planner that a name means: a key of ``BOUND``.
+    """Return the planner of a name: a key of ``BOUND``.
 
     Args:
         name: Such as ``RRTConnect``, ``geometric::RRTConnect``, ``RRTConnectkConfigDefault`` or

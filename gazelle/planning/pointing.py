@@ -52,7 +52,7 @@ class Pointing:
         self._low, self._high = (bound[self._columns] for bound in robot.limits())
 
     def solve(self, place: ArrayLike, start: ArrayLike) -> tuple[Floats, float]:
-        """Positions of the joints, within their limits, and what is left of the angle [rad].
+        """Return positions of the joints, within their limits, and the remaining angle [rad].
 
         Args:
             place: In the frame of ``base`` [m], shape (3,).
@@ -82,7 +82,7 @@ class Pointing:
         return here, self.angle(here, wanted)
 
     def angle(self, positions: ArrayLike, place: ArrayLike) -> float:
-        """Between the axis and the direction to a place [rad], see ``solve``."""
+        """Return the angle between the axis and the direction to a place [rad], see ``solve``."""
         miss = self._miss(np.asarray(positions, float), np.asarray(place, float))
         return 2.0 * math.asin(min(1.0, float(np.linalg.norm(miss)) / 2.0))
 

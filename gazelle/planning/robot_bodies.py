@@ -16,7 +16,7 @@ _LINK = re.compile(r"link\[@name='([^']+)'\]")
 def robot_bodies(
     robot: RobotModel, scale: Mapping[str, float], attached: Sequence[AttachedObject]
 ) -> list[CollisionBody]:
-    """Bodies of a robot and of what it holds; joints in the order of the robot's variables.
+    """Return bodies of a robot and its attached objects, in the order of the robot's variables.
 
     Links that a description has made part of others are bodies of their own again.
 
@@ -51,7 +51,7 @@ def robot_bodies(
 
 
 def shapes_of(robot: RobotModel) -> dict[str, list[tuple[Collision, Pose]]]:
-    """Collisions by the link that the file gave them to, with their poses in its frame."""
+    """Return collisions by the link of the file, with their poses in its frame."""
     found: dict[str, list[tuple[Collision, Pose]]] = {name: [] for name in robot.links}
     for link in robot.model.links:
         for collision in link.collisions:
@@ -62,7 +62,7 @@ def shapes_of(robot: RobotModel) -> dict[str, list[tuple[Collision, Pose]]]:
 
 
 def _owner(collision: Collision, link: Link, robot: RobotModel) -> str:
-    """The link of the file that has a collision, where it went into another's body."""
+    """Return the link of the file with a collision, where it was lumped into another's body."""
     element = collision.source.element if collision.source is not None else None
     match = _LINK.search(element or "")
     named = match.group(1) if match else link.name

@@ -77,7 +77,7 @@ class RobotModel:
         return tuple(variable.name for variable in self.variables)
 
     def column(self, name: str) -> int:
-        """The column of a variable.
+        """Return the column of a variable.
 
         Raises:
             PlanningError: There is none of that name.
@@ -89,7 +89,7 @@ class RobotModel:
         return self._column[name]
 
     def columns(self, names: Iterable[str]) -> Indices:
-        """The columns of some variables, shape (n,).
+        """Return the columns of some variables, shape (n,).
 
         Raises:
             PlanningError: There is none of a name.
@@ -97,7 +97,7 @@ class RobotModel:
         return np.array([self.column(name) for name in names], np.intp)
 
     def link(self, name: str) -> LinkFrame:
-        """A link.
+        """Return a link.
 
         Raises:
             PlanningError: There is none of that name.
@@ -109,7 +109,7 @@ class RobotModel:
         return self.links[name]
 
     def group(self, name: str) -> JointModelGroup:
-        """A group of the SRDF.
+        """Return a group of the SRDF.
 
         Raises:
             PlanningError: There is none of that name.
@@ -137,17 +137,17 @@ class RobotModel:
         return self._made(name, joints, tuple(ordered), tips, base)
 
     def _said(self, name: str) -> list[JointGroup]:
-        """A group and all that are part of it."""
+        """Return a group and all that are part of it."""
         group = self.semantics.group(name)
         return [group, *(each for inner in group.groups for each in self._said(inner))]
 
     def _parents(self) -> dict[str, str]:
-        """The link that each link hangs on."""
+        """Return the parent of each link."""
         held = {joint.child: joint.parent for joint in self.model.joints}
         return held | {frame.name: frame.attached_to for frame in self.model.frames}
 
     def chain(self, base: str, tip: str, name: str = "chain") -> JointModelGroup:
-        """A group of the joints between two links, without an SRDF.
+        """Return a group of the joints between two links, without an SRDF.
 
         Raises:
             PlanningError: A link is not there.
@@ -165,7 +165,7 @@ class RobotModel:
         return self._made(name, joints, tuple(ordered), (tip,), base)
 
     def group_of(self, joints: Iterable[str], name: str) -> JointModelGroup:
-        """A group of some joints, without an SRDF.
+        """Return a group of some joints, without an SRDF.
 
         Raises:
             PlanningError: A joint is not there.
@@ -210,7 +210,7 @@ class RobotModel:
         )
 
     def _of_joint(self, joint: str) -> list[str]:
-        """Variables of a joint."""
+        """Return variables of a joint."""
         return [each.name for each in self.variables if each.joint == joint]
 
     def _carries(self, effector: EndEffector, group: str, links: tuple[str, ...]) -> bool:
@@ -220,7 +220,7 @@ class RobotModel:
         return effector.group != group and effector.parent_link in links
 
     def moving(self, columns: ArrayLike) -> frozenset[str]:
-        """Names of the links that move when some variables do."""
+        """Return names of the links that move when some variables do."""
         chosen = {int(each) for each in np.asarray(columns).ravel()}
         moves: list[bool] = []
         for node, (source, _, _) in zip(self.nodes, self._sources, strict=True):
@@ -232,7 +232,7 @@ class RobotModel:
     # -- kinematics ----------------------------------------------------------------------
 
     def zero(self) -> Floats:
-        """A state with every variable at zero, or at its nearest limit, shape (variables,)."""
+        """Return a state with all variables at zero or their nearest limit, shape (variables,)."""
         lower, upper = self.limits()
         return np.clip(np.zeros(len(self.variables)), lower, upper)
 
@@ -247,7 +247,7 @@ class RobotModel:
         return self._sources[column]
 
     def complete(self, state: ArrayLike) -> Floats:
-        """States with the columns of joints that mimic others filled in.
+        """Fill in the columns of joints that mimic others.
 
         Args:
             state: Shape (..., variables).
@@ -258,7 +258,7 @@ class RobotModel:
         return made
 
     def forward(self, state: ArrayLike, links: str | Sequence[str]) -> Floats:
-        """Poses of links in the robot's frame.
+        """Return poses of links in the robot's frame.
 
         Args:
             state: Shape (variables,) or (n, variables).
@@ -282,7 +282,7 @@ class RobotModel:
         return poses if np.ndim(state) > 1 else poses[0]
 
     def pose(self, state: ArrayLike, link: str) -> Pose:
-        """The pose of a link in one state, in the robot's frame; see ``forward``."""
+        """Return the pose of a link in one state, in the robot's frame; see ``forward``."""
         return Pose.from_matrix(self.forward(state, link))
 
     def jacobian(self, state: ArrayLike, link: str, point: Sequence[float] = (0, 0, 0)) -> Floats:

@@ -35,12 +35,12 @@ class RrtTree:
         self._size = len(roots)
 
     def nearest(self, point: Floats) -> int:
-        """Index of the position that is nearest to a point."""
+        """Return index of the position that is nearest to a point."""
         away = self._points[: self._size] - point
         return int(np.argmin(np.einsum("ij,ij->i", away, away)))
 
     def point(self, index: int) -> Floats:
-        """A position."""
+        """Return a position."""
         found: Floats = self._points[index]
         return found
 
@@ -54,7 +54,7 @@ class RrtTree:
         return self._size - 1
 
     def back(self, index: int) -> list[Floats]:
-        """Positions from one to its root."""
+        """Return positions from one to its root."""
         found = []
         while index >= 0:
             found.append(self._points[index].copy())
@@ -72,7 +72,7 @@ def rrt_connect(
     project: Projection | None = None,
     edge: float = 0.0,
 ) -> Floats | None:
-    """A path from a start to one of some goals.
+    """Return a path from a start to one of some goals.
 
     Args:
         start: Valid positions, shape (n,).
@@ -105,7 +105,7 @@ def rrt_connect(
 
 
 def _near(drawn: Floats, start: Floats, validity: StateValidity) -> Floats:
-    """Endless joints within half a turn of where they began."""
+    """Return continuous joints within half a turn of their start."""
     return np.where(validity.group.endless, start + validity.group.difference(start, drawn), drawn)
 
 
@@ -143,7 +143,7 @@ def _connect(
     project: Projection | None,
     until: float,
 ) -> int:
-    """Grow towards a point until it is reached; returns the index there, -1 if it is not."""
+    """Extend the tree towards a point until it is reached; returns the index, -1 if it is not."""
     before = np.inf
     while time.monotonic() < until:
         added = _grow(tree, point, longest, validity, project)

@@ -92,7 +92,7 @@ class PlanningScene:
         shapes: Shape | Iterable[tuple[Shape, Pose]],
         pose: Pose | None = None,
     ) -> SceneObject:
-        """Put a thing there, in place of one of the same name.
+        """Add an object, in place of one of the same name.
 
         Args:
             name: Its name.
@@ -107,7 +107,7 @@ class PlanningScene:
         return made
 
     def add_object(self, made: SceneObject) -> None:
-        """Put a thing there, in place of one of the same name.
+        """Add an object, in place of one of the same name.
 
         Raises:
             PlanningError: A link has this name.
@@ -119,7 +119,7 @@ class PlanningScene:
         self._changed()
 
     def move(self, name: str, pose: Pose) -> None:
-        """Put an object elsewhere.
+        """Set the pose of an object.
 
         Raises:
             PlanningError: There is none of that name.
@@ -128,7 +128,7 @@ class PlanningScene:
         self._changed()
 
     def remove(self, name: str) -> None:
-        """Take an object away.
+        """Remove an object.
 
         Raises:
             PlanningError: There is none of that name.
@@ -138,12 +138,12 @@ class PlanningScene:
         self._changed()
 
     def clear(self) -> None:
-        """Take all objects away; what links hold stays."""
+        """Remove all objects; attached ones stay."""
         self.objects.clear()
         self._changed()
 
     def attach(self, name: str, link: str, touch_links: Iterable[str] = ()) -> None:
-        """Let a link hold an object where it is now.
+        """Attach an object to a link at its present pose.
 
         Args:
             name: Of the object.
@@ -158,7 +158,7 @@ class PlanningScene:
         self.hold(AttachedObject(replace(held, pose=pose), link, frozenset(touch_links)))
 
     def hold(self, attached: AttachedObject) -> None:
-        """Let a link hold a thing that is placed in its frame.
+        """Attach an object that is placed in a link's frame.
 
         Raises:
             PlanningError: There is no such link.
@@ -170,7 +170,7 @@ class PlanningScene:
         self._changed()
 
     def detach(self, name: str) -> None:
-        """Leave what a link holds where it is now.
+        """Detach an object at its present pose.
 
         Raises:
             PlanningError: No link holds anything of that name.
@@ -182,7 +182,7 @@ class PlanningScene:
         self._changed()
 
     def drop(self, name: str) -> None:
-        """Take away what a link holds.
+        """Remove an attached object.
 
         Raises:
             PlanningError: No link holds anything of that name.
@@ -202,7 +202,7 @@ class PlanningScene:
         self._changed()
 
     def allow(self, first: str, second: str, *, allowed: bool = True) -> None:
-        """Say of a pair of links or objects whether it may touch."""
+        """Set whether a pair of links or objects may touch."""
         self._allowed.set_pair(first, second, allowed=allowed)
         self._changed()
 
@@ -212,7 +212,7 @@ class PlanningScene:
         return dict(self._padding)
 
     def set_padding(self, padding: Mapping[str, float]) -> None:
-        """Change at which distance from obstacles some links, or things they hold, count as touching.
+        """Set the padding of some links and objects attached to them.
 
         Raises:
             PlanningError: A link is not there, or a distance is below zero.
@@ -231,7 +231,7 @@ class PlanningScene:
         return dict(self._scale)
 
     def set_scale(self, scale: Mapping[str, float]) -> None:
-        """Change by how much the shapes of some links are larger.
+        """Set the scale of some links' shapes.
 
         Raises:
             PlanningError: A link is not there, or a factor is not above zero.
@@ -244,7 +244,7 @@ class PlanningScene:
         self._changed()
 
     def copy(self) -> PlanningScene:
-        """Another scene with the same in it."""
+        """Return another scene with the same content."""
         made = PlanningScene(self.robot, padding=None, scale=self._scale)
         made.state = self.state.copy()
         made.objects, made.attached = dict(self.objects), dict(self.attached)
@@ -253,7 +253,7 @@ class PlanningScene:
         return made
 
     def follow(self, other: PlanningScene) -> None:
-        """Become the same as another scene of the robot; what is compiled stays if all is as before.
+        """Copy another scene of the robot; compiled parts stay if nothing changed.
 
         Unlike copies, scenes that follow share nothing that moves: each may be used by a thread.
         """
@@ -318,14 +318,14 @@ class PlanningScene:
         return self.collision_check(group)(state)
 
     def collision_check(self, group: JointModelGroup | None = None) -> Callable[[Floats], bool]:
-        """``in_collision`` for many states of the scene as it is now."""
+        """Return ``in_collision`` for many states of the scene as it is now."""
         touches, complete = self._model(group).touches, self.robot.complete
         return lambda state: touches(complete(state))
 
     def why_invalid(
         self, state: ArrayLike | None = None, group: JointModelGroup | None = None
     ) -> list[str]:
-        """Explain why a state is invalid, a text each: limits, and pairs that collide, with their depth.
+        """Return reasons why a state is invalid: limits, and pairs that collide, with their depth.
 
         Args:
             state: Of all variables; the scene's if None. Shape (variables,).
@@ -365,7 +365,7 @@ class PlanningScene:
         return collision_model(bodies, obstacles, sorted(ignored), self._padding)
 
     def _moving(self, group: JointModelGroup) -> set[str]:
-        """Links that move with a group, and what they hold."""
+        """Return links that move with a group, and objects attached to them."""
         links = self.robot.moving(group.columns)
         return {*links} | {name for name, held in self.attached.items() if held.link in links}
 
@@ -395,6 +395,6 @@ def _obstacle(name: str, found: SceneObject) -> CollisionBody:
 
 
 def _pairs_at_rest(names: Sequence[str], moving: set[str]) -> set[tuple[str, str]]:
-    """Pairs neither of which moves."""
+    """Return pairs neither of which moves."""
     still = [name for name in names if name not in moving]
     return {(one, other) for i, one in enumerate(still) for other in still[:i]}

@@ -61,7 +61,7 @@ class AttachedObject:
 
 
 def object_of(name: str, shapes: Shape | Iterable[tuple[Shape, Pose]], pose: Pose) -> SceneObject:
-    """A thing of one shape, or of several at poses.
+    """Return an object of one shape, or of several at poses.
 
     Raises:
         PlanningError: It has no name or no shape, or a length is not above zero.
@@ -80,7 +80,7 @@ def object_of(name: str, shapes: Shape | Iterable[tuple[Shape, Pose]], pose: Pos
 def voxel_boxes(
     centres: ArrayLike, sizes: ArrayLike, pose: Pose | None = None
 ) -> tuple[tuple[Shape, Pose], ...]:
-    """Cubes, as an octomap's occupied leaves are.
+    """Return cubes, such as an octomap's occupied leaves.
 
     Args:
         centres: [m], shape (n, 3).
@@ -97,7 +97,7 @@ def voxel_boxes(
 
 
 def scaled(shape: Shape, factor: float) -> Shape:
-    """A shape that is larger by a factor, about its own origin."""
+    """Return a shape that is larger by a factor, about its own origin."""
     if isinstance(shape, MeshData):
         return MeshData(shape.vertices * factor, shape.faces)
     if isinstance(shape, Box):

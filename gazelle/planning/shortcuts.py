@@ -19,7 +19,7 @@ _FRUITLESS = 12
 def shorten(
     points: Floats, validity: StateValidity, random: np.random.Generator, until: float
 ) -> Floats:
-    """A path between the same ends that is no longer.
+    """Return a path between the same ends that is no longer.
 
     Args:
         points: Positions on a valid path, shape (m, n).
@@ -39,7 +39,7 @@ def shorten(
 
 
 def _without_detours(points: Floats, validity: StateValidity, until: float) -> Floats:
-    """From each point straight to the last one that can be reached so."""
+    """Return the path from each point straight to the last one that can be reached so."""
     kept = [0]
     while kept[-1] < len(points) - 1:
         here = kept[-1]
@@ -53,7 +53,7 @@ def _without_detours(points: Floats, validity: StateValidity, until: float) -> F
 
 
 def _cut(path: Floats, validity: StateValidity, random: np.random.Generator) -> Floats | None:
-    """A path with a straight way between two places drawn on it; None if that is no gain."""
+    """Return a path with a random shortcut; None if that is no gain."""
     lengths = np.linalg.norm(np.diff(path, axis=0), axis=1)
     ends = np.concatenate(([0.0], np.cumsum(lengths)))
     first, second = np.sort(random.uniform(0.0, ends[-1], 2))

@@ -55,7 +55,7 @@ class StateValidity:
         self._low, self._high = group.lower - 1e-9, group.upper + 1e-9
 
     def full(self, positions: Floats) -> Floats:
-        """The state of all variables with the group at some positions, shape (variables,)."""
+        """Return the state of all variables with these positions of the group, (variables,)."""
         state = self._state.copy()
         state[self._columns] = positions
         return state
@@ -71,7 +71,7 @@ class StateValidity:
         return not self._touches(self._state)
 
     def reasons(self, positions: Floats) -> list[str]:
-        """Why positions, shape (n,), are not valid, a text each."""
+        """Return the reasons why positions, shape (n,), are invalid."""
         state = self.full(positions)
         return [
             *self.scene.why_invalid(state, self.group),
@@ -102,13 +102,16 @@ def _nothing(_state: Floats) -> bool:
 
 
 def extent_of(group: JointModelGroup) -> float:
-    """The greatest distance between positions of a group; endless joints are half a turn apart."""
+    """Return the greatest distance between positions of a group.
+
+    Half a turn for continuous joints.
+    """
     span = np.where(np.isfinite(group.upper - group.lower), group.upper - group.lower, SAMPLED_SPAN)
     return float(np.linalg.norm(span))
 
 
 def _bisecting(count: int) -> Iterator[int]:
-    """The numbers between 0 and ``count``, halves before quarters."""
+    """Yield the numbers between 0 and ``count``, halves before quarters."""
     stride = 1 << max(count - 1, 0).bit_length()
     while stride > 1:
         yield from range(stride // 2, count, stride)

@@ -44,7 +44,7 @@ class PathLimits:
     acceleration: Floats
 
     def scaled(self, velocity: float, acceleration: float) -> PathLimits:
-        """Limits times factors within (0, 1].
+        """Return limits times factors within (0, 1].
 
         Raises:
             PlanningError: A factor is not within.
@@ -79,7 +79,7 @@ class TimedPath:
         return float(self.times[-1])
 
     def slower(self, factor: float) -> TimedPath:
-        """The same path in so many times the time."""
+        """Return the same path in so many times the time."""
         return TimedPath(
             self.times * factor,
             self.positions,
@@ -95,7 +95,7 @@ def parameterize(
     *,
     tolerance: float = PATH_TOLERANCE,
 ) -> TimedPath:
-    """A trajectory along a path, that never exceeds limits.
+    """Return a trajectory along a path, within limits.
 
     Args:
         points: On the path, shape (m, n).
@@ -123,7 +123,7 @@ def parameterize(
 
 
 def _time_optimal(path: PathPieces, limits: PathLimits) -> TimedPath:
-    """The fastest way along a path, sampled."""
+    """Return the fastest trajectory along a path, sampled."""
     places = _places(path)
     _, slopes, bends = path.at(np.append((places[:-1] + places[1:]) / 2.0, places[-1]))
     profile = SpeedProfile(places, slopes, bends, limits.velocity, limits.acceleration)
@@ -158,7 +158,7 @@ def _places(path: PathPieces) -> Floats:
 
 
 def _ceilings(path: PathPieces, places: Floats) -> Floats:
-    """Squares of the speed that corners allow: it stands still where the direction jumps."""
+    """Return squares of the speed that corners allow: zero where the direction jumps."""
     ceilings = np.full(len(places), np.inf)
     ceilings[-1] = 0.0
     inner = path.begins[1:-1]
@@ -170,7 +170,7 @@ def _ceilings(path: PathPieces, places: Floats) -> Floats:
 
 
 def _moments(moments: Floats, pushes: Floats) -> Floats:
-    """Times of the result: evenly spaced, and where the acceleration jumps."""
+    """Return times of the result: uniform ones, and those where the acceleration jumps."""
     end = float(moments[-1])
     even = np.linspace(0.0, end, max(3, math.ceil(end / RESAMPLE) + 1))
     gap = float(even[1])
@@ -185,7 +185,7 @@ def _moments(moments: Floats, pushes: Floats) -> Floats:
 
 
 def _through(times: Floats, points: Floats) -> TimedPath:
-    """Velocities and accelerations at points that have times: of parabolas through neighbours."""
+    """Return velocities and accelerations at timed points: of parabolas through neighbours."""
     spans = np.diff(times)[:, None]
     rates = np.diff(points, axis=0) / spans
     velocities = np.zeros_like(points)
@@ -198,7 +198,7 @@ def _through(times: Floats, points: Floats) -> TimedPath:
 
 
 def _within(made: TimedPath, limits: PathLimits) -> TimedPath:
-    """The same, slower by what it exceeds limits, at its points or on cubics between them."""
+    """Return the trajectory slowed down to limits, at its points and on cubics between them."""
     spans = np.diff(made.times)[:, None]
     rates = np.diff(made.positions, axis=0) / spans
     before, after = made.velocities[:-1], made.velocities[1:]

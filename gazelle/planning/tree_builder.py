@@ -80,7 +80,7 @@ class TreeBuilder:
         self._walk()
 
     def _add_virtual(self, joints: Iterable[VirtualJoint]) -> None:
-        """Variables of a base that moves over the ground."""
+        """Add variables of a base that moves over the ground."""
         for joint in joints:
             if joint.type != "planar" or joint.child_link != self.root:
                 continue
@@ -98,7 +98,7 @@ class TreeBuilder:
                 )
 
     def _walk(self) -> None:
-        """Nodes and variables of all joints, depth first; links' places."""
+        """Add nodes and variables of all joints, depth first; links' places."""
         poses = {link.name: link.pose for link in self.model.links} | {WORLD: Pose()}
         below: dict[str, list[Joint]] = {}
         for joint in self.model.joints:
@@ -130,7 +130,7 @@ class TreeBuilder:
         return len(self.nodes) - 1
 
     def source(self, node: TreeNode) -> tuple[int, float, float]:
-        """The variable that a joint goes by at last, its factor and what is added."""
+        """Return the variable that a joint finally follows, its factor and its offset."""
         nodes = {each.name: each for each in self.nodes}
         factor, offset, seen = node.multiplier, node.offset, {node.name}
         while node.leader and node.leader in nodes and node.leader not in seen:
@@ -141,7 +141,7 @@ class TreeBuilder:
         return list(nodes).index(node.name), factor, offset
 
     def tree(self) -> JointTree:
-        """All of it, compiled."""
+        """Return the compiled tree."""
         nodes = self.nodes
         sources = [self.source(node) for node in nodes]
         return JointTree(
@@ -155,7 +155,7 @@ class TreeBuilder:
         )
 
     def links(self) -> dict[str, LinkFrame]:
-        """All links by name, depth first, and then those that are parts of others."""
+        """Return all links by name, depth first, and then those that are parts of others."""
         links = {
             name: LinkFrame(name, node, offset, name)
             for name, (node, offset) in self._place.items()
@@ -171,13 +171,13 @@ class TreeBuilder:
 
 
 def flat(pose: Pose) -> list[float]:
-    """A pose as the twelve numbers of ``joint_tree``."""
+    """Return a pose as the twelve numbers of ``joint_tree``."""
     matrix = pose.matrix()
     return [*matrix[:3, :3].ravel().tolist(), *pose.position]
 
 
 def _root_of(model: Model) -> str:
-    """The one link that no joint holds; the world where joints hold all to it."""
+    """Return the root link; the world where joints hold all to it."""
     held = {joint.child for joint in model.joints}
     roots = [link.name for link in model.links if link.name not in held]
     if any(joint.parent == WORLD for joint in model.joints):

@@ -52,7 +52,7 @@ class JointBounds:
     acceleration: float = math.inf
 
     def with_parameters(self, given: Mapping[str, Any], joint: str = "") -> JointBounds:
-        """These limits as an entry of MoveIt's ``joint_limits.yaml`` changes them.
+        """Return these limits with the changes of an entry of MoveIt's ``joint_limits.yaml``.
 
         Args:
             given: Such as ``{"has_velocity_limits": True, "max_velocity": 1.0}``; a limit whose
@@ -112,7 +112,7 @@ class Variable:
 
 
 def bounds_of(joint: Joint) -> JointBounds:
-    """The limits that a description gives; the soft ones where it has them."""
+    """Return the limits of a description; the soft ones where it has them."""
     axis = joint.axes[0]
     lower, upper = axis.lower, axis.upper
     safety = joint.safety

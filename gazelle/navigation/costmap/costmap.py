@@ -30,27 +30,27 @@ class Layer(ABC):
         self.enabled = True
 
     def resized(self, costmap: Costmap) -> None:  # noqa: B027  # most need not
-        """The costmap has another size; called once when the layer is put on it, too."""
+        """Handle a new size of the costmap; called once when the layer is added, too."""
 
     def moved(self, costmap: Costmap, columns: int, rows: int) -> None:  # noqa: B027  # most need not
-        """A rolling costmap went so many cells along x and y."""
+        """Handle a shift of a rolling costmap by cells along x and y."""
 
     def footprint_changed(self, costmap: Costmap) -> None:  # noqa: B027  # most need not
-        """The robot has another outline."""
+        """Handle a new footprint of the robot."""
 
     @abstractmethod
     def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:
-        """Widen the region by what has changed."""
+        """Extend the region by what has changed."""
 
     @abstractmethod
     def update_costs(self, costmap: Costmap, window: Window) -> None:
         """Write costs into ``costmap.cells``, within the window only."""
 
     def reset(self) -> None:  # noqa: B027  # most need not
-        """Forget what was seen."""
+        """Clear the observations."""
 
     def clear_area(self, costmap: Costmap, area: CostmapBounds, *, outside: bool) -> None:  # noqa: B027  # most need not
-        """Forget what was seen within an area, or outside of it."""
+        """Clear the observations within an area, or outside of it."""
 
 
 class Costmap:
@@ -119,7 +119,7 @@ class Costmap:
     def resize(
         self, rows: int, columns: int, resolution: float, origin: tuple[float, float]
     ) -> None:
-        """Take another size; all that was known is forgotten.
+        """Set another size; all content is discarded.
 
         Raises:
             Error: There would be no cells, or too many.
@@ -132,7 +132,7 @@ class Costmap:
             layer.resized(self)
 
     def set_footprint(self, footprint: Floats) -> None:
-        """Take another outline of the robot, padded [m], shape (n, 2)."""
+        """Set another outline of the robot, padded [m], shape (n, 2)."""
         self.footprint = footprint
         self.inscribed, self.circumscribed = radii_of(footprint)
         for layer in self.layers:
@@ -141,7 +141,7 @@ class Costmap:
     # Places -------------------------------------------------------------------------------
 
     def cell_of(self, x: float, y: float) -> tuple[int, int] | None:
-        """Column and row that a place is in; None off the map."""
+        """Return column and row of a place; None off the map."""
         column = math.floor((x - self.origin[0]) / self.resolution)
         row = math.floor((y - self.origin[1]) / self.resolution)
         rows, columns = self.cells.shape
@@ -182,7 +182,7 @@ class Costmap:
     # Updates ------------------------------------------------------------------------------
 
     def update(self, pose: Pose2) -> Window:
-        """Bring all that layers have learned onto the map; returns the cells that may have changed.
+        """Merge all changes of layers into the map; returns the cells that may have changed.
 
         Args:
             pose: Of the robot, in the frame of the costmap.
@@ -202,7 +202,7 @@ class Costmap:
         return window
 
     def reset(self) -> None:
-        """Forget what was seen; layers that do not see keep what they know."""
+        """Clear the observations; layers without any keep their content."""
         self.cells.fill(self.default)
         for layer in self.layers:
             layer.reset()
@@ -210,7 +210,7 @@ class Costmap:
     def clear(
         self, pose: Pose2, side: float, names: Sequence[str], *, outside: bool = True
     ) -> None:
-        """Forget what some layers saw outside a square about the robot, or within it.
+        """Clear observations of some layers outside a square about the robot, or within it.
 
         Args:
             pose: Of the robot.

@@ -17,7 +17,7 @@ FAR = 1 << 29
 
 
 def squared_distances(marked: Bytes) -> Ints32:
-    """Squared distances to the nearest marked cell [cells²], shape (rows, columns).
+    """Return squared distances to the nearest marked cell [cells²], shape (rows, columns).
 
     Args:
         marked: Not 0 where a cell is marked, shape (rows, columns).
@@ -68,7 +68,7 @@ def _envelope(
     row: cython.int,
     columns: cython.int,
 ) -> cython.void:
-    """One row: ``stack`` holds the parabolas of the envelope and where each begins."""
+    """Compute one row: ``stack`` holds the parabolas of the envelope and where each begins."""
     top: cython.int = 0
     u: cython.int
     i: cython.int
@@ -109,7 +109,7 @@ def _envelope(
 @cython.cfunc
 @cython.exceptval(check=False)
 def _quotient(a: cython.int, b: cython.int) -> cython.int:
-    """Rounded down, in Python as in C; ``b`` is positive."""
+    """Return the quotient rounded down, in Python as in C; ``b`` is positive."""
     if a >= 0:
         return a // b
     return -((-a + b - 1) // b)

@@ -91,7 +91,7 @@ def cells_under(corners: Indices) -> tuple[Indices, Indices]:
 
 
 def _line(start: Indices, end: Indices) -> Indices:
-    """The cells of Bresenham's line between two cells, as base_local_planner draws it, shape (k, 2)."""
+    """Return the cells of Bresenham's line as base_local_planner draws it, shape (k, 2)."""
     along = np.abs(end - start)
     count = int(along.max())
     if count == 0:

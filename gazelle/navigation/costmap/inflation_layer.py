@@ -47,11 +47,11 @@ class InflationLayer(Layer):
         self._all = True
 
     def resized(self, costmap: Costmap) -> None:
-        """Work the costs of distances out again."""
+        """Compute the costs of distances again."""
         self._prepare(costmap)
 
     def footprint_changed(self, costmap: Costmap) -> None:
-        """Work the costs of distances out again."""
+        """Compute the costs of distances again."""
         self._prepare(costmap)
 
     def cost_of(self, distance: float, costmap: Costmap) -> int:
@@ -63,7 +63,7 @@ class InflationLayer(Layer):
         return int((INSCRIBED - 1) * math.exp(-self.scaling * (distance - costmap.inscribed)))
 
     def _prepare(self, costmap: Costmap) -> None:
-        """A table of costs by squared distance in cells."""
+        """Compute a table of costs by squared distance in cells."""
         side = costmap.resolution
         self._reach = max(math.ceil(self.radius / side - 1e-9), 0)
         squares = np.arange(self._reach**2 + 2)
@@ -74,7 +74,7 @@ class InflationLayer(Layer):
         self._all = True
 
     def reset(self) -> None:
-        """There is nothing to forget; all is to be drawn again."""
+        """Mark everything as changed; there are no observations to clear."""
         self._all = True
 
     def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:

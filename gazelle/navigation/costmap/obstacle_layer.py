@@ -62,7 +62,7 @@ class ObservationSource:
     observations: list[Observation] = field(default_factory=list)
 
     def add(self, seen: Observation) -> None:
-        """Take what was seen."""
+        """Add an observation."""
         z = seen.points[:, 2]
         kept = seen.points[(z >= self.min_height) & (z <= self.max_height)]
         seen = Observation(seen.time, seen.origin, kept)
@@ -106,7 +106,7 @@ class ObstacleLayer(Layer):
         self._all = False
 
     def observe(self, source: str, time: float, origin: Floats, points: Floats) -> None:
-        """Take what a sensor saw.
+        """Add an observation of a sensor.
 
         Args:
             source: Its name.
@@ -117,7 +117,7 @@ class ObstacleLayer(Layer):
         self.sources[source].add(Observation(time, origin, points))
 
     def resized(self, costmap: Costmap) -> None:
-        """Begin with nothing known."""
+        """Clear all observations."""
         self.cells = np.full(costmap.cells.shape, costmap.default, np.uint8)
 
     def moved(self, costmap: Costmap, columns: int, rows: int) -> None:
@@ -126,14 +126,14 @@ class ObstacleLayer(Layer):
         self._all = True
 
     def reset(self) -> None:
-        """Forget all."""
+        """Clear all observations."""
         self.cells.fill(FREE_SPACE)
         for source in self.sources.values():
             source.observations.clear()
         self._all = True
 
     def clear_area(self, costmap: Costmap, area: CostmapBounds, *, outside: bool) -> None:
-        """Forget what was seen within an area, or outside of it."""
+        """Clear the observations within an area, or outside of it."""
         window = costmap.window_of(area)
         if outside:
             kept = self.cells[window.slices].copy()
@@ -174,7 +174,7 @@ class ObstacleLayer(Layer):
     def _clear(
         self, costmap: Costmap, source: ObservationSource, seen: Observation, region: CostmapBounds
     ) -> None:
-        """Free what is between a sensor and what it saw."""
+        """Clear the cells between a sensor and its hits."""
         start = costmap.cell_of(float(seen.origin[0]), float(seen.origin[1]))
         if start is None or not len(seen.points):
             return
@@ -186,7 +186,7 @@ class ObstacleLayer(Layer):
     def _mark(
         self, costmap: Costmap, source: ObservationSource, seen: Observation, region: CostmapBounds
     ) -> None:
-        """Make obstacles of what a sensor saw."""
+        """Mark a sensor's hits as obstacles."""
         away = ((seen.points - seen.origin) ** 2).sum(axis=1)
         kept = (away < source.obstacle_range**2) & (seen.points[:, 2] <= self._max_height)
         points = seen.points[kept]
@@ -199,7 +199,7 @@ class ObstacleLayer(Layer):
 
     @staticmethod
     def _touch(seen: Observation, reach: float, region: CostmapBounds) -> None:
-        """Widen the region by what was seen, as far as it counts."""
+        """Extend the region by an observation, within its range."""
         origin = seen.origin[:2]
         ends = seen.points[:, :2] - origin
         far = np.hypot(ends[:, 0], ends[:, 1])
@@ -209,7 +209,7 @@ class ObstacleLayer(Layer):
 
 
 def _fill(cells: Bytes, costmap: Costmap, outline: Floats, cost: int) -> None:
-    """Give all cells that a robot is on a cost."""
+    """Set the cost of all cells under a robot."""
     corners = np.floor((outline - np.array(costmap.origin)) / costmap.resolution).astype(np.intp)
     columns, rows = cells_under(corners)
     high, wide = cells.shape

@@ -160,7 +160,7 @@ _INFLATION_KEYS = ("inflation_radius", "cost_scaling_factor", "inflate_unknown")
 
 
 def _from_flat(values: Values, name: str) -> tuple[Values, list[dict[str, str]]]:
-    """The flat parameters of before there were plugins, moved into layers as costmap_2d does it."""
+    """Convert flat parameters, older than plugins, to layers as costmap_2d does it."""
     nested: dict[str, Any] = dict(values)
     plugins = []
     default_map = not value_of(values, "rolling_window", False)

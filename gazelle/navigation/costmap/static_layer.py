@@ -56,7 +56,7 @@ class StaticLayer(Layer):
         return self._map is not None
 
     def set_map(self, grid: OccupancyMap, costmap: Costmap) -> None:
-        """Take a map; a costmap that does not roll takes its size."""
+        """Set a map; a costmap that does not roll gets its size."""
         self._map = grid
         self._costs = self._interpreted(grid, track_unknown=costmap.track_unknown)
         origin = grid.origin.x, grid.origin.y
@@ -70,7 +70,7 @@ class StaticLayer(Layer):
         self._changed = self._extent()
 
     def update_map(self, x: int, y: int, grid: OccupancyMap, costmap: Costmap) -> None:
-        """Take new cells of the map, from a column and row on (``map_updates``)."""
+        """Set new cells of the map, from a column and row on (``map_updates``)."""
         if self._map is None:
             return
         costs = self._interpreted(grid, track_unknown=costmap.track_unknown)
@@ -101,16 +101,16 @@ class StaticLayer(Layer):
         return CostmapBounds(x, y, x + wide, y + high)
 
     def resized(self, costmap: Costmap) -> None:
-        """All of it is to be drawn again."""
+        """Mark everything as changed."""
         del costmap
         self._changed = self._extent()
 
     def reset(self) -> None:
-        """Keep the map, and draw it again."""
+        """Keep the map, and mark it as changed."""
         self._changed = self._extent()
 
     def update_bounds(self, costmap: Costmap, pose: Pose2, region: CostmapBounds) -> None:
-        """All of it, when the map is new or the window moves."""
+        """Extend the bounds to everything when the map is new or the window moves."""
         del pose
         if self._map is None:
             return

@@ -21,7 +21,7 @@ _SHOWN: Final = np.array(
 
 
 def shown(cells: Bytes) -> NDArray[np.int8]:
-    """Costs as a ``nav_msgs/OccupancyGrid`` has them: 254 is 100, 253 is 99, unknown is -1."""
+    """Return costs as in ``nav_msgs/OccupancyGrid``: 254 is 100, 253 is 99, unknown is -1."""
     return _SHOWN[cells]
 
 
@@ -35,7 +35,7 @@ class CostmapBounds:
     y1: float = -np.inf
 
     def touch(self, x: float, y: float) -> None:
-        """Have a point in it."""
+        """Include a point."""
         self.x0, self.y0 = min(self.x0, x), min(self.y0, y)
         self.x1, self.y1 = max(self.x1, x), max(self.y1, y)
 

@@ -66,7 +66,7 @@ class VoxelLayer(ObstacleLayer):
         self._unknown: Ints32 = np.zeros((0, 0), np.int32)
 
     def resized(self, costmap: Costmap) -> None:
-        """Begin with nothing known."""
+        """Clear all observations."""
         super().resized(costmap)
         self._forget()
 
@@ -89,12 +89,12 @@ class VoxelLayer(ObstacleLayer):
                 ]
 
     def reset(self) -> None:
-        """Forget all."""
+        """Clear all observations."""
         super().reset()
         self._forget()
 
     def clear_area(self, costmap: Costmap, area: CostmapBounds, *, outside: bool) -> None:
-        """Forget what was seen within an area, or outside of it."""
+        """Clear the observations within an area, or outside of it."""
         super().clear_area(costmap, area, outside=outside)
         gone = np.full(self.cells.shape, outside)
         gone[costmap.window_of(area).slices] = not outside
@@ -102,7 +102,7 @@ class VoxelLayer(ObstacleLayer):
         self._unknown[gone] = (1 << self._layers) - 1
 
     def _scaled(self, costmap: Costmap, points: Floats) -> Floats:
-        """Columns, rows and layers of places, with parts of them."""
+        """Return columns, rows and layers of places, with their fractions."""
         corner = np.array([*costmap.origin, self._bottom])
         sides = np.array([costmap.resolution, costmap.resolution, self._side])
         return np.ascontiguousarray((points - corner) / sides)

@@ -45,7 +45,7 @@ class Localizer:
         self.begin((0.0, 0.0, 0.0), np.diag([0.25, 0.25, (math.pi / 12.0) ** 2]))
 
     def configure(self, settings: AmclSettings) -> None:
-        """Take settings; a filter of another size begins anew around what it knew."""
+        """Set the parameters; a filter of another size restarts around its estimate."""
         self.settings = settings
         s = settings
         self.filter = ParticleFilter(
@@ -63,7 +63,7 @@ class Localizer:
             self.begin(_as_pose(self.estimate.pose), self.estimate.covariance)
 
     def set_map(self, grid: OccupancyMap) -> None:
-        """Take another map."""
+        """Set another map."""
         self._map = grid
         self._model = ScanModel(self.settings, grid)
         self._free = np.argwhere(grid.data == FREE)
@@ -71,13 +71,13 @@ class Localizer:
     # Beginning ----------------------------------------------------------------------------
 
     def begin(self, pose: Pose2, covariance: Floats) -> None:
-        """Begin around a pose, covariance shape (3, 3)."""
+        """Initialise around a pose, covariance shape (3, 3)."""
         self.filter.spread(np.array(pose), covariance)
         self._odom = None
         self._searching = False
 
     def begin_anywhere(self) -> None:
-        """Begin with particles all over the free cells of the map.
+        """Initialise with particles all over the free cells of the map.
 
         The first scan then decides where they are: see `draw_fitting`.
         """
@@ -86,7 +86,7 @@ class Localizer:
         self._searching = True
 
     def anywhere(self, count: int) -> Floats:
-        """Poses on free cells, shape (count, 3)."""
+        """Return random poses on free cells, shape (count, 3)."""
         poses = np.zeros((count, 3))
         if len(self._free):
             chosen = self._free[self._random.integers(len(self._free), size=count)]
@@ -96,13 +96,13 @@ class Localizer:
         return poses
 
     def force_update(self) -> None:
-        """Take the next scan even if the robot has not moved."""
+        """Process the next scan even if the robot has not moved."""
         self._forced = True
 
     # Updating -----------------------------------------------------------------------------
 
     def update(self, odom: Pose2, scan: PlanarScan) -> PoseEstimate | None:
-        """Take a scan, if the robot has moved since the last one.
+        """Process a scan, if the robot has moved since the last one.
 
         Args:
             odom: Pose of the robot by odometry, when the scan was taken.
@@ -135,7 +135,7 @@ class Localizer:
         return self.estimate
 
     def _search(self, scan: PlanarScan) -> None:
-        """Begin where the scan fits, of many more poses than there are to be particles."""
+        """Initialise where the scan fits, out of many more poses than particles."""
         self._searching = False
         candidates = self.anywhere(count_for(len(self._free) * self._map.resolution**2))
         self.filter.begin(

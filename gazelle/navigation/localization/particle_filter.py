@@ -78,13 +78,13 @@ class ParticleFilter:
         self.converged = False
 
     def spread(self, mean: Floats, covariance: Floats) -> None:
-        """Begin with a normal distribution: mean shape (3,), covariance (3, 3)."""
+        """Initialise with a normal distribution: mean shape (3,), covariance (3, 3)."""
         values, axes = np.linalg.eigh(covariance)
         noise = self._random.standard_normal((self.most, 3)) * np.sqrt(np.maximum(values, 0.0))
         self.begin(np.asarray(mean) + noise @ axes.T)
 
     def begin(self, poses: Floats) -> None:
-        """Begin with these particles, shape (n, 3)."""
+        """Initialise with these particles, shape (n, 3)."""
         self.poses = np.ascontiguousarray(poses)
         self.weights = np.full(len(poses), 1.0 / len(poses))
         self._long = self._short = 0.0
@@ -111,7 +111,7 @@ class ParticleFilter:
         return float(1.0 / (self.weights**2).sum())
 
     def resample(self, anywhere: Callable[[int], Floats]) -> None:
-        """Draw new particles by their weights, as many as their spread needs.
+        """Resample particles by their weights, as many as their spread needs.
 
         Args:
             anywhere: Draws so many poses from all over the map, shape (n, 3).
@@ -164,7 +164,7 @@ class ParticleFilter:
 
 
 def _covariance(values: Floats, weights: Floats) -> Floats:
-    """Of place, and the circular variance of headings, as amcl gives it; shape (3, 3).
+    """Return the covariance of place and the circular variance of headings, shape (3, 3).
 
     Args:
         values: x, y [m], cosine and sine of the heading, shape (4, n).

@@ -47,7 +47,10 @@ class PoseBins:
         return highest
 
     def clusters(self) -> Indices:
-        """The number of each pose's cluster: bins that touch, at corners too, are one; shape (n,)."""
+        """Return the cluster of each pose: bins that touch, at corners too, are one.
+
+        Shape (n,).
+        """
         labels = np.full(self._count, -1, np.intp)
         self._join(labels, np.empty(self._count, np.intp))
         found: Indices = labels[np.asarray(self._bins)]
@@ -94,7 +97,7 @@ class PoseBins:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _join(self, labels: cython.Py_ssize_t[::1], front: cython.Py_ssize_t[::1]) -> cython.void:
-        """Flood from each bin that has no label yet."""
+        """Flood-fill from each bin without a label."""
         seed: cython.Py_ssize_t
         side: cython.int
         label: cython.Py_ssize_t = 0

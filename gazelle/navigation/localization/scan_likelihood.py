@@ -61,7 +61,10 @@ class LikelihoodField:
         return result
 
     def count_above(self, poses: Floats, points: Floats, least: float) -> Floats:
-        """At how many poses each beam's end, being on the map, adds more than `least`, shape (m,)."""
+        """Return the number of poses at which each beam's end adds more than `least`, shape (m,).
+
+        Only ends on the map count.
+        """
         if self._least != least:
             above = (np.asarray(self._terms) > least).reshape(self._rows, self._columns)
             above[[0, -1]] = above[:, [0, -1]] = False
@@ -141,7 +144,7 @@ class LikelihoodField:
     def _find(
         self, block: cython.p_double, px: cython.double, py: cython.double, cells: cython.p_int
     ) -> cython.void:
-        """The cells where the end of a beam is, for each robot of a block.
+        """Find the cells of a beam's end, for each robot of a block.
 
         Robots are taken together as their sums do not wait for one another, and as this has no
         branches a compiler makes vectors of it.
@@ -199,7 +202,7 @@ class BeamModel:
         self._sigma, self._decay = sigma, decay
 
     def scores(self, poses: Floats, beams: Floats, most: float) -> Floats:
-        """1 plus the sum of cubes of beams' probabilities, at each pose, shape (n,).
+        """Return 1 plus the sum of cubes of beams' probabilities, at each pose, shape (n,).
 
         Args:
             poses: x, y [m] and heading [rad] of the laser, shape (n, 3).
@@ -251,7 +254,10 @@ class BeamModel:
     def _range(
         self, x: cython.double, y: cython.double, heading: cython.double, most: cython.double
     ) -> cython.double:
-        """Go from cell to cell along a ray (J. Amanatides and A. Woo, 1987)."""
+        """Return the range of a ray, from cell to cell (J.
+
+        Amanatides and A. Woo, 1987). Amanatides and A. Woo, 1987).
+        """
         c: cython.double = cos(heading)
         s: cython.double = sin(heading)
         px: cython.double = (x - self._x0) / self._cell

@@ -78,7 +78,7 @@ class ScanModel:
         return weights
 
     def _step(self, count: int) -> int:
-        """Every how many beams are used."""
+        """Return the stride between used beams."""
         beams = max(self.settings.laser_max_beams, 1)
         if self.settings.laser_model_type == "likelihood_field_prob":
             return max(-(-count // beams), 1)
@@ -146,7 +146,10 @@ class ScanModel:
 
 
 def _surfaces(occupied: Bools) -> Bools:
-    """Those of the occupied cells that have a cell beside them that is not; off the map all are."""
+    """Return the occupied cells with a free cell beside them.
+
+    Those off the map count as occupied.
+    """
     ring = np.pad(occupied, 1, constant_values=True)
     inside = ring[:-2, 1:-1] & ring[2:, 1:-1] & ring[1:-1, :-2] & ring[1:-1, 2:]
     surfaces: Bools = occupied & ~inside
@@ -154,7 +157,7 @@ def _surfaces(occupied: Bools) -> Bools:
 
 
 def _ends(ranges: Floats, angles: Floats, laser: Pose2) -> Floats:
-    """Ends of beams in the robot's frame, shape (n, 2) [m]."""
+    """Return the ends of beams in the robot's frame, shape (n, 2) [m]."""
     turned = angles + laser[2]
     x, y = laser[0] + ranges * np.cos(turned), laser[1] + ranges * np.sin(turned)
     ends: Floats = np.stack((x, y), axis=1)

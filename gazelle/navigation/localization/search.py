@@ -27,7 +27,7 @@ def draw_fitting(
     count: int,
     random: np.random.Generator,
 ) -> Floats:
-    """Poses that a scan fits well, drawn from many candidates; shape (count, 3).
+    """Sample poses that a scan fits well from many candidates; shape (count, 3).
 
     A few thousand particles strewn over a building miss the right place: none is near enough to be
     better than the others. So many more poses are tried once, and particles begin where the scan fits
@@ -48,7 +48,7 @@ def draw_fitting(
 
 
 def _drawn(poses: Floats, scores: Floats, count: int, random: np.random.Generator) -> Floats:
-    """Draw by a power of scores that leaves enough of them to count."""
+    """Sample by a power of scores that leaves enough of them."""
     logs = np.log(np.maximum(scores, 1e-300))
     logs -= logs.max()
     few, many = 0.0, 64.0

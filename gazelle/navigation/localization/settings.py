@@ -58,7 +58,7 @@ class AmclSettings:
 
     @classmethod
     def read(cls, values: Values) -> AmclSettings:
-        """From parameters.
+        """Read the parameters.
 
         Raises:
             Error: One is of the wrong kind, or a model is unknown.

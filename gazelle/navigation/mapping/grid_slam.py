@@ -53,7 +53,7 @@ class GmappingSettings:
 
     @classmethod
     def read(cls, values: Values) -> GmappingSettings:
-        """From parameters.
+        """Read the parameters.
 
         Raises:
             Error: One is of the wrong kind, or the map would be none.
@@ -109,7 +109,7 @@ class GridSlam:
         return int(self._sums.argmax())
 
     def entropy(self) -> float:
-        """Of the particles' weights, as ``~entropy`` publishes it."""
+        """Return the entropy of the particles' weights, as ``~entropy`` publishes it."""
         weights = self.weights[self.weights > 0.0]
         return float(-(weights * np.log(weights)).sum())
 
@@ -122,7 +122,7 @@ class GridSlam:
         range_max: float,
         laser: Pose2,
     ) -> bool:
-        """Take a scan, if the robot has moved or some time has gone.
+        """Process a scan, if the robot has moved or some time has passed.
 
         Args:
             time: Of the scan [s].
@@ -205,14 +205,14 @@ class GridSlam:
         self._scores, self._sums = self._scores + logs, self._sums + logs
 
     def _weigh(self) -> None:
-        """Weights of the likelihoods since the last resampling, flattened by ``ogain``."""
+        """Compute weights from likelihoods since the last resampling, flattened by ``ogain``."""
         s = self.settings
         gain = 1.0 / (s.ogain * len(self.poses))
         weights = np.exp(gain * (self._scores - self._scores.max()))
         self.weights = weights / weights.sum()
 
     def _resample(self) -> None:
-        """Draw particles anew when few of them count."""
+        """Resample particles when few of them have weight."""
         count = len(self.poses)
         if 1.0 / (self.weights**2).sum() >= self.settings.resampleThreshold * count:
             return

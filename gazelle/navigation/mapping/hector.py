@@ -44,7 +44,7 @@ class HectorSettings:
 
     @classmethod
     def read(cls, values: Values) -> HectorSettings:
-        """From parameters.
+        """Read the parameters.
 
         Raises:
             Error: One is of the wrong kind, or the map would be none.
@@ -75,7 +75,7 @@ class HectorSlam:
         self.reset()
 
     def reset(self) -> None:
-        """Forget the map, and begin at its origin."""
+        """Discard the map, and restart at its origin."""
         s = self.settings
         tiles = -(-s.map_size // SIDE)
         self._maps = TiledMaps(1, tiles, tiles, self._corner, s.map_resolution)
@@ -87,7 +87,7 @@ class HectorSlam:
     def update(
         self, ranges: Floats, angles: Floats, laser: Pose2, start: Pose2 | None = None
     ) -> bool:
-        """Take a scan.
+        """Process a scan.
 
         Args:
             ranges: [m], shape (n,).

@@ -47,7 +47,7 @@ class KartoSettings:
 
     @classmethod
     def read(cls, values: Values) -> KartoSettings:
-        """From parameters; ``delta`` is taken for ``resolution``, as in the original.
+        """Read the parameters; ``delta`` is taken for ``resolution``, as in the original.
 
         Raises:
             Error: One is of the wrong kind, or the map would be none.
@@ -94,7 +94,7 @@ class KartoSlam:
     def update(
         self, odom: Pose2, ranges: Floats, angles: Floats, range_max: float, laser: Pose2
     ) -> bool:
-        """Take a scan, if the robot has moved; arguments as of `GridSlam.update`.
+        """Process a scan, if the robot has moved; arguments as of `GridSlam.update`.
 
         Returns:
             Whether the map has changed.
@@ -199,7 +199,7 @@ class KartoSlam:
         return maps
 
     def map(self) -> OccupancyMap:
-        """Of all scans, as far as they reach."""
+        """Return the map of all scans, as far as they reach."""
         s = self.settings
         if not self._frames:
             return OccupancyMap(np.full((1, 1), UNKNOWN, np.int8), s.resolution, Pose())

@@ -34,7 +34,7 @@ class PoseEdge:
 
 
 def optimized(poses: Floats, edges: list[PoseEdge]) -> Floats:
-    """Poses that fit all edges best, the first one kept; shape (n, 3).
+    """Return poses that fit all edges best, the first one kept; shape (n, 3).
 
     Args:
         poses: x, y [m] and heading [rad] to begin with, shape (n, 3).
@@ -56,7 +56,7 @@ def optimized(poses: Floats, edges: list[PoseEdge]) -> Floats:
 def _step(
     poses: Floats, first: Indices, second: Indices, wanted: Floats, weights: Floats
 ) -> Floats:
-    """One step of Gauss and Newton, shape (n, 3)."""
+    """Compute one step of Gauss and Newton, shape (n, 3)."""
     a, b = poses[first], poses[second]
     cos, sin = np.cos(a[:, 2]), np.sin(a[:, 2])
     dx, dy = b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]

@@ -209,7 +209,7 @@ class ScanMatcher:
         guess: cython.double[::1],
         beams: cython.double[:, ::1],
     ) -> cython.void:
-        """Least squares by Gauss and Newton, in eight rounds at most."""
+        """Minimise by Gauss and Newton, in eight rounds at most."""
         sums: cython.double[::1] = self._sums
         for _ in range(8):
             # Odometry counts as two beams: where walls say nothing, as along a corridor, it decides.

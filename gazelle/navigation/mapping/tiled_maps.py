@@ -45,7 +45,7 @@ class TiledMaps:
         self._used = 0
 
     def copy_particles(self, chosen: Indices) -> None:
-        """Let each particle have the map of another, shape (count,)."""
+        """Copy the map of another particle to each, shape (count,)."""
         tables = np.asarray(self._tables)[chosen]
         users = np.bincount(tables[tables >= 0], minlength=self._used)
         # What nobody uses any more is left out.
@@ -60,7 +60,10 @@ class TiledMaps:
         self._used = len(kept)
 
     def cells(self, particle: int) -> Floats32:
-        """Sums of x and of y of ends [m], number of ends, and of visits; shape (4, rows, columns)."""
+        """Return sums of x and y of ends [m], numbers of ends and visits.
+
+        Shape (4, rows, columns).
+        """
         table = np.asarray(self._tables)[particle]
         whole = np.zeros((self._rows * SIDE, self._columns * SIDE, 4), np.float32)
         pool = np.asarray(self.pool)
@@ -97,7 +100,7 @@ class TiledMaps:
         self._draw(particle, pose, beams, most)
 
     def _make_room(self, needed: int) -> None:
-        """Have so many unused tiles."""
+        """Allocate so many unused tiles."""
         capacity = self.pool.shape[0]
         if self._used + needed > capacity:
             more = max(capacity, needed)
@@ -198,7 +201,7 @@ class TiledMaps:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _own(self, particle: cython.int, n: cython.int, shared: cython.int) -> cython.int:
-        """Give a particle a tile of its own, with what is in a shared one."""
+        """Copy a shared tile to one of the particle's own."""
         tile: cython.int = self._used
         if tile >= self.pool.shape[0]:
             return -1

@@ -32,7 +32,7 @@ class RecoveryBehavior(ABC):
 
     @abstractmethod
     def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
-        """Begin, with the robot at a pose in each costmap's frame."""
+        """Start, with the robot at a pose in each costmap's frame."""
 
     @abstractmethod
     def update(self, in_local: Pose2) -> Velocity | None:
@@ -47,7 +47,7 @@ class ClearCostmapRecovery(RecoveryBehavior):
     """
 
     def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
-        """Forget, at once."""
+        """Clear the costmaps, at once."""
         side = value_of(self.parameters, "reset_distance", 3.0)
         # "obstacles" is the original's; flat parameters make a layer of the other name.
         names = self.parameters.get("layer_names", ["obstacles", "obstacle_layer", "voxel_layer"])
@@ -61,7 +61,7 @@ class ClearCostmapRecovery(RecoveryBehavior):
                 costmap.clear(pose, side, names, outside=outside)
 
     def update(self, in_local: Pose2) -> Velocity | None:
-        """It is done."""
+        """Return None: it is done."""
         del in_local
         return None
 
@@ -76,13 +76,13 @@ class RotateRecovery(RecoveryBehavior):
     """
 
     def begin(self, in_whole: Pose2, in_local: Pose2) -> None:
-        """Turn, counter-clockwise."""
+        """Start to turn, counter-clockwise."""
         del in_whole
         self._last = in_local[2]
         self._left = 2.0 * math.pi
 
     def update(self, in_local: Pose2) -> Velocity | None:
-        """Go on turning."""
+        """Return the velocity of the turn."""
         self._left -= wrapped(in_local[2] - self._last)
         self._last = in_local[2]
         if self._left < self._limit("yaw_goal_tolerance", "", 0.1) or not self._has_room(in_local):
@@ -123,7 +123,7 @@ _KINDS: dict[str, MakeRecovery] = {
 
 
 def register_recovery(kind: str, make: MakeRecovery) -> None:
-    """Give a type's name to a recovery behaviour, in this process."""
+    """Register a recovery behaviour under a type's name, in this process."""
     _KINDS[kind] = make
 
 

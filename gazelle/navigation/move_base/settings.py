@@ -39,7 +39,7 @@ class MoveBaseSettings:
 
     @classmethod
     def read(cls, values: Values) -> MoveBaseSettings:
-        """From parameters.
+        """Read the parameters.
 
         Raises:
             Error: One is of the wrong kind, or the controller would never run.
@@ -51,7 +51,7 @@ class MoveBaseSettings:
 
 
 def recoveries_of(values: Values, settings: MoveBaseSettings) -> list[Mapping[str, Any]]:
-    """Names and types of recovery behaviours, in their order.
+    """Return names and types of recovery behaviours, in their order.
 
     Raises:
         Error: An entry of ``recovery_behaviors`` is none, or a name stands there twice.

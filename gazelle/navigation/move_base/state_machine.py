@@ -124,14 +124,14 @@ class MoveBase:
         self._running: RecoveryBehavior | None = None
 
     def set_goal(self, goal: Pose2, time: float) -> None:
-        """Go there, in the global costmap's frame."""
+        """Set a goal in the global costmap's frame."""
         self.goal = goal
         self.phase = Phase.PLANNING
         self._trigger, self._recovery_index, self._running = _Trigger.PLANNING, 0, None
         self._forget(time)
 
     def cancel(self) -> None:
-        """Have no goal."""
+        """Cancel the goal."""
         self.goal, self.phase, self._running = None, Phase.IDLE, None
 
     def _forget(self, time: float) -> None:
@@ -143,7 +143,7 @@ class MoveBase:
     # A cycle ------------------------------------------------------------------------------
 
     def update(self, time: float, state: RobotState) -> MoveStep:
-        """Take one cycle of the controller.
+        """Run one cycle of the controller.
 
         Args:
             time: Now [s].
@@ -172,7 +172,10 @@ class MoveBase:
         return MoveStep(step.velocity, step.outcome, step.text, plan, step.recovery)
 
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float) -> Floats:
-        """A plan without going, or one to a place nearby; shape (n, 3), empty if there is none."""
+        """Return a plan without moving, or one to a place nearby.
+
+        Shape (n, 3), empty without one.
+        """
         found = self.planner.make_plan(start, goal)
         if len(found) or tolerance <= 0.0:
             return found
@@ -258,7 +261,7 @@ class MoveBase:
         self._trigger, self.phase = why, Phase.CLEARING
 
     def _clear(self, time: float, state: RobotState) -> MoveStep:
-        """Go on with a recovery behaviour, or begin the next, or give up."""
+        """Continue a recovery behaviour, or start the next, or abort."""
         begun = None
         if self._running is None:
             index = self._recovery_index

@@ -23,7 +23,7 @@ class CarrotPlanner(GlobalPlannerPlugin):
     """
 
     def make_plan(self, start: Pose2, goal: Pose2, tolerance: float | None = None) -> Floats:
-        """Two poses; see `GlobalPlannerPlugin`."""
+        """Return a plan of two poses; see `GlobalPlannerPlugin`."""
         del tolerance
         if self.costmap.cell_of(goal[0], goal[1]) is None:
             return NO_PLAN

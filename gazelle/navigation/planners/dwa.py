@@ -45,7 +45,7 @@ class DwaSettings:
 
     @classmethod
     def read(cls, values: Values) -> DwaSettings:
-        """From parameters.
+        """Read the parameters.
 
         Raises:
             Error: One is of the wrong kind.
@@ -72,14 +72,14 @@ class DwaPlanner(PlanFollower):
         )
 
     def configure(self, parameters: Values) -> None:
-        """Take other parameters while it runs."""
+        """Set new parameters while running."""
         self.parameters = parameters
         self.settings = DwaSettings.read(parameters)
         self.limits = VelocityLimits.read(parameters)
         self._stop.limits = self.limits
 
     def set_plan(self, plan: Floats) -> bool:
-        """Take a plan; flags against oscillation are forgotten, and so is a goal that was reached."""
+        """Set a plan; flags against oscillation and a reached goal are cleared."""
         self._guard.reset()
         self._stop.reset()
         return super().set_plan(plan)
@@ -179,7 +179,9 @@ class DwaPlanner(PlanFollower):
         return bool(cost >= 0.0 or cost == NO_MOTION)
 
     def _turns_from_rest(self, velocity: Velocity) -> Floats:
-        """Turning on the spot at the least rate, where that is too much for a cycle, shape (n, 3).
+        """Return turns on the spot at the least rate, shape (n, 3).
+
+        They are used where that rate is too much for a cycle.
 
         A base whose ``min_vel_theta`` is more than ``acc_lim_theta`` reaches within a cycle has no
         way to turn on the spot from a stand. Where driving is out of the question, too, the original
@@ -193,7 +195,7 @@ class DwaPlanner(PlanFollower):
         return np.array([[0.0, 0.0, -own.min_vel_theta], [0.0, 0.0, own.min_vel_theta]])
 
     def _too_slow_or_fast(self, commands: Floats) -> Any:
-        """Commands that are neither fast enough nor turn enough, or too fast."""
+        """Return commands that are neither fast enough nor turn enough, or too fast."""
         own = self.limits
         speed, turn = np.hypot(commands[:, 0], commands[:, 1]), np.abs(commands[:, 2])
         slow = (own.min_vel_trans >= 0.0) & (speed + _ROUNDING < own.min_vel_trans)
@@ -202,7 +204,7 @@ class DwaPlanner(PlanFollower):
         return (slow & lazy) | fast
 
     def _samples(self, velocity: Velocity, pose: Pose2, goal: Pose2) -> Floats:
-        """Velocities that can be had, on a lattice, shape (n, 3)."""
+        """Return reachable velocities, on a lattice, shape (n, 3)."""
         own, s = self.limits, self.settings
         time = self.period if s.use_dwa else s.sim_time
         high_x, high_y = own.max_vel_x, own.max_vel_y
@@ -229,7 +231,7 @@ class DwaPlanner(PlanFollower):
 
 
 def spread(low: float, high: float, count: int) -> Floats:
-    """So many velocities from the least to the greatest, and 0 if it lies between."""
+    """Return so many velocities from the least to the greatest, and 0 if it lies between."""
     if low >= high:
         return np.array([min(low, high) if low == high else high])
     values = np.linspace(low, high, max(count, 2))

@@ -33,7 +33,7 @@ class PlanFollower(LocalPlannerPlugin):
         return len(self._plan) > 0
 
     def set_plan(self, plan: Floats) -> bool:
-        """Take a plan in the global frame."""
+        """Set a plan in the global frame."""
         self._plan = np.array(plan, np.float64)
         return len(plan) > 0
 
@@ -60,7 +60,7 @@ class PlanFollower(LocalPlannerPlugin):
         return plan[first:last]
 
     def cells_of(self, plan: Floats) -> Indices:
-        """The cells that a plan leads through, from its first one on the map until it leaves it.
+        """Return the cells of a plan, from its first one on the map until it leaves it.
 
         Returns:
             Columns and rows, shape (n, 2), one at least.

@@ -39,7 +39,7 @@ class GlobalPlanner(PotentialPlanner):
         self.grid_path = value_of(parameters, "use_grid_path", False)
 
     def prices(self) -> Floats32:
-        """Neutral cost and factor times cost, at most one below lethal; see `PotentialPlanner`."""
+        """Return neutral cost and factor times cost, below lethal; see `PotentialPlanner`."""
         costs = np.arange(256, dtype=np.float32)
         table = np.minimum(self._neutral + self._factor * costs, self._lethal - 1.0)
         table[costs >= self._lethal - 1] = 0.0
@@ -48,7 +48,7 @@ class GlobalPlanner(PotentialPlanner):
         return prices
 
     def oriented(self, plan: Floats, start: Pose2) -> Floats:
-        """Headings by ``orientation_mode``; the goal keeps its own."""
+        """Return headings by ``orientation_mode``; the goal keeps its own."""
         if self._mode == 0 or len(plan) < 3:
             return plan
         goal = plan[-1, 2]
@@ -68,7 +68,7 @@ class GlobalPlanner(PotentialPlanner):
         return plan
 
     def _smoothed(self, plan: Floats) -> Floats:
-        """Headings from so many poses before to so many after."""
+        """Return headings from so many poses before to so many after."""
         count = len(plan)
         index = np.arange(count)
         after = plan[np.minimum(index + self._window, count - 1), :2]

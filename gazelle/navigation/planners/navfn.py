@@ -85,7 +85,10 @@ class PotentialPlanner(GlobalPlannerPlugin):
         return int(columns[best]), int(rows[best])
 
     def _posed(self, cells: Floats, start: Pose2, goal: Pose2, *, exact: bool) -> Floats:
-        """Poses along a way of cells: each but the last one looks ahead by what ``oriented`` says."""
+        """Return poses along a path of cells.
+
+        Each but the last one looks ahead as ``oriented`` says.
+        """
         corner = np.array(self.costmap.origin)
         plan = np.zeros((len(cells), 3))
         plan[:, :2] = corner + (cells + 0.5) * self.costmap.resolution
@@ -105,12 +108,15 @@ class NavfnPlanner(PotentialPlanner):
 
 
 def path_length(plan: Floats) -> float:
-    """Of a plan, shape (n, 2) or (n, 3) [m]."""
+    """Return the length of a plan, shape (n, 2) or (n, 3) [m]."""
     return float(np.hypot(*np.diff(plan[:, :2], axis=0).T).sum()) if len(plan) > 1 else 0.0
 
 
 def heading_along(plan: Floats) -> Floats:
-    """The heading from each pose to the next [rad], shape (n,); the last keeps the one before."""
+    """Return the heading from each pose to the next [rad], shape (n,).
+
+    The last keeps the one before.
+    """
     steps = np.diff(plan[:, :2], axis=0)
     if not len(steps):
         return np.zeros(len(plan))
@@ -119,6 +125,6 @@ def heading_along(plan: Floats) -> Floats:
 
 
 def turned(headings: Floats, angle: float) -> Floats:
-    """Headings turned by an angle, between -pi and pi."""
+    """Return headings turned by an angle, between -pi and pi."""
     wrapped: Floats = np.remainder(headings + angle + math.pi, 2.0 * math.pi) - math.pi
     return wrapped

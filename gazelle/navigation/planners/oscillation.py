@@ -27,7 +27,7 @@ class OscillationGuard:
         self.reset()
 
     def reset(self) -> None:
-        """Forget all."""
+        """Clear all flags."""
         self._last = [0] * _AXES
         """The sign of the last motion on each axis."""
         self._only = [0] * _AXES
@@ -43,7 +43,7 @@ class OscillationGuard:
         return found
 
     def update(self, pose: Pose2, command: Floats, least: float) -> None:
-        """Learn what it is going to do.
+        """Update the flags by a command.
 
         Args:
             pose: Of the robot.
@@ -59,7 +59,7 @@ class OscillationGuard:
             self._last, self._only = [0] * _AXES, [0] * _AXES
 
     def _learn(self, axis: int, speed: float) -> bool:
-        """Note a motion on an axis; returns whether it turned round."""
+        """Record a motion on an axis; returns whether it reversed."""
         sign = int(np.sign(speed))
         if not sign:
             return False

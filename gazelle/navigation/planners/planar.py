@@ -11,7 +11,7 @@ from gazelle.navigation.following import Pose2, wrapped
 
 
 def composed(first: Pose2, second: Pose2) -> Pose2:
-    """``second``, given in the frame of ``first``, in the frame that ``first`` is in."""
+    """Return ``second``, given in the frame of ``first``, in the parent frame of ``first``."""
     cos, sin = math.cos(first[2]), math.sin(first[2])
     return (
         first[0] + cos * second[0] - sin * second[1],
@@ -27,12 +27,12 @@ def inverse(pose: Pose2) -> Pose2:
 
 
 def between(first: Pose2, second: Pose2) -> Pose2:
-    """``second`` in the frame of ``first``, both in the same one."""
+    """Return ``second`` in the frame of ``first``, both in the same one."""
     return composed(inverse(first), second)
 
 
 def moved(poses: Floats, frame: Pose2) -> Floats:
-    """Poses or points given in a frame, in the frame that it is in, shape (n, 2) or (n, 3)."""
+    """Return poses or points of a frame in its parent frame, shape (n, 2) or (n, 3)."""
     cos, sin = math.cos(frame[2]), math.sin(frame[2])
     result = np.array(poses, np.float64)
     result[:, 0] = frame[0] + cos * poses[:, 0] - sin * poses[:, 1]

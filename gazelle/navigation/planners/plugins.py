@@ -70,7 +70,7 @@ class LocalPlannerPlugin(ABC):
 
     @abstractmethod
     def set_plan(self, plan: Floats) -> bool:
-        """Take a plan in the global frame, shape (n, 3); returns whether it will be followed."""
+        """Set a plan in the global frame, shape (n, 3); returns whether it will be followed."""
 
     @abstractmethod
     def command(self, pose: Pose2, velocity: Velocity, to_local: Pose2) -> Velocity | None:
@@ -106,12 +106,12 @@ _SHORT = {name.rpartition("/")[2]: name for name in (*_global, *_local)}
 
 
 def register_global(kind: str, make: MakeGlobal) -> None:
-    """Give a type's name to a global planner, in this process."""
+    """Register a global planner under a type's name, in this process."""
     _global[kind] = make
 
 
 def register_local(kind: str, make: MakeLocal) -> None:
-    """Give a type's name to a local planner, in this process."""
+    """Register a local planner under a type's name, in this process."""
     _local[kind] = make
 
 

@@ -135,7 +135,7 @@ class PotentialField:
         waiting: cython.uchar[::1],
         lists: cython.int[:, ::1],
     ) -> cython.int:
-        """Have the neighbours of the source looked at; how many they are."""
+        """Queue the neighbours of the source; returns their number."""
         side: cython.int
         count: cython.int = 0
         for side in range(4):
@@ -158,7 +158,7 @@ class PotentialField:
         value: cython.float[::1],
         price: cython.float[::1],
     ) -> cython.bint:
-        """Lower a cell's potential to what its neighbours make of it; whether it is lower now."""
+        """Lower a cell's potential to that of its neighbours; returns whether it is lower now."""
         a: cython.float = min(value[n + 1], value[n - 1])
         b: cython.float = min(value[n - columns], value[n + columns])
         own: cython.float = price[n]
@@ -189,7 +189,7 @@ class PotentialField:
         use: cython.p_int,
         counts: cython.p_int,
     ) -> cython.void:
-        """Have the neighbours of a cell looked at, in this block or the next.
+        """Queue the neighbours of a cell, in this block or the next.
 
         Whether one needs it is a toss, which a processor cannot guess: so each is written to the end of the list,
         and the end moves on or not.
@@ -304,7 +304,7 @@ class PotentialField:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _unit(self, n: cython.int, axis: cython.int) -> cython.double:
-        """One part of the direction of the slope in a cell."""
+        """Return one part of the direction of the slope in a cell."""
         gx: cython.double = self._slope(n, 0)
         gy: cython.double = self._slope(n, 1)
         size: cython.double = sqrt(gx * gx + gy * gy)
@@ -315,7 +315,7 @@ class PotentialField:
     @cython.cfunc
     @cython.exceptval(check=False)
     def _slope(self, n: cython.int, axis: cython.int) -> cython.double:
-        """Of the potential in a cell, from the neighbours that have one."""
+        """Return the slope of the potential in a cell, from the neighbours that have one."""
         move: cython.int = 1 if axis == 0 else self._columns
         if n - move < 0 or n + move >= self._rows * self._columns:
             return 0.0

@@ -70,7 +70,7 @@ class TrajectoryRollout:
         self._limits = np.zeros(3)
 
     def accelerate(self, limits: Floats) -> None:
-        """Let commands be reached by and by, with accelerations [m/s², rad/s²], shape (3,)."""
+        """Limit the accelerations towards commands [m/s², rad/s²], shape (3,)."""
         self._accelerate, self._limits = True, np.array(limits, np.float64)
 
     def judge(
@@ -212,7 +212,7 @@ class TrajectoryRollout:
         column: cython.int,
         row: cython.int,
     ) -> cython.double:
-        """The highest cost under the outline of the robot, or in its middle; negative if hit."""
+        """Return the highest cost under the robot's outline, or in its middle; negative if hit."""
         worst: cython.double = self._costs[row, column]
         count: cython.int = self._footprint.shape[0]
         if count < 3:
@@ -242,7 +242,7 @@ class TrajectoryRollout:
     def _edge(
         self, x0: cython.double, y0: cython.double, x1: cython.double, y1: cython.double
     ) -> cython.double:
-        """The highest cost along an edge, given in cells: on Bresenham's line between its ends."""
+        """Return the highest cost along an edge of cells, on Bresenham's line between its ends."""
         column: cython.int = cython.cast(cython.int, floor(x0))
         row: cython.int = cython.cast(cython.int, floor(y0))
         wide: cython.int = cython.cast(cython.int, floor(x1)) - column
@@ -317,7 +317,7 @@ def _clear_of(costs: Bytes, footprint: Floats, resolution: float) -> Bytes:
 def steps_of(
     commands: Floats, duration: float, granularity: float, angular_granularity: float
 ) -> Ints32:
-    """In how many steps each command is driven ahead, shape (n,).
+    """Return the number of simulated steps of each command, shape (n,).
 
     Args:
         commands: Shape (n, 3).

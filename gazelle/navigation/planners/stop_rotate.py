@@ -48,7 +48,7 @@ class VelocityLimits:
 
     @classmethod
     def read(cls, values: Values) -> VelocityLimits:
-        """From parameters, under their names of today or of before.
+        """Read the parameters, under their present or former names.
 
         Raises:
             Error: One is of the wrong kind.
@@ -75,7 +75,7 @@ class StopRotate:
         self._turning = False
 
     def reset(self) -> None:
-        """There is a new plan."""
+        """Reset for a new plan."""
         self._latched = False
 
     def at_position(self, pose: Pose2, goal: Pose2) -> bool:

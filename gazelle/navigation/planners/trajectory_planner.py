@@ -51,7 +51,7 @@ class TrajectorySettings:
 
     @classmethod
     def read(cls, values: Values) -> TrajectorySettings:
-        """From parameters.
+        """Read the parameters.
 
         Raises:
             Error: One is of the wrong kind.
@@ -85,7 +85,7 @@ class TrajectoryPlanner(PlanFollower):
         self._turned = 0
 
     def set_plan(self, plan: Floats) -> bool:
-        """Take a plan."""
+        """Set a plan."""
         self._stop.reset()
         return super().set_plan(plan)
 

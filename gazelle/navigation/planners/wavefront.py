@@ -9,7 +9,7 @@ from gazelle.array_types import Bytes, Indices, Ints32
 
 
 def grid_distances(costs: Bytes, sources: Indices) -> Ints32:
-    """Steps along x and y from each cell to the nearest source.
+    """Compute steps along x and y from each cell to the nearest source.
 
     Args:
         costs: Of a costmap; from 253 on a cell is closed, shape (rows, columns).
