@@ -24,7 +24,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     known = benchmarks()
     if args.name is None:
         rows = [(name, _purpose(path)) for name, path in known.items()]
@@ -45,7 +45,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def benchmarks() -> dict[str, Path]:
-    """The benchmark scripts by name.
+    """Return the benchmark scripts by name.
 
     Raises:
         Error: There is no ``benchmarks`` folder beside the package.
@@ -65,6 +65,6 @@ def _is_run(path: Path) -> bool:
 
 
 def _purpose(path: Path) -> str:
-    """First line of a script's docstring."""
+    """Return the first line of a script's docstring."""
     text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
     return (text or "").partition("\n")[0]

@@ -37,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.ros.builtin.arguments import spin
     from gazelle.ros.rosbridge.nodes import bridge, listening_text
     from gazelle.ros.rosbridge.settings import settings_from

@@ -48,7 +48,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     judged = {file: _judge(file, args) for file in args.files}
     if args.json:
         rows = [{"path": file, **asdict(each)} for file, found in judged.items() for each in found]
@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _judge(file: str, args: argparse.Namespace) -> list[Problem]:
-    """The findings about one file."""
+    """Return the findings about one file."""
     from gazelle.control.checking import check_controllers, is_controllers
     from gazelle.formats import check
     from gazelle.formats.check import TOLERATED, is_semantic
@@ -102,7 +102,7 @@ def _advice(each: Problem) -> tuple[str | None, ...]:
 
 
 def _line(each: Problem) -> str:
-    """A finding without its reasons; the line says which element it is about, if there is one."""
+    """Return a finding without its reasons; the line says which element it is about, if any."""
     file = None if each.file is None else _near(each.file)
     element = each.element if each.line is None else None
     text = describe(each.message, file=file, line=each.line, element=element)
@@ -110,7 +110,7 @@ def _line(each: Problem) -> str:
 
 
 def _near(file: str) -> str:
-    """The name of a file as seen from here, if it lies below."""
+    """Return the name of a file relative to this folder, if it lies below."""
     path = Path(file)
     return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else file
 

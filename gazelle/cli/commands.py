@@ -15,7 +15,7 @@ class CommandModule(Protocol):
         """Declare the arguments."""
 
     def run(self, args: argparse.Namespace) -> int:
-        """Do it; returns the exit code."""
+        """Run the command; returns the exit code."""
 
 
 @dataclass(frozen=True, slots=True)

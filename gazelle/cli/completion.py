@@ -67,7 +67,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     sys.stdout.write(script_for(args.shell, tools=args.tools))
     return 0
 
@@ -95,7 +95,7 @@ def script_for(shell: str, *, tools: bool = True) -> str:
 
 
 def _words() -> dict[str, list[str]]:
-    """From a command, or a command and its sub-command, to what may follow it."""
+    """Return the words that may follow a command, or a command and its sub-command."""
     found = {"": [*COMMANDS, *tool_names.COMMANDS, "--help", "--version"]}
     for name, command in COMMANDS.items():
         if name == "completion":

@@ -9,12 +9,12 @@ from gazelle.cli import showing
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    """There are no arguments."""
+    """Add no arguments."""
     del parser
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     del args
     from gazelle.control import types
 

@@ -59,7 +59,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle import formats
 
     kind = cast("Format", args.to) if args.to else _format_of(args.target)
@@ -84,7 +84,7 @@ def _argument(text: str) -> tuple[str, str]:
 
 
 def _format_of(target: str) -> Format:
-    """The format that a file name asks for.
+    """Return the format of a file name.
 
     Raises:
         FormatError: None that can be written.
@@ -102,7 +102,10 @@ def _format_of(target: str) -> Format:
 
 
 def _chosen(world: World, name: str | None, target: str) -> World | Model:
-    """The model asked for; else the one model of a file that is no world; else the world."""
+    """Return the requested model; else the one model of a file that is no world.
+
+    Else the world.
+    """
     if name is not None:
         models = {model.name: model for model in world.models}
         if name not in models:

@@ -49,7 +49,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     began = time.perf_counter()
     from gazelle.training import choose_progress, evaluate, train
 
@@ -83,7 +83,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _tell_files(options: dict[str, Any]) -> None:
-    """Say which files are loaded."""
+    """Print the files that are loaded."""
     from gazelle import assets
 
     world = _file(options.get("world", _WORLD), assets.worlds())
@@ -93,5 +93,5 @@ def _tell_files(options: dict[str, Any]) -> None:
 
 
 def _file(name: str, bundled: dict[str, Path]) -> str:
-    """The file that a name or path means."""
+    """Return the file of a name or path."""
     return str(bundled.get(name, name))

@@ -76,7 +76,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.interrupts import stopping
     from gazelle.ros.builtin.arguments import parse_arguments
     from gazelle.training.deploy import DeployNode, open_policy
@@ -133,7 +133,7 @@ def _limits(args: argparse.Namespace, policy: Policy) -> SafetyLimits:
 
 
 def _report(outcomes: list[GoalResult], overruled: int, asked: int) -> int:
-    """Say what became of the goals; returns the exit code."""
+    """Print the outcomes of goals; returns the exit code."""
     for each in outcomes:
         sys.stdout.write(
             f"({each.goal.x:g}, {each.goal.y:g})  {each.outcome}, {each.seconds:.1f} s\n"

@@ -33,7 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.ros.compat.script import run_named, runs_tool
 
     if runs_tool(args.script, args.arguments):

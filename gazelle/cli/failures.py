@@ -17,7 +17,7 @@ _FORMS = (".csv", ".json", ".png")
 
 
 def failures_file(text: str) -> Path:
-    """The file of ``--failures``; its ending says the form."""
+    """Return the file of ``--failures``; its suffix is the format."""
     file = Path(text)
     if file.suffix.lower() not in _FORMS:
         raise argparse.ArgumentTypeError(f"expected a file that ends in {', '.join(_FORMS)}")

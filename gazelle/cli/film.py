@@ -46,7 +46,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.viewer.bag_top_view import BagTopView
     from gazelle.viewer.film_files import FILMS, writable, write_film
     from gazelle.viewer.sources import BagSource, RecordingSource, pictures_of

@@ -95,7 +95,7 @@ def opened(args: argparse.Namespace) -> Any:
 
 
 def _running(args: argparse.Namespace) -> Any:
-    """A file that runs."""
+    """Return the pictures of a file that runs."""
     from gazelle import formats
     from gazelle.simulation import Simulation
     from gazelle.viewer.sources import SimulationSource

@@ -78,7 +78,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.ros.launch import Packages
 
     if args.child is not None:
@@ -144,7 +144,7 @@ def _arguments_only(
 
 
 def _files(words: list[str], packages: Packages, parser: Any) -> list[str]:
-    """The launch files that are meant: files, or a package and the name of a file in it."""
+    """Return the launch files: files, or a package and the name of a file in it."""
     from gazelle.ros.launch.finding import find_launch_file, require_name
 
     if not words:
@@ -219,7 +219,7 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
 
 @contextlib.contextmanager
 def _same_terminal() -> Iterator[None]:
-    """Give the terminal back as it was, should a node that read keys be killed."""
+    """Restore the terminal at the end, should a node that read keys be killed."""
     if sys.stdin is None or not sys.stdin.isatty() or os.name != "posix":
         yield
         return

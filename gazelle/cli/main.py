@@ -67,7 +67,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _open_streams() -> bool:
-    """Have all standard streams, so that no file becomes one; returns whether there is an output."""
+    """Open all standard streams, so that no file becomes one.
+
+    Returns whether there is an output.
+    """
     there = sys.stdout is not None
     for number in range(3):
         try:
@@ -96,7 +99,10 @@ def _progress() -> Iterator[None]:
 
 
 def _without_debug(arguments: list[str]) -> tuple[list[str], bool]:
-    """The arguments without ``--debug``, and whether it was there; a script keeps its own."""
+    """Return the arguments without ``--debug``, and whether it was there.
+
+    A script keeps its own.
+    """
     end = len(arguments)
     if "exec" in arguments[:2]:
         begin = arguments.index("exec") + 1
@@ -107,7 +113,7 @@ def _without_debug(arguments: list[str]) -> tuple[list[str], bool]:
 
 
 def overview() -> str:
-    """The text of ``gazelle --help``."""
+    """Return the text of ``gazelle --help``."""
     lines = [
         "usage: gazelle COMMAND ...",
         "",
@@ -210,7 +216,7 @@ def _complain(message: str, hint: str | None) -> None:
 
 @contextlib.contextmanager
 def _one_line_warnings(*, show_all: bool) -> Iterator[None]:
-    """Gazelle's warnings as one line each, others not at all unless all are asked for."""
+    """Show Gazelle's warnings as one line each, others only on request."""
     with warnings.catch_warnings():
         warnings.simplefilter("default" if show_all else "ignore")
         warnings.simplefilter("default", GazelleWarning)

@@ -62,7 +62,7 @@ def start_wanted_controllers(sim: Simulation, args: argparse.Namespace) -> None:
 
 @contextmanager
 def moveit_beside(sim: Simulation, door: RosDoor, args: argparse.Namespace) -> Iterator[None]:
-    """MoveIt's node while the simulation runs, if it is wanted.
+    """Run MoveIt's node beside the simulation, if requested.
 
     Raises:
         ResolveError: No robot has a package for MoveIt.
@@ -96,7 +96,7 @@ def _last(sim: Simulation) -> Robot:
 
 
 def _planned(sim: Simulation) -> tuple[Robot, str]:
-    """The last robot that has a package for MoveIt, and the package."""
+    """Return the last robot that has a package for MoveIt, and the package."""
     for robot in reversed(list(sim.robots.values())):
         for name in dict.fromkeys((robot.description.name, robot.name)):
             package = f"{name}_moveit_config"

@@ -46,7 +46,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     code: int = args.action(args)
     return code
 
@@ -120,7 +120,7 @@ def _kill(args: argparse.Namespace) -> int:
 
 
 def _chosen(args: argparse.Namespace, graph: Any, known: list[str]) -> list[str]:
-    """The nodes to end; where none is named, the user is asked."""
+    """Return the nodes to shut down; without a name, the user is asked."""
     if args.all:
         return known
     if args.nodes:

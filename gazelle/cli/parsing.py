@@ -28,7 +28,7 @@ class Parser(NumberParser):
     def parse_known_args(  # type: ignore[override]  # its overloads say the same
         self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
     ) -> tuple[argparse.Namespace, list[str]]:
-        """As the library's, but for `intermixed`."""
+        """Parse like the library, except for `intermixed`."""
         if not self.intermixed:
             return super().parse_known_args(args, namespace)
         self.intermixed = False  # the library's method calls this one
@@ -38,13 +38,13 @@ class Parser(NumberParser):
             self.intermixed = True
 
     def error(self, message: str) -> NoReturn:
-        """Say what is wrong with the command line and exit with code 2."""
+        """Print what is wrong with the command line and exit with code 2."""
         hint = self._closest_option(message) or f"see {self.prog} --help"
         sys.stderr.write(f"gazelle: error: {message}\n  hint: {hint}\n")
         self.exit(2)
 
     def _closest_option(self, message: str) -> str | None:
-        """For an unknown option: the one that was meant."""
+        """Return the option similar to an unknown one."""
         prefix = "unrecognized arguments: "
         if not message.startswith(prefix):
             return None
@@ -55,7 +55,7 @@ class Parser(NumberParser):
 
 
 def key_value(text: str) -> tuple[str, Any]:
-    """``KEY=VALUE``; the value is read as JSON if it is JSON, else as text."""
+    """Parse ``KEY=VALUE``; the value is read as JSON if it is JSON, else as text."""
     key, equals, value = text.partition("=")
     if not equals or not all(part.isidentifier() for part in key.split(".")):
         raise argparse.ArgumentTypeError(f"expected KEY=VALUE, not '{text}'")
@@ -66,7 +66,7 @@ def key_value(text: str) -> tuple[str, Any]:
 
 
 def add_environment_options(parser: argparse.ArgumentParser) -> None:
-    """The options that every command with an environment takes."""
+    """Add the options of every command with an environment."""
     group = parser.add_argument_group("the environment")
     group.add_argument("--engine", metavar="NAME", help="physics engine, such as mujoco")
     group.add_argument(
@@ -80,7 +80,7 @@ def add_environment_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_file_options(parser: argparse.ArgumentParser) -> None:
-    """The options that replace the files of a task."""
+    """Add the options that replace the files of a task."""
     group = parser.add_argument_group("the files (by default the bundled ones)")
     group.add_argument("--world", metavar="FILE", help="world: .world or .sdf, or a bundled name")
     group.add_argument(
@@ -89,7 +89,7 @@ def add_file_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_scenario_options(parser: argparse.ArgumentParser) -> None:
-    """The options that say where episodes of navigation tasks begin and end."""
+    """Add the options for starts and ends of episodes of navigation tasks."""
     group = parser.add_argument_group("starts and goals (of navigation tasks)")
     kinds = "published, training or held-out"
     group.add_argument("--goals", metavar="KIND", help=f"where goals are: {kinds}")
@@ -99,7 +99,7 @@ def add_scenario_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_import_option(parser: argparse.ArgumentParser) -> None:
-    """The options that find tasks of the user's own, and that let a run find them."""
+    """Add the options that find tasks of the user's own, and that let a run find them."""
     parser.add_argument(
         "--import",
         dest="imports",
@@ -114,7 +114,7 @@ def add_import_option(parser: argparse.ArgumentParser) -> None:
 
 
 def add_worker_options(parser: argparse.ArgumentParser, what: str) -> None:
-    """The options that have something done by other processes or machines.
+    """Add the options for work in other processes or machines.
 
     Args:
         parser: Where they are declared.

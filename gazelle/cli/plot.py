@@ -42,7 +42,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.viewer.plots import plot_table, plot_trainings
 
     first, *others = args.sources
@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _plot_bag(bag: Path, args: argparse.Namespace) -> None:
-    """Fields over time, or ways over a map."""
+    """Plot fields over time, or paths over a map."""
     from gazelle.formats import load_map
     from gazelle.viewer.bag_plots import bag_map, bag_paths, bag_series
     from gazelle.viewer.plots import plot_paths, plot_series

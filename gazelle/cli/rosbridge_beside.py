@@ -30,7 +30,7 @@ def add_rosbridge(parser: argparse.ArgumentParser) -> None:
 
 @contextmanager
 def rosbridge_beside(door: RosDoor | StageServer, args: argparse.Namespace) -> Iterator[None]:
-    """Rosbridge and rosapi while the simulation runs, if they are wanted.
+    """Run rosbridge and rosapi beside the simulation, if requested.
 
     Raises:
         RosError: The port is taken.

@@ -103,7 +103,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     if args.paused and args.seconds is not None:
         args.parser.error("a paused simulation never gets there; leave out --for or --paused")
     if args.moveit and not args.ros:
@@ -142,7 +142,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:
-    """Engine, pace, pause and end as a Stage file says, where nothing else is asked for."""
+    """Set engine, pace, pause and end from a Stage file, unless options set them."""
     if stage is None:
         args.engine, args.rate = args.engine or "mujoco", _pace(args.rate, 1.0)
         return
@@ -163,7 +163,7 @@ def _undriven(sim: Simulation, args: argparse.Namespace) -> str:
 
 
 def _listed(sim: Simulation) -> str:
-    """The models, or how many there are if they are many."""
+    """Return the models, or their number if they are many."""
     names = list(sim.robots)
     return ", ".join(names) or "no models" if len(names) <= _MANY else f"{len(names)} models"
 
@@ -237,7 +237,7 @@ def _advance(sim: Simulation, seconds: float | None, status: _Status) -> None:
 
 
 def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
-    """Be a ROS node until Ctrl-C, the end of the time, or the master's word."""
+    """Serve as a ROS node until Ctrl-C, the end of the time, or a request of the master."""
     from gazelle.bridges import serve_ros
     from gazelle.stage import StageFleet
     from gazelle.stage.bridge import serve_stage
@@ -278,11 +278,11 @@ def _paused(sim: Simulation) -> bool:
 
 
 def _rate(text: str) -> float:
-    """A real-time factor, infinite for ``max``."""
+    """Return a real-time factor, infinite for ``max``."""
     return math.inf if text == "max" else positive_float(text)
 
 
 def _pace(asked: float | None, usual: float) -> float | None:
-    """The real-time factor to keep to, None for as fast as possible."""
+    """Return the real-time factor to keep, None for as fast as possible."""
     wanted = asked or (usual if usual > 0.0 else math.inf)
     return None if wanted == math.inf else wanted

@@ -37,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.ros.builtin.on_path import offer
 
     env = dict(os.environ)
@@ -60,7 +60,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _interactive(shell: str, env: dict[str, str], folder: Path) -> list[str]:
-    """The command line of a shell that reads the user's settings first, then ours."""
+    """Return the command line of a shell that reads the user's settings first, then ours."""
     name = Path(shell).name
     if name == "bash":
         _write(folder / "rc", name, "[ -f ~/.bashrc ] && . ~/.bashrc", env)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def table(rows: Sequence[Sequence[str]], width: int = 80) -> str:
-    """Rows in aligned columns, each line ended; a long last column is wrapped at spaces."""
+    """Return rows in aligned columns, each line ended; a long last column is wrapped at spaces."""
     columns = [max(len(cell) for cell in column) for column in zip(*rows, strict=True)][:-1]
     indent = sum(columns) + 2 * len(columns)
     lines: list[str] = []
@@ -33,7 +33,7 @@ def table(rows: Sequence[Sequence[str]], width: int = 80) -> str:
 
 
 def evaluation(result: Evaluation) -> str:
-    """Rates with their intervals, then the means and the speed."""
+    """Return rates with their intervals, then the means and the speed."""
     rows = [
         ("success", rate(result.success)),
         ("collision", rate(result.collision)),
@@ -47,7 +47,7 @@ def evaluation(result: Evaluation) -> str:
 
 
 def rate(value: SuccessRate | None) -> str:
-    """``97.0 % (95 % interval 91.5 to 99.0 %, 97 of 100)``."""
+    """Return a rate as ``97.0 % (95 % interval 91.5 to 99.0 %, 97 of 100)``."""
     if value is None:
         return "not told by this task"
     low, high = value.interval
@@ -76,14 +76,14 @@ def training(result: TrainResult, indent: int = 0) -> str:
 
 
 def speed(wall: float, simulated: float | None) -> str:
-    """Wall time, simulated time of all copies, and their ratio."""
+    """Return wall time, simulated time of all copies, and their ratio."""
     if simulated is None:
         return f"{wall:.1f} s"
     return f"{wall:.1f} s for {duration(simulated)} simulated, RTF {simulated / wall:,.0f}"
 
 
 def duration(seconds: float) -> str:
-    """``45.0 s``, ``12.5 min`` or ``27.8 h``."""
+    """Return a duration as ``45.0 s``, ``12.5 min`` or ``27.8 h``."""
     if seconds < 120:
         return f"{seconds:.1f} s"
     if seconds < 7200:

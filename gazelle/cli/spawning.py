@@ -27,7 +27,7 @@ class Wanted:
 
 
 def wanted(text: str) -> Wanted:
-    """``ROBOT`` or ``ROBOT@X,Y`` or ``ROBOT@X,Y,YAW`` [m, rad]."""
+    """Parse ``ROBOT`` or ``ROBOT@X,Y`` or ``ROBOT@X,Y,YAW`` [m, rad]."""
     robot, at, place = text.rpartition("@")
     if not at:
         return Wanted(text)

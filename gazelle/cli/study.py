@@ -45,7 +45,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.training.study import Study, conduct
 
     study = Study(function=args.function, vary=dict(args.vary), seeds=args.seeds)

@@ -37,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     from gazelle.training import find_task, list_tasks
 
     tasks = list_tasks()
@@ -154,7 +154,7 @@ def _typed(task: Task) -> str:
 
 
 def _unlisted(id_: str) -> Task:
-    """Of Gymnasium's own."""
+    """Return a task of Gymnasium's own."""
     from gazelle.training import Task
 
     return Task(id_, id_)

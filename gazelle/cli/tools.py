@@ -25,7 +25,7 @@ class SubCommands:
         )
 
     def add(self, name: str, purpose: str, action: Action) -> argparse.ArgumentParser:
-        """A sub-command; returns its parser."""
+        """Add a sub-command; returns its parser."""
         made: argparse.ArgumentParser = self._parsers.add_parser(
             name, help=purpose, description=purpose
         )

@@ -95,7 +95,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Do it; returns the exit code."""
+    """Run the command; returns the exit code."""
     _check(args)
     sys.stderr.write(f"loading {args.task or args.resume or args.sweep} ...\n")
     from gazelle.training import choose_progress, resume, task_recipe, train, with_values
@@ -190,7 +190,7 @@ def report(result: TrainResult) -> int:
 
 
 def _check(args: argparse.Namespace) -> None:
-    """Refuse what cannot go together."""
+    """Check for options that exclude each other."""
     parser: argparse.ArgumentParser = args.parser
     if args.view is not None and (args.workers is not None or args.ray is not None):
         parser.error("a view shows copies of this process; leave out --workers and --ray")

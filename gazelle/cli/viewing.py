@@ -47,7 +47,7 @@ def viewing(sim: Simulation, args: argparse.Namespace) -> Iterator[str]:
 
 
 def watched(progress: Progress, args: argparse.Namespace) -> Progress:
-    """The display of a training, with a page that shows some of the copies if it is wanted.
+    """Return the display of a training, with a page that shows some of the copies on request.
 
     Raises:
         MissingExtraError: What serves the page is not installed.
@@ -82,7 +82,7 @@ class _Nothing(Closeable):
     """No page."""
 
     def close(self) -> None:
-        """There is nothing to close."""
+        """Do nothing: there is nothing to close."""
 
 
 def _simulated(env: object) -> Any:

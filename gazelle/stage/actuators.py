@@ -39,7 +39,7 @@ class Actuator:
         self._goal, self._towards = np.zeros(count), np.zeros(count, np.bool_)
 
     def set_speed(self, speed: float, worlds: Worlds | None = None) -> None:
-        """Let it go at a speed [m/s or rad/s].
+        """Set a speed [m/s or rad/s].
 
         Raises:
             SimulationError: It is not finite.
@@ -47,7 +47,7 @@ class Actuator:
         self._want(speed, worlds, towards=False)
 
     def go_to(self, position: float, worlds: Worlds | None = None) -> None:
-        """Let it go to a position [m or rad], or to the end of its range towards that.
+        """Set a target position [m or rad], clipped to its range.
 
         Raises:
             SimulationError: It is not finite.
@@ -73,7 +73,7 @@ class Actuator:
         self.follow()
 
     def follow(self) -> None:
-        """Be where the robot is."""
+        """Move the device to the pose of its robot."""
         fleet, base = self._simulation.fleet, self._rider.base
         pose = fleet.pose[:, self._robot.index]
         along, aside, z, yaw = self._offsets()
@@ -93,7 +93,7 @@ class Actuator:
         self._simulation.engine.place_body(self._rider.body, where, height=height)
 
     def _offsets(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """From its place at position zero, in the frame of that."""
+        """Return the offset from its place at position zero, in the frame of that."""
         none = np.zeros_like(self.position)
         if self._device.type == "rotational":
             return none, none, none, self.position
@@ -102,19 +102,19 @@ class Actuator:
         return x, y, z, none
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """As at the start."""
+        """Reset the actuator to its start."""
         which = slice(None) if worlds is None else worlds
         self.position[which] = self._device.start
         self._goal[which], self._towards[which] = 0.0, False
         self.follow()
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Everything that changes, to be read or written, each of shape (nworld,)."""
+        """Return all mutable state, to be read or written, each of shape (nworld,)."""
         return {"position": self.position, "goal": self._goal, "towards": self._towards}
 
 
 def actuators_of(simulation: StageBodies) -> dict[int, list[Actuator]]:
-    """The actuators of each robot that has some, by its index."""
+    """Return the actuators of each robot that has some, by its index."""
     return {
         robot.index: [Actuator(simulation, robot, rider) for rider in robot.riders]
         for robot in simulation.robots

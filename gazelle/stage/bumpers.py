@@ -42,7 +42,7 @@ def find_bumps(around: Surroundings, robot: int, which: int, world: int) -> tupl
 
 
 def gaps_to(strip: Floats, lines: Floats) -> Floats:
-    """Distance of a segment, shape (2, 2), to each of others x0, y0, x1, y1 [m], shape (n,)."""
+    """Return the distance of a segment, shape (2, 2), to others x0, y0, x1, y1 [m], shape (n,)."""
     starts, ends = lines[:, :2], lines[:, 2:]
     gaps = np.minimum(
         np.minimum(_to_segments(strip[0], starts, ends), _to_segments(strip[1], starts, ends)),
@@ -56,13 +56,13 @@ def gaps_to(strip: Floats, lines: Floats) -> Floats:
 
 
 def _strip(middle: StagePose, length: float) -> Floats:
-    """The ends of a strip across the heading of its pose, shape (2, 2)."""
+    """Return the ends of a strip across the heading of its pose, shape (2, 2)."""
     half = np.array([-math.sin(middle.yaw), math.cos(middle.yaw)]) * length / 2.0
     return np.asarray(np.array([middle.x, middle.y]) + np.array([-half, half]))
 
 
 def _heights(model: StageModel) -> tuple[float, float]:
-    """Lowest and highest of a robot and all on it in the world [m]."""
+    """Return lowest and highest point of a robot and all on it in the world [m]."""
     ends = [
         placed.body_pose.z + end
         for placed in model.walk()

@@ -29,7 +29,7 @@ class StageCameraModel:
         self.cameras, self._pictures = (camera,), pictures
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Bytes:  # noqa: ARG002  nothing drifts
-        """Draw what is seen now, shape (n, bytes)."""
+        """Render the present view, shape (n, bytes)."""
         seen = self._pictures(worlds)
         count = len(seen.color)
         color = np.ascontiguousarray(seen.color[..., :3], np.uint8).reshape(count, -1)
@@ -37,7 +37,7 @@ class StageCameraModel:
         return np.concatenate((color, depth.view(np.uint8)), axis=1)
 
     def reading(self, values: Bytes, stamp: int) -> CameraImage:
-        """A measurement as arrays."""
+        """Return a measurement as arrays."""
         (camera,) = self.cameras
         shape = (*values.shape[:-1], camera.height, camera.width)
         colors = 3 * camera.height * camera.width
@@ -46,14 +46,14 @@ class StageCameraModel:
         return CameraImage(stamp, camera, values[..., :colors].reshape(*shape, 3), depth)
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Nothing: there is no noise."""
+        """Do nothing: there is no noise."""
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Nothing: likewise."""
+        """Do nothing: there is no noise."""
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Nothing: likewise."""
+        """Return an empty state: there is no noise."""
         return {}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Nothing: likewise."""
+        """Do nothing: there is no noise."""

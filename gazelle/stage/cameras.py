@@ -99,7 +99,7 @@ class Cameras:
         return self._seen[robot, which, world]
 
     def draw(self, wanted: Iterable[tuple[int, int, int]]) -> None:
-        """Draw what ``picture`` will be asked for, all with the same lens at once.
+        """Render the cameras that ``picture`` will need, all with the same lens at once.
 
         Args:
             wanted: Robots, numbers of cameras on them, and worlds.
@@ -138,12 +138,12 @@ class Cameras:
         return CameraPictures(seen.color.reshape(*shape, 4), seen.depth.reshape(shape))
 
     def _views(self, cameras: list[MountedCamera]) -> Floats:
-        """Body, place [m], heading and tilt [rad] on it, and link that is not seen, shape (n, 7)."""
+        """Return body, place [m], heading and tilt [rad] on it, and hidden link, shape (n, 7)."""
         casings = self._scenery.casings
         return np.array([(v.body, *v.mount, casings[v.body, v.owner]) for v in cameras])
 
     def _draw(self, lens: PinholeLens, views: Floats, worlds: Worlds) -> CameraPictures:
-        """Draw what views, one a row, see in worlds, one each."""
+        """Render views, one a row, in worlds, one each."""
         self._place(np.unique(worlds))
         body, x, y, z, yaw, tilt, unseen = views.T
         bodies = body.astype(np.int64)
@@ -169,7 +169,7 @@ class Cameras:
             self._placed[:] = False
 
     def _place(self, worlds: Worlds) -> None:
-        """Put all bodies of some worlds where they are now."""
+        """Set all bodies of some worlds to their present poses."""
         late = worlds[~self._placed[worlds]]
         if len(late):
             place, heading = self._poses(late[:, None], self._scenery.bodies)
@@ -192,7 +192,7 @@ class Cameras:
 
 
 def cameras_of(robot: StageRobot) -> tuple[MountedCamera, ...]:
-    """The cameras on a robot, in file order; those on actuators last."""
+    """Return the cameras on a robot, in file order; those on actuators last."""
     own = robot.model.name.removeprefix("/")
     return tuple(
         MountedCamera(
@@ -211,7 +211,7 @@ def cameras_of(robot: StageRobot) -> tuple[MountedCamera, ...]:
 
 
 def _turned(heading: Floats, tilt: Floats) -> Floats:
-    """Quaternions x, y, z, w of a heading about z after a tilt about y, which is down [rad]."""
+    """Return quaternions x, y, z, w of a heading about z after a downward tilt about y [rad]."""
     cos, sin, level, low = (
         np.cos(heading / 2),
         np.sin(heading / 2),

@@ -43,7 +43,7 @@ Maker = Callable[[StageFleet, Wanted], list[FleetController]]
 
 
 def register_controller(name: str, make: Maker) -> None:
-    """Have robots driven from Python whose file names a controller, in simulations made later.
+    """Register a Python controller for robots that name it, in simulations made later.
 
     Args:
         name: What ``ctrl "NAME ..."`` says; one of that name is replaced.
@@ -60,7 +60,7 @@ def register_controller(name: str, make: Maker) -> None:
 
 
 def make_controllers(simulation: StageFleet) -> list[FleetController]:
-    """Those that the world's robots name; others have been warned of when it was loaded."""
+    """Create the controllers that robots name; unknown ones were warned of on loading."""
     named: dict[str, Wanted] = {}
     for robot in simulation.robots:
         models = [robot.model, *(ranger.model for ranger in robot.rangers)]
@@ -127,28 +127,28 @@ class Wander(FleetController):
         self._made: tuple[Floats, Wandering] | None = None
 
     def update(self) -> None:
-        """Look, and choose speed and turn of every robot."""
+        """Update speed and turn of every robot by its scan."""
         law, now = self._law(self._simulation.scan(self._scanner)), self._simulation.clock.now_ns
         self._simulation.fleet.pool.share(
             lambda first, last, _: law.choose(first, last, now), len(self._bodies), _SHARE
         )
 
     def systems(self) -> list[System] | None:
-        """See `FleetController.systems`."""
+        """Return its systems; see `FleetController.systems`."""
         looking = self._simulation.scan_system(self._scanner)
         return None if looking is None else [looking[0], self._law(looking[1])]
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Turn no longer."""
+        """Stop turning."""
         rows = slice(None) if worlds is None else worlds
         self._mood.reshape(self._simulation.nworld, -1, 2)[rows] = 0
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """For how long each still turns."""
+        """Return the remaining turning times."""
         return {"mood": self._mood.copy()}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._mood[:] = state["mood"]
 
     def _law(self, ranges: Floats) -> Wandering:
@@ -181,7 +181,7 @@ class LaserNoise(FleetController):
         self.rebind()
 
     def rebind(self) -> None:
-        """Have the scanners add it."""
+        """Add the noise to the scanners."""
         for robot, arguments in self._robots:
             deviation = _number(arguments, DEVIATION)
             for ranger in robot.rangers:
@@ -189,14 +189,14 @@ class LaserNoise(FleetController):
                     self._simulation.noise[scanner].constant[place] += deviation
 
     def update(self) -> None:
-        """Nothing: the noise is in the scans."""
+        """Do nothing: the noise is in the scans."""
 
     def systems(self) -> list[System]:
-        """None: as ``update``."""
+        """Return None: the noise is in the scans."""
         return []
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Nothing to start over."""
+        """Do nothing: there is no state."""
 
 
 def _number(text: str, default: float) -> float:
@@ -225,7 +225,7 @@ def _make_wander(simulation: StageFleet, wanted: Wanted) -> list[FleetController
 
 
 def _looked_at(robot: StageRobot) -> Ranger | None:
-    """The first ranger of more than 8 samples, as Stage has it; the first if all have fewer."""
+    """Return the first ranger of more than 8 samples, as in Stage; without one the first."""
     rangers = [ranger for ranger in robot.rangers if ranger.places]
     fine = [ranger for ranger in rangers if ranger.sensors[0].samples > FEW]
     return next(iter(fine or rangers), None)

@@ -28,7 +28,7 @@ from gazelle.stage.step_output import StepOutput
 
 
 def open_devices(fleet: StageFleet, robot: Robot) -> None:
-    """Give a robot the ports of its devices."""
+    """Open the ports of a robot's devices."""
     own = fleet.named.get(robot.name)
     if own is None:
         return
@@ -43,7 +43,7 @@ def open_devices(fleet: StageFleet, robot: Robot) -> None:
 
 
 def devices_of(robot: StageRobot) -> Iterator[tuple[type[Any], str, int]]:
-    """Kind, name on the robot, and number among those of its kind, in the order of those numbers."""
+    """Yield kind, name on the robot, and number among those of its kind, in order of numbers."""
     seen: Counter[type[Any]] = Counter()
     for _, model in robot.bodies:
         for placed in model.walk():

@@ -47,12 +47,12 @@ class Devices:
                 gripper.update()
 
     def follow(self, robot: int) -> None:
-        """Take what is on a robot to where that was put."""
+        """Move the devices on a robot after it was placed."""
         for actuator in self.actuators.get(robot, ()):
             actuator.follow()
 
     def reset(self, worlds: Worlds | None) -> None:
-        """As at the start."""
+        """Reset the devices to their start."""
         for actuators in self.actuators.values():
             for actuator in actuators:
                 actuator.reset(worlds)
@@ -63,7 +63,7 @@ class Devices:
     def take_over(
         self, other: Devices, pairs: Iterable[tuple[int, int]], things: Mapping[int, int]
     ) -> None:
-        """Go on for those of other robots.
+        """Copy the state of other robots' devices.
 
         Args:
             other: What there was.
@@ -78,11 +78,11 @@ class Devices:
                 gripper.find(things)
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return {name: values.copy() for name, values in self._arrays().items()}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         for name, values in self._arrays().items():
             values[:] = state[name]
 
@@ -99,7 +99,7 @@ class Devices:
 
 
 def pick(known: dict[int, list[Device]], robot: StageRobot, which: int, kind: str) -> Device:
-    """One of the devices of a robot.
+    """Return one of the devices of a robot.
 
     Raises:
         SimulationError: It has none of this number.

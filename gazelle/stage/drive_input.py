@@ -34,7 +34,7 @@ class DriveInput(TwistInput):
         angular: ArrayLike = 0.0,
         worlds: Worlds | None = None,
     ) -> None:
-        """See ``TwistInput.send``."""
+        """Send a command; see ``TwistInput.send``."""
         super().send(linear, angular, worlds)
         some = chosen(worlds, len(self.linear))
         rows = slice(None) if some is None else some
@@ -43,7 +43,7 @@ class DriveInput(TwistInput):
 
     @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:
-        """Forget the last command: stand still."""
+        """Discard the last command: stop."""
         super().clear(worlds)
         some = chosen(worlds, len(self.linear))
         self._commands()[slice(None) if some is None else some] = 0.0

@@ -65,7 +65,7 @@ class DriveState:
         return self._poses[:, : self._count]
 
     def remember(self, worlds: Worlds | None = None) -> None:
-        """Have bodies been where they are."""
+        """Store the present poses as the previous ones."""
         rows = slice(None) if worlds is None else worlds
         self._poses[rows] = self._fleet.pose[rows]
 
@@ -75,7 +75,10 @@ class DriveState:
         self.remember(worlds)
 
     def take_over(self, other: DriveState, pairs: Iterable[tuple[int, int]]) -> None:
-        """Go on for another; robots that both have are given by their indices there and here."""
+        """Copy the state of another.
+
+        Robots that both have are given by their indices there and here.
+        """
         for there, here in pairs:
             self._poses[:, here] = other._poses[:, there]  # its own class
             if self.odometry.needed and other.odometry.needed:
@@ -83,7 +86,7 @@ class DriveState:
                 self.odometry.share[:, here] = other.odometry.share[:, there]
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return {
             "before": self._poses.copy(),
             "odometry": self.odometry.pose.copy(),
@@ -92,7 +95,7 @@ class DriveState:
         }
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._poses[:] = state["before"]
         self.odometry.pose[:] = state["odometry"]
         self.odometry.share[:] = state["share"]

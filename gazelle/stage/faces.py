@@ -17,7 +17,7 @@ NO_FACES: Floats = np.zeros((0, 4, 3))
 
 
 def walls_between(lines: Floats, low: float, high: float) -> Floats:
-    """Faces on segments x0, y0, x1, y1 [m], shape (n, 4), from a height to another.
+    """Return faces on segments x0, y0, x1, y1 [m], shape (n, 4), from a height to another.
 
     They are seen from the right of the segments, and what is on their left is solid.
     """
@@ -28,7 +28,7 @@ def walls_between(lines: Floats, low: float, high: float) -> Floats:
 
 
 def plates(quads: Floats, height: float) -> Floats:
-    """Level faces with these corners, shape (n, 4, 2), at a height.
+    """Return level faces with these corners, shape (n, 4, 2), at a height.
 
     They are seen from above if the corners go counter-clockwise.
     """
@@ -36,7 +36,7 @@ def plates(quads: Floats, height: float) -> Floats:
 
 
 def prism(points: Iterable[Point], low: float, high: float) -> Floats:
-    """All faces of an outline that stands between two heights."""
+    """Return all faces of an outline that stands between two heights."""
     ring = ccw(np.asarray(list(points), np.float64))
     sides = walls_between(np.hstack((ring, np.roll(ring, -1, axis=0))), low, high)
     quads = np.vstack([np.zeros((0, 4, 2)), *(_fan_of(polygon) for polygon in convex(ring))])
@@ -44,7 +44,7 @@ def prism(points: Iterable[Point], low: float, high: float) -> Floats:
 
 
 def in_tiles(faces: Floats, most: int) -> list[Floats]:
-    """Faces in groups of so many at most that are near each other.
+    """Return faces in groups of neighbours, so many at most.
 
     Halved along the longer side of where their middles are, again and again, so that a camera can
     leave out what is aside.
@@ -58,7 +58,7 @@ def in_tiles(faces: Floats, most: int) -> list[Floats]:
 
 
 def _fan_of(polygon: Floats) -> Floats:
-    """A convex polygon as quadrangles from its first corner, shape (n, 4, 2)."""
+    """Return a convex polygon as quadrangles from its first corner, shape (n, 4, 2)."""
     count = len(polygon)
     firsts = range(1, count - 1, 2)
     found = [polygon[[0, i, i + 1, i + 2 if i + 2 < count else 0]] for i in firsts]

@@ -102,7 +102,7 @@ class Surroundings:
     def around(
         self, robot: int, reach: float, world: int
     ) -> tuple[list[PlacedStageModel], Outlines]:
-        """Models within reach of a robot but its own, and their outlines, in the world."""
+        """Return models within reach of a robot but its own, and their outlines, in the world."""
         poses = self._simulation.fleet.pose[world]
         models, parts = list(self._still), [(self._walls, 0)]
         far = np.linalg.norm(poses[:, :2] - poses[robot, :2], axis=1)
@@ -116,14 +116,17 @@ class Surroundings:
         return models, joined(parts)
 
     def _shape(self, model: StageModel) -> Outlines:
-        """A robot and what is on it, in its frame; the same for all of one macro."""
+        """Return the outlines of a robot and what is on it, in its frame.
+
+        Shared within a macro.
+        """
         key = (id(model.blocks), id(model.children))
         if key not in self._shapes:
             self._shapes[key] = outlines_of(list(replace(model, pose=StagePose()).walk()))
         return self._shapes[key]
 
     def mounted(self, robot: int, kind: type[Device], which: int, world: int) -> Mounted[Device]:
-        """A finder of a robot.
+        """Return a finder of a robot.
 
         Raises:
             SimulationError: It has none of this number.
@@ -143,7 +146,7 @@ class Surroundings:
 
 
 def models_of(simulation: StageBodies) -> list[StageModel]:
-    """The model of each body: robots, then things and what is placed, then what actuators move."""
+    """Return the model of each body: robots, things and placed models, then actuators' parts."""
     own = [next(robot.bodies)[1] for robot in simulation.robots]
     others = [StageModel("model", "")] * _strangers(simulation)
     riders = [rider.model for robot in simulation.robots for rider in robot.riders]

@@ -83,7 +83,7 @@ class StageFleet(Senses):
                 self.controllers = self._make_controllers(self)
 
     def _bind(self) -> None:
-        """Look at the models that the engine has now."""
+        """Look up the models that the engine has now."""
         self._revision = self.engine.revision
         layout, fleet = self.engine.layout.stage, self.engine.fleet
         self._fleet = fleet
@@ -146,7 +146,7 @@ class StageFleet(Senses):
         return self._named
 
     def robot(self, name: str) -> StageRobot:
-        """A robot by its name.
+        """Return a robot by its name.
 
         Raises:
             SimulationError: There is none.
@@ -303,13 +303,13 @@ class StageFleet(Senses):
         return found
 
     def returns(self, scanner: int, place: int, world: int = 0) -> Floats:
-        """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing."""
+        """Return ``ranger_return`` of what each beam of a sensor meets now; 0 for nothing."""
         return self.rangers.returns(scanner, place, one_world(world, self.nworld))
 
     # -- changes -----------------------------------------------------------------------
 
     def set_pose(self, name: str, pose: ArrayLike, worlds: Worlds | None = None) -> None:
-        """Put a robot somewhere, whatever is there; its odometry does not notice.
+        """Set the pose of a robot, regardless of obstacles; its odometry does not notice.
 
         It keeps its command, unlike with ``Robot.set_pose``.
 
@@ -324,7 +324,7 @@ class StageFleet(Senses):
         self.set_pose_of(self.robot(name).index, pose, worlds)
 
     def set_pose_of(self, index: int, pose: ArrayLike, worlds: Worlds | None = None) -> None:
-        """The same for a robot by its index.
+        """Set the pose of a robot by its index.
 
         Raises:
             SimulationError: A value is not finite.
@@ -341,7 +341,7 @@ class StageFleet(Senses):
         self._devices.follow(index)
 
     def place(self, rows: Worlds, poses: ArrayLike) -> None:
-        """Put many robots somewhere, at rest, whatever is there.
+        """Set the poses of many robots, at rest, regardless of obstacles.
 
         Args:
             rows: Which, as world * nrobot + robot, shape (n,).
@@ -360,13 +360,13 @@ class StageFleet(Senses):
             self._devices.follow(robot)
 
     def reset_positions(self, worlds: Worlds | None = None) -> None:
-        """Put all robots back to where they were at first, standing, their odometry at zero."""
+        """Reset all robots to their initial poses, at rest, their odometry at zero."""
         self.refresh()
         self.engine.reset(worlds)
         self.start_over(worlds)
 
     def start_over(self, worlds: Worlds | None = None) -> None:
-        """After the engine's reset: odometry at zero, what is on robots as at the start."""
+        """Reset odometry and devices, after the engine's reset."""
         self._motion.reset(worlds)
         self._devices.reset(worlds)
 

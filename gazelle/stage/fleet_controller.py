@@ -15,7 +15,7 @@ class FleetController(Protocol):
     """Drives robots, or changes what they see."""
 
     def update(self) -> None:
-        """Act on the state between two steps: read scans, write commands."""
+        """Update the robots between two steps: read scans, write commands."""
 
     def systems(self) -> list[System] | None:
         """Return the native systems of ``update``, step by step; None if it does more."""
@@ -25,12 +25,12 @@ class FleetController(Protocol):
         """Start over in some worlds, all if None."""
 
     def rebind(self) -> None:
-        """Other models came or went; the robots are the same."""
+        """Look up the engine's data again after other models changed; the robots are the same."""
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         return {}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:  # noqa: ARG002  of others
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         return

@@ -83,7 +83,7 @@ class Gripper:
         self.reset()
 
     def do(self, command: Command, worlds: Worlds | None = None) -> None:
-        """Begin to ``open`` or ``close`` the paddles, or to lift ``up`` or ``down``.
+        """Start to ``open`` or ``close`` the paddles, or to lift ``up`` or ``down``.
 
         Raises:
             SimulationError: There is no such command.
@@ -98,7 +98,7 @@ class Gripper:
         moved[which] = 1 if command in {"close", "up"} else -1
 
     def state(self, world: int = 0) -> GripperState:
-        """All of it in one world now."""
+        """Return its state in one world now."""
         held = int(self.carried[one_world(world, len(self.paddles))])
         return GripperState(
             float(self.paddles[world]),
@@ -134,7 +134,7 @@ class Gripper:
             self._carry(world)
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """As at the start, without what was carried."""
+        """Reset the gripper to its start, without an object."""
         which = slice(None) if worlds is None else worlds
         self.paddles[which] = float(self._device.paddles == "closed")
         self.lift[which] = float(self._device.lift == "up")
@@ -142,7 +142,7 @@ class Gripper:
         self._closing[which] = self._rising[which] = 0
 
     def arrays(self) -> dict[str, NDArray[Any]]:
-        """Everything that changes, to be read or written, each of shape (nworld,)."""
+        """Return all mutable state, to be read or written, each of shape (nworld,)."""
         return {
             "paddles": self.paddles,
             "lift": self.lift,
@@ -153,7 +153,7 @@ class Gripper:
         }
 
     def find(self, things: Mapping[int, int]) -> None:
-        """Know things by other indices; one that is gone is carried no longer."""
+        """Set new indices of things; a deleted one is no longer held."""
         self.carried[:] = [things.get(thing, _NONE) for thing in self.carried.tolist()]
 
     def _move(self, world: int, step: float) -> None:
@@ -170,7 +170,7 @@ class Gripper:
         self.paddles[world] = min(max(position, least), most)
 
     def _take(self, world: int) -> None:
-        """Take what the inner side of a paddle touches."""
+        """Grip the thing that the inner side of a paddle touches."""
         back = self._model.size.x * (0.5 - self._device.paddle_size[0])
         edge, tip = self._edge(world), self._model.size.x / 2.0
         for side in (edge, -edge):
@@ -183,14 +183,14 @@ class Gripper:
                 return
 
     def _carry(self, world: int) -> None:
-        """Keep what is carried where the gripper is, where nothing meets it."""
+        """Move the held thing with the gripper, out of reach of all others."""
         body, at = self._body(int(self.carried[world])), self._place(world)
         self._simulation.engine.place_body(
             body, (at.x, at.y, at.yaw), np.array([world]), height=_NOWHERE
         )
 
     def _release(self, world: int) -> None:
-        """Put what is carried between the paddles if it fits, else before them."""
+        """Place the held thing between the paddles if it fits, else before them."""
         thing = int(self.carried[world])
         model, size = self._simulation.things[thing], self._model.size
         radius = math.hypot(model.size.x, model.size.y) / 2.0
@@ -215,7 +215,10 @@ class Gripper:
         return StagePose(x, y, self._robot.model.pose.z, yaw).then(self._pose)
 
     def _met(self, world: int, line: Floats) -> int:
-        """The thing that a line in the gripper's frame crosses or ends in; -1 for none."""
+        """Return the thing that a line in the gripper's frame crosses or ends in.
+
+        -1 without one.
+        """
         at = self._place(world)
         ends = [at.then(StagePose(x, y)) for x, y in line.tolist()]
         strip = np.array([(end.x, end.y) for end in ends])
@@ -247,7 +250,7 @@ def _crosses(strip: Floats, there: Outlines, low: float, high: float) -> bool:
 
 
 def grippers_of(simulation: StageBodies) -> dict[int, list[Gripper]]:
-    """The grippers of each robot that has some, by its index."""
+    """Return the grippers of each robot that has some, by its index."""
     found: dict[int, list[Gripper]] = {}
     for robot in simulation.robots:
         own = [

@@ -44,7 +44,7 @@ def sensor_models(fleet: StageFleet, model: Model) -> list[tuple[Sensor, SensorM
 
 
 def inputs_of(fleet: StageFleet, name: str) -> dict[str, TwistInput]:
-    """The inputs of a model: ``cmd_vel`` of a robot."""
+    """Return the inputs of a model: ``cmd_vel`` of a robot."""
     robot = fleet.named.get(name)
     if robot is None:
         return {}
@@ -58,7 +58,7 @@ def inputs_of(fleet: StageFleet, name: str) -> dict[str, TwistInput]:
 
 
 def open_outputs(fleet: StageFleet, robot: Robot) -> None:
-    """Give a robot ``odom``, and the scans that its file has published, under stage_ros's names."""
+    """Open ``odom``, and the scans that its file publishes, under stage_ros's names."""
     for unit in robot.sensors.values():
         for plugin in unit.description.plugins:
             if isinstance(plugin, StagePlugin):

@@ -31,7 +31,7 @@ class StageKind:
         return sensor_models(self.extension, model)
 
     def open_ports(self, robot: Robot) -> None:
-        """Give a model the ports of its drive, its sensors and its devices."""
+        """Open the ports of a model's drive, sensors and devices."""
         robot.inputs.update(inputs_of(self.extension, robot.name))
         open_outputs(self.extension, robot)
         open_devices(self.extension, robot)

@@ -78,12 +78,12 @@ class WheelOdometry:
 
 
 def _given(error: tuple[float, float, float, float] | None) -> tuple[float, float, float]:
-    """Of x, y and yaw what the file says; not a number: it says nothing."""
+    """Return x, y and yaw of the file; NaN where it has none."""
     return (math.nan,) * 3 if error is None else (error[0], error[1], error[3])
 
 
 def _start_of(robot: StageRobot) -> tuple[float, float, float]:
-    """The first pose in the frame of ``localization_origin``."""
+    """Return the first pose in the frame of ``localization_origin``."""
     pose, origin = robot.model.pose, robot.position.localization_origin
     if origin is None:
         return (0.0, 0.0, 0.0)

@@ -29,21 +29,21 @@ class Outlines:
     owners: NDArray[np.intp]
 
     def moved(self, pose: StagePose) -> Outlines:
-        """The same, given in the frame of a pose, in that pose's frame."""
+        """Return outlines of a pose's frame in the parent frame."""
         cos, sin = math.cos(pose.yaw), math.sin(pose.yaw)
         turn = np.array([[cos, sin], [-sin, cos]])
         points = self.lines.reshape(-1, 2) @ turn + (pose.x, pose.y)
         return Outlines(points.reshape(-1, 4), self.heights + pose.z, self.owners)
 
     def at(self, height: float) -> Outlines:
-        """Those that there are at a height."""
+        """Return the outlines at a height."""
         low, high = self.heights.T
         kept = (low <= height) & (height <= high)
         return Outlines(self.lines[kept], self.heights[kept], self.owners[kept])
 
 
 def outlines_of(models: list[PlacedStageModel]) -> Outlines:
-    """The outlines of models; ``owners`` counts them."""
+    """Return the outlines of models; ``owners`` counts them."""
     found = [(np.zeros((0, 4)), (0.0, 0.0), 0)]
     for index, placed in enumerate(models):
         frame, bitmap = placed.body_pose, placed.model.bitmap
@@ -60,7 +60,7 @@ def outlines_of(models: list[PlacedStageModel]) -> Outlines:
 
 
 def joined(parts: list[tuple[Outlines, int]]) -> Outlines:
-    """Several as one; to the owners of each a number is added."""
+    """Return several outlines as one; a number is added to the owners of each."""
     return Outlines(
         np.vstack([each.lines for each, _ in parts]),
         np.vstack([each.heights for each, _ in parts]),
@@ -69,7 +69,7 @@ def joined(parts: list[tuple[Outlines, int]]) -> Outlines:
 
 
 def distances(x: float, y: float, angles: Floats, there: Outlines) -> Floats:
-    """Distance to each segment along each ray [m], infinite if not met, shape (rays, n).
+    """Return distances to each segment along each ray [m], infinite if not met, (rays, n).
 
     Args:
         x: Of the point [m].

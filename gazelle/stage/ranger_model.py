@@ -36,26 +36,26 @@ class RangerModel:
         return 1
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:  # noqa: ARG002  Stage's noise does not drift
-        """Ranges now [m], shape (n, samples), in the meaning of ``LaserScan.ranges``."""
+        """Return ranges now [m], shape (n, samples), with the meaning of ``LaserScan.ranges``."""
         ranges = self._ranges()[slice(None) if worlds is None else worlds]
         found: Floats = np.where(ranges < self._sensor.range[1], ranges, np.inf)
         return found
 
     def reading(self, values: Floats, stamp: int) -> LaserScan:
-        """A measurement with what is needed to read it."""
+        """Return a measurement as a ``LaserScan``."""
         sensor, half = self._sensor, self._sensor.fov / 2.0
         increment = sensor.fov / max(sensor.samples - 1, 1)
         return LaserScan(stamp, values, -half, half, increment, *sensor.range)
 
     def reseed(self, seed: int, worlds: Worlds | None = None) -> None:
-        """Nothing: the fleet's scanners have the random numbers."""
+        """Do nothing: the fleet's scanners have the random numbers."""
 
     def reset(self, worlds: Worlds | None = None) -> None:
-        """Nothing: likewise."""
+        """Do nothing: the fleet's scanners have the random numbers."""
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Nothing: likewise."""
+        """Return an empty state: the fleet's scanners have the random numbers."""
         return {}
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Nothing: likewise."""
+        """Do nothing: the fleet's scanners have the random numbers."""

@@ -74,7 +74,7 @@ class Rangers:
         return None if system is None else (system, made.flat_ranges)
 
     def returns(self, scanner: int, place: int, world: int) -> Floats:
-        """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.
+        """Return ``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.
 
         Raises:
             SimulationError: There is no such scanner.
@@ -83,7 +83,7 @@ class Rangers:
         return self._scanner(scanner).returns(place, world)
 
     def rewind(self) -> None:
-        """Draw the same random numbers again."""
+        """Restart the random numbers."""
         self._seen.clear()
         for stream in self._streams:
             stream.rewind()
@@ -91,7 +91,7 @@ class Rangers:
             made.tick = 0
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Draw the random numbers of another seed."""
+        """Set the seed of the random numbers."""
         if worlds is None:
             self._seed = seed
             self._made.clear()
@@ -100,7 +100,7 @@ class Rangers:
             stream.reseed(seed, worlds)
 
     def take_over(self, other: Rangers) -> None:
-        """Go on with the random numbers of others."""
+        """Copy the random numbers' state of others."""
         for own, old in zip(self._streams, other._streams, strict=False):
             own.keys[:], own.counters[:] = old.keys, old.counters
         for number, made in other._made.items():
@@ -108,7 +108,7 @@ class Rangers:
                 self._scanner(number).tick = made.tick
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes, for a snapshot."""
+        """Return all mutable state, for a snapshot."""
         ticks = [self._made[k].tick if k in self._made else 0 for k in range(len(self.fans))]
         streams = self._streams
         return {
@@ -118,7 +118,7 @@ class Rangers:
         }
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         self._seen.clear()
         parts = (self._streams, state["keys"], state["counters"], state["ticks"])
         for number, (stream, keys, counters, tick) in enumerate(zip(*parts, strict=True)):

@@ -45,7 +45,7 @@ class Reckoning(System):
         self.count, self.stride, self.dt, self.euler = count, stride, dt, euler
 
     def reckon(self) -> None:
-        """``update`` of all rows."""
+        """Update all rows."""
         self.update(0, self.pose.shape[0], 0)
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part

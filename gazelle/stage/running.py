@@ -44,7 +44,7 @@ class StageRunner(WorldPlugin):
         self._bound: tuple[int, int] | None = None
 
     def control(self) -> None:
-        """Let controllers act in Python."""
+        """Update controllers in Python."""
         for controller in self._fleet.controllers:
             controller.update()
 
@@ -84,7 +84,7 @@ class StageRunner(WorldPlugin):
     # -- as a plugin -------------------------------------------------------------------
 
     def reseed(self, seed: int, worlds: Worlds | None) -> None:
-        """Use the random numbers of another seed; a reset follows."""
+        """Set the seed of the random numbers; a reset follows."""
         if worlds is None:
             self._fleet.seed = seed
         self._fleet.motion.odometry.stream.reseed(seed, worlds)
@@ -101,11 +101,11 @@ class StageRunner(WorldPlugin):
             controller.reset(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Everything that changes but bodies."""
+        """Return all mutable state except bodies."""
         return states_of(self._parts())
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
         restore_all(self._parts(), state)
 
     def _parts(self) -> dict[str, Restorable]:
@@ -127,7 +127,7 @@ class StageSystem(PluginSystem[StageRunner]):
     single = True
 
     def update(self, time: float) -> None:  # noqa: ARG002  controllers look at the clock
-        """Let controllers act."""
+        """Update the controllers."""
         self.plugins[0].control()
 
     def in_step(self) -> InStep | None:

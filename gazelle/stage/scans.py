@@ -60,7 +60,7 @@ class RangerScanner:
         self._stream = stream
 
     def scan(self) -> Floats:
-        """Distances [m], shape (nworld, sensors, samples); the array is used again."""
+        """Return distances [m], shape (nworld, sensors, samples); the array is used again."""
         ranges = self._scanner.scan()
         if not any(self._noisy):
             return ranges
@@ -84,7 +84,7 @@ class RangerScanner:
         return self._scanner.flat_ranges
 
     def returns(self, sensor: int, world: int = 0) -> Floats:
-        """``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.
+        """Return ``ranger_return`` of what each beam of a sensor meets now; 0 for nothing.
 
         From the first call on each scan also remembers what it met.
 

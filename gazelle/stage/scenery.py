@@ -64,7 +64,7 @@ class _BodyLook:
 
 
 def color_of(model: StageModel) -> Color:
-    """Its colour; of one of any colour always the same for its name."""
+    """Return the colour of a model; a random one depends on its name only."""
     if model.color != "random":
         return model.color
     hue = zlib.crc32(model.name.encode()) / 2**32
@@ -99,7 +99,7 @@ def scenery_of(still_ones: Iterable[StageModel], bodies: Sequence[StageModel]) -
 
 
 def _look_of(model: StageModel) -> _BodyLook:
-    """A model and all on it in its frame."""
+    """Return a model and all on it in its frame."""
     placed = list(replace(model, pose=StagePose()).walk())
     cameras = tuple(k for k, p in enumerate(placed) if p.model.device_of(StageCamera) is not None)
     groups = {-1: [p for k, p in enumerate(placed) if k not in cameras]}
@@ -115,7 +115,7 @@ def _look_of(model: StageModel) -> _BodyLook:
 
 
 def _by_color(models: Iterable[PlacedStageModel]) -> dict[Rgb, Floats]:
-    """All faces of some models by their colours, where the models are placed."""
+    """Return all faces of some models by their colours, where the models are placed."""
     found: defaultdict[Rgb, list[Floats]] = defaultdict(lambda: [NO_FACES])
     for placed in models:
         for color, faces in _faces_of(placed):
@@ -136,7 +136,7 @@ def _faces_of(placed: PlacedStageModel) -> Iterator[tuple[Rgb, Floats]]:
 
 
 def _tops(bitmap: StageBitmap, frame: StagePose) -> Floats:
-    """The corners of rectangles that cover the walls of a bitmap, shape (n, 4, 2)."""
+    """Return the corners of rectangles that cover the walls of a bitmap, shape (n, 4, 2)."""
     boxes = rectangles(bitmap.cells).reshape(-1, 4)
     corners = boxes[:, [0, 1, 2, 1, 2, 3, 0, 3]].reshape(-1, 2) * bitmap.cell_size + bitmap.low
     cos, sin = np.cos(frame.yaw), np.sin(frame.yaw)
@@ -146,12 +146,12 @@ def _tops(bitmap: StageBitmap, frame: StagePose) -> Floats:
 
 
 def _paint(color: Color) -> Rgb:
-    """A colour as bytes hold it, red, green and blue."""
+    """Return a colour as bytes, red, green and blue."""
     red, green, blue = (round(255.0 * part) / 255.0 for part in color[:3])
     return red, green, blue
 
 
 def _ground() -> TriangleMesh:
-    """The ground at height zero, seen from above: one triangle, so that no edge is in view."""
+    """Return the ground at height zero: one triangle, so that no edge is in view."""
     angles = np.array([0.0, 2.0, 4.0, 4.0]) * math.pi / 3.0
     return quadrangles(plates(_FAR * np.stack((np.cos(angles), np.sin(angles)), axis=1)[None], 0.0))

@@ -40,7 +40,7 @@ class Senses(StageBodies):
 
     @abstractmethod
     def robot(self, name: str) -> StageRobot:
-        """A robot by the name that the file gives it."""
+        """Return a robot by the name that the file gives it."""
 
     @cached_property
     def _around(self) -> Surroundings:
@@ -54,7 +54,7 @@ class Senses(StageBodies):
         return one_world(world, self.nworld)
 
     def gripper(self, name: str, which: int = 0) -> Gripper:
-        """A gripper of a robot, in all worlds.
+        """Return a gripper of a robot, in all worlds.
 
         Raises:
             SimulationError: There is no such robot or gripper.
@@ -62,7 +62,7 @@ class Senses(StageBodies):
         return pick(self.devices.grippers, self.robot(name), which, "grippers")
 
     def actuator(self, name: str, which: int = 0) -> Actuator:
-        """An actuator of a robot, in all worlds; one on another is fixed there.
+        """Return an actuator of a robot, in all worlds; one on another is fixed there.
 
         Raises:
             SimulationError: There is no such robot or actuator.
@@ -70,7 +70,7 @@ class Senses(StageBodies):
         return pick(self.devices.actuators, self.robot(name), which, "actuators")
 
     def forget_views(self) -> None:
-        """Models came or went."""
+        """Discard cached views after models changed."""
         for name in ("_cameras", "_around"):
             self.__dict__.pop(name, None)
 
@@ -91,7 +91,7 @@ class Senses(StageBodies):
         return find_blobs(self._around, self.robot(name).index, finder, self._one(world))
 
     def bumps(self, name: str, bumper: int = 0, world: int = 0) -> tuple[str | None, ...]:
-        """The whole name of the model that each strip of a bumper touches now, or None.
+        """Return the whole name of the model that each strip of a bumper touches now, or None.
 
         Raises:
             SimulationError: There is no such robot or bumper.
@@ -115,7 +115,7 @@ class Senses(StageBodies):
         return self._cameras.picture(self.robot(name).index, camera, self._one(world))
 
     def draw(self, wanted: Iterable[tuple[str, int, int]]) -> None:
-        """Draw at once, by all threads, what ``picture`` will be asked for this step.
+        """Render at once, by all threads, what ``picture`` will need in this step.
 
         Args:
             wanted: Names of robots, numbers of cameras on them, and worlds.

@@ -105,31 +105,31 @@ class StageSimulation(Closeable):
         return self.simulation.paused
 
     def step(self, count: int = 1) -> None:
-        """See ``Simulation.step``."""
+        """Advance by steps; see ``Simulation.step``."""
         self.simulation.step(count)
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
-        """See ``Simulation.run``."""
+        """Run the simulation; see ``Simulation.run``."""
         self.simulation.run(seconds, rate=rate)
 
     def pause(self) -> None:
-        """See ``Simulation.pause``."""
+        """Pause the simulation; see ``Simulation.pause``."""
         self.simulation.pause()
 
     def unpause(self) -> None:
-        """See ``Simulation.unpause``."""
+        """Unpause the simulation; see ``Simulation.unpause``."""
         self.simulation.unpause()
 
     def subscribe(self, listener: Callable[[], None]) -> Callable[[], None]:
-        """See ``Simulation.subscribe``."""
+        """Subscribe to steps; see ``Simulation.subscribe``."""
         return self.simulation.subscribe(listener)
 
     def reset(self) -> None:
-        """See ``Simulation.reset``."""
+        """Reset the simulation; see ``Simulation.reset``."""
         self.simulation.reset()
 
     def close(self) -> None:
-        """See ``Simulation.close``."""
+        """Close the simulation; see ``Simulation.close``."""
         self.simulation.close()
 
 

@@ -30,7 +30,7 @@ class Steering:
         return len(self._cars) > 0
 
     def velocities(self, driven: Floats) -> Floats:
-        """x, y [m/s] and yaw [rad/s] of what is driven, both of shape (nworld, nrobot, 3)."""
+        """Return x, y [m/s] and yaw [rad/s] of the commands, both of shape (nworld, nrobot, 3)."""
         if not self.needed:
             return driven
         velocity = driven.copy()

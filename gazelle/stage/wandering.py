@@ -56,7 +56,7 @@ class Wandering(System):
         self.patience = manner["patience"]
 
     def choose(self, first: int, last: int, time: int) -> None:
-        """``update`` from Python, without the interpreter's lock."""
+        """Choose the commands of all robots, without the interpreter's lock."""
         with cython.nogil:
             self.update(first, last, time)
 
@@ -82,7 +82,7 @@ class Wandering(System):
 
 
 def room(ranges: Floats, m: int) -> tuple[float, float, float]:
-    """The shortest range in the middle third, in the right half and in the left one.
+    """Return the shortest range in the middle third, in the right half and in the left one.
 
     The middle third begins after a third of the samples, and the middle one is of the right
     half, as in Stage.

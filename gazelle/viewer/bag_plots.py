@@ -24,7 +24,7 @@ _POSES = {
 
 
 def bag_series(path: Path, fields: Sequence[str]) -> Series:
-    """Numbers of messages over the time since the bag begins [s].
+    """Return numbers of messages over the time since the bag begins [s].
 
     Args:
         path: The bag.
@@ -41,7 +41,7 @@ def bag_series(path: Path, fields: Sequence[str]) -> Series:
 
 
 def bag_paths(path: Path, topics: Sequence[str] = ()) -> dict[str, Floats]:
-    """The ways that topics of places tell, x and y [m] by topic, shapes (n, 2).
+    """Return the paths in topics of poses, x and y [m] by topic, shapes (n, 2).
 
     Args:
         path: The bag.
@@ -70,7 +70,7 @@ def bag_paths(path: Path, topics: Sequence[str] = ()) -> dict[str, Floats]:
 
 
 def bag_map(path: Path) -> OccupancyMap | None:
-    """The last map of a bag; None if it has none."""
+    """Return the last map of a bag; None if it has none."""
     with Bag(str(path)) as bag:
         found = bag.get_type_and_topic_info().topics
         maps = [name for name, told in found.items() if told.msg_type == "nav_msgs/OccupancyGrid"]
@@ -81,7 +81,7 @@ def bag_map(path: Path) -> OccupancyMap | None:
 
 
 def _split(field: str, topics: Sequence[str]) -> tuple[str, tuple[str, ...]]:
-    """The topic of a field, the longest that fits, and the way to the number."""
+    """Return the topic of a field, the longest match, and the path to the number."""
     fitting = [topic for topic in topics if field.startswith(f"{topic}/")]
     if not fitting:
         hint = did_you_mean(field, topics)

@@ -42,7 +42,7 @@ class FramePlace:
     quaternion: Floats
 
     def of(self, points: Floats) -> Floats:
-        """Points of the frame, shape (n, 3), where they are."""
+        """Return points of the frame, shape (n, 3), in the fixed frame."""
         moved: Floats = rotate(np.tile(self.quaternion, (len(points), 1)), points) + self.position
         return moved
 
@@ -89,7 +89,7 @@ class BagTopView(FilmSource):
         self.advance(0.0)
 
     def advance(self, seconds: float) -> bool:
-        """Go on until so long after the first message [s]."""
+        """Advance to a time after the first message [s]."""
         end = self._start + round(seconds * 1e9)
         while self._next is not None and self._next.timestamp.to_nsec() <= end:
             self._take(self._shown, self._next)
@@ -97,7 +97,7 @@ class BagTopView(FilmSource):
         return self._next is not None
 
     def look(self) -> Picture:
-        """Map below, then ways, plans, scans and robots."""
+        """Render the map, then paths, plans, scans and robots."""
         canvas = Image.fromarray(self._paper())
         draw = ImageDraw.Draw(canvas)
         for number, way in enumerate(self._shown.ways.values()):
@@ -121,7 +121,7 @@ class BagTopView(FilmSource):
     # Reading --------------------------------------------------------------------------------
 
     def _read_frames(self, topics: list[str]) -> str:
-        """Take all transforms of the bag; the frame that pictures stand still in."""
+        """Read all transforms of the bag; returns the fixed frame of pictures."""
         frames: set[str] = set()
         for entry in self._bag.read_messages(topics=topics) if topics else ():
             static = entry.topic.endswith("tf_static")
@@ -133,7 +133,7 @@ class BagTopView(FilmSource):
         return next((name for name in _FIXED if name in frames), min(frames, default=""))
 
     def _extent(self) -> tuple[float, float, float, float]:
-        """Of all that will be shown, with some room around."""
+        """Return the extent of all that will be shown, with a margin."""
         low, high = np.full(2, np.inf), np.full(2, -np.inf)
         for points in self._everywhere():
             if len(points):
@@ -159,7 +159,7 @@ class BagTopView(FilmSource):
                 yield place.of(corners * side)[:, :2]
 
     def _take(self, shown: _Shown, entry: Any) -> None:
-        """Keep what a message tells."""
+        """Store the content of a message."""
         message, kind = entry.message, self._kinds[entry.topic]
         if kind == _MAP:
             shown.grid = grid_of_message(message)
@@ -215,7 +215,7 @@ class BagTopView(FilmSource):
 
 
 def _kinds(topics: Mapping[str, Any], path: Path) -> dict[str, str]:
-    """The topics that are shown, with their types.
+    """Return the topics that are shown, with their types.
 
     Raises:
         RosError: There are none.
@@ -230,7 +230,7 @@ def _kinds(topics: Mapping[str, Any], path: Path) -> dict[str, str]:
 
 
 def _painted(grid: OccupancyMap, places: Floats) -> Bytes:
-    """The colours of a map at places, shape (height, width, 2) [m]."""
+    """Return the colours of a map at places, shape (height, width, 2) [m]."""
     origin = grid.origin
     away = places - np.array(origin.position[:2])
     cos, sin = np.cos(origin.yaw), np.sin(origin.yaw)
@@ -272,7 +272,7 @@ def _last_place(shown: _Shown) -> FramePlace | None:
 def bag_source(
     path: Path, topic: str | None = None, *, top: bool = False, size: tuple[int, int] = (960, 720)
 ) -> FilmSource:
-    """The pictures of a bag; where it has none, or if it is wanted, the bag from above.
+    """Return the pictures of a bag; where it has none, or on request, the bag from above.
 
     Args:
         path: The bag.

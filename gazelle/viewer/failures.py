@@ -29,7 +29,7 @@ _HEAD, _EDGE = 70, 30  # of the picture: room for the legend, and around the pla
 
 
 def draw_failures(found: Evaluation, size: int = 800) -> Picture:
-    """A picture of the world with each failed episode: from its start over its end to its goal.
+    """Draw the world with each failed episode: from its start over its end to its goal.
 
     A dot is where the episode ended, in the colour of its outcome, a cross its goal, and a
     small ring its start.
@@ -107,7 +107,7 @@ class _Canvas:
         self._pen = ImageDraw.Draw(self._image)
 
     def pixels(self, length: float) -> float:
-        """A length [m] in pixels."""
+        """Return a length [m] in pixels."""
         return length * self._scale
 
     def line(self, here: Point, there: Point, colour: Colour, width: int) -> None:

@@ -25,7 +25,7 @@ _LEAST = 2  # hundredths of a second that viewers of GIFs show a picture for
 
 
 def writable(path: str | Path, suffixes: tuple[str, ...]) -> Path:
-    """The file of a path that can be written.
+    """Return the file of a path that can be written.
 
     Raises:
         Error: It ends otherwise, or there is no such folder.
@@ -112,7 +112,7 @@ def _write_mp4(file: Path, pictures: Iterable[Picture], rate: float) -> int:
 
 
 def _even(picture: Picture) -> Picture:
-    """A picture whose sides are even, as H.264's colours want them."""
+    """Return a picture whose sides are even, which H.264's colours require."""
     height, width = picture.shape[:2]
     edge = ((0, height % 2), (0, width % 2), (0, 0))
     return np.ascontiguousarray(np.pad(picture, edge, mode="edge"))

@@ -18,7 +18,7 @@ class FilmCamera(Protocol):
     """Camera that draws a simulation: a ``SceneCamera`` or a ``TopView``."""
 
     def look(self) -> Picture:
-        """The simulation now, shape (height, width, 3)."""
+        """Render the simulation now, shape (height, width, 3)."""
 
 
 def film(
@@ -117,7 +117,7 @@ def film_plan(
 def shots(
     simulation: Simulation, camera: FilmCamera, count: int, period: float
 ) -> Iterator[Picture]:
-    """The first picture, and one after each period of simulated time [s]."""
+    """Yield the first picture, and one after each period of simulated time [s]."""
     start = simulation.time
     yield camera.look()
     for number in range(1, count + 1):

@@ -102,7 +102,7 @@ class LiveView(Closeable):
             end()
 
     def _begin(self, worlds: Any, *, only_looking: bool) -> None:
-        """Make everything that is on the page."""
+        """Create everything on the page."""
         simulation, page = self._simulation, self._server.viser
         spots = spots_of(simulation, len(worlds))
         self._context = context = PageContext(
@@ -147,7 +147,7 @@ class LiveView(Closeable):
             )
 
     def _offer(self) -> None:
-        """A box to tick for each thing that can be shown besides."""
+        """Add a checkbox for each optional layer."""
         gui, scene = self._context.gui, self._context.scene
         with gui.add_folder("Show"):
             for label, layer in self._optional.items():
@@ -161,7 +161,7 @@ class LiveView(Closeable):
         shadows.on_update(shade)
 
     def _look_from(self, spots: Any) -> None:
-        """See all of it at first, from above and aside."""
+        """Set the initial view: all of it, from above and aside."""
         low, high = extent_of_world(self._simulation.world)
         high = high + spots.max(axis=0)
         low = low + spots.min(axis=0)
@@ -172,7 +172,7 @@ class LiveView(Closeable):
         camera.position = tuple((middle + away).tolist())
 
     def _note(self, _robot: Robot) -> None:
-        """Models came or went; between two steps."""
+        """Record a change of models; between two steps."""
         self._changed = True
 
     def _follow(self) -> None:
@@ -195,7 +195,7 @@ class LiveView(Closeable):
                 warnings.warn(SimulationWarning(text), stacklevel=1)
 
     def _picture(self) -> None:
-        """Look at everything at one moment, then put it on the page."""
+        """Read everything at one moment, then show it on the page."""
         with self._simulation.lock:
             states = self._look()
         with self._server.viser.atomic():

@@ -69,7 +69,7 @@ class TopView:
         self._scanners: tuple[Fleet | None, list[Scanner]] = (None, [])
 
     def look(self) -> Picture:
-        """The world now, shape (height, width, 3); goes on with the trails."""
+        """Render the world now, shape (height, width, 3), and extend the trails."""
         fleet = fleet_of(self._simulation)
         poses = fleet.pose[self._world].copy()
         if self._been and len(self._been[-1]) != len(poses):
@@ -88,7 +88,7 @@ class TopView:
         return np.asarray(image.resize(self._size, Image.Resampling.BOX), np.uint8)
 
     def forget(self) -> None:
-        """Begin the trails anew."""
+        """Clear the trails."""
         self._been.clear()
 
     def _draw_scans(self, draw: ImageDraw.ImageDraw, fleet: Fleet) -> None:
@@ -159,20 +159,20 @@ class PlanFrame:
         return places
 
     def path(self, points: Iterable[Any] | Floats) -> list[tuple[float, float]]:
-        """Points [m] as pixels."""
+        """Return points [m] as pixels."""
         array = np.asarray(points, np.float64).reshape(-1, 2)
         x, y = ((array - self._middle) * self._scale * [1.0, -1.0] + self._centre).T
         return list(zip(x.tolist(), y.tolist(), strict=True))
 
     def box(self, x: float, y: float, radius: float) -> tuple[float, float, float, float]:
-        """The square around a disc."""
+        """Return the square around a disc."""
         ((left, top),) = self.path([[x - radius, y + radius]])
         ((right, bottom),) = self.path([[x + radius, y - radius]])
         return left, top, right, bottom
 
 
 def fleet_of(simulation: Simulation) -> Fleet:
-    """The bodies in the plane.
+    """Return the bodies in the plane.
 
     Raises:
         Error: The simulation is not in the plane.
@@ -205,7 +205,7 @@ def rays_of(scanner: Scanner, world: int) -> tuple[Floats, Floats, NDArray[np.bo
 
 
 def extent_of(fleet: Fleet, world: int) -> tuple[float, float, float, float]:
-    """All that stands or drives, with some room around."""
+    """Return the extent of all bodies and statics, with a margin."""
     ends, discs = fleet.scene.table.segments.reshape(-1, 2), fleet.scene.table.discs
     middles, radii = discs[:, :2], discs[:, 2:]
     poses, wide = fleet.pose[world, :, :2], fleet.widest
@@ -218,7 +218,7 @@ def extent_of(fleet: Fleet, world: int) -> tuple[float, float, float, float]:
 
 
 def colour_of(body: int) -> Colour:
-    """Red, green and blue of a body, from 0 to 255."""
+    """Return red, green and blue of a body, from 0 to 255."""
     return _BODIES[body % len(_BODIES)]
 
 

@@ -9,14 +9,14 @@ from gazelle.stage import StageFleet
 
 
 def scanners_of(simulation: Simulation, fleet: Fleet) -> list[Scanner]:
-    """Scanners without noise, with the beams of all rangers and lidars."""
+    """Return scanners without noise, with the beams of all rangers and lidars."""
     stage = simulation.extension(StageFleet)
     pairs = [] if stage is None else list(zip(stage.fans, stage.mounts, strict=True))
     return [Scanner(fleet, fan, mounts) for fan, mounts in (*pairs, *_lidars(simulation))]
 
 
 def _lidars(simulation: Simulation) -> list[tuple[Fan, list[Mount]]]:
-    """Fans of lidars in the plane, cut where the lidar sees no farther."""
+    """Return fans of lidars in the plane, clipped to the lidar's range."""
     engine = simulation.engine
     found = []
     for unit in tuple(simulation.entities.sensors):

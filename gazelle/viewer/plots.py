@@ -30,7 +30,7 @@ _STYLES = ("-", "--", "-.", ":")  # told apart in print, too
 
 
 def plot_trainings(runs: Sequence[Path], file: Path) -> None:
-    """Draw success and return over control steps of one training or several.
+    """Plot success and return over control steps of one training or several.
 
     Args:
         runs: Their folders.
@@ -55,7 +55,7 @@ def plot_trainings(runs: Sequence[Path], file: Path) -> None:
 
 
 def plot_table(table: Path, columns: Sequence[str], file: Path) -> None:
-    """Draw columns of a table of numbers over its first one, one above the other.
+    """Plot columns of a table of numbers over its first one, one above the other.
 
     Args:
         table: A ``.csv`` file, such as a performance analyser writes.
@@ -79,7 +79,7 @@ def plot_table(table: Path, columns: Sequence[str], file: Path) -> None:
 
 
 def plot_series(series: Series, horizontal: str, file: Path) -> None:
-    """Draw lines one above the other over a common axis.
+    """Plot lines one above the other over a common axis.
 
     Args:
         series: The lines; names with the same text before the last ``/`` share a panel.
@@ -100,7 +100,7 @@ def plot_series(series: Series, horizontal: str, file: Path) -> None:
 
 
 def plot_paths(paths: Mapping[str, Floats], grid: OccupancyMap | None, file: Path) -> None:
-    """Draw ways in the plane, over a map if there is one.
+    """Plot paths in the plane, over a map if there is one.
 
     Args:
         paths: x and y [m] by name, shapes (n, 2).
@@ -129,7 +129,7 @@ def plot_paths(paths: Mapping[str, Floats], grid: OccupancyMap | None, file: Pat
 
 
 def draw_lines(axes: Any, lines: Series, horizontal: str, vertical: str) -> None:
-    """Put lines into one panel."""
+    """Draw lines into one panel."""
     for number, (name, (x, y)) in enumerate(lines.items()):
         axes.plot(x, y, _STYLES[number % len(_STYLES)], label=name, linewidth=1.5)
     axes.set_xlabel(horizontal)
@@ -140,7 +140,7 @@ def draw_lines(axes: Any, lines: Series, horizontal: str, vertical: str) -> None
 
 
 def read_table(path: Path) -> dict[str, Floats]:
-    """The columns of a ``.csv`` file that hold numbers; cells without one are NaN.
+    """Read the columns of a ``.csv`` file that hold numbers; cells without one are NaN.
 
     Raises:
         FormatError: There is no such file, or no row in it.
@@ -166,7 +166,7 @@ def _number(text: str | None) -> float:
 
 
 def _draw_map(axes: Any, grid: OccupancyMap) -> None:
-    """Occupied cells dark, unknown ones grey."""
+    """Draw occupied cells dark, unknown ones grey."""
     shade = np.where(grid.data < 0, 0.8, 1.0 - np.clip(grid.data, 0, 100) / 100.0 * 0.75)
     x, y, _ = grid.origin.position
     width, height = grid.size
@@ -176,7 +176,7 @@ def _draw_map(axes: Any, grid: OccupancyMap) -> None:
 
 
 def _figure(panels: int) -> Any:
-    """A figure with so many panels above each other."""
+    """Return a figure with so many panels above each other."""
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure

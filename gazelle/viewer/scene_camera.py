@@ -119,7 +119,7 @@ class SceneCamera:
         return ways[int(np.argmax(clear))]
 
     def _usual(self, eye: Place | None, target: Place | None) -> tuple[Floats, Floats]:
-        """Eye and target, where they are not given from the size of what there is to see."""
+        """Return eye and target, by default from the size of the scene."""
         if self._follow:
             middle = np.array([0.0, 0.0, 0.1])
             with self._simulation.lock:
@@ -148,7 +148,7 @@ def _ways() -> Iterator[Floats]:
 
 
 def distance_to_see(half: Floats, away: Floats, lens: PinholeLens) -> float:
-    """From how far a camera sees a whole box in whose middle it looks, in lengths of a vector.
+    """Return the distance at which a camera sees a whole box, in lengths of a vector.
 
     Args:
         half: Half of the box's sides [m], shape (3,).

@@ -26,7 +26,7 @@ class FilmSource(Closeable):
 
     @abstractmethod
     def advance(self, seconds: float) -> bool:
-        """Go on until so long after the beginning [s]; False when it is over."""
+        """Advance to a time after the start [s]; False when it is over."""
 
     @abstractmethod
     def look(self) -> Picture:
@@ -82,7 +82,7 @@ class RecordingSource(FilmSource):
         self._camera = camera(self._replay.simulation)
 
     def advance(self, seconds: float) -> bool:
-        """Do what was done until then."""
+        """Replay everything up to a time."""
         simulation, step = self._replay.simulation, self._replay.simulation.engine.time_step
         while (left := self._start + seconds - simulation.time) > 0.5 * step:
             if not self._replay.step(max(1, round(left / step))):
@@ -113,7 +113,7 @@ class PolicySource(FilmSource):
         self._steps = 0
 
     def advance(self, seconds: float) -> bool:
-        """Let the policy act; it is never over."""
+        """Run the policy; it is never over."""
         while (self._steps + 0.5) * self._playback.period < seconds:
             self._playback.step()
             self._steps += 1
@@ -159,13 +159,13 @@ class BagSource(FilmSource):
         self._start = _stamp(self._now)
 
     def advance(self, seconds: float) -> bool:
-        """Go on to the last image before that."""
+        """Advance to the last image before a time."""
         while self._next is not None and _stamp(self._next) <= self._start + seconds:
             self._now, self._next = self._next, next(self._messages, None)
         return self._next is not None
 
     def look(self) -> Picture:
-        """The image."""
+        """Return the image."""
         return picture_of(self._now.message)
 
     def close(self) -> None:
@@ -174,7 +174,7 @@ class BagSource(FilmSource):
 
 
 def pictures_of(source: FilmSource, seconds: float | None, period: float) -> Iterator[Picture]:
-    """The first picture of a source, and one after each period [s], until its end or that time."""
+    """Yield the first picture of a source, and one after each period [s], until an end time."""
     yield source.look()
     count = None if seconds is None else max(1, round(seconds / period))
     number = 0
@@ -187,7 +187,7 @@ def pictures_of(source: FilmSource, seconds: float | None, period: float) -> Ite
 
 
 def picture_of(message: Any) -> Picture:
-    """Red, green and blue of a ``sensor_msgs`` Image or CompressedImage, shape (height, width, 3).
+    """Return the colours of a ``sensor_msgs`` Image or CompressedImage, (height, width, 3).
 
     Depths are grey, near ones dark.
 
@@ -238,7 +238,7 @@ _ENCODINGS: dict[str, tuple[str, int, list[int]]] = {
 
 
 def _stamp(read: Any) -> float:
-    """When a message was recorded [s]."""
+    """Return the time at which a message was recorded [s]."""
     seconds: float = read.timestamp.to_nsec() / _NANOSECONDS
     return seconds
 

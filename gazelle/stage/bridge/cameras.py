@@ -67,13 +67,13 @@ class CameraTopics:
         ]
 
     def watched(self) -> Iterator[tuple[str, int, int]]:
-        """The robot, number and world of each camera whose pictures or depths are listened to."""
+        """Yield robot, number and world of each camera with subscribers of pictures or depths."""
         for eye in self._eyes:
             if eye.watched:
                 yield self._robot.name, eye.which, self._world
 
     def publish(self, stamp: Time) -> None:
-        """Draw and publish what is listened to."""
+        """Render and publish the topics with subscribers."""
         for eye in self._eyes:
             if eye.watched:
                 seen = self._simulation.picture(self._robot.name, eye.which, self._world)
@@ -85,7 +85,7 @@ class CameraTopics:
                 eye.info.publish(self._lens(eye, stamp))
 
     def places(self) -> list[tuple[str, tuple[float, float, float], tuple[float, ...]]]:
-        """Of each camera that is listened to its frame, place and quaternion on the robot."""
+        """Return frame, place and quaternion on the robot of each camera with subscribers."""
         return [
             (eye.frame, (eye.camera.pose.x, eye.camera.pose.y, eye.camera.pose.z), _optical(eye))
             for eye in self._eyes
@@ -99,7 +99,7 @@ class CameraTopics:
                 publisher.close()
 
     def _depths(self, eye: _Eye, depth: NDArray[np.float32]) -> tuple[str, NDArray[Any]]:
-        """By REP 118: in metres, or in millimetres with 0 for what is not known."""
+        """Return depths by REP 118: in metres, or in millimetres with 0 for unknown."""
         if self._metres:
             return "32FC1", depth
         near, far = (int(_MILLIMETRES * end) for end in eye.camera.device.range)
@@ -131,7 +131,9 @@ class CameraTopics:
 
 
 def _optical(eye: _Eye) -> tuple[float, ...]:
-    """Of the optical frame on the robot, z ahead and y down (REP 103): x, y, z, w.
+    """Return the optical frame's quaternion (x, y, z, w) on the robot, z ahead and y down.
+
+    See REP 103.
 
     It is the turn by the heading about z after that by -90 degrees less the tilt about x.
     """

@@ -94,11 +94,11 @@ class StageDoor(Closeable):
     # -- publishing ------------------------------------------------------------------------
 
     def _make_time(self) -> None:
-        """Let nodes go by the simulated time."""
+        """Set nodes to simulated time."""
         self._node.set_param("/use_sim_time", True)
 
     def now(self) -> Time:
-        """The simulated time as the graph sees it."""
+        """Return the simulated time as a time of the graph."""
         return Time(nsecs=self._simulation.clock.now_ns + self._offset_ns)
 
     def publish(self) -> None:
@@ -126,18 +126,18 @@ class StageDoor(Closeable):
             self._tick()
 
     def _tick(self) -> None:
-        """Tell the time; zero means to ROS that there is none."""
+        """Publish the time; zero means to ROS that there is none."""
         if self._clock.has_listener and (now := self.now()).to_nsec() > 0:
             message: Any = self._clock.message_class()
             message.clock = now
             self._clock.publish(message)
 
     def _greet(self, _peer: str) -> None:
-        """Tell who comes the time, also while the world is paused."""
+        """Send the time to a new subscriber, also while the world is paused."""
         self._simulation.lock.post(self._tick)
 
     def _show(self) -> None:
-        """Something was moved: with no step to come, that is seen now."""
+        """Publish a change of poses at once while no step follows."""
         if self._simulation.paused:
             self.publish()
 
@@ -162,7 +162,7 @@ class StageDoor(Closeable):
         physics.update_rate = (rate or 0.0) / physics.time_step
 
     def run(self, seconds: float | None = None) -> None:
-        """Let the world run until ``stop``, at ``rate``, or until its ``quit_time``.
+        """Run the world until ``stop``, at ``rate``, or until its ``quit_time``.
 
         Args:
             seconds: Simulated time at which to end; None for the file's ``quit_time``.
@@ -175,7 +175,7 @@ class StageDoor(Closeable):
                 return
 
     def stop(self) -> None:
-        """Let ``run`` return; from any thread."""
+        """Stop ``run``; from any thread."""
         self._stop.set()
 
     def _stretch(self, end: float) -> bool:
@@ -209,7 +209,7 @@ class StageDoor(Closeable):
                 return
 
     def close(self) -> None:
-        """Take everything off the graph; the simulation goes on without."""
+        """Remove everything from the graph; the simulation continues."""
         self.stop()
         self._unsubscribe()
         self._services.close()

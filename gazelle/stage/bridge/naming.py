@@ -25,19 +25,19 @@ class Naming:
     slashed_frames: bool = False
 
     def topic(self, robot: int, name: str) -> str:
-        """A topic of a robot."""
+        """Return a topic of a robot."""
         prefix = self._prefix(robot)
         return f"/{prefix}/{name}" if prefix else name
 
     def device_topic(self, robot: int, name: str, index: int, count: int) -> str:
-        """A topic of the device of a number, of so many that the robot has of its kind."""
+        """Return a topic of the device of a number, of so many that the robot has of its kind."""
         if count == 1:
             return self.topic(robot, name)
         prefix = self._prefix(robot)
         return f"/{prefix}/{name}_{index}" if prefix else f"/{name}_{index}"
 
     def frame(self, robot: int, name: str, index: int = 0, count: int = 1) -> str:
-        """A frame of a robot, or of one of several devices of a kind."""
+        """Return a frame of a robot, or of one of several devices of a kind."""
         whole = name if count == 1 else f"{name}_{index}"
         prefix = self._prefix(robot)
         if prefix:

@@ -43,7 +43,7 @@ class StageParameters:
 
 
 def read_parameters(node: Node) -> StageParameters:
-    """The private parameters of a node.
+    """Read the private parameters of a node.
 
     stage_ros's own are left at their defaults with a warning where they are of another type,
     as it leaves them without one, and so that launch files written for it go on.
@@ -74,7 +74,7 @@ def read_parameters(node: Node) -> StageParameters:
 
 
 def _checked(plain: str, default: object, value: Any, name: str) -> Any:
-    """A value of the type of the default."""
+    """Return a value of the type of the default."""
     if isinstance(default, bool):
         if value in (True, False):
             return bool(value)
@@ -98,7 +98,7 @@ def _checked(plain: str, default: object, value: Any, name: str) -> Any:
 
 
 def _name_slips(left: dict[str, Any], own: str) -> None:
-    """Say which names nobody knows are nearly known."""
+    """Warn of unknown names that are similar to known ones."""
     known = [field.name for field in fields(StageParameters)]
     for name in left:
         close = difflib.get_close_matches(name, known, n=1, cutoff=0.8)

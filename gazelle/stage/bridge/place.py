@@ -42,7 +42,7 @@ class GraphRobot:
         return self.node.subscribe(self._topic(name, which, count), kind, told, _QUEUE)
 
     def frame(self, name: str, which: int = 0, count: int = 1) -> str:
-        """A frame of the robot, or of one of several devices."""
+        """Return a frame of the robot, or of one of several devices."""
         return self.naming.frame(self.robot.index, name, which, count)
 
     def _topic(self, name: str, which: int, count: int) -> str:

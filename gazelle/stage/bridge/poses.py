@@ -59,7 +59,7 @@ class PoseServices:
         return answer
 
     def close(self) -> None:
-        """Offer them no longer."""
+        """Close the services."""
         for server in self._servers:
             server.close()
 

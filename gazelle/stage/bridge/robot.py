@@ -42,7 +42,7 @@ class Facts:
 
 
 def facts_of(simulation: StageFleet, world: int, stamp: Time) -> Facts:
-    """The state now; arrays become lists at once, as messages want them."""
+    """Return the state now; arrays become lists at once, as messages need them."""
     return Facts(
         stamp,
         simulation.odometry[world].tolist(),
@@ -136,7 +136,7 @@ class RobotTopics:
         self._actuators.publish()
 
     def transforms(self, facts: Facts) -> list[Any]:
-        """From odom to base_footprint, to base_link, to the lasers and the cameras in use."""
+        """Return transforms from odom to base_footprint, base_link, lasers and cameras in use."""
         x, y, yaw = facts.odometry[self._robot.index]
         found = [
             self._transform(facts, self._odom_frame, self._footprint, x, y, self._z, yaw),
@@ -206,7 +206,7 @@ def set_heading(quaternion: Any, yaw: float) -> None:
 
 
 def heading_of(quaternion: Any) -> float:
-    """The heading of a quaternion; all zero is none, as a message that nobody filled has it."""
+    """Return the heading of a quaternion; all zero, as in an empty message, is the identity."""
     x, y, z, w = quaternion.x, quaternion.y, quaternion.z, quaternion.w
     return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
 
@@ -249,7 +249,10 @@ class RobotInputs:
         return self._simulation.lock.wrap(act)
 
     def drive(self, message: Any) -> None:
-        """A velocity: what is not finite is left out, as it would spoil the world."""
+        """Command a velocity.
+
+        Numbers that are not finite are ignored, as they would spoil the world.
+        """
         command = (message.linear.x, message.linear.y, message.angular.z)
         if not all(map(math.isfinite, command)):
             return
@@ -257,7 +260,7 @@ class RobotInputs:
         self._told(self._robot.index)
 
     def place(self, pose: Any) -> None:
-        """A pose in the world; height, roll and pitch are left out."""
+        """Set the pose in the world; height, roll and pitch are ignored."""
         self._put(pose.position.x, pose.position.y, heading_of(pose.orientation))
 
     def _place_flat(self, pose: Any) -> None:

@@ -26,7 +26,7 @@ class Door(Protocol):
     rate: float | None
 
     def now(self) -> Time:
-        """The simulated time as the graph sees it."""
+        """Return the simulated time as a time of the graph."""
 
     def publish(self) -> None:
         """Publish what is true now."""
@@ -62,30 +62,33 @@ class Services:
             self._servers.append(node.serve(name, service, self._between(service, handler)))
 
     def _between(self, service: Any, handler: Callable[[Any], Answer]) -> Callable[[Any], Any]:
-        """Answer between two steps, when it is true."""
+        """Return a handler that answers between two steps."""
         response = service._response_class
         answer = self._simulation.lock.wrap(handler)
         return lambda request: response(**answer(request))
 
     def reset_positions(self, _request: Any) -> Answer:
-        """Robots back to where they were, standing, odometry and stall cleared; time goes on."""
+        """Reset the robots to their initial poses, at rest, odometry and stall cleared.
+
+        Time continues.
+        """
         self._stage.reset_positions(np.array([self._world]))
         self._door.publish()
         return {}
 
     def reset(self, _request: Any) -> Answer:
-        """Everything from the start, time too."""
+        """Reset everything, time too."""
         self._door.rewind()
         self._door.publish()
         return {}
 
     def pause(self, _request: Any) -> Answer:
-        """No step is made once this is answered."""
+        """Pause: no step is made once this is answered."""
         self._simulation.pause()
         return {}
 
     def unpause(self, _request: Any) -> Answer:
-        """Go on."""
+        """Unpause the world."""
         self._simulation.unpause()
         return {}
 
@@ -102,7 +105,7 @@ class Services:
         return {"success": success, "status_message": text, "time": self._door.now()}
 
     def set_pose(self, request: Any) -> Answer:
-        """Put a robot somewhere, by its name in the file or its prefix ``robot_N``."""
+        """Set the pose of a robot, by its name in the file or its prefix ``robot_N``."""
         pose = request.pose
         where = (pose.position.x, pose.position.y, heading_of(pose.orientation))
         if not all(map(math.isfinite, where)):
@@ -126,7 +129,7 @@ class Services:
         return int(number)
 
     def set_rate(self, request: Any) -> Answer:
-        """Simulated seconds a wall second to keep to: a number, or ``max``."""
+        """Set the real-time factor: a number, or ``max``."""
         rate = read_factor(request.real_time_factor)
         if rate is None:
             said = f"expected {ACCEPTED}, not '{request.real_time_factor}'"
@@ -135,6 +138,6 @@ class Services:
         return {"success": True, "status_message": "SetRealTimeFactor: done"}
 
     def close(self) -> None:
-        """Offer them no longer."""
+        """Close the services."""
         for server in self._servers:
             server.close()

@@ -27,15 +27,15 @@ class StageServer(Closeable):
         self._master, self._owned = master, owned
 
     def run(self, seconds: float | None = None) -> None:
-        """See ``StageDoor.run``."""
+        """Run the world; see ``StageDoor.run``."""
         self.door.run(seconds)
 
     def stop(self) -> None:
-        """Let ``run`` return; from any thread."""
+        """Stop ``run``; from any thread."""
         self.door.stop()
 
     def close(self) -> None:
-        """Leave the graph; end the node and the master if they were started here."""
+        """Leave the graph; stop the node and the master if they were started here."""
         self.door.close()
         if self._owned:
             self.node.close()
@@ -53,7 +53,7 @@ def serve_stage(
     rate: float | str | None = "file",
     model_names: bool = False,
 ) -> StageServer:
-    """Put a Stage world on a ROS 1 graph as stage_ros does.
+    """Serve a Stage world on a ROS 1 graph as stage_ros does.
 
     The caller goes on stepping it, or lets ``StageServer.run`` do so.
 

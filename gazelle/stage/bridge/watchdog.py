@@ -25,7 +25,7 @@ class Watchdog:
         self._due = np.full(len(simulation.robots), np.iinfo(np.int64).max, np.int64)
 
     def told(self, robot: int) -> None:
-        """A robot was commanded."""
+        """Record a command of a robot."""
         if self._timeout_ns > 0:
             self._due[robot] = self._simulation.clock.now_ns + self._timeout_ns
 
@@ -37,5 +37,5 @@ class Watchdog:
             self._due[late] = np.iinfo(np.int64).max
 
     def forget(self) -> None:
-        """Time began again."""
+        """Discard the times after a reset."""
         self._due[:] = np.iinfo(np.int64).max

@@ -35,13 +35,13 @@ class Drawing:
         self._parts: dict[str, Any] = {}
 
     def put(self, key: str, make: Callable[[str], Any]) -> Any:
-        """Make a part anew in place of what was there under its key."""
+        """Replace a part under its key."""
         self.drop(key)
         self._parts[key] = made = make(f"{self.name}/{key}")
         return made
 
     def part(self, key: str) -> Any:
-        """A part that is there, or None."""
+        """Return a part that is there, or None."""
         return self._parts.get(key)
 
     def drop(self, key: str) -> None:
@@ -56,7 +56,7 @@ class Drawing:
 
 
 def draw_scan(drawing: Drawing, message: Any) -> None:
-    """Points of a LaserScan."""
+    """Draw points of a LaserScan."""
     ranges = np.asarray(message.ranges, np.float64)
     angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
     seen = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
@@ -67,7 +67,7 @@ def draw_scan(drawing: Drawing, message: Any) -> None:
 
 
 def draw_cloud(drawing: Drawing, message: Any) -> None:
-    """Points of a PointCloud2, in their colours or by their intensities if they have any."""
+    """Draw points of a PointCloud2, in their colours or by their intensities if they have any."""
     points, colors = points_of(message)
     finite = np.isfinite(points).all(axis=1)
     every = max(1, -(-int(finite.sum()) // _MOST))
@@ -76,7 +76,7 @@ def draw_cloud(drawing: Drawing, message: Any) -> None:
 
 
 def points_of(message: Any) -> tuple[Floats, Bytes]:
-    """Points of a PointCloud2 [m], shape (n, 3), and colours, shape (n, 3) or (3,)."""
+    """Return points of a PointCloud2 [m], shape (n, 3), and colours, shape (n, 3) or (3,)."""
     count = message.width * message.height
     raw = np.frombuffer(bytes(message.data), np.uint8)
     rows = np.lib.stride_tricks.as_strided(
@@ -101,14 +101,14 @@ def points_of(message: Any) -> tuple[Floats, Bytes]:
 
 
 def _column(rows: Bytes, field: Any, order: str) -> Floats:
-    """The numbers of one field of a PointCloud2, shape (n,)."""
+    """Return the numbers of one field of a PointCloud2, shape (n,)."""
     kind = np.dtype(order + _NUMBERS[field.datatype])
     part = np.ascontiguousarray(rows[:, field.offset : field.offset + kind.itemsize])
     return np.asarray(part.view(kind)[:, 0], np.float64)
 
 
 def rainbow(values: Floats) -> Bytes:
-    """Colours from blue for the least value over green to red for the most, shape (n, 3).
+    """Return colours from blue for the least value over green to red for the most, shape (n, 3).
 
     What is no number is blue; so is all where all values are alike.
     """
@@ -122,7 +122,7 @@ def rainbow(values: Floats) -> Bytes:
 
 
 def draw_map(drawing: Drawing, message: Any) -> None:
-    """An OccupancyGrid as a picture on the ground: free is white, occupied black, unknown grey."""
+    """Draw an OccupancyGrid on the ground: free is white, occupied black, unknown grey."""
     info = message.info
     if not (info.width and info.height):
         return
@@ -142,24 +142,24 @@ def draw_map(drawing: Drawing, message: Any) -> None:
 
 
 def draw_path(drawing: Drawing, message: Any) -> None:
-    """A Path as a line."""
+    """Draw a Path as a line."""
     points = np.array([pose_of(each.pose)[0] for each in message.poses]).reshape(-1, 3)
     _lines(drawing, "path", np.stack((points[:-1], points[1:]), axis=1), _GREEN)
 
 
 def draw_pose(drawing: Drawing, message: Any) -> None:
-    """Axes of a PoseStamped, a PoseWithCovarianceStamped or an Odometry."""
+    """Draw axes of a PoseStamped, a PoseWithCovarianceStamped or an Odometry."""
     pose = message.pose
     _axes(drawing, [pose.pose if hasattr(pose, "pose") else pose])
 
 
 def draw_poses(drawing: Drawing, message: Any) -> None:
-    """Axes of a PoseArray."""
+    """Draw axes of a PoseArray."""
     _axes(drawing, message.poses)
 
 
 def draw_image(drawing: Drawing, message: Any) -> None:
-    """An Image or CompressedImage, on the panel."""
+    """Draw an Image or CompressedImage, on the panel."""
     picture = picture_of(message)
     every = max(1, picture.shape[1] // 320)
     small = np.ascontiguousarray(picture[::every, ::every])
@@ -217,7 +217,7 @@ def _axes(drawing: Drawing, poses: Any) -> None:
 
 
 def pose_of(pose: Any) -> tuple[Floats, Floats]:
-    """Position and quaternion (w, x, y, z) of a Pose message; upright if it has none."""
+    """Return position and quaternion (w, x, y, z) of a Pose message; identity without one."""
     at, turned = pose.position, pose.orientation
     q = np.array([turned.w, turned.x, turned.y, turned.z])
     length = float(np.linalg.norm(q))

@@ -23,7 +23,7 @@ _DELETE, _DELETE_ALL = 2, 3
 
 
 def draw_marker(drawing: Drawing, message: Any) -> None:
-    """A Marker: added, changed or deleted."""
+    """Draw a Marker: added, changed or deleted."""
     key = f"{message.ns or 'marker'}_{message.id}".replace("/", "_")
     if message.action == _DELETE_ALL:
         drawing.clear()
@@ -79,13 +79,13 @@ def _add(drawing: Drawing, key: str, message: Any) -> None:
 
 
 def draw_markers(drawing: Drawing, message: Any) -> None:
-    """A MarkerArray."""
+    """Draw a MarkerArray."""
     for marker in message.markers:
         draw_marker(drawing, marker)
 
 
 def _put_mesh(drawing: Drawing, key: str, message: Any, place: dict[str, Any]) -> None:
-    """A mesh file: in its own colours where the marker asks for them, else in the marker's."""
+    """Draw a mesh file in the marker's colour, or in its own where the marker asks for it."""
     import trimesh
 
     uri = message.mesh_resource
@@ -117,7 +117,7 @@ def _put_mesh(drawing: Drawing, key: str, message: Any, place: dict[str, Any]) -
 
 
 def _triangles(points: Floats, colors: Bytes, color: Any) -> Any:
-    """Every three points a triangle, seen from both sides, with a colour a point or one for all."""
+    """Return every three points as a triangle, seen from both sides, with colours."""
     import trimesh
 
     count = len(points) // 3 * 3

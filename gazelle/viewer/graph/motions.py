@@ -82,7 +82,9 @@ class MotionTopic:
 
 
 def motion_of(message: Any) -> JointMotion | None:
-    """A DisplayTrajectory as one motion, its parts one after the other; None without points.
+    """Return a DisplayTrajectory as one motion, its parts one after the other.
+
+    None without points.
 
     Raises:
         Error: A point has more or fewer positions than there are joints.
@@ -114,7 +116,7 @@ def motion_of(message: Any) -> JointMotion | None:
 
 
 def robot_of(topic: str, model: str, robots: Mapping[str, DescribedRobot]) -> DescribedRobot | None:
-    """The robot of a plan: one of its name, of several that whose namespace the topic shares most."""
+    """Return the robot of a plan by name; of several, by the longest common namespace."""
     named = {key: robot for key, robot in robots.items() if robot.model.name == model}
 
     def shared(key: str) -> int:

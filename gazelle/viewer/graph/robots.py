@@ -48,7 +48,7 @@ class DescribedRobot:
         self._turned = self._batches.rest[1][None].copy()
 
     def show(self, tree: FrameTree, fixed: str) -> None:
-        """Put the links where tf has them; what it does not know keeps its place to what it knows."""
+        """Update the links from tf; unknown ones keep their pose relative to known ones."""
         known = np.zeros(len(self._frames), np.bool_)
         for number, frame in enumerate(self._frames):
             try:
@@ -64,7 +64,7 @@ class DescribedRobot:
             self._batches.show(self._at, self._turned)
 
     def _carry(self, base: int, others: Bools) -> None:
-        """Let links keep their places in the description to one that was placed."""
+        """Move links along with a placed one, by their poses in the description."""
         at, turned = self._batches.rest
         turn = multiply(self._turned[0, base], conjugate(turned[base]))[None]
         moved = rotate(turn, at[others] - at[base])
@@ -72,12 +72,12 @@ class DescribedRobot:
         self._turned[0, others] = multiply(turn, turned[others])
 
     def remove(self) -> None:
-        """Take it off the page."""
+        """Remove it from the page."""
         self._batches.remove()
 
 
 def _model(text: str) -> Model:
-    """The robot of a text; what is odd about it was said by whoever loaded it first."""
+    """Return the robot of a text, without the warnings of its first loading."""
     from gazelle import formats
 
     with warnings.catch_warnings():

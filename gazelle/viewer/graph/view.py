@@ -99,7 +99,7 @@ class GraphView(Closeable):
         return self._stop.is_set()
 
     def close(self) -> None:
-        """Leave the graph, and give the port back; a second call does nothing."""
+        """Leave the graph, and free the port; a second call does nothing."""
         self._stop.set()
         self._server.wake()
         if threading.current_thread() is not self._thread:
@@ -108,7 +108,7 @@ class GraphView(Closeable):
         self._server.close()
 
     def _follow(self) -> None:
-        """Draw what came, while somebody looks."""
+        """Draw new messages while the page is open."""
         looked = _LOOK
         while not self._stop.is_set():
             if not self._server.watched:

@@ -28,7 +28,7 @@ class CameraInsets:
         self._next = 0.0
 
     def read(self) -> dict[str, Picture] | None:
-        """Pictures by the names of cameras; None if it is not yet time for new ones."""
+        """Return pictures by the names of cameras; None before the next ones are due."""
         if not self.shown:
             return {}
         now = time.monotonic()
@@ -43,7 +43,7 @@ class CameraInsets:
         return {name: self._picture(model) for name, model in cameras[:_MOST]}
 
     def show(self, state: dict[str, Picture] | None) -> None:
-        """Put the pictures there."""
+        """Show the pictures."""
         if state is None:
             return
         for name in [name for name in self._images if name not in state]:
@@ -57,7 +57,7 @@ class CameraInsets:
                 self._images[name] = self._context.gui.add_image(picture, label=name, format="jpeg")
 
     def renew(self) -> None:
-        """Sensors are looked up with every picture."""
+        """Do nothing: sensors are looked up with every picture."""
 
     def _picture(self, model: CameraModel) -> Picture:
         found: Picture = model.preview(self._context.chosen, _WIDTH)[0]

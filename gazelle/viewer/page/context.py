@@ -29,13 +29,13 @@ class PageLayer(Protocol):
     """A part of the page that follows the simulation."""
 
     def read(self) -> Any:
-        """Look at the state; called between two steps."""
+        """Read the state; called between two steps."""
 
     def show(self, state: Any) -> None:
-        """Put what was read on the page."""
+        """Show the state on the page."""
 
     def renew(self) -> None:
-        """Models came or went."""
+        """Update the layer after models changed."""
 
 
 class OptionalLayer(PageLayer, Protocol):
@@ -112,12 +112,12 @@ class PageContext:
                 listener()
 
     def tell(self, title: str, text: str) -> None:
-        """Put a notice on every page."""
+        """Show a notice on every page."""
         for client in self.page.get_clients().values():
             client.add_notification(title, text, auto_close_seconds=6.0)
 
     def heed(self, handle: Any, work: Callable[[], None]) -> None:
-        """Do something when a user, and not this program, changes what is on the panel."""
+        """Call a function when a user, and not this program, changes an input of the panel."""
 
         def changed(event: Any) -> None:
             if event.client is not None:
@@ -126,7 +126,7 @@ class PageContext:
         handle.on_update(changed)
 
     def careful(self, work: Callable[[], None]) -> None:
-        """Do what a user asked for; what goes wrong is said on the page and stops nothing."""
+        """Call a function for a user; its errors are shown on the page and stop nothing."""
         try:
             work()
         except Error as error:

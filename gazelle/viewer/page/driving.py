@@ -65,7 +65,7 @@ class DriveControls:
         context.listeners.append(self.renew)
 
     def read(self) -> None:
-        """Let the robot stand if nobody steers it any more."""
+        """Stop the robot if it is not steered any more."""
         with self._lock:
             driven = self._driven
             if driven is None or time.monotonic() < driven[1]:
@@ -74,10 +74,10 @@ class DriveControls:
         self._context.careful(lambda: driven[0].send(0.0, 0.0))
 
     def show(self, _state: None) -> None:
-        """The page needs nothing."""
+        """Do nothing: there is nothing to show."""
 
     def renew(self) -> None:
-        """There is something to drive, or there is not."""
+        """Show or hide the controls, after models changed."""
         self._folder.visible = self._port() is not None
 
     def _port(self) -> TwistInput | None:
@@ -86,7 +86,7 @@ class DriveControls:
         return next((port for port in ports if isinstance(port, TwistInput)), None)
 
     def _drive(self, query: Mapping[str, str]) -> None:
-        """The joystick moved; on the server's thread, which does not wait."""
+        """Command the joystick's velocity; on the server's thread, which does not wait."""
         context, port = self._context, self._port()
         try:
             forward, turn = float(query["linear"]), float(query["angular"])

@@ -48,7 +48,7 @@ class GoalLayer:
         return placed
 
     def show(self, state: Floats) -> None:
-        """Draw them where they changed."""
+        """Draw the goals that changed."""
         now = state.tobytes()
         if now == self._drawn:
             return
@@ -63,7 +63,7 @@ class GoalLayer:
         self._drawn = now
 
     def renew(self) -> None:
-        """Goals are looked up with every picture."""
+        """Do nothing: goals are looked up with every picture."""
 
     def _made(self, at: Floats, *, flat: bool) -> Any:
         from trimesh import creation

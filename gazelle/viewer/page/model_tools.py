@@ -76,7 +76,7 @@ class ModelTools:
         return place.position[0], place.quaternion[0]
 
     def show(self, state: tuple[Floats, Floats] | None) -> None:
-        """Put the gizmo there, and follow."""
+        """Show the gizmo at the model's pose, and follow it."""
         context = self._context
         followed = np.zeros(3)
         if state is not None:
@@ -95,7 +95,7 @@ class ModelTools:
         self._selected()
 
     def watch(self, handle: Any, met: Callable[[int], Instance]) -> None:
-        """Let the shapes of a batch be clicked and dragged."""
+        """Make the shapes of a batch clickable and draggable."""
         context = self._context
 
         def click(event: Any) -> None:
@@ -118,7 +118,7 @@ class ModelTools:
         self._context.select("" if name == NONE else name, self._context.world)
 
     async def _moved(self, event: Any) -> None:
-        """The gizmo is held, moved or let go."""
+        """Handle an event of the gizmo."""
         self._held = event.phase != "end"
         if event.phase != "update":
             return
@@ -129,7 +129,7 @@ class ModelTools:
         _place(context, model, at, turned, chosen)
 
     def do(self, work: str) -> None:
-        """``push``, ``lift`` or ``delete`` the selected model."""
+        """Apply ``push``, ``lift`` or ``delete`` to the selected model."""
         context = self._context
         if not context.selected:
             context.tell("No model is selected", "Click one, or choose it by name.")
@@ -179,7 +179,7 @@ class _Drag:
         self._turned = np.array([0.0, 0.0, 0.0, 1.0])
 
     async def moved(self, event: Any) -> None:
-        """The mouse began, went on or ended; in order, as viser promises for coroutines."""
+        """Handle a mouse event of a drag; in order, as viser promises for coroutines."""
         context = self._context
         found = self._met(event.instance_index or 0)
         model = found.link.split("::")[0]
@@ -215,7 +215,7 @@ def _on_level(eye: Floats, through: Floats, height: float) -> Floats:
 
 
 def _place(context: PageContext, model: str, at: Any, turned: Any, world: Any) -> None:
-    """Put a model somewhere between two steps, without waiting for it."""
+    """Set the pose of a model between two steps, without waiting for it."""
 
     def put() -> None:
         if model in context.simulation.robots:

@@ -95,7 +95,7 @@ class MotionGhost:
         self._batches.show(self._at[None, moment], self._turned[None, moment])
 
     def compare(self, base: tuple[Floats, Floats], links: tuple[Floats, Floats]) -> None:
-        """See whether the robot has made the motion: was elsewhere, and is now where it ends.
+        """Compare the robot with the motion: whether it was elsewhere, and is now at its end.
 
         Args:
             base: Position and quaternion of the base.
@@ -111,12 +111,12 @@ class MotionGhost:
         self._left = self._left or not there
 
     def remove(self) -> None:
-        """Take it off the page."""
+        """Remove it from the page."""
         self._frame.remove()  # and what hangs on it
 
 
 def _states(robot: RobotModel, motion: JointMotion) -> Floats:
-    """The positions of all variables at even moments of a motion, shape (n, variables)."""
+    """Return the positions of all variables at uniform times of a motion, shape (n, variables)."""
     columns = {name: column for column, name in enumerate(robot.names)}
     known = [k for k, name in enumerate(motion.joints) if name in columns]
     if not known or not len(motion.times):
@@ -135,7 +135,7 @@ def _states(robot: RobotModel, motion: JointMotion) -> Floats:
 
 
 def _tip(robot: RobotModel, joints: Iterable[str], state: Floats) -> str:
-    """The link that the most joints of a motion move, of several the one farthest out."""
+    """Return the link that most joints of a motion move, of several the outermost."""
     moves = dict.fromkeys(robot.links, 0)
     for name in joints:
         if name in robot.names:
@@ -149,12 +149,12 @@ def _tip(robot: RobotModel, joints: Iterable[str], state: Floats) -> str:
 
 
 def _inner(robot: RobotModel, links: list[str]) -> str:
-    """Of links that are fixed to each other, or nearly, the first from the root."""
+    """Return the first from the root of links that are fixed to each other, or nearly."""
     return min(links, key=lambda name: robot.links[name].joint)
 
 
 def _see_through(link: Link, moved: frozenset[str]) -> Link:
-    """A link in one colour; without looks if it does not move."""
+    """Return a link in one transparent colour; without looks if it does not move."""
     look = Material(diffuse=(*_VIOLET, 1.0))
     visuals = link.visuals if link.name in moved else ()
     return replace(link, visuals=tuple(replace(each, material=look) for each in visuals))

@@ -72,7 +72,7 @@ class MotionLayer:
                 ghost.show(seen.base[0] + seen.spot, seen.base[1])
 
     def renew(self) -> None:
-        """Robots are looked up with every picture."""
+        """Do nothing: robots are looked up with every picture."""
 
     def _take(self, robot: Robot, world: int, motion: JointMotion) -> None:
         with self._lock:
@@ -95,7 +95,10 @@ class MotionLayer:
         return _Seen(motion, robot.description, base, links, spot)
 
     def _made(self, key: tuple[str, int], seen: _Seen) -> MotionGhost | None:
-        """A ghost in place of the robot's last one; None, and said, if there cannot be one."""
+        """Return a ghost in place of the robot's last one.
+
+        None, with a notice, if it is impossible.
+        """
         if key in self._ghosts:
             self._ghosts.pop(key).remove()
         self._count += 1

@@ -53,7 +53,7 @@ class NameLayer:
             self._labels[name].position = place + self._context.spots[0]
 
     def renew(self) -> None:
-        """Models that are gone lose their labels with the next picture."""
+        """Do nothing: deleted models lose their labels with the next picture."""
 
 
 class FrameLayer:
@@ -72,7 +72,7 @@ class FrameLayer:
         self.renew()
 
     def read(self) -> tuple[Floats, Floats] | None:
-        """Places of the links in the first world that is shown, (links, 3) and (links, 4)."""
+        """Return places of the links in the first visible world, (links, 3) and (links, 4)."""
         if not self.shown:
             return None
         first = self._context.worlds[:1]
@@ -80,7 +80,7 @@ class FrameLayer:
         return place.position[0], place.quaternion[0]
 
     def show(self, state: tuple[Floats, Floats] | None) -> None:
-        """Draw them."""
+        """Draw the frames."""
         for handle in (self._axes, self._arrows):
             if handle is not None:
                 handle.visible = state is not None
@@ -149,7 +149,7 @@ class ContactLayer:
         self.renew()
 
     def read(self) -> Floats | None:
-        """Beginnings and ends of arrows [m], shape (n, 2, 3)."""
+        """Return starts and ends of arrows [m], shape (n, 2, 3)."""
         if not self.shown:
             return None
         context = self._context
@@ -165,7 +165,7 @@ class ContactLayer:
         return np.stack((start, start + length * along), axis=1)[:_CONTACTS]
 
     def show(self, state: Floats | None) -> None:
-        """Draw them."""
+        """Draw the arrows."""
         if self._arrows is not None:
             self._arrows.remove()
             self._arrows = None
@@ -206,7 +206,7 @@ class RayLayer:
         self._points: Any = None
 
     def read(self) -> tuple[Floats, Floats] | None:
-        """Rays, shape (n, 2, 3), and points, shape (m, 3) [m]."""
+        """Return rays, shape (n, 2, 3), and points, shape (m, 3) [m]."""
         if not self.shown:
             return None
         rays, met = [np.zeros((0, 2, 3))], [np.zeros((0, 3))]
@@ -220,7 +220,7 @@ class RayLayer:
         return np.concatenate(rays)[:_RAYS], np.concatenate(met)[:_RAYS]
 
     def show(self, state: tuple[Floats, Floats] | None) -> None:
-        """Draw them."""
+        """Draw the rays."""
         for handle in (self._lines, self._points):
             if handle is not None:
                 handle.visible = state is not None
@@ -239,10 +239,10 @@ class RayLayer:
         self._points.points = points
 
     def renew(self) -> None:
-        """Sensors are looked up with every picture."""
+        """Do nothing: sensors are looked up with every picture."""
 
     def _followed(self) -> Iterator[tuple[Floats, Floats, Any]]:
-        """Of each sensor in each world: where rays begin and end, and which met something."""
+        """Yield for each sensor in each world starts and ends of rays, and their hits."""
         context = self._context
         if isinstance(context.simulation.engine, PlanarEngine):
             yield from self._planar()
@@ -280,7 +280,7 @@ class RayLayer:
 
 
 def _axes_of(model: Model) -> Iterator[tuple[str, str, Pose, Floats]]:
-    """Names of joints and of the links on them, and their axes in these links."""
+    """Yield names of joints and of their links, and their axes in these links."""
     for placed in model.walk():
         for joint in placed.model.joints:
             for axis in joint.axes[:1]:

@@ -29,7 +29,7 @@ class PlanLayer:
         self._drawn: tuple[bytes, bytes] = (b"", b"")
 
     def read(self) -> tuple[Floats, Floats]:
-        """Lines and arrows, each from there to there [m], shape (n, 2, 3)."""
+        """Return lines and arrows, from start to end each [m], shape (n, 2, 3)."""
         lines, arrows = [np.zeros((0, 2, 3))], [np.zeros((0, 2, 3))]
         if self.shown:
             for entry in self._context.simulation.plugins:
@@ -38,7 +38,7 @@ class PlanLayer:
         return np.concatenate(lines), np.concatenate(arrows)
 
     def show(self, state: tuple[Floats, Floats]) -> None:
-        """Draw them anew where they changed."""
+        """Draw the plans that changed."""
         lines, arrows = (part.astype(np.float32) for part in state)
         now = lines.tobytes(), arrows.tobytes()
         if now == self._drawn:
@@ -60,7 +60,7 @@ class PlanLayer:
             )  # fmt: skip
 
     def renew(self) -> None:
-        """Robots are looked up with every picture."""
+        """Do nothing: robots are looked up with every picture."""
 
     def _add(self, plugin: RobotNavigation, lines: list[Floats], arrows: list[Floats]) -> None:
         spots = dict(zip(self._context.worlds.tolist(), self._context.spots, strict=True))

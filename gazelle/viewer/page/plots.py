@@ -44,7 +44,7 @@ class PlotLayer:
         """Do nothing: plotted values arrive by themselves."""
 
     def show(self, _state: None) -> None:
-        """Draw what came since."""
+        """Draw the new values."""
         if self._fresh == self._shown or not self._rows:
             return
         self._shown = self._fresh
@@ -89,7 +89,7 @@ class PlotLayer:
             self._end = robots[robot].outputs[name].subscribe(self._came)
 
     def _came(self, value: Any) -> None:
-        """A value was published; between two steps."""
+        """Add a published value; between two steps."""
         world = int(self._context.chosen[0])
         numbers = dict(numbers_of(value, self._context.simulation.nworld, world))
         if numbers:
@@ -115,7 +115,7 @@ class PlotLayer:
 
 
 def numbers_of(value: Any, nworld: int, world: int, name: str = "") -> Iterator[tuple[str, float]]:
-    """The numbers in a value, by name: of an array with the worlds first those of one world.
+    """Yield the numbers in a value, by name: of an array with a world axis those of one world.
 
     >>> dict(numbers_of({"x": 1, "y": [2.0, 3.0]}, 1, 0))
     {'x': 1.0, 'y[0]': 2.0, 'y[1]': 3.0}

@@ -9,7 +9,7 @@ from gazelle.description import Link, Model, World
 
 
 def restyled(world: World, change: Callable[[Link], Link]) -> World:
-    """A world in which every link is changed, those of models in models too."""
+    """Return a world in which every link is changed, including nested models."""
     return replace(world, models=tuple(_model(model, change) for model in world.models))
 
 

@@ -52,12 +52,12 @@ class RunControls:
         context.heed(self._speed, self._pace)
 
     def read(self) -> ClockState:
-        """The clock now."""
+        """Return the clock now."""
         simulation = self._context.simulation
         return ClockState(simulation.time, simulation.paused, simulation.physics.target_rate)
 
     def show(self, state: ClockState) -> None:
-        """Say what the clock says."""
+        """Show the clock."""
         if self._speed is not None and self._speed.value != (speed := _name(state.speed)):
             if speed not in self._speed.options:
                 self._speed.options = (*_SPEEDS, speed)
@@ -67,7 +67,7 @@ class RunControls:
         self._say(f"**{state.time:.{self._decimals()}f} s** &nbsp; {mode}")
 
     def renew(self) -> None:
-        """The clock does not depend on models."""
+        """Do nothing: the clock does not depend on models."""
 
     def _decimals(self) -> int:
         """Return as many decimals of a second as show a single step, at least two."""
@@ -79,7 +79,7 @@ class RunControls:
             self._status.content = self._said = text
 
     def _factor(self, now: float) -> float:
-        """Simulated time a wall time, over the last while."""
+        """Return the real-time factor of the last while."""
         wall = time.monotonic()
         if self._marks and now < self._marks[-1][1]:
             self._marks.clear()
@@ -90,7 +90,7 @@ class RunControls:
         return (now - began) / passed if passed > 0.0 and start else 0.0
 
     def do(self, word: str) -> None:
-        """``run``, ``pause``, ``step`` or ``reset``."""
+        """Execute ``run``, ``pause``, ``step`` or ``reset``."""
         simulation = self._context.simulation
         match word:
             case "run":
@@ -108,7 +108,7 @@ class RunControls:
 
 
 def set_speed(simulation: Any, speed: str) -> None:
-    """Aim at a real-time factor, or ``max`` for as fast as possible."""
+    """Set a real-time factor, or ``max`` for as fast as possible."""
     factor = 0.0 if speed == "max" else float(speed)
     physics = simulation.physics
     physics.update_rate = factor / physics.time_step

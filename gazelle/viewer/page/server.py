@@ -96,7 +96,7 @@ class PageServer(Closeable):
         self._changed.clear()
 
     def light_up(self) -> None:
-        """A sun with shadows, and light from all around, so that no side is black."""
+        """Add a sun with shadows, and ambient light, so that no side is black."""
         scene = self.viser.scene
         scene.configure_environment_map(None)
         scene.configure_default_lights(enabled=True, cast_shadow=True)
@@ -105,7 +105,7 @@ class PageServer(Closeable):
         )
 
     def wake(self) -> None:
-        """End a ``wait``."""
+        """Wake a ``wait``."""
         self._changed.set()
 
     def close(self) -> None:
@@ -121,7 +121,7 @@ class PageServer(Closeable):
         self._changed.set()
 
     def _check(self, port: int) -> None:
-        """Make sure that it is the port that was asked for, and that strangers are refused."""
+        """Check that the requested port is used, and that strangers are rejected."""
         if port not in (0, self.port):
             raise Error(f"no view on port {port}: it is taken", hint="choose another port")
         connection = http.client.HTTPConnection(HOST, self.port, timeout=60)
@@ -149,7 +149,7 @@ class PageServer(Closeable):
         request: Request,
         serve: Callable[[ServerConnection, Request], Response | None],
     ) -> Response | None:
-        """Let a request through to viser, answer it, or refuse it."""
+        """Forward a request to viser, answer it, or reject it."""
         host = urlsplit(f"//{request.headers.get('Host', '')}").hostname
         path, _, query = request.path.partition("?")
         _, token, *rest = (*path.split("/", 2), "")[:3]
@@ -173,7 +173,7 @@ class PageServer(Closeable):
         return response
 
     def _policy(self) -> str:
-        """Nothing from elsewhere, and nobody's frame around it."""
+        """Return the policy: no content from elsewhere, and no embedding."""
         own = " ".join(f"ws://{name}:{self.port}" for name in sorted(_NAMES))
         return (
             "default-src 'self' data: blob: 'unsafe-inline' 'unsafe-eval'; "
@@ -182,7 +182,7 @@ class PageServer(Closeable):
 
 
 def required_viser() -> Any:
-    """The package that serves pages.
+    """Return the package that serves pages.
 
     Raises:
         MissingExtraError: It is not installed.
@@ -196,7 +196,7 @@ def required_viser() -> Any:
 
 @contextmanager
 def _guarded(admit: Callable[..., Any]) -> Iterator[None]:
-    """Let what viser serves meanwhile ask first whom to serve.
+    """Make viser's server ask for admission while it lasts.
 
     viser has no hook for it: it gives its own ``process_request`` to websockets' ``serve``.
     """
@@ -226,7 +226,7 @@ def _guarded(admit: Callable[..., Any]) -> Iterator[None]:
 
 @contextmanager
 def _silent() -> Iterator[None]:
-    """Keep viser from printing: its address lacks the secret, and its end is nobody's business."""
+    """Silence viser while it lasts: its address lacks the secret."""
     rich: Any = importlib.import_module("rich")  # viser brings it
     original = rich.print
     rich.print = lambda *_args, **_options: None

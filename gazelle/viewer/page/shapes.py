@@ -53,7 +53,7 @@ class _Tables:
 
     @classmethod
     def of(cls, seen: VisibleWorld) -> _Tables:
-        """Of a world."""
+        """Return the tables of a world."""
         shapes = seen.shapes
         return cls(*(np.asarray(getattr(shapes, field)) for field in cls.__slots__))
 
@@ -111,7 +111,7 @@ class ShapeBatches:
             self._add(scene, f"{root}/{number}", parts, on_batch)
 
     def show(self, positions: Floats, quaternions: Floats) -> None:
-        """Put links somewhere.
+        """Set the poses of links.
 
         Args:
             positions: In their worlds [m], shape (copies, links, 3).
@@ -139,7 +139,7 @@ class ShapeBatches:
             batch.handle.visible = not hidden
 
     def remove(self) -> None:
-        """Take them off the page."""
+        """Remove them from the page."""
         for batch in self._batches:
             batch.handle.remove()
         self._batches.clear()
@@ -208,7 +208,7 @@ def rest_of(world: World, links: tuple[str, ...]) -> tuple[Floats, Floats]:
 
 
 def extent_of_world(world: World) -> tuple[Floats, Floats]:
-    """Least and greatest corner of what is seen, but for grounds and the like [m], shape (3,)."""
+    """Return least and greatest corner of visible shapes except grounds [m], shape (3,)."""
     seen = visible_world(world)
     tables, (at, turned) = _Tables.of(seen), rest_of(world, seen.links)
     boxes = [_box(tables, mesh) for mesh in tables.meshes]
@@ -226,7 +226,7 @@ def extent_of_world(world: World) -> tuple[Floats, Floats]:
 
 
 def _box(tables: _Tables, mesh: Ints64) -> Floats:
-    """Corners of the box around a mesh [m], shape (8, 3); none of one without vertices."""
+    """Return corners of the box around a mesh [m], shape (8, 3); empty without vertices."""
     vertices = tables.vertices[int(mesh[c.FIRST_VERTEX]) : int(mesh[c.LAST_VERTEX])]
     if not len(vertices):
         return np.zeros((0, 3))
@@ -237,7 +237,7 @@ def _box(tables: _Tables, mesh: Ints64) -> Floats:
 
 
 def _alike(tables: _Tables) -> list[Ints64]:
-    """Numbers of the parts that have a shape and a picture in common."""
+    """Return numbers of the parts with a common shape and picture."""
     groups: dict[tuple[int, int], list[int]] = {}
     for number, row in enumerate(tables.parts):
         key = int(row[c.MESH_OF_PART]), int(row[c.TEXTURE_OF_PART])
@@ -248,7 +248,7 @@ def _alike(tables: _Tables) -> list[Ints64]:
 
 
 def _picture(tables: _Tables, texture: int) -> Bytes:
-    """Red, green and blue, top row first, shape (height, width, 3)."""
+    """Return red, green and blue, top row first, shape (height, width, 3)."""
     row = tables.textures[texture]
     width, height = int(row[c.TEXTURE_WIDTH]), int(row[c.TEXTURE_HEIGHT])
     first = int(row[c.FIRST_TEXEL])
@@ -257,7 +257,7 @@ def _picture(tables: _Tables, texture: int) -> Bytes:
 
 
 def textured_mesh(vertices: Floats, faces: Any, uv: Floats, picture: Bytes) -> Any:
-    """Triangles with a picture on them, top row first, as trimesh has them."""
+    """Return textured triangles, top row first, as trimesh has them."""
     import trimesh
     from PIL import Image
 

@@ -45,7 +45,7 @@ class ShapeLayer:
         self._links: tuple[str, ...] = ()
 
     def read(self) -> tuple[Floats, Floats] | None:
-        """Places of all links, shapes (worlds, links, 3) and (worlds, links, 4)."""
+        """Return places of all links, shapes (worlds, links, 3) and (worlds, links, 4)."""
         if not self.shown:
             return None
         batches = self._made()
@@ -64,7 +64,7 @@ class ShapeLayer:
                 self._batches.show(*state)
 
     def renew(self) -> None:
-        """Make the shapes anew with the next picture."""
+        """Mark the shapes as outdated: the next picture makes them again."""
         if self._batches is not None:
             self._batches.remove()
             self._batches = None
