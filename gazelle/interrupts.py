@@ -135,6 +135,27 @@ def interruptible(*, ends_process: bool = False) -> Iterator[None]:
             raise
 
 
+@contextlib.contextmanager
+def holding() -> Iterator[None]:
+    """Put interrupts off until the block has ended, as while a process is being started.
+
+    Raises:
+        Interrupted: The process was asked to end meanwhile.
+    """
+    listener = _active
+    if listener is None or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    listener.held += 1
+    try:
+        yield
+    finally:
+        listener.held -= 1
+    if listener.late and not listener.held:
+        listener.late = False
+        raise Interrupted(listener.interrupted or signal.SIGINT)
+
+
 class SignalRelay:
     """A way from a signal handler to a thread that may take locks.
 
@@ -191,6 +212,8 @@ class _Listener:
         self._number: int | None = None
         self._again = False
         self.interrupted: int | None = None
+        self.held = 0
+        self.late = False
         self._closing = threading.Event()
         self._main = threading.get_ident()
         self._relay = SignalRelay(self._relayed)
@@ -234,7 +257,7 @@ class _Listener:
     def _on_signal(self, number: int, _frame: FrameType | None) -> None:
         if self._again:
             self._again = False
-            if not _unwinding() and self.receivers and self.receivers[-1] is None:
+            if not _unwinding() and not self.held and self.receivers[-1:] == [None]:
                 raise Interrupted(self._number or number)
             return
         now = time.monotonic()
@@ -250,7 +273,9 @@ class _Listener:
         self._relay.post(_HEARD | number)
         if self._chosen is None or self._count >= _INSIST_AT:
             self.interrupted = number
-            raise Interrupted(number)
+            if not self.held:
+                raise Interrupted(number)
+            self.late = True
 
     # On the thread of the relay ------------------------------------------------------------------
 

@@ -41,6 +41,7 @@ from cli.ending_states import (  # noqa: E402
     complaints,
     left_behind,
     spent,
+    spent_by_session,
 )
 from cli.whole_files import broken_files  # noqa: E402
 
@@ -153,7 +154,7 @@ class Run:
         point = chance.uniform(0.0, sign) if isinstance(sign, float) else 0.0
         while not self.ended and time.monotonic() < end:
             if isinstance(sign, float):
-                if self._processor() >= point:
+                if spent_by_session(self.pid) >= point:
                     return
             elif sign.startswith("FOLDER/"):
                 if any(self.folder.glob(sign.removeprefix("FOLDER/"))):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import signal
 import subprocess
@@ -13,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle import bounded_yaml
+from gazelle.child_processes import child_process
 from gazelle.cli.descriptions_beside import urdf_of
 from gazelle.errors import ControlError, ResolveError
 from gazelle.text_files import read_text
@@ -76,16 +78,13 @@ def moveit_beside(sim: Simulation, door: RosDoor, args: argparse.Namespace) -> I
     environ = {**os.environ, "ROS_MASTER_URI": door.master_uri}
     # The summary of its parameters would hide what this command prints; errors go to stderr.
     quiet = subprocess.DEVNULL
-    beside = subprocess.Popen(command, env=environ, stdout=quiet)  # noqa: S603  # our own program
-    try:
-        yield
-    finally:
-        beside.send_signal(signal.SIGINT)
+    with child_process(command, env=environ, stdout=quiet) as beside:
         try:
-            beside.wait(_PATIENCE_S)
-        except subprocess.TimeoutExpired:
-            beside.kill()
-            beside.wait()
+            yield
+        finally:
+            beside.send_signal(signal.SIGINT)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                beside.wait(_PATIENCE_S)
 
 
 def _last(sim: Simulation) -> Robot:

@@ -13,12 +13,12 @@ from __future__ import annotations
 import argparse
 import os
 import shlex
-import subprocess
 import sys
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
+from gazelle.child_processes import become, child_process
 from gazelle.cli.completion import script_for
 from gazelle.errors import Error
 from gazelle.writing import write_text
@@ -49,14 +49,15 @@ def run(args: argparse.Namespace) -> int:
     env["GAZELLE_SHELL"] = "1"
     shell = env.get("SHELL") or "/bin/sh"
     if args.command is not None:
-        return subprocess.call([shell, "-c", args.command], env=env)  # noqa: S603  # the user's own
+        return become([shell, "-c", args.command], env)
     with tempfile.TemporaryDirectory(prefix="gazelle-shell-") as folder:
         command = _interactive(shell, env, Path(folder))
         sys.stdout.write(
             "roscore, rostopic, rosrun, roslaunch ... are Gazelle's; leave with 'exit'\n"
         )
         sys.stdout.flush()
-        return subprocess.call(command, env=env)  # noqa: S603  # the user's own shell
+        with child_process(command, env=env) as process:
+            return process.wait()
 
 
 def _interactive(shell: str, env: dict[str, str], folder: Path) -> list[str]:

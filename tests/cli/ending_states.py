@@ -23,7 +23,7 @@ class State:
             spent by then [s of the processor].
         master: Whether there is a ROS master.
         saved: A file that is there at the end.
-        script: Whether it is a script, which ends as Python ends it.
+        script: Whether it is a program of the user's, which ends as it likes.
         resumed: A command line that goes on with what it left; RUN stands for a run's folder.
         resumed_sign: What that says then.
     """
@@ -95,7 +95,7 @@ STATES: dict[str, list[State]] = {
         State("exec FOLDER/node.py", "begun", script=True),
         State("exec FOLDER/node.py", "spinning", master=True, script=True),
     ],
-    "shell": [State("shell -c 'echo begun; exec sleep 100'", "begun")],
+    "shell": [State("shell -c 'echo begun; exec sleep 100'", "begun", script=True)],
     "topic": [
         State("topic echo /nothing", "WARNING", master=True),
         State("topic hz /nothing", "WARNING", master=True),
@@ -176,6 +176,12 @@ def environment(process):
         return (process / "environ").read_bytes()
     except OSError:
         return b""
+
+
+def spent_by_session(leader):
+    """Processor's time of all processes of a session [s]."""
+    found = [spent(each) for each in Path("/proc").glob("[0-9]*")]
+    return sum(seconds for session, seconds in found if session == leader)
 
 
 def spent(process):

@@ -18,6 +18,7 @@ from cli.ending_states import (
     complaints,
     left_behind,
     spent,
+    spent_by_session,
     write_policy,
 )
 from ports import free_port
@@ -89,8 +90,7 @@ class Running:
         """Return True once it has reached its state."""
         sign = self.state.sign
         if isinstance(sign, float):
-            found = [spent(each) for each in Path("/proc").glob("[0-9]*")]
-            return self.ended or sum(s for of, s in found if of == self.process.pid) >= sign
+            return self.ended or spent_by_session(self.process.pid) >= sign
         if sign.startswith("FOLDER/"):
             return any(self.folder.glob(sign.removeprefix("FOLDER/")))
         return sign in self.said.read_text()

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-import subprocess
 import sys
 from collections.abc import Sequence
 
+from gazelle.child_processes import become
 from gazelle.ros import names
 from gazelle.ros.tools.watching import NODE_NAME
 
@@ -31,7 +31,4 @@ def run_command(tool: str, arguments: Sequence[str]) -> int:
     plain, mappings = names.split_arguments(arguments)
     command = [sys.executable, "-m", "gazelle.cli.main", tool, *plain]
     environment = {**os.environ, NODE_NAME: mappings.get("__name", "")}
-    if os.name == "posix":
-        # In place of this process, so that signals reach the tool itself.
-        os.execve(sys.executable, command, environment)  # noqa: S606  # our own program
-    return subprocess.call(command, env=environment)  # noqa: S603  # our own program
+    return become(command, environment)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import subprocess
 import sys
 import sysconfig
 import time
@@ -13,6 +12,7 @@ import types
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from gazelle.child_processes import become
 from gazelle.errors import RosError, did_you_mean
 from gazelle.ros.builtin.on_path import offer
 from gazelle.ros.compat.finder import install
@@ -98,7 +98,7 @@ def run_named(
     path = program.command[-1]
     if program.folder is not None and is_python(Path(path)):
         return run_script(path, arguments[1:], sim_sleep=sim_sleep, debug=debug)
-    return _become([*program.command, *arguments[1:]])
+    return become([*program.command, *arguments[1:]])
 
 
 def _is_path(word: str) -> bool:
@@ -118,13 +118,6 @@ def runs_tool(word: str, arguments: Sequence[str]) -> bool:
         return False
     known = registry.package(word)
     return known is None or not arguments or arguments[0] not in known.nodes
-
-
-def _become(command: list[str]) -> int:
-    """Run a program in place of this process, so that signals reach it."""
-    if os.name == "posix":
-        os.execvp(command[0], command)  # noqa: S606  # to run it is what the user asked for
-    return subprocess.call(command)  # noqa: S603  # the same
 
 
 def _closest(file: Path) -> str | None:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
+from gazelle.interrupts import holding
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.plan import NodePlan
 
@@ -94,14 +95,15 @@ class NodeProcess:
         self._end_group()
         log = self._opened_log()
         try:
-            self._process = subprocess.Popen(  # noqa: S603  # nodes are what launch files name
-                self.how.arguments,
-                env=self.how.environment,
-                cwd=self.how.folder,
-                stdin=_terminal_input(),
-                stdout=log,
-                start_new_session=True,
-            )
+            with holding():
+                self._process = subprocess.Popen(  # noqa: S603  # nodes are what launch files name
+                    self.how.arguments,
+                    env=self.how.environment,
+                    cwd=self.how.folder,
+                    stdin=_terminal_input(),
+                    stdout=log,
+                    start_new_session=True,
+                )
         except OSError as error:
             raise LaunchError(
                 f"'{self.how.arguments[0]}' cannot be started: {error.strerror}",

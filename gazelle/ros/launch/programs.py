@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from gazelle.child_processes import child_process
 from gazelle.errors import Error
 from gazelle.ros.builtin import registry, terminal
 from gazelle.ros.launch.errors import LaunchError
@@ -201,25 +202,20 @@ def _output(text: str, packages: Packages, environment: Mapping[str, str] | None
     if not words:
         raise LaunchError("the command is empty")
     env = None if environment is None else dict(environment)
+    pipes = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     try:
-        done = subprocess.run(  # noqa: S603  # launch files name programs; that is what they are for
-            command_line(words, packages),
-            capture_output=True,
-            stdin=subprocess.DEVNULL,
-            env=env,
-            timeout=_COMMAND_SECONDS,
-            check=False,
-        )
+        with child_process(command_line(words, packages), env=env, **pipes) as process:
+            output, errors = process.communicate(timeout=_COMMAND_SECONDS)
     except OSError as error:
         raise LaunchError(f"the command '{text}' cannot be run: {error.strerror}") from None
     except subprocess.TimeoutExpired:
         limit = f"{_COMMAND_SECONDS:.0f} s"
         raise LaunchError(f"the command '{text}' does not end within {limit}") from None
-    if done.returncode != 0:
-        said = done.stderr.decode(errors="replace").strip().splitlines()
+    if process.returncode != 0:
+        said = errors.decode(errors="replace").strip().splitlines()
         raise LaunchError(
-            f"the command '{text}' ended with code {done.returncode}",
+            f"the command '{text}' ended with code {process.returncode}",
             hint=" ".join(said[-3:]) if said else None,
         )
-    sys.stderr.write(done.stderr.decode(errors="replace"))  # warnings, as with roslaunch
-    return done.stdout.decode("utf-8", errors="replace")
+    sys.stderr.write(errors.decode(errors="replace"))  # warnings, as with roslaunch
+    return output.decode("utf-8", errors="replace")
