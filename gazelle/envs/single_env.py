@@ -115,8 +115,8 @@ class TaskEnv(gym.Env[Any, Any]):
 
 def _of_world_0(info: Info) -> dict[str, Any]:
     """Return plain numbers and arrays of world 0, without the masks."""
-    return {name: _plain(values[0]) for name, values in info.items() if not name.startswith("_")}
-
-
-def _plain(value: NDArray[Any]) -> Any:
-    return value.copy() if value.ndim else value.item()
+    return {
+        name: values.item(0) if values.ndim == 1 else values[0].copy()
+        for name, values in info.items()
+        if name[:1] != "_"
+    }

@@ -87,7 +87,9 @@ class WorkerPool:
             count: How much there is to do.
             least: No part is smaller, if there is that much.
         """
-        parts = max(1, min(self.size, count // least))
+        parts = min(self.size, count // least)
+        if parts <= 1:
+            return [work(0, count, 0)]
         ends = [count * part // parts for part in range(parts + 1)]
         return self.call(lambda part: work(ends[part], ends[part + 1], part), parts)
 

@@ -107,7 +107,7 @@ class Schedule:
     @count.setter
     def count(self, value: int) -> None:
         self._count = value
-        self.due_ns = 0 if self.rate <= 0.0 else round(value * NANOSECONDS / self.rate)
+        self.due_ns = 0 if self._rate <= 0.0 else round(value * NANOSECONDS / self._rate)
 
     def copy(self) -> Schedule:
         """Return a schedule that is due at the same times."""
@@ -117,8 +117,8 @@ class Schedule:
 
     def follow(self, due_ns: int) -> None:
         """Set the time [ns] at which it is due next."""
-        if self.rate > 0.0 and due_ns != self.due_ns:
-            self._count, self.due_ns = round(due_ns * self.rate / NANOSECONDS), due_ns
+        if due_ns != self.due_ns and self._rate > 0.0:
+            self._count, self.due_ns = round(due_ns * self._rate / NANOSECONDS), due_ns
 
     def is_due(self, now_ns: int) -> bool:
         """Return whether it is due."""

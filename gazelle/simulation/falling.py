@@ -9,8 +9,8 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.description import Model, World
-from gazelle.engines import Engine
-from gazelle.errors import EngineError, SimulationWarning, describe
+from gazelle.engines import Engine, RangeRays
+from gazelle.errors import SimulationWarning, describe
 from gazelle.rotations import conjugate, rotate
 
 _PERIOD_NS = 1_000_000_000
@@ -68,6 +68,10 @@ class FallWatch:
             for model in world.models
             if not model.static and model.links and model.name not in self._warned
         ]
+        if self._watched:
+            down = RangeRays(_first_link(self._watched[0]), np.zeros((1, 3)), _DOWN[None])
+            if self._engine.range_kind(down) is None:  # nothing falls in the plane
+                self._watched = []
         self._links = tuple(_first_link(model) for model in self._watched)
         starts = [(model.pose * model.links[0].pose).z for model in self._watched]
         self._lowest = np.array(starts) - _DEPTH
@@ -91,12 +95,7 @@ class FallWatch:
         ring = np.stack([np.cos(_TURNS), np.sin(_TURNS), np.zeros(len(_TURNS))], axis=1)
         origins = np.vstack([radius * ring for radius in _RINGS])
         down = np.broadcast_to(_DOWN, origins.shape)
-        try:
-            hits = self._engine.links[name].cast_rays(
-                rotate(back, origins), rotate(back, down), worlds
-            )
-        except EngineError:  # the plane has no below
-            return True
+        hits = self._engine.links[name].cast_rays(rotate(back, origins), rotate(back, down), worlds)
         return bool(np.isfinite(hits.distance).any())
 
     def _cause(self, model: Model) -> str:

@@ -69,7 +69,7 @@ class SampledSensor:
     @between_steps
     def measure(self, worlds: Worlds | None = None) -> NDArray[Any]:
         """Measure now, out of turn, shape (n, channels); the last reading stays as it is."""
-        some = chosen(worlds, self._simulation.nworld)
+        some = chosen(worlds, self._lock.nworld)
         if some is None or is_ascending(some):
             return self._model.measure(some, self.period)
         order = np.argsort(some)
