@@ -20,7 +20,7 @@ class NumberParser(argparse.ArgumentParser):
 
 
 def positive_int(text: str) -> int:
-    """An int of at least 1, also written like 2_000 or 1e6."""
+    """Return an int of at least 1, also written like 2_000 or 1e6."""
     try:
         number = int(text) if "e" not in text.lower() else int(float(text))
     except (ValueError, OverflowError):
@@ -31,7 +31,7 @@ def positive_int(text: str) -> int:
 
 
 def positive_float(text: str) -> float:
-    """A finite number above 0."""
+    """Return a finite number above 0."""
     try:
         number = float(text)
     except ValueError:

@@ -61,7 +61,7 @@ def open_npz(source: Path | IO[bytes], most: int = MAX_BYTES) -> Iterator[Any]:
 
 
 def _refuse_short(file: IO[bytes], member: zipfile.ZipInfo) -> None:
-    """Refuse an array that is cut off: room for all of it would be taken before that is seen."""
+    """Raise an error for a truncated array, before all of its memory is allocated."""
     read = {
         (1, 0): np.lib.format.read_array_header_1_0,
         (2, 0): np.lib.format.read_array_header_2_0,

@@ -43,7 +43,7 @@ def safe_load_all(text: str) -> Iterator[Any]:
 
 
 def refuse_deep(text: str | bytes) -> None:
-    """Refuse text of more than ``MAX_DEPTH`` levels, without any recursion.
+    """Raise an error for text of more than ``MAX_DEPTH`` levels, without any recursion.
 
     Raises:
         yaml.YAMLError: It has more, or is no YAML.

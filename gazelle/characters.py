@@ -31,7 +31,7 @@ def can_be_written(text: str) -> bool:
 
 
 def plain_bytes(data: bytes, comment: re.Pattern[str]) -> tuple[bytes, int | None]:
-    """As ``plain``, of what is in a file; it stays as it is where it is not UTF-8."""
+    """Return the same as ``plain`` for a file's bytes, unchanged if they are not UTF-8."""
     if all(blank not in data for blank in _BYTES):
         return data, None
     try:
@@ -43,7 +43,7 @@ def plain_bytes(data: bytes, comment: re.Pattern[str]) -> tuple[bytes, int | Non
 
 
 def plain(text: str, comment: re.Pattern[str]) -> tuple[str, int | None]:
-    """Text with plain blanks, and the line of the first that was not and is not in a comment.
+    """Return text with plain blanks, and the line of the first other one outside of comments.
 
     Blanks without width are taken out.
     """

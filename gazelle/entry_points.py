@@ -17,7 +17,7 @@ _OWN = "gazelle"
 
 @functools.cache
 def entry_points_of_others(group: str) -> dict[str, EntryPoint]:
-    """Entry points of a group by name, less those of Gazelle's own distribution.
+    """Return entry points of a group by name, except those of Gazelle's own distribution.
 
     Where two packages give one name, the first on ``sys.path`` has it.
     """

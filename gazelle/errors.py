@@ -150,7 +150,7 @@ def describe(
     element: str | None = None,
     hint: str | None = None,
 ) -> str:
-    """One line that says where, what, and what to do."""
+    """Return one line with place, message and hint."""
     place = "" if file is None else f"{file}:" if line is None else f"{file}:{line}:"
     parts = [place, f"<{element}>:" if element else "", message]
     text = " ".join(part for part in parts if part)
@@ -158,7 +158,7 @@ def describe(
 
 
 def located(message: str, source: FilePlace | None) -> str:
-    """A message with the file and line that it is about, where they are known."""
+    """Return a message with its file and line, if they are known."""
     return message if source is None else describe(message, file=source.file, line=source.line)
 
 
@@ -170,7 +170,7 @@ _WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+|[^\W\d_]+")
 
 
 def _closest(name: str, names: list[str]) -> str | None:
-    """The name that is most like another; None if none is like it."""
+    """Return the most similar name; None if none is similar."""
     close = difflib.get_close_matches(name, names, n=5, cutoff=_CLOSE)
     if len(names) < _MANY:
         swapped = (each for each in close if sorted(each) == sorted(name))
@@ -217,7 +217,7 @@ def _longer(name: str, known: Iterable[str]) -> str | None:
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """A hint that names the closest of the known names, else all of them (the first 20).
+    """Return a hint that names the closest of the known names, else all of them (the first 20).
 
     Names must be alike in what makes them different: words that many of the known names have,
     such as ``libgazebo``, ``ros`` and ``so``, do not count.

@@ -90,7 +90,7 @@ def requested() -> bool:
 
 
 def end_process(code: int) -> NoReturn:
-    """End the process without waiting for threads that others left, and without tidying memory.
+    """End the process without waiting for threads and without freeing memory.
 
     The interpreter takes a second to take torch apart, and waits for every thread.
     """
@@ -103,7 +103,7 @@ def end_process(code: int) -> NoReturn:
 
 @contextlib.contextmanager
 def stopping(action: Callable[[], object] | None = None) -> Iterator[StopRequest]:
-    """Have requests set an event instead of interrupting the main thread.
+    """Make stop requests set an event instead of interrupting the main thread, while it lasts.
 
     Off the main thread, nothing ever sets it.
 
@@ -117,7 +117,7 @@ def stopping(action: Callable[[], object] | None = None) -> Iterator[StopRequest
 
 @contextlib.contextmanager
 def interruptible(*, ends_process: bool = False) -> Iterator[None]:
-    """Have requests interrupt the main thread by `Interrupted`.
+    """Make stop requests interrupt the main thread by `Interrupted`, while it lasts.
 
     Args:
         ends_process: The process ends after the block; until it has, signals stay handled.
@@ -171,7 +171,7 @@ class SignalRelay:
         self._thread.start()
 
     def post(self, number: int) -> None:
-        """Hand on a number above 0; fit for a signal handler."""
+        """Send a number above 0; fit for a signal handler."""
         with contextlib.suppress(BlockingIOError):  # so many wait already that one more is nothing
             os.write(self._write, bytes([number]))
 
@@ -181,7 +181,7 @@ class SignalRelay:
         return self._write
 
     def close(self) -> None:
-        """End the thread."""
+        """Stop the thread."""
         os.set_blocking(self._write, True)
         os.write(self._write, bytes([_END]))
         if self._thread is not threading.current_thread():
@@ -225,7 +225,7 @@ class _Listener:
                 self._before[number] = signal.signal(number, self._on_signal)
 
     def add(self, receiver: StopRequest | None) -> None:
-        """Have the next request go to a receiver; None raises."""
+        """Set the receiver of the next request; None raises."""
         self.receivers.append(receiver)
         if receiver is not None and self._number is not None:
             receiver.request(self._number)  # who asked before did not ask in vain
@@ -236,13 +236,13 @@ class _Listener:
         return self._number is not None
 
     def close(self) -> None:
-        """Give the handlers back."""
+        """Restore the handlers."""
         self._closing.set()
         self._restore()
         self._relay.close()
 
     def abandon(self) -> None:
-        """Give the handlers back in a child that was forked."""
+        """Restore the handlers in a forked child."""
         self._restore()
         self._relay.abandon()
 
@@ -289,7 +289,7 @@ class _Listener:
             self._await_handler(byte)
 
     def _await_handler(self, number: int) -> None:
-        """Wake the main thread, and end the process if it does not come to run the handler.
+        """Wake the main thread, and end the process if it does not run the handler.
 
         Of two signals that come together the main thread may note both and go on waiting.
         """

@@ -23,7 +23,7 @@ _MOST_BYTES = 1 << 20
 
 
 def package_folders(root: Path, *, most: float = math.inf) -> Iterator[Path]:
-    """The packages below a folder, depth first, folders by the alphabet.
+    """Return the packages below a folder, depth first, folders by the alphabet.
 
     A package is not searched further, nor are a folder with ``CATKIN_IGNORE``, one with
     ``rospack_nosubdirs`` and hidden ones. Links are followed.
@@ -36,7 +36,7 @@ def package_folders(root: Path, *, most: float = math.inf) -> Iterator[Path]:
 
 
 def package_name(folder: Path) -> str:
-    """The name in a folder's ``package.xml``, or the folder's own where it says none.
+    """Return the name in a folder's ``package.xml``, or the folder's own without one.
 
     A search reads hundreds of these files, so each is read up to its name only.
     """
@@ -50,7 +50,7 @@ def package_name(folder: Path) -> str:
 
 
 def _name_in(manifest: bytes) -> str:
-    """The name that a manifest says; empty where it says none, or is damaged before it."""
+    """Return the name in a manifest; empty without one, or if it is damaged before it."""
     name = _NameReader()
     with suppress(_NameFoundError, expat.ExpatError, LookupError, ValueError):
         name.parser.Parse(manifest)

@@ -10,7 +10,7 @@ from gazelle.array_types import Floats
 
 
 def rotate(q: Floats, v: Floats) -> Floats:
-    """Vectors v, shape (..., 3), turned by unit quaternions q (x, y, z, w), shape (..., 4)."""
+    """Rotate vectors v, shape (..., 3), by unit quaternions q (x, y, z, w), shape (..., 4)."""
     if q.size == 4 and v.size == 3:
         return _rotate_one(q, v)
     axis, w = q[..., :3], q[..., 3:]
@@ -19,7 +19,7 @@ def rotate(q: Floats, v: Floats) -> Floats:
 
 
 def _rotate_one(q: Floats, v: Floats) -> Floats:
-    """The same for a single vector, to the bit, without the overhead of arrays."""
+    """Rotate a single vector, to the bit, without the overhead of arrays."""
     x, y, z, w = q.ravel().tolist()
     a, b, c = v.ravel().tolist()
     i, j, k = 2.0 * (y * c - z * b), 2.0 * (z * a - x * c), 2.0 * (x * b - y * a)
@@ -30,7 +30,7 @@ def _rotate_one(q: Floats, v: Floats) -> Floats:
 
 
 def apply_matrix(matrix: Floats, vectors: Floats) -> Floats:
-    """A matrix, shape (m, k), times each of some vectors, shape (..., k): shape (..., m).
+    """Return a matrix, shape (m, k), times each of some vectors, shape (..., k): shape (..., m).
 
     The bits of a row do not depend on how many rows there are, which a call of BLAS for all of
     them does not promise.
@@ -42,7 +42,7 @@ def apply_matrix(matrix: Floats, vectors: Floats) -> Floats:
 
 
 def turns(q: Floats) -> Floats:
-    """Matrices, shape (n, 3, 3), by which rows of vectors are multiplied to turn them.
+    """Return matrices, shape (n, 3, 3), that rotate rows of vectors by multiplication.
 
     ``v @ turns(q)[i]`` are the vectors v, shape (m, 3), turned by the unit quaternion q[i].
     """
@@ -67,7 +67,7 @@ _FROM_PRODUCTS = _from_products()
 
 
 def multiply(a: Floats, b: Floats) -> Floats:
-    """Hamilton products of quaternions (x, y, z, w), shape (..., 4): first b, then a."""
+    """Return Hamilton products of quaternions (x, y, z, w), shape (..., 4): first b, then a."""
     if a.size == 4 and b.size == 4:
         return _multiply_one(a, b)
     av, aw, bv, bw = a[..., :3], a[..., 3:], b[..., :3], b[..., 3:]
@@ -77,7 +77,7 @@ def multiply(a: Floats, b: Floats) -> Floats:
 
 
 def _multiply_one(p: Floats, q: Floats) -> Floats:
-    """The same for a single pair, to the bit, without the overhead of arrays."""
+    """Multiply a single pair, to the bit, without the overhead of arrays."""
     x, y, z, w = p.ravel().tolist()
     a, b, c, d = q.ravel().tolist()
     product = (
@@ -99,7 +99,7 @@ def unit(q: Floats) -> Floats:
 
 
 def conjugate(q: Floats) -> Floats:
-    """Inverse rotations of unit quaternions (x, y, z, w), shape (..., 4)."""
+    """Return inverse rotations of unit quaternions (x, y, z, w), shape (..., 4)."""
     turned: Floats = q * _BACK
     return turned
 
@@ -108,7 +108,7 @@ _BACK = np.array([-1.0, -1.0, -1.0, 1.0])
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """Cross products, shape (..., 3), without the overhead of ``numpy.cross`` and ``stack``."""
+    """Return cross products, (..., 3), without the overhead of ``numpy.cross`` and ``stack``."""
     if a.size == 3 and b.size == 3:
         return _cross_one(a, b)
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
@@ -122,7 +122,7 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 
 def _cross_one(a: Floats, b: Floats) -> Floats:
-    """The same for a single pair, to the bit."""
+    """Return the cross product of a single pair, to the bit."""
     x, y, z = a.ravel().tolist()
     i, j, k = b.ravel().tolist()
     product = np.array((y * k - z * j, z * i - x * k, x * j - y * i))
@@ -130,13 +130,13 @@ def _cross_one(a: Floats, b: Floats) -> Floats:
 
 
 def yaw_of(q: Floats) -> Floats:
-    """Heading about z [rad] in (-pi, pi] of unit quaternions, shape (..., 4)."""
+    """Return heading about z [rad] in (-pi, pi] of unit quaternions, shape (..., 4)."""
     x, y, z, w = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
     return np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def roll_pitch_yaw(q: Floats) -> Floats:
-    """Angles about fixed x, y and z, one after the other, as ROS' tf counts them.
+    """Return angles about fixed x, y and z, one after the other, as in ROS' tf.
 
     Args:
         q: Unit quaternions (x, y, z, w), shape (..., 4).
@@ -152,7 +152,7 @@ def roll_pitch_yaw(q: Floats) -> Floats:
 
 
 def seen_on_ground(q: Floats, v: Floats) -> Floats:
-    """The horizontal parts of vectors v, shape (n, 3), along and across the headings of q.
+    """Return the horizontal parts of vectors v, shape (n, 3), along and across the headings of q.
 
     What looks straight up or down is as if it had not turned.
 
@@ -174,7 +174,7 @@ def seen_on_ground(q: Floats, v: Floats) -> Floats:
 
 
 def _seen_by_one(q: Floats, v: Floats) -> Floats:
-    """The same for one, to the bit, without the overhead of arrays."""
+    """Return the horizontal parts of one vector, to the bit, without the overhead of arrays."""
     x, y, z, w = q.ravel().tolist()
     a, b, _ = v.ravel().tolist()
     ahead, aside = 1.0 - 2.0 * (y * y + z * z), 2.0 * (w * z + x * y)
@@ -185,7 +185,7 @@ def _seen_by_one(q: Floats, v: Floats) -> Floats:
 
 
 def from_yaw(yaw: Floats) -> Floats:
-    """Quaternions of a turn about z, shape (..., 4), from angles [rad], shape (...)."""
+    """Return quaternions of a turn about z, shape (..., 4), from angles [rad], shape (...)."""
     half = np.asarray(yaw, np.float64) / 2.0
     q = np.zeros((*half.shape, 4))
     np.sin(half, out=q[..., 2])
@@ -194,7 +194,7 @@ def from_yaw(yaw: Floats) -> Floats:
 
 
 def from_matrices(matrices: Floats) -> Floats:
-    """Unit quaternions (x, y, z, w), shape (..., 4), of rotation matrices, shape (..., 3, 3).
+    """Return unit quaternions (x, y, z, w), (..., 4), of rotation matrices, (..., 3, 3).
 
     Of the four ways to compute one that which divides by the most (Shepperd, 1978).
     """

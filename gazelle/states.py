@@ -13,14 +13,14 @@ class Restorable(Protocol):
     """Something whose state can be taken and put back."""
 
     def state(self) -> dict[str, NDArray[np.generic]]:
-        """Everything that changes."""
+        """Return all mutable state."""
 
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Put back what ``state`` gave."""
+        """Restore what ``state`` returned."""
 
 
 def states_of(parts: Mapping[str, Restorable]) -> dict[str, NDArray[np.generic]]:
-    """The states of parts, each key as ``name/key``; no name may be the head of another."""
+    """Return the states of parts, each key as ``name/key``; no name may be the head of another."""
     return {
         f"{name}/{key}": value
         for name, part in parts.items()
@@ -29,7 +29,7 @@ def states_of(parts: Mapping[str, Restorable]) -> dict[str, NDArray[np.generic]]
 
 
 def restore_all(parts: Mapping[str, Restorable], state: Mapping[str, NDArray[np.generic]]) -> None:
-    """Put back what ``states_of`` gave; ``state`` may hold more."""
+    """Restore what ``states_of`` returned; ``state`` may hold more."""
     for name, part in parts.items():
         start = f"{name}/"
         part.restore({k.removeprefix(start): v for k, v in state.items() if k.startswith(start)})

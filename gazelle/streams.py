@@ -51,7 +51,7 @@ class Stream:
         return self._counters
 
     def move(self, keys: UInts64, counters: UInts64) -> None:
-        """Keep keys and counters in other arrays from now on, shapes (nworld,)."""
+        """Store keys and counters in other arrays from now on, shapes (nworld,)."""
         keys[:], counters[:] = self._keys, self._counters
         self._keys, self._counters = keys, counters
 
@@ -66,7 +66,7 @@ class Stream:
         self._counters[chosen] = 0
 
     def uniform(self, size: int, worlds: NDArray[np.intp] | None = None) -> Floats:
-        """Uniform numbers in [0, 1), shape (n, size), n the number of worlds asked for."""
+        """Return uniform numbers in [0, 1), shape (n, size), n the number of requested worlds."""
         keys, counters = self._of(worlds)
         drawn = np.empty((len(keys), size))
         draw_uniform(keys, counters, drawn)
@@ -75,7 +75,7 @@ class Stream:
         return drawn
 
     def normal(self, size: int, worlds: NDArray[np.intp] | None = None) -> Floats:
-        """Standard normal numbers, shape (n, size), by Box and Muller's transform (1958).
+        """Return standard normal numbers, shape (n, size), by Box and Muller's transform (1958).
 
         They are as that says to 1e-13, and the same bits on any processor.
         """
@@ -87,7 +87,7 @@ class Stream:
         return drawn[:, :size]
 
     def _of(self, worlds: NDArray[np.intp] | None) -> tuple[UInts64, UInts64]:
-        """Keys and counters of worlds; of all, the counters themselves."""
+        """Return keys and counters of worlds; of all, the counters themselves."""
         if worlds is None:
             return self._keys, self._counters
         return self._keys[worlds], self._counters[worlds]
@@ -95,12 +95,12 @@ class Stream:
     def integers(
         self, high: int, size: int, worlds: NDArray[np.intp] | None = None
     ) -> NDArray[np.intp]:
-        """Ints in [0, high), shape (n, size)."""
+        """Return ints in [0, high), shape (n, size)."""
         return (self.uniform(size, worlds) * high).astype(np.intp)
 
 
 def seed_of(seed: Any) -> int:
-    """A seed of random numbers: any int.
+    """Return a valid seed of random numbers: any int.
 
     Raises:
         SimulationError: It is none.
@@ -122,7 +122,7 @@ def _keys_of(seed: int, name: str, nworld: int) -> UInts64:
 
 
 def _mix(z: UInts64) -> UInts64:
-    """SplitMix64's output function, in place."""
+    """Compute SplitMix64's output function, in place."""
     z ^= z >> _BY_30
     z *= _MIX_1
     z ^= z >> _BY_27

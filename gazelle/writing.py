@@ -12,7 +12,7 @@ from pathlib import Path
 
 @contextlib.contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a file to write, which takes the place of another once it is whole.
+    """Yield a file to write, which replaces another once it is whole.
 
     It lies beside the other, with the same suffix. After an error it is gone, and the other as it
     was. What is no regular file, such as ``/dev/stdout``, is written directly.
@@ -42,7 +42,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def naming(path: str | os.PathLike[str], draft: Path | None = None) -> Iterator[None]:
-    """Have errors of the system name a file, where they name none or only its draft.
+    """Add a file's name to system errors that name none or only its draft.
 
     Raises:
         OSError: As in the block.

@@ -56,7 +56,7 @@ def looks_old(tag: str, attributes: Mapping[str, str]) -> bool:
 
 @contextlib.contextmanager
 def adapted(find: Callable[[str], str], report: Report) -> Iterator[Any]:
-    """Let the package expand files as that of ROS 1 does; yields the package.
+    """Adapt the package to expand files as that of ROS 1 does; yields the package.
 
     Args:
         find: Returns the folder of a ROS package.
@@ -92,7 +92,7 @@ def adapted(find: Callable[[str], str], report: Report) -> Iterator[Any]:
 
 
 def prefix(document: Any, report: Report) -> Any:
-    """Give the tags of xacro in a DOM the prefix where they lack it; returns the document."""
+    """Add the prefix to tags of xacro in a DOM that lack it; returns the document."""
     open_nodes = [document.documentElement]
     while open_nodes:
         node = open_nodes.pop()
@@ -107,7 +107,7 @@ def prefix(document: Any, report: Report) -> Any:
 
 @contextlib.contextmanager
 def replaced(names: dict[str, Any], values: Mapping[str, Any]) -> Iterator[None]:
-    """Put other values into a namespace for a while."""
+    """Replace values of a namespace while it lasts."""
     before = {name: names.get(name, _MISSING) for name in values}
     names.update(values)
     try:

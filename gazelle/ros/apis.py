@@ -62,7 +62,7 @@ class Api:
         return lambda: list(_call(name, method, caller, arguments))
 
     def dispatch(self, name: str, params: list[Any]) -> list[Any]:
-        """Do a call.
+        """Call a method.
 
         Raises:
             UnknownMethodError: There is no such method.
@@ -71,7 +71,7 @@ class Api:
 
 
 def _checked(method: Method, params: list[Any]) -> tuple[str, list[Any]]:
-    """The caller and the arguments.
+    """Return the caller and the arguments.
 
     Raises:
         BadArgumentError: One is wrong.
@@ -99,35 +99,35 @@ def _call(name: str, method: Method, caller: str, arguments: list[Any]) -> Tripl
 
 
 def text(label: str, value: Any, _caller: str) -> str:
-    """A string, empty or not."""
+    """Return a string, empty or not."""
     if not isinstance(value, str):
         raise BadArgumentError(f"ERROR: parameter [{label}] must be a string")
     return value
 
 
 def whole(label: str, value: Any, _caller: str) -> int:
-    """An integer."""
+    """Return an integer."""
     if not isinstance(value, int):
         raise BadArgumentError(f"ERROR: parameter [{label}] must be an integer")
     return value
 
 
 def listing(label: str, value: Any, _caller: str) -> Sequence[Any]:
-    """A list."""
+    """Return a list."""
     if not isinstance(value, list):
         raise BadArgumentError(f"ERROR: parameter [{label}] must be a list")
     return value
 
 
 def given(label: str, value: Any, _caller: str) -> Any:
-    """Any value but nil."""
+    """Return any value but nil."""
     if value is None:
         raise BadArgumentError(f"ERROR: parameter [{label}] must be specified")
     return value
 
 
 def carriable(label: str, value: Any, caller: str) -> Any:
-    """Any value that an answer can carry, so that others can read it."""
+    """Return any value that an answer can hold."""
     try:
         check_value(given(label, value, caller))
     except MarshalError as error:
@@ -136,7 +136,7 @@ def carriable(label: str, value: Any, caller: str) -> Any:
 
 
 def key(label: str, value: Any, _caller: str) -> str:
-    """A parameter's name, not resolved."""
+    """Return a parameter's name, not resolved."""
     if not isinstance(value, str):
         raise BadArgumentError(f"ERROR: parameter [{label}] must be a string")
     if not value:
@@ -145,7 +145,7 @@ def key(label: str, value: Any, _caller: str) -> str:
 
 
 def parameter(label: str, value: Any, caller: str) -> str:
-    """A parameter's name, resolved for the caller."""
+    """Return a parameter's name, resolved for the caller."""
     return names.resolve(key(label, value, caller), caller)
 
 
@@ -156,7 +156,7 @@ def _filled(label: str, value: Any) -> str:
 
 
 def graph_name(label: str, value: Any, caller: str) -> str:
-    """The name of a topic, service or node, resolved for the caller."""
+    """Return the name of a topic, service or node, resolved for the caller."""
     name = _filled(label, value)
     if any(letter in name for letter in (" ", "\t", "\n", ":")):
         raise BadArgumentError(f"ERROR: parameter [{label}] contains illegal chars")
@@ -164,13 +164,13 @@ def graph_name(label: str, value: Any, caller: str) -> str:
 
 
 def subgraph(label: str, value: Any, caller: str) -> str:
-    """A namespace, resolved for the caller, with slashes at both ends."""
+    """Return a namespace, resolved for the caller, with slashes at both ends."""
     space = text(label, value, caller)
     return names.as_namespace(names.resolve(space, caller)) if space else names.SEPARATOR
 
 
 def message_type(label: str, value: Any, _caller: str) -> str:
-    """``package/Type`` or ``*``."""
+    """Return ``package/Type`` or ``*``."""
     kind = _filled(label, value)
     if kind != names.ANY_TYPE and kind.count("/") != 1:
         raise BadArgumentError(f"ERROR: parameter [{label}] is not a valid package resource name")
@@ -178,7 +178,7 @@ def message_type(label: str, value: Any, _caller: str) -> str:
 
 
 def api_uri(label: str, value: Any, _caller: str) -> str:
-    """The URI of a node or service."""
+    """Return the URI of a node or service."""
     if not isinstance(value, str) or not value:
         raise BadArgumentError(f"ERROR: parameter [{label}] is not an XMLRPC URI")
     if not value.startswith(("http://", "rosrpc://")):
@@ -187,5 +187,5 @@ def api_uri(label: str, value: Any, _caller: str) -> str:
 
 
 def api_uris(label: str, value: Any, caller: str) -> Sequence[str]:
-    """A list of URIs of nodes."""
+    """Return a list of URIs of nodes."""
     return [api_uri(label, each, caller) for each in listing(label, value, caller)]

@@ -29,7 +29,7 @@ class TimeSource(Protocol):
     simulated: bool
 
     def now(self) -> int:
-        """The time in nanoseconds; 0 while simulated time did not begin."""
+        """Return the time in nanoseconds; 0 while simulated time did not begin."""
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
         """Wait for that long on this clock.
@@ -52,7 +52,7 @@ class WallClock:
     simulated = False
 
     def now(self) -> int:
-        """Nanoseconds since 1970."""
+        """Return nanoseconds since 1970."""
         return time.time_ns()
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
@@ -97,11 +97,11 @@ class SimulatedClock:
         self._started = threading.Event()
 
     def now(self) -> int:
-        """Nanoseconds of simulated time; 0 before the first."""
+        """Return nanoseconds of simulated time; 0 before the first."""
         return self._now
 
     def set(self, nanoseconds: int) -> None:
-        """Time moves, forward or back; sleepers whose time came wake up."""
+        """Set the time, forward or back; sleepers whose time came wake up."""
         with self._lock:
             self._now = nanoseconds
             for sleeper in self._sleepers:
@@ -172,7 +172,7 @@ class Rate:
         self._last = clock.now()
 
     def remaining(self) -> int:
-        """Nanoseconds left of this cycle; negative if it is late."""
+        """Return nanoseconds left of this cycle; negative if it is late."""
         return self._left(self._clock.now())
 
     def sleep(self, cancelled: Cancelled | None = None) -> bool:

@@ -9,14 +9,14 @@ from gazelle.ros.topics import TopicNode
 
 
 def node_clock(node: TopicNode) -> TimeSource:
-    """The clock a node starts with: simulated if the parameter ``/use_sim_time`` is true."""
+    """Return a node's initial clock: simulated if the parameter ``/use_sim_time`` is true."""
     if node.parameters.get("/use_sim_time", False) is not True:
         return WallClock()
     return follow_clock(node)
 
 
 def follow_clock(node: TopicNode, topic: str = "/clock") -> SimulatedClock:
-    """A clock that follows a topic of ``rosgraph_msgs/Clock``."""
+    """Return a clock that follows a topic of ``rosgraph_msgs/Clock``."""
     from gazelle.ros.messages import load_message
 
     clock = SimulatedClock(topic)

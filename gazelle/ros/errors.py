@@ -160,7 +160,7 @@ class TimeMovedBackwardsError(RosError):
 
 
 def report(what: str, error: BaseException) -> None:
-    """Tell the log about an error that must not stop the thread it happened in.
+    """Log an error that must not stop the thread it happened in.
 
     Args:
         what: What was being done, such as ``callback of /scan``.

@@ -22,7 +22,7 @@ _NAMES = {value: name for name, value in _LEVELS.items()}
 
 
 def serve_loggers(node: Node, root: str = "gazelle") -> Callable[[], None]:
-    """Offer ``~get_loggers`` and ``~set_logger_level``; returns what ends that.
+    """Serve ``~get_loggers`` and ``~set_logger_level``; returns what ends that.
 
     Args:
         node: Serves.

@@ -38,7 +38,7 @@ class TimerHandle:
         self.callback: Task | None = callback
 
     def cancel(self) -> None:
-        """Never run it, if it did not run yet."""
+        """Cancel it, if it has not run yet."""
         self.callback = None
 
 
@@ -68,7 +68,7 @@ class EventLoop:
     # What any thread may call ------------------------------------------------------------
 
     def is_current(self) -> bool:
-        """True on the loop's own thread."""
+        """Return True on the loop's own thread."""
         return self._thread is threading.current_thread()
 
     def call_soon(self, callback: Task) -> None:
@@ -120,7 +120,7 @@ class EventLoop:
         return outcome[1]
 
     def stop(self, timeout: float = 2.0) -> None:
-        """End all threads, as soon as their tasks are done, and wait for each so long [s]."""
+        """Stop all threads, as soon as their tasks are done, and wait for each so long [s]."""
         self._pool.stop(timeout)
         self._stopping = True
         self._wake()
@@ -180,7 +180,7 @@ class EventLoop:
         return sock.fileno()
 
     def _forget_stale(self, number: int) -> None:
-        """A watched socket was closed behind the loop's back, and its number is another's now."""
+        """Discard a watched socket that was closed elsewhere; its number is another's now."""
         report("the event loop", RuntimeError(f"socket {number} was closed while it was watched"))
         del self._watched[number]
         with contextlib.suppress(OSError):  # the system forgot it with the socket
@@ -250,7 +250,7 @@ _lock = threading.Lock()
 
 
 def _forget_loop() -> None:
-    """In a forked child there are no threads of the loop, and its locks may be held."""
+    """Discard the loop in a forked child: it has no threads, and its locks may be held."""
     global _shared, _users, _lock  # there is one loop a process
     _shared, _users, _lock = None, 0, threading.Lock()
 
@@ -260,7 +260,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def acquire() -> EventLoop:
-    """The loop of this process, started if need be; give it back with `release`."""
+    """Return the loop of this process, started if need be; return it with `release`."""
     global _shared, _users  # noqa: PLW0603  # there is one loop a process
     with _lock:
         if _shared is None:
@@ -270,7 +270,7 @@ def acquire() -> EventLoop:
 
 
 def release(loop: EventLoop) -> None:
-    """Give the loop back; the last user ends its threads."""
+    """Release the loop; the last user ends its threads."""
     global _shared, _users  # noqa: PLW0603  # there is one loop a process
     with _lock:
         if loop is not _shared:

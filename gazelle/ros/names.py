@@ -22,12 +22,12 @@ _LEGAL_BASE = re.compile(r"[A-Za-z]\w*", re.ASCII)
 
 
 def is_legal(name: str) -> bool:
-    """True if `name` may name a node, topic, service or parameter."""
+    """Return True if `name` may name a node, topic, service or parameter."""
     return bool(_LEGAL.fullmatch(name)) and "//" not in name
 
 
 def is_legal_base(name: str) -> bool:
-    """True if `name` is legal and has no namespace."""
+    """Return True if `name` is legal and has no namespace."""
     return bool(_LEGAL_BASE.fullmatch(name))
 
 
@@ -46,7 +46,7 @@ def check(name: str) -> str:
 
 
 def canonical(name: str) -> str:
-    """`name` without doubled or trailing slashes; a lone slash stays."""
+    """Return `name` without doubled or trailing slashes; a lone slash stays."""
     if name in {"", SEPARATOR}:
         return name
     start = SEPARATOR if name[0] == SEPARATOR else ""
@@ -54,24 +54,24 @@ def canonical(name: str) -> str:
 
 
 def is_global(name: str) -> bool:
-    """True for names like ``/a``."""
+    """Return True for names like ``/a``."""
     return name.startswith(SEPARATOR)
 
 
 def is_private(name: str) -> bool:
-    """True for names like ``~a``."""
+    """Return True for names like ``~a``."""
     return name.startswith(PRIVATE)
 
 
 def namespace_of(name: str) -> str:
-    """The namespace a global name stands in, with a slash at the end: ``/a/b`` gives ``/a/``."""
+    """Return the namespace of a global name, with a slash at the end: ``/a/b`` gives ``/a/``."""
     if not name:
         return SEPARATOR
     return name.rstrip(SEPARATOR).rpartition(SEPARATOR)[0] + SEPARATOR
 
 
 def join(namespace: str, name: str) -> str:
-    """`name` seen from `namespace`; global and private names stay as they are."""
+    """Return `name` seen from `namespace`; global and private names stay as they are."""
     if not namespace or is_global(name) or is_private(name):
         return name
     if namespace == PRIVATE:
@@ -80,7 +80,7 @@ def join(namespace: str, name: str) -> str:
 
 
 def as_namespace(text: str) -> str:
-    """A namespace as users write it (``ns1``, ``/ns1/``, ``""``) with slashes at both ends."""
+    """Return a user's namespace (``ns1``, ``/ns1/``, ``""``) with slashes at both ends."""
     name = canonical(text)
     if name in {"", SEPARATOR}:
         return SEPARATOR
@@ -88,7 +88,7 @@ def as_namespace(text: str) -> str:
 
 
 def resolve(name: str, node: str, remappings: Mapping[str, str] | None = None) -> str:
-    """The global name that `name` means to the node called `node`.
+    """Return the global name of `name` for the node called `node`.
 
     Args:
         name: Any name; empty means the node's namespace.
@@ -108,7 +108,7 @@ def resolve(name: str, node: str, remappings: Mapping[str, str] | None = None) -
 
 
 def resolve_remappings(mappings: Mapping[str, str], node: str) -> dict[str, str]:
-    """Remappings as given on a command line, with both sides resolved for the node.
+    """Return remappings of a command line, with both sides resolved for the node.
 
     Keys that start with ``_`` are private parameters (``_rate``) or special keys
     (``__name``) and are left out.
@@ -121,7 +121,7 @@ def resolve_remappings(mappings: Mapping[str, str], node: str) -> dict[str, str]
 
 
 def split_arguments(arguments: Iterable[str]) -> tuple[list[str], dict[str, str]]:
-    """Separate plain arguments from ``old:=new``.
+    """Return separate plain arguments from ``old:=new``.
 
     Returns:
         The plain arguments, and the remappings from old to new, unresolved.
@@ -138,5 +138,5 @@ def split_arguments(arguments: Iterable[str]) -> tuple[list[str], dict[str, str]
 
 
 def anonymous(base: str) -> str:
-    """A name nobody else has: `base`, the process and the time in milliseconds."""
+    """Return a unique name: `base`, the process and the time in milliseconds."""
     return f"{base}_{os.getpid()}_{int(time.time() * 1000)}"

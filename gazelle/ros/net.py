@@ -21,17 +21,17 @@ Address = tuple[str, int]
 
 
 def default_master_uri() -> str:
-    """`ROS_MASTER_URI`, else the usual port on this machine."""
+    """Return `ROS_MASTER_URI`, else the usual port on this machine."""
     return os.environ.get("ROS_MASTER_URI") or f"http://{LOOPBACK}:{DEFAULT_MASTER_PORT}"
 
 
 def default_host() -> str:
-    """The name peers are told: `ROS_HOSTNAME`, else `ROS_IP`, else loopback."""
+    """Return the name of this machine for peers: `ROS_HOSTNAME`, else `ROS_IP`, else loopback."""
     return usable_host(os.environ.get("ROS_HOSTNAME") or os.environ.get("ROS_IP") or LOOPBACK)
 
 
 def usable_host(host: str) -> str:
-    """A name that peers can use: for "all addresses" (``0.0.0.0``) the one that faces the network.
+    """Return a name for peers: for "all addresses" (``0.0.0.0``) that of the network interface.
 
     Without a network that is loopback.
     """
@@ -61,7 +61,7 @@ def bind_address(host: str) -> str:
 
 
 def listen(host: str, port: int = 0) -> socket.socket:
-    """A non-blocking listening TCP socket.
+    """Return a non-blocking listening TCP socket.
 
     Args:
         host: The name peers use; it decides the interface, see `bind_address`.
@@ -81,7 +81,7 @@ def listen(host: str, port: int = 0) -> socket.socket:
 
 
 def split_uri(uri: str, scheme: str = "http") -> tuple[str, int, str]:
-    """Host, port and path of a URI.
+    """Return host, port and path of a URI.
 
     Raises:
         ProtocolError: It is no such URI.
@@ -101,7 +101,7 @@ def split_uri(uri: str, scheme: str = "http") -> tuple[str, int, str]:
 
 
 def uri_of(host: str, port: int, scheme: str = "http") -> str:
-    """The URI of a server on this machine."""
+    """Return the URI of a server on this machine."""
     name = f"[{host}]" if ":" in host else host
     return f"{scheme}://{name}:{port}" + ("/" if scheme == "http" else "")
 
@@ -111,7 +111,7 @@ _names_lock = threading.Lock()
 
 
 def known_address(host: str) -> str | None:
-    """The numeric address of `host` if it takes no question to a name server, else None."""
+    """Return the numeric address of `host` if that needs no name server, else None."""
     if host == "localhost":
         return LOOPBACK
     with contextlib.suppress(ValueError):
@@ -122,7 +122,7 @@ def known_address(host: str) -> str | None:
 
 
 def find_address(host: str) -> str:
-    """The numeric address of `host`; may ask a name server and take seconds.
+    """Return the numeric address of `host`; may ask a name server and take seconds.
 
     Raises:
         OSError: There is no such host.
@@ -141,7 +141,7 @@ def find_address(host: str) -> str:
 
 
 def start_connect(address: str, port: int) -> socket.socket:
-    """A non-blocking socket on its way to a numeric address.
+    """Return a non-blocking socket while it connects to a numeric address.
 
     Raises:
         OSError: It failed at once.
@@ -159,7 +159,7 @@ def start_connect(address: str, port: int) -> socket.socket:
 
 
 def connect(host: str, port: int, timeout: float | None) -> socket.socket:
-    """A blocking socket, connected.
+    """Return a blocking socket, connected.
 
     Raises:
         OSError: It failed.
@@ -174,7 +174,7 @@ def connect(host: str, port: int, timeout: float | None) -> socket.socket:
 
 
 def _refuse_self(sock: socket.socket) -> None:
-    """A connection to a free local port may meet itself; that is nobody answering."""
+    """Raise an error for a connection of a local port to itself, which means nobody listens."""
     with contextlib.suppress(OSError):
         if sock.getsockname() == sock.getpeername():
             raise ConnectionRefusedError("nobody listens there")
@@ -187,7 +187,7 @@ def ignore_delay(sock: socket.socket) -> None:
 
 
 def keep_alive(sock: socket.socket) -> None:
-    """Let the system find out that a silent peer is gone."""
+    """Set the system to detect that a silent peer is gone."""
     with contextlib.suppress(OSError):
         sock.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
         if hasattr(socket, "TCP_KEEPIDLE"):

@@ -134,7 +134,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         self.loop.call_soon(self._registrar.start)
 
     def _start(self, clock: TimeSource | None) -> None:
-        """Look at the parameters that say how nodes behave."""
+        """Read the parameters for the behaviour of nodes."""
         self.clock = node_clock(self) if clock is None else clock
         if self.parameters.get("/enable_statistics", False) is True:
             kind = statistics.message_class()
@@ -144,7 +144,7 @@ class Node(TopicNode, ServiceNode, Closeable):
     # Parameters ----------------------------------------------------------------------------
 
     def get_param(self, name: str, default: Any = _REQUIRED) -> Any:
-        """The value of a parameter; see `NodeParameters.get`."""
+        """Return the value of a parameter; see `NodeParameters.get`."""
         if default is _REQUIRED:
             return self.parameters.get(name)
         return self.parameters.get(name, default)
@@ -154,7 +154,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         self.parameters.set(name, value)
 
     def has_param(self, name: str) -> bool:
-        """True if a parameter is set."""
+        """Return True if a parameter is set."""
         return self.parameters.has(name)
 
     def delete_param(self, name: str) -> None:
@@ -166,7 +166,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         return self.parameters.search(name)
 
     def param_names(self) -> list[str]:
-        """All keys that hold a value."""
+        """Return all keys that hold a value."""
         return self.parameters.names()
 
     # The end -------------------------------------------------------------------------------
@@ -222,7 +222,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         self.calls.close()
 
     def asked_to_end(self, caller: str, reason: str) -> None:
-        """The master or a tool wants this node to end."""
+        """Handle a request of the master or a tool to shut down."""
         text = f"{caller}: {reason}" if reason else caller
 
         def end() -> None:
@@ -238,7 +238,7 @@ class Node(TopicNode, ServiceNode, Closeable):
     # Inner -----------------------------------------------------------------------------------
 
     def _lost(self, uri: str) -> None:
-        """A connection to a peer closed while nothing was asked."""
+        """Handle a closed connection to a peer without a pending call."""
         if uri == self.master_uri and not self._closing:
             self._registrar.alert()
 
@@ -248,7 +248,7 @@ class Node(TopicNode, ServiceNode, Closeable):
     def _route(
         self, sock: socket.socket, address: net.Address, fields: dict[str, str], rest: bytes
     ) -> None:
-        """Give a TCPROS connection to the topic or service its header names."""
+        """Pass a TCPROS connection to the topic or service of its header."""
         if "service" in fields:
             headers.require(fields, "callerid", "md5sum")
             server = self._services.get(fields["service"])

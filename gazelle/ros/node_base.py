@@ -30,12 +30,12 @@ if hasattr(os, "register_at_fork"):
 
 
 def nodes_here() -> list[NodeBase]:
-    """The nodes of this process that are open."""
+    """Return the nodes of this process that are open."""
     return [node for node in list(_nodes.values()) if not node.closed]
 
 
 def node_here(uri: str) -> NodeBase | None:
-    """The node of this process at that URI, if it is open."""
+    """Return the node of this process at that URI, if it is open."""
     node = _nodes.get(uri)
     return None if node is None or node.closed else node
 
@@ -77,7 +77,7 @@ class NodeBase(ABC):
         self._closed = threading.Event()
 
     def resolve(self, name: str) -> str:
-        """The global name that `name` means to this node, remapped."""
+        """Return the global name of `name` for this node, remapped."""
         return names.resolve(name, self.name, self.remappings)
 
     @property
@@ -90,7 +90,7 @@ class NodeBase(ABC):
         return self._closed.wait(timeout)
 
     def next_number(self) -> int:
-        """A number for a new connection."""
+        """Return a number for a new connection."""
         return next(self._numbers)
 
     def _name(self, name: str) -> str:
@@ -99,7 +99,7 @@ class NodeBase(ABC):
         return names.check(self.resolve(names.check(name)))
 
     def _enter_process(self) -> None:
-        """Let the other nodes of this process find this one."""
+        """Register the node for the other nodes of this process."""
         _nodes[self.uri] = self
 
     def _leave_process(self) -> None:
@@ -121,4 +121,4 @@ class NodeBase(ABC):
 
     @abstractmethod
     def _miss_master(self) -> None:
-        """The master did not answer: find out, and register again when it does."""
+        """Handle a missing answer of the master: check it, and register again when it answers."""

@@ -26,7 +26,7 @@ class ParameterNode(Protocol):
     uri: str
 
     def resolve(self, name: str) -> str:
-        """The global name that `name` means to the node."""
+        """Return the global name of `name` for the node."""
 
 
 class NodeParameters:
@@ -39,7 +39,7 @@ class NodeParameters:
         self._lock = threading.Lock()
 
     def get(self, name: str, default: Any = _MISSING) -> Any:
-        """The value of a parameter; a namespace is a dict.
+        """Return the value of a parameter; a namespace is a dict.
 
         Raises:
             ParameterNotFoundError: It is not set, and no default was given.
@@ -53,7 +53,7 @@ class NodeParameters:
         return default
 
     def get_cached(self, name: str, default: Any = _MISSING) -> Any:
-        """As `get`, but asks the master once and is told about changes from then on.
+        """Return the same as `get`, with one request to the master and a subscription to changes.
 
         Raises:
             ParameterNotFoundError: It is not set, and no default was given.
@@ -89,7 +89,7 @@ class NodeParameters:
         self._apply(key, value)  # the master does not tell the node that did it
 
     def has(self, name: str) -> bool:
-        """True if it is set."""
+        """Return True if it is set."""
         return self._node.master.has_param(self._node.resolve(name))
 
     def delete(self, name: str) -> None:
@@ -114,22 +114,22 @@ class NodeParameters:
             return None
 
     def names(self) -> list[str]:
-        """All keys that hold a value."""
+        """Return all keys that hold a value."""
         return self._node.master.param_names()
 
     # What the master tells -----------------------------------------------------------------
 
     def update(self, key: str, value: Any) -> bool:
-        """Take a change; False if nobody follows the parameter."""
+        """Handle a change; False if nobody follows the parameter."""
         return self._apply(names.canonical(key), value)
 
     def followed(self) -> list[str]:
-        """Keys to subscribe to again at a new master."""
+        """Return keys to subscribe to again at a new master."""
         with self._lock:
             return list(self._cache)
 
     def refresh(self, key: str, value: Any) -> None:
-        """Take the value a new master has."""
+        """Set the value of a new master."""
         with self._lock:
             changed = self._cache.get(key) != value
         if changed:
@@ -142,7 +142,7 @@ class NodeParameters:
         return copy.deepcopy(value)
 
     def _apply(self, key: str, value: Any) -> bool:
-        """Change what is cached of `key`, above it or below it; call the hooks."""
+        """Update what is cached of `key`, above it or below it; call the hooks."""
         calls: list[tuple[ParameterHook, str]] = []
         found = False
         with self._lock:
@@ -173,7 +173,7 @@ class NodeParameters:
 
 
 def _changed(tree: Any, rest: str, value: Any) -> Any:
-    """`tree` with the value at a path below it replaced."""
+    """Return `tree` with the value at a path below it replaced."""
     if not rest:
         return copy.deepcopy(value)
     first, _, deeper = rest.partition("/")
@@ -186,7 +186,7 @@ def _changed(tree: Any, rest: str, value: Any) -> Any:
 
 
 def _inner(tree: Any, rest: str) -> Any:
-    """The value at a path below `tree`, ``{}`` if there is none."""
+    """Return the value at a path below `tree`, ``{}`` if there is none."""
     for part in rest.split("/"):
         if not isinstance(tree, dict) or part not in tree:
             return {}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def call_process(name: str | None) -> None:
-    """Let ``ps`` and ``killall`` know this process by a name (Linux: its first 15 letters).
+    """Set the process's name for ``ps`` and ``killall`` (Linux: its first 15 letters).
 
     Elsewhere they know it by its command line only, in which the name is, too.
     """

@@ -26,13 +26,13 @@ class LocalReceiver(Protocol):
     node: NodeBase
 
     def takes(self, message_class: Any) -> bool:
-        """True if objects of that class can be delivered as they are."""
+        """Return True if objects of that class can be delivered as they are."""
 
     def receive_local(self, link: LocalLink, message: Any, data: bytes | None) -> None:
-        """Take a message, or what it was serialised to."""
+        """Receive a message, or its serialised form."""
 
     def lose_local(self, link: LocalLink) -> None:
-        """The publisher is gone."""
+        """Handle the end of the publisher."""
 
 
 class LocalLink:
@@ -165,7 +165,7 @@ class Publication:
         }
 
     def check(self, caller: str, fields: dict[str, str]) -> None:
-        """Judge the header of a subscriber.
+        """Check the header of a subscriber.
 
         Raises:
             Md5MismatchError: It wants another type.
@@ -179,7 +179,7 @@ class Publication:
             )
 
     def adopt(self, sock: socket.socket, address: net.Address, fields: dict[str, str]) -> None:
-        """Take over the connection of a subscriber."""
+        """Add the connection of a subscriber."""
         if self.tcp_nodelay or headers.flag(fields, "tcp_nodelay"):
             net.ignore_delay(sock)
         link = OutboundLink(self._loop, sock, fields, address, self.queue_size, self._lost)
@@ -223,7 +223,10 @@ class Publication:
                 self._tell_one(publisher, peer, connected=connected)
 
     def introduce(self, publisher: Publisher) -> None:
-        """Tell a further publisher who listens already, as roscpp does; on the loop's thread."""
+        """Report present subscribers to a further publisher, as in roscpp.
+
+        On the loop's thread.
+        """
         publisher.introduced = True
         peers = [link.peer for link in self.remote] + [link.peer for link in self.local]
         for peer in peers:
@@ -241,7 +244,10 @@ class Publication:
             report(f"connection hook of {self.topic}", error)
 
     def close(self) -> None:
-        """Let all subscribers go. Only on the loop's thread."""
+        """Close all subscribers' connections.
+
+        Only on the loop's thread. Only on the loop's thread.
+        """
         for link in self.remote:
             link.finish()
         for local in self.local:

@@ -29,7 +29,7 @@ class RawMessage:
         buff.write(self._buff)
 
     def deserialize(self, data: bytes) -> Self:
-        """Take the bytes."""
+        """Set the bytes."""
         self._buff = data
         return self
 
@@ -38,7 +38,7 @@ _made: dict[Any, type[RawMessage]] = {}
 
 
 def raw_class(message_class: Any) -> type[RawMessage]:
-    """A class with the identity of `message_class` whose messages stay bytes."""
+    """Return a class with the identity of `message_class` whose messages stay bytes."""
     if issubclass(message_class, RawMessage):
         return message_class  # type: ignore[no-any-return]
     found = _made.get(message_class)

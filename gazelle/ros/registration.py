@@ -39,13 +39,13 @@ class RegisteredNode(Protocol):
     on_new_master: list[Callable[[], None]]
 
     def publications(self) -> list[Publication]:
-        """All topics published."""
+        """Return all topics published."""
 
     def subscriptions(self) -> list[Subscription]:
-        """All topics subscribed to."""
+        """Return all topics subscribed to."""
 
     def services(self) -> list[ServiceServer]:
-        """All services offered."""
+        """Return all services offered."""
 
 
 class Registrar:
@@ -61,17 +61,17 @@ class Registrar:
         """True while the master does not answer."""
 
     def start(self) -> None:
-        """Begin to watch."""
+        """Start to watch the master."""
         self._schedule(_ALERT_S)
 
     def stop(self) -> None:
-        """Watch no more."""
+        """Stop watching the master."""
         self._stopped = True
         if self._timer is not None:
             self._timer.cancel()
 
     def alert(self) -> None:
-        """The connection to the master broke, or a registration failed: look soon."""
+        """Check the master soon: its connection broke, or a registration failed."""
         self._schedule(_ALERT_S)
 
     def _schedule(self, seconds: float) -> None:

@@ -105,7 +105,7 @@ class RosoutLog(logging.Handler):
             self._inside.busy = False
 
     def _send(self, _peer: str = "") -> None:
-        """Give those who listen, or who comes first, what is kept."""
+        """Send the kept messages to the subscribers, or to the first one."""
         with contextlib.suppress(IndexError, NodeClosedError):  # another thread was faster
             while self._kept:
                 self._publisher.publish(self._kept.popleft())
@@ -126,7 +126,7 @@ _shown: Callable[..., Any] = warnings.showwarning
 
 
 def _hook() -> None:
-    """Take the place of `warnings.showwarning`, which goes on being called."""
+    """Replace `warnings.showwarning`, which is still called."""
     global _shown  # noqa: PLW0603  # there is one in a process
     if warnings.showwarning is not _show:
         _shown = warnings.showwarning

@@ -63,7 +63,7 @@ class SerialQueue:
         return time.monotonic() - begin < _SLOW_S
 
     def runs_here(self) -> bool:
-        """True if it is the calling thread that handles an item of this queue."""
+        """Return True if it is the calling thread that handles an item of this queue."""
         return self._running.locked() and self._runner == threading.get_ident()
 
     def _start(self) -> None:

@@ -78,7 +78,7 @@ class ServiceServer:
         self._closed = False
 
     def close(self) -> None:
-        """Offer the service no longer."""
+        """Close the service."""
         if not self._closed:
             self._closed = True
             self._on_close(self)
@@ -89,7 +89,7 @@ class ServiceServer:
         return self._closed or self.node.closed
 
     def check(self, fields: Mapping[str, str]) -> None:
-        """Judge the header of a client.
+        """Check the header of a client.
 
         Raises:
             Md5MismatchError: It wants another type.
@@ -104,7 +104,7 @@ class ServiceServer:
     # Connections; only on the loop's thread -------------------------------------------------------
 
     def adopt(self, sock: socket.socket, fields: dict[str, str], rest: bytes) -> None:
-        """Take over the connection of a client.
+        """Add the connection of a client.
 
         Raises:
             Md5MismatchError: It wants another type.
@@ -134,7 +134,7 @@ class ServiceServer:
     # Calls; on a worker --------------------------------------------------------------------
 
     def answer(self, data: bytes, fields: dict[str, str]) -> bytes:
-        """The answer to a request, both as they go over the wire."""
+        """Return the answer to a request, both in their wire format."""
         try:
             request = self.service_class._request_class()
             try:
@@ -323,11 +323,11 @@ class LocalServiceChannel:
             raise ServiceError(f"unable to connect to service: {error.message}") from None
 
     def is_stale(self) -> bool:
-        """True if the service is offered no longer."""
+        """Return True if the service is closed."""
         return self._server.closed
 
     def call(self, request: bytes, _deadline: float | None) -> bytes:
-        """Have a framed request handled; returns the body of the response.
+        """Handle a framed request; returns the body of the response.
 
         Raises:
             ServiceFailedError: The handler failed.
@@ -338,11 +338,11 @@ class LocalServiceChannel:
         return answer[5:]
 
     def close(self) -> None:
-        """Nothing to close."""
+        """Do nothing: there is nothing to close."""
 
 
 def find_service(node: NodeBase, name: str) -> tuple[str, int]:
-    """Host and port of a service.
+    """Return host and port of a service.
 
     Raises:
         ServiceNotFoundError: Nobody offers it.

@@ -18,7 +18,7 @@ class ServiceNode(NodeBase):
         self._clients: set[ServiceClient] = set()
 
     def serve(self, name: str, service_class: Any, handler: Handler) -> ServiceServer:
-        """Offer a service; the last node that offers a name gets the calls.
+        """Serve a service; the last node that serves a name gets the calls.
 
         Args:
             name: Any name; it is resolved for the node.
@@ -40,7 +40,7 @@ class ServiceNode(NodeBase):
         return server
 
     def client(self, name: str, service_class: Any, *, persistent: bool = False) -> ServiceClient:
-        """Something that calls a service.
+        """Return a client of a service.
 
         Args:
             name: Any name; it is resolved for the node.
@@ -70,7 +70,7 @@ class ServiceNode(NodeBase):
 
     @staticmethod
     def neighbour_service(host: str, port: int, name: str) -> ServiceServer | None:
-        """The service of that name, if a node of this process offers it there."""
+        """Return the service of that name, if a node of this process serves it there."""
         for node in nodes_here():
             if node.tcpros_port == port and node.host == host and isinstance(node, ServiceNode):
                 return node.service(name)
@@ -79,15 +79,15 @@ class ServiceNode(NodeBase):
     # For the parts of the node -------------------------------------------------------------
 
     def services(self) -> list[ServiceServer]:
-        """All services this node offers."""
+        """Return all services this node offers."""
         return list(self._services.values())
 
     def service(self, name: str) -> ServiceServer | None:
-        """The service of that name."""
+        """Return the service of that name."""
         return self._services.get(name)
 
     def _unserve(self, server: ServiceServer) -> None:
-        """A service is closed."""
+        """Remove a closed service."""
         with self._lock:
             if self._closing:
                 return
@@ -96,6 +96,6 @@ class ServiceNode(NodeBase):
         self.loop.run(server.drop_all)
 
     def _forget_client(self, client: ServiceClient) -> None:
-        """A client is closed."""
+        """Remove a closed client."""
         with self._lock:
             self._clients.discard(client)

@@ -27,19 +27,19 @@ class SlaveNode(Protocol):
     parameters: NodeParameters
 
     def publications(self) -> list[Publication]:
-        """All topics published."""
+        """Return all topics published."""
 
     def publication(self, topic: str) -> Publication | None:
         """Return the publication on a topic, if any."""
 
     def subscriptions(self) -> list[Subscription]:
-        """All topics subscribed to."""
+        """Return all topics subscribed to."""
 
     def subscription(self, topic: str) -> Subscription | None:
         """Return the subscription to a topic, if any."""
 
     def asked_to_end(self, caller: str, reason: str) -> None:
-        """The master or a tool wants the node to end."""
+        """Handle a request of the master or a tool to shut down."""
 
 
 class SlaveApi:
@@ -70,7 +70,7 @@ class SlaveApi:
         )
 
     def dispatch(self, method: str, params: list[Any]) -> list[Any]:
-        """Do a call; see `gazelle.ros.apis.Api.dispatch`."""
+        """Call a method; see `gazelle.ros.apis.Api.dispatch`."""
         return self._api.dispatch(method, params)
 
     def prepare(self, method: str, params: list[Any]) -> Callable[[], list[Any]]:
@@ -78,11 +78,11 @@ class SlaveApi:
         return self._api.prepare(method, params)
 
     def get_pid(self, _caller: str) -> Triple:
-        """The node's process."""
+        """Return the node's process."""
         return 1, "", os.getpid()
 
     def get_name(self, _caller: str) -> Triple:
-        """The node's name."""
+        """Return the node's name."""
         return 1, "", self._node.name
 
     def get_uri(self, _caller: str) -> Triple:
@@ -90,21 +90,24 @@ class SlaveApi:
         return 1, "", self._node.uri
 
     def get_master_uri(self, _caller: str) -> Triple:
-        """The master this node is registered with."""
+        """Return the master this node is registered with."""
         return 1, self._node.master_uri, self._node.master_uri
 
     def get_publications(self, _caller: str) -> Triple:
-        """Topics and types published."""
+        """Return topics and types published."""
         found = [[p.topic, p.message_class._type] for p in self._node.publications()]
         return 1, "publications", found
 
     def get_subscriptions(self, _caller: str) -> Triple:
-        """Topics and types subscribed to."""
+        """Return topics and types subscribed to."""
         found = [[s.topic, s.message_class._type] for s in self._node.subscriptions()]
         return 1, "subscriptions", found
 
     def get_bus_info(self, _caller: str) -> Triple:
-        """All connections: number, peer, direction, transport, topic, connected, description."""
+        """Return all connections.
+
+        Each is number, peer, direction, transport, topic, connected, description.
+        """
         found: list[list[Any]] = []
         for publication in self._node.publications():
             found += _outgoing(publication)
@@ -113,7 +116,7 @@ class SlaveApi:
         return 1, "bus info", found
 
     def get_bus_stats(self, _caller: str) -> Triple:
-        """Traffic of all connections."""
+        """Return traffic of all connections."""
         published = [
             [
                 publication.topic,
@@ -139,18 +142,18 @@ class SlaveApi:
         return 1, "", [_bounded(published), _bounded(subscribed), []]
 
     def shutdown(self, caller: str, reason: str) -> Triple:
-        """The master, or a tool, wants the node to end."""
+        """Handle a request of the master or a tool to shut down."""
         self._node.asked_to_end(caller, reason)
         return 1, "shutdown", 0
 
     def param_update(self, _caller: str, key: str, value: Any) -> Triple:
-        """A parameter this node subscribed to changed."""
+        """Handle the change of a subscribed parameter."""
         if self._node.parameters.update(key, value):
             return 1, "", 0
         return -1, "not subscribed", 0
 
     def publisher_update(self, _caller: str, topic: str, publishers: Sequence[Any]) -> Triple:
-        """The publishers of a topic are these now."""
+        """Set the publishers of a topic."""
         subscription = self._node.subscription(topic)
         if subscription is not None:
             subscription.update([uri for uri in publishers if isinstance(uri, str)])
@@ -194,12 +197,12 @@ def _incoming(subscription: Subscription) -> list[list[Any]]:
 
 
 def _connection(own_port: int, host: str, port: int, descriptor: int) -> str:
-    """A connection in the words that rosnode looks for."""
+    """Return a connection in the form that rosnode searches for."""
     return f"TCPROS connection on port {own_port} to [{host}:{port} on socket {descriptor}]"
 
 
 def _bounded(value: Any) -> Any:
-    """Counters as XML-RPC can carry them: they stop at the largest 32-bit number."""
+    """Return counters in the range of XML-RPC: they stop at the largest 32-bit number."""
     if isinstance(value, list):
         return [_bounded(item) for item in value]
     if isinstance(value, int) and not isinstance(value, bool):

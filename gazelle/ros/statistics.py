@@ -32,7 +32,7 @@ class _Window:
         self.last_sequence: int | None = None
 
     def add(self, now: int, message: Any, size: int) -> None:
-        """Take a message."""
+        """Add a message."""
         self.arrivals.append(now)
         self.bytes += size
         if not getattr(type(message), "_has_header", False):
@@ -44,7 +44,7 @@ class _Window:
         self.last_sequence = sequence
 
     def reset(self, now: int) -> None:
-        """Begin a new window."""
+        """Start a new window."""
         self.start = now
         self.arrivals.clear()
         self.ages.clear()
@@ -77,11 +77,11 @@ class Statistics:
         return lower, upper
 
     def measures(self, topic: str) -> bool:
-        """False for topics that would only measure themselves."""
+        """Return False for topics that would only measure themselves."""
         return topic not in _UNMEASURED
 
     def take(self, topic: str, link: Any, message: Any, size: int) -> None:
-        """Take a message that came over a link; report when the window is full."""
+        """Count a message of a link; report when the window is full."""
         now = self._node.clock.now()
         key = topic, str(link.peer)
         with self._lock:
@@ -99,7 +99,7 @@ class Statistics:
             self._publisher.publish(report)
 
     def _adapt(self, key: tuple[str, str], count: int) -> None:
-        """Longer windows for rare messages, shorter ones for frequent ones."""
+        """Set longer windows for rare messages, shorter ones for frequent ones."""
         length = self._lengths[key]
         if count > self._most and length // 2 >= self._shortest:
             self._lengths[key] = length // 2
@@ -122,7 +122,7 @@ class Statistics:
 
 
 def _fill(message: Any, name: str, values: Sequence[int]) -> None:
-    """Mean, standard deviation and maximum, as durations."""
+    """Set mean, standard deviation and maximum, as durations."""
     if not values:
         return
     mean = sum(values) / len(values)

@@ -121,12 +121,12 @@ class Subscription:
         link.publication.detach(link)
 
     def lose_local(self, link: LocalLink) -> None:
-        """A publisher in this process is gone."""
+        """Handle the end of a publisher in this process."""
         for uri in [uri for uri, other in self.local.items() if other is link]:
             del self.local[uri]
 
     def add(self, subscriber: Subscriber, *, tcp_nodelay: bool) -> None:
-        """One more callback."""
+        """Add a callback."""
         self.subscribers = (*self.subscribers, subscriber)
         self.tcp_nodelay |= tcp_nodelay
         self._measure_queue()
@@ -137,7 +137,7 @@ class Subscription:
                 self._loop.submit(call)
 
     def remove(self, subscriber: Subscriber) -> None:
-        """One callback less."""
+        """Remove a callback."""
         self.subscribers = tuple(s for s in self.subscribers if s is not subscriber)
         self._measure_queue()
 
@@ -166,15 +166,15 @@ class Subscription:
         }
 
     def check_header(self, header: dict[str, str]) -> None:
-        """Judge what a publisher answered."""
+        """Check the header of a publisher."""
         kind = self.message_class
         headers.check_publisher(header, self.topic, kind._md5sum, kind._type)
 
     def connected(self, link: InboundLink) -> None:
-        """Nothing to do: messages will come."""
+        """Do nothing: messages will come."""
 
     def disconnected(self, link: InboundLink) -> None:
-        """Nothing to do: the link comes back by itself."""
+        """Do nothing: the link reconnects by itself."""
 
     def receive(self, link: InboundLink, frames: list[bytes], *, now: bool) -> bool:
         """Queue whole messages for the callbacks; see `Receiver`."""
@@ -211,7 +211,7 @@ class Subscription:
             self._drop_oldest()
 
     def _let_catch_up(self, limit: int) -> None:
-        """A publisher without queue size waits, though not for ever: it may wait for itself."""
+        """Block a publisher without queue size, though not for ever: it may wait for itself."""
         deadline = time.monotonic() + _LOCAL_PATIENCE_S
         while len(self._queue.items) > limit // 2 and not self._closed:
             if self._queue.runs_here() or time.monotonic() > deadline:
@@ -219,7 +219,7 @@ class Subscription:
             time.sleep(0.001)
 
     def takes(self, message_class: Any) -> bool:
-        """True if objects of that class can be delivered as they are."""
+        """Return True if objects of that class can be delivered as they are."""
         return message_class is self.message_class
 
     def _forget_oldest(self, link: InboundLink, items: list[Item], limit: int) -> None:
@@ -299,7 +299,7 @@ def _maker(message_class: Any) -> Callable[[], Any]:
 
 
 def _converted(message: Any, kind: Any, link: Any) -> Any:
-    """A message as one of several subscribers in a node wants it: decoded, or as bytes."""
+    """Return a message in the form of one of a node's subscribers: decoded, or as bytes."""
     data = message._buff if isinstance(message, RawMessage) else frame(message)[4:]
     made = _maker(kind)()
     made.deserialize(data)

@@ -46,12 +46,12 @@ class EventTaskQueue:
         os.close(self._semaphore)
 
     def put(self, task: Task | None) -> None:
-        """See `TaskQueue`."""
+        """Add a task; see `TaskQueue`."""
         self._tasks.append(task)
         os.write(self._semaphore, _ONE)
 
     def get(self) -> Task | None:
-        """See `TaskQueue`."""
+        """Return the next task; see `TaskQueue`."""
         while True:
             os.read(self._semaphore, 8)
             try:
@@ -103,7 +103,7 @@ class ThreadPool:
                 self._grow(self._taken)
 
     def stop(self, timeout: float = 2.0) -> None:
-        """End the workers as soon as their tasks are done, and wait for each so long [s]."""
+        """Stop the workers as soon as their tasks are done, and wait for each so long [s]."""
         with self._lock:
             self._stopping = True
             workers = list(self._workers)

@@ -14,13 +14,13 @@ Number = Any
 
 
 def _canonical(secs: int, nsecs: int) -> tuple[int, int]:
-    """Carry whole seconds out of the nanoseconds, so that ``0 <= nsecs < 1e9``."""
+    """Return seconds and nanoseconds in the form ``0 <= nsecs < 1e9``."""
     carry, nsecs = divmod(nsecs, _NSEC)
     return secs + carry, nsecs
 
 
 def _split(seconds: float) -> tuple[int, int]:
-    """Whole seconds and the nanoseconds left over, both rounded towards zero."""
+    """Return whole seconds and the nanoseconds left over, both rounded towards zero."""
     secs = int(seconds)
     return secs, int((seconds - secs) * _NSEC)
 
@@ -53,7 +53,7 @@ class TVal:
 
     @classmethod
     def from_sec(cls, float_secs: float) -> Self:
-        """The value of a number of seconds [s]."""
+        """Return the value of a number of seconds [s]."""
         return cls(*_split(float_secs))
 
     def is_zero(self) -> bool:
@@ -61,20 +61,20 @@ class TVal:
         return self.secs == 0 and self.nsecs == 0
 
     def set(self, secs: int, nsecs: int) -> None:
-        """Take over seconds and nanoseconds as they are."""
+        """Set seconds and nanoseconds as they are."""
         self.secs = secs
         self.nsecs = nsecs
 
     def canon(self) -> None:
-        """Bring the fields to the form ``0 <= nsecs < 1e9``."""
+        """Convert the fields to the form ``0 <= nsecs < 1e9``."""
         self.secs, self.nsecs = _canonical(self.secs, self.nsecs)
 
     def to_sec(self) -> float:
-        """The value in seconds [s]."""
+        """Return the value in seconds [s]."""
         return float(self.secs) + float(self.nsecs) / 1e9
 
     def to_nsec(self) -> int:
-        """The value in nanoseconds [ns], exact."""
+        """Return the value in nanoseconds [ns], exact."""
         return self.secs * _NSEC + self.nsecs
 
     def __getstate__(self) -> list[int]:
@@ -142,7 +142,7 @@ class Time(TVal):
         return Time
 
     def to_time(self) -> float:
-        """The time in seconds [s], as ``time.time()`` counts."""
+        """Return the time in seconds [s], as ``time.time()`` counts."""
         return self.to_sec()
 
     def __add__(self, other: Duration) -> Self:

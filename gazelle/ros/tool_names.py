@@ -35,7 +35,7 @@ _NAMES_NOTHING = {"--nodes-survive"}
 
 
 def translated(words: Sequence[str]) -> list[str]:
-    """The words after ``gazelle`` that do what a command line of ROS's does.
+    """Return the words after ``gazelle`` for a command line of ROS's.
 
     Args:
         words: Such as ``rostopic echo /scan`` or ``xacro robot.xacro``; others stay as they are.

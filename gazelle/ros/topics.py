@@ -137,7 +137,7 @@ class TopicNode(NodeBase):
             self.loop.call_soon(begin)
 
     def wait_for_message(self, topic: str, message_class: Any, timeout: float | None = None) -> Any:
-        """The next message of a topic.
+        """Return the next message of a topic.
 
         Raises:
             RosTimeoutError: None came within `timeout` seconds of wall time.
@@ -166,7 +166,7 @@ class TopicNode(NodeBase):
 
     @staticmethod
     def neighbour(uri: str) -> TopicNode | None:
-        """The node of this process at that URI."""
+        """Return the node of this process at that URI."""
         node = node_here(uri)
         return node if isinstance(node, TopicNode) else None
 
@@ -181,15 +181,15 @@ class TopicNode(NodeBase):
         return self._subscriptions.get(topic)
 
     def publications(self) -> list[Publication]:
-        """All of them."""
+        """Return all of them."""
         return list(self._publications.values())
 
     def subscriptions(self) -> list[Subscription]:
-        """All of them."""
+        """Return all of them."""
         return list(self._subscriptions.values())
 
     def _unadvertise(self, publisher: Publisher) -> None:
-        """A publisher is closed."""
+        """Remove a closed publisher."""
         publication = publisher.publication
         with self._lock:
             if self._closing:
@@ -202,7 +202,7 @@ class TopicNode(NodeBase):
         self.loop.run(publication.close)
 
     def _unsubscribe(self, subscriber: Subscriber) -> None:
-        """A subscriber is closed."""
+        """Remove a closed subscriber."""
         subscription = subscriber.subscription
         with self._lock:
             subscription.remove(subscriber)
@@ -222,7 +222,7 @@ def _check_same(known: Any, wanted: Any, topic: str) -> None:
 
 
 def _wider(known: int | None, wanted: int | None, *, fresh: bool) -> int | None:
-    """The larger of two queue sizes; None is without bound."""
+    """Return the larger of two queue sizes; None is without bound."""
     if fresh:
         return wanted
     return None if known is None or wanted is None else max(known, wanted)

@@ -13,7 +13,7 @@ from gazelle.ros.raw import RawMessage
 
 
 def class_for(header: Mapping[str, str]) -> Any:
-    """The class of the messages of a connection, or of a connection in a bag.
+    """Return the class of a connection's messages, or of a connection in a bag.
 
     The class known here is taken if it has the same checksum; else one is made of the definition
     in the header, so that a type that is not installed is understood all the same.
@@ -39,7 +39,7 @@ def _class_for(kind: str, checksum: str, text: str) -> Any:
 
 
 def decode(raw: RawMessage) -> Any:
-    """The message that came as bytes.
+    """Decode a message of bytes.
 
     Raises:
         RosError: Its type is not known here, and its definition did not come along.

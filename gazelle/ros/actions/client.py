@@ -61,13 +61,13 @@ class GoalMachine:
         return str(self.action_goal.goal_id.id)
 
     def transition_to(self, state: int) -> None:
-        """Go to a state, and tell."""
+        """Set the state, and call the listener."""
         self.state = state
         if self._transition_cb is not None:
             self._transition_cb(ClientGoalHandle(self))
 
     def update_status(self, status: Any) -> None:
-        """Take what the server says of the goal; None if it says nothing."""
+        """Process the server's status of the goal; None if it lists none."""
         with self.lock:
             if self.state in {CommState.DONE, CommState.LOST}:
                 return
@@ -103,7 +103,7 @@ class GoalMachine:
         self.transition_to(CommState.DONE)
 
     def update_result(self, action_result: Any) -> None:
-        """Take the result."""
+        """Process the result."""
         with self.lock:
             if self.state in {CommState.DONE, CommState.LOST}:
                 return
@@ -112,7 +112,7 @@ class GoalMachine:
             self.transition_to(CommState.DONE)
 
     def update_feedback(self, action_feedback: Any) -> None:
-        """Take feedback."""
+        """Process feedback."""
         if self._feedback_cb is not None and self.state != CommState.DONE:
             self._feedback_cb(ClientGoalHandle(self), action_feedback.feedback)
 
@@ -124,7 +124,7 @@ class ClientGoalHandle:
         self.comm_state_machine = machine
 
     def cancel(self) -> None:
-        """Ask the server to give it up."""
+        """Request the server to cancel the goal."""
         machine = self.comm_state_machine
         with machine.lock:
             machine.client.publish_cancel(machine.name)
@@ -132,11 +132,11 @@ class ClientGoalHandle:
                 machine.transition_to(CommState.WAITING_FOR_CANCEL_ACK)
 
     def get_comm_state(self) -> int:
-        """The `CommState`."""
+        """Return the `CommState`."""
         return self.comm_state_machine.state
 
     def get_goal_status(self) -> int:
-        """The `GoalStatus`, as the server said last."""
+        """Return the `GoalStatus` that the server sent last."""
         return int(self.comm_state_machine.latest_status.status)
 
     def get_goal_status_text(self) -> str:
@@ -231,15 +231,15 @@ class ActionClient:
         return ClientGoalHandle(machine)
 
     def cancel_all_goals(self) -> None:
-        """Ask the server to give up all goals, of other clients, too."""
+        """Request the server to cancel all goals, including those of other clients."""
         self._cancel.publish(self._goal_id())
 
     def cancel_goals_at_and_before_time(self, time: Time) -> None:
-        """Ask the server to give up all goals stamped with a time or earlier."""
+        """Request the server to cancel all goals stamped with a time or earlier."""
         self._cancel.publish(self._goal_id(stamp=time))
 
     def publish_cancel(self, name: str) -> None:
-        """Ask the server to give up the goal of an id."""
+        """Request the server to cancel the goal of an id."""
         self._cancel.publish(self._goal_id(id=name))
 
     def wait_for_server(self, timeout: Duration | float | None = _FOREVER) -> bool:

@@ -57,19 +57,19 @@ class ServerGoalHandle:
         return None if self.goal is None else self.goal.goal
 
     def get_goal_id(self) -> Any:
-        """The ``GoalID``."""
+        """Return the ``GoalID``."""
         return self.status.goal_id
 
     def get_goal_status(self) -> Any:
-        """The ``GoalStatus``."""
+        """Return the ``GoalStatus``."""
         return self.status
 
     def get_default_result(self) -> Any:
-        """An empty result."""
+        """Return an empty result."""
         return None if self._server is None else self._server.types.result()
 
     def set_accepted(self, text: str = "") -> bool:
-        """Work on it begins; False if it cannot."""
+        """Accept the goal; False if it cannot be accepted."""
         table = {
             GoalStatus.PENDING: GoalStatus.ACTIVE,
             GoalStatus.RECALLING: GoalStatus.PREEMPTING,
@@ -77,7 +77,7 @@ class ServerGoalHandle:
         return self._move("an active", "pending or recalling", table, text)
 
     def set_canceled(self, result: Any = None, text: str = "") -> bool:
-        """It was given up as asked; False if it cannot be."""
+        """Report that it was cancelled on request; False if it cannot be."""
         table = {
             GoalStatus.PENDING: GoalStatus.RECALLED,
             GoalStatus.RECALLING: GoalStatus.RECALLED,
@@ -88,23 +88,23 @@ class ServerGoalHandle:
         return self._move("a cancelled", words, table, text, result, over=True)
 
     def set_rejected(self, result: Any = None, text: str = "") -> bool:
-        """It will not be worked on; False if work has begun."""
+        """Reject the goal; False if it was accepted."""
         states = (GoalStatus.PENDING, GoalStatus.RECALLING)
         table = dict.fromkeys(states, GoalStatus.REJECTED)
         return self._move("a rejected", "pending or recalling", table, text, result, over=True)
 
     def set_aborted(self, result: Any = None, text: str = "") -> bool:
-        """It failed; False if work had not begun."""
+        """Report that it failed; False if it was not accepted."""
         table = dict.fromkeys((GoalStatus.ACTIVE, GoalStatus.PREEMPTING), GoalStatus.ABORTED)
         return self._move("an aborted", "preempting or active", table, text, result, over=True)
 
     def set_succeeded(self, result: Any = None, text: str = "") -> bool:
-        """It is done; False if work had not begun."""
+        """Report success; False if it was not accepted."""
         table = dict.fromkeys((GoalStatus.ACTIVE, GoalStatus.PREEMPTING), GoalStatus.SUCCEEDED)
         return self._move("a succeeded", "preempting or active", table, text, result, over=True)
 
     def set_cancel_requested(self) -> bool:
-        """Somebody wants it to be given up; False if it is too late."""
+        """Handle a cancel request; False if the goal is already terminal."""
         table = {
             GoalStatus.PENDING: GoalStatus.RECALLING,
             GoalStatus.ACTIVE: GoalStatus.PREEMPTING,
@@ -120,7 +120,7 @@ class ServerGoalHandle:
             return True
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Say what is going on."""
+        """Publish feedback."""
         if self._server is None:
             self._refuse()
         else:
@@ -256,7 +256,7 @@ class ActionServer:
         self.cancel_callback = cancel_cb
 
     def start(self) -> None:
-        """Take goals from now on."""
+        """Start to accept goals."""
         with self.lock:
             if self.started:
                 return
@@ -264,13 +264,16 @@ class ActionServer:
         self._tick()
 
     def refuse(self) -> None:
-        """Take and list no more goals, as another server may do so now; results are still sent."""
+        """Reject and list no more goals, as another server may do so now.
+
+        Results are still sent.
+        """
         self.started = False
         for subscriber in self._subscribers:
             subscriber.close()
 
     def stop(self) -> None:
-        """Take no more goals, and close the topics."""
+        """Stop accepting goals, and close the topics."""
         for publisher in (self._status, self._result, self._feedback):
             publisher.close()
         self.refuse()
@@ -285,7 +288,7 @@ class ActionServer:
         self.publish_status()
 
     def settle(self, goal: ServerGoalHandle) -> None:
-        """Let clients in other processes take in what came before; see `_PEER_S`."""
+        """Wait until clients in other processes had time for earlier messages; see `_PEER_S`."""
         publication = self.node.publication(self._status.name)
         left = goal.told + _PEER_S - time.monotonic()
         if left > 0 and publication is not None and publication.remote:
@@ -308,7 +311,7 @@ class ActionServer:
             self._send(self._status, message)
 
     def publish_result(self, status: Any, result: Any) -> None:
-        """Say what came of a goal."""
+        """Publish the result of a goal."""
         with self.lock:
             message = self.types.action_result(
                 header=header(self.clock), status=status, result=result
@@ -317,7 +320,7 @@ class ActionServer:
             self.publish_status()
 
     def publish_feedback(self, status: Any, feedback: Any) -> None:
-        """Say what is going on with a goal."""
+        """Publish feedback on a goal."""
         with self.lock:
             message = self.types.action_feedback(
                 header=header(self.clock), status=status, feedback=feedback
@@ -363,7 +366,7 @@ class ActionServer:
             self.goal_callback(handle)
 
     def _take_again(self, handle: ServerGoalHandle) -> None:
-        """A goal whose cancel request came first, or that was sent twice."""
+        """Handle a goal whose cancel request came first, or that was sent twice."""
         if handle.status.status == GoalStatus.RECALLING:
             handle.status.status = GoalStatus.RECALLED
             self.publish_result(handle.status, self.types.result())
@@ -391,7 +394,7 @@ class ActionServer:
                 self.cancel_callback(handle)
 
     def _remember_cancel(self, request: Any) -> None:
-        """The goal may come after its cancel request."""
+        """Store a cancel request, as its goal may come later."""
         status: Any = self._goal_status()
         status.goal_id, status.status = request, GoalStatus.RECALLING
         handle = ServerGoalHandle(self, status, None)

@@ -109,7 +109,7 @@ class SimpleActionClient:
         return self.gh.get_result()
 
     def get_state(self) -> int:
-        """The `GoalStatus`: pending, active, or how it ended; lost if there is no goal."""
+        """Return the `GoalStatus`: pending, active, or terminal; lost if there is no goal."""
         if self.gh is None:
             return GoalStatus.LOST
         status = self.gh.get_goal_status()
@@ -123,15 +123,15 @@ class SimpleActionClient:
         return self.gh.get_goal_status_text()
 
     def cancel_all_goals(self) -> None:
-        """Ask the server to give up all goals, of other clients, too."""
+        """Request the server to cancel all goals, including those of other clients."""
         self.action_client.cancel_all_goals()
 
     def cancel_goals_at_and_before_time(self, time: Time) -> None:
-        """Ask the server to give up all goals stamped with a time or earlier."""
+        """Request the server to cancel all goals stamped with a time or earlier."""
         self.action_client.cancel_goals_at_and_before_time(time)
 
     def cancel_goal(self) -> None:
-        """Ask the server to give up the goal."""
+        """Request the server to cancel the goal."""
         if self.gh is not None:
             self.gh.cancel()
 

@@ -74,11 +74,11 @@ class SimpleActionServer:
             self.start()
 
     def start(self) -> None:
-        """Take goals from now on."""
+        """Start to accept goals."""
         self.action_server.start()
 
     def stop(self) -> None:
-        """Take no more goals, and end the thread."""
+        """Stop accepting goals, and end the thread."""
         with self._news:
             self._terminate = True
             self._news.notify_all()
@@ -87,7 +87,10 @@ class SimpleActionServer:
     # What the work asks ------------------------------------------------------------------------
 
     def accept_new_goal(self) -> Any:
-        """Begin with the new goal, and return it; the old one is preempted. None if there is none."""
+        """Accept the new goal, and return it; the old one is preempted.
+
+        None if there is none. None if there is none.
+        """
         with self.lock:
             if not self.new_goal or self.next_goal is None:
                 _LOG.error("Attempting to accept the next goal when a new goal is not available")
@@ -115,26 +118,26 @@ class SimpleActionServer:
         return self.current_goal.get_goal_status().status in _WORKED_ON
 
     def set_succeeded(self, result: Any = None, text: str = "") -> None:
-        """The goal is reached."""
+        """Report that the goal is reached."""
         with self.lock:
             self._current().set_succeeded(result or self.get_default_result(), text)
 
     def set_aborted(self, result: Any = None, text: str = "") -> None:
-        """The goal cannot be reached."""
+        """Report that the goal cannot be reached."""
         with self.lock:
             self._current().set_aborted(result or self.get_default_result(), text)
 
     def set_preempted(self, result: Any = None, text: str = "") -> None:
-        """The work ended as asked."""
+        """Report that the goal was preempted on request."""
         with self.lock:
             self._current().set_canceled(result or self.get_default_result(), text)
 
     def publish_feedback(self, feedback: Any) -> None:
-        """Say what is going on."""
+        """Publish feedback."""
         self._current().publish_feedback(feedback)
 
     def get_default_result(self) -> Any:
-        """An empty result."""
+        """Return an empty result."""
         return self.action_server.types.result()
 
     def register_goal_callback(self, cb: Callable[[], Any] | None) -> None:

@@ -43,7 +43,9 @@ class ActionTypes:
 
     @classmethod
     def of(cls, spec: Any) -> ActionTypes:
-        """Of the message class of an action, such as ``control_msgs/FollowJointTrajectoryAction``.
+        """Return the types of an action class.
+
+        It is for example ``control_msgs/FollowJointTrajectoryAction``.
 
         Raises:
             ActionException: The class is no action.
@@ -61,17 +63,17 @@ class Now(Protocol):
     """Tells the time."""
 
     def now(self) -> int:
-        """The time [ns]."""
+        """Return the time [ns]."""
 
 
 def now(clock: Now) -> Time:
-    """A clock's time."""
+    """Return a clock's time."""
     stamp = clock.now()
     return Time(stamp // SECOND, stamp % SECOND)
 
 
 def goal_id(node: Node, name: str | None = None, clock: Now | None = None) -> Any:
-    """A ``GoalID`` nobody else has; its name and time are the node's if not given."""
+    """Return a unique ``GoalID``; its name and time are the node's if not given."""
     stamp = now(clock or node.clock)
     made: Any = load_message("actionlib_msgs/GoalID")()
     made.stamp = stamp
@@ -80,7 +82,7 @@ def goal_id(node: Node, name: str | None = None, clock: Now | None = None) -> An
 
 
 def header(clock: Now) -> Any:
-    """A ``Header`` with a clock's time."""
+    """Return a ``Header`` with a clock's time."""
     made: Any = load_message("std_msgs/Header")()
     made.stamp = now(clock)
     return made

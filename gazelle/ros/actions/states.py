@@ -28,7 +28,7 @@ class _Names:
 
     @classmethod
     def to_string(cls, n: int) -> str:
-        """The name of a state."""
+        """Return the name of a state."""
         return name_of(cls, n)
 
 
@@ -66,7 +66,7 @@ class SimpleGoalState(_Names):
 
 
 def name_of(states: Any, n: int) -> str:
-    """The name of a state in a class of states."""
+    """Return the name of a state in a class of states."""
     name: str
     for name, value in vars(states).items():
         if name.isupper() and value == n:

@@ -60,7 +60,7 @@ class CompressionTuple(NamedTuple):
 def types_and_topics(
     file: BagFile, index: BagIndex, wanted: Collection[int] | None
 ) -> TypesAndTopicsTuple:
-    """Types with their checksums, and what there is of each topic.
+    """Return types with their checksums, and the numbers of each topic.
 
     Args:
         file: The bag's bytes.
@@ -90,7 +90,7 @@ def _rate(file: BagFile, index: BagIndex, connections: frozenset[int]) -> float 
 
 
 def compression_of(file: BagFile, index: BagIndex, default: str) -> CompressionTuple:
-    """The most frequent compression, and bytes without and with it."""
+    """Return the most frequent compression, and bytes without and with it."""
     counts = dict[str, int]()
     plain = packed = 0
     for chunk in index.chunks:

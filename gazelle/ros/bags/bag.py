@@ -196,7 +196,7 @@ class Bag(Closeable):
         return self._writer.index
 
     def topics(self) -> list[str]:
-        """The topics, sorted."""
+        """Return the topics, sorted."""
         return sorted({connection.topic for connection in self.index.connections.values()})
 
     def get_message_count(self, topic_filters: str | list[str] | None = None) -> int:
@@ -210,7 +210,7 @@ class Bag(Closeable):
         )
 
     def get_start_time(self) -> float:
-        """When the first message came [s].
+        """Return the time of the first message [s].
 
         Raises:
             BagError: There are none.
@@ -218,7 +218,7 @@ class Bag(Closeable):
         return min(chunk.start for chunk in self.chunks()) / records.SECOND
 
     def get_end_time(self) -> float:
-        """When the last message came [s].
+        """Return the time of the last message [s].
 
         Raises:
             BagError: There are none.
@@ -235,11 +235,11 @@ class Bag(Closeable):
     def get_type_and_topic_info(
         self, topic_filters: str | list[str] | None = None
     ) -> TypesAndTopicsTuple:
-        """Types with their checksums, and what there is of each topic."""
+        """Return types with their checksums, and the numbers of each topic."""
         return types_and_topics(self.stored(), self.index, self._ids(topic_filters))
 
     def get_compression_info(self) -> CompressionTuple:
-        """The most frequent compression, and bytes without and with it."""
+        """Return the most frequent compression, and bytes without and with it."""
         return compression_of(self.stored(), self.index, self._compression)
 
     # Messages ------------------------------------------------------------------------------
@@ -253,7 +253,7 @@ class Bag(Closeable):
         raw: bool = False,  # noqa: FBT001, FBT002  # the signature is rosbag's
         return_connection_header: bool = False,  # noqa: FBT001, FBT002
     ) -> Iterator[Any]:
-        """Messages in the order of time.
+        """Yield messages in the order of time.
 
         Args:
             topics: Of these only.
@@ -295,7 +295,7 @@ class Bag(Closeable):
         return connection.type, entry.data, connection.md5sum, entry.place, kind
 
     def _ids(self, topics: str | Iterable[str] | None) -> set[int] | None:
-        """The connections of topics, with or without a slash before their names."""
+        """Return the connections of topics, with or without a slash before their names."""
         if topics is None:
             return None
         wanted = {topics} if isinstance(topics, str) else set(topics)
@@ -368,11 +368,11 @@ class Bag(Closeable):
             self._writer.write(connection, stamp, data)
 
     def reindex(self) -> Iterator[int]:
-        """The places of all chunks; the index of a bag without one was made when it was opened."""
+        """Return the places of all chunks; a bag without an index got one when it was opened."""
         return iter([chunk.position for chunk in self.index.chunks])
 
     def flush(self) -> None:
-        """Hand what was written to the system."""
+        """Flush what was written to the system."""
         if self._writer is not None:
             with naming(self.filename):
                 self._writer.flush()

@@ -114,7 +114,7 @@ def configure_play(parser: argparse.ArgumentParser) -> None:
 
 
 def play(args: argparse.Namespace, node_options: Mapping[str, Any] | None = None) -> int:
-    """Play; returns the exit code.
+    """Play bags; returns the exit code.
 
     Args:
         args: What `configure_play` declares.
@@ -176,7 +176,7 @@ class _PlayStatus:
 
 @contextlib.contextmanager
 def _keys(player: Any, stop: threading.Event) -> Iterator[None]:
-    """On a terminal: space pauses and goes on, s steps."""
+    """Handle keys of a terminal while it lasts: space pauses and continues, s steps."""
     if not sys.stdin.isatty():
         yield
         return

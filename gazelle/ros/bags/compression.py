@@ -28,7 +28,7 @@ def check(kind: str) -> str:
 
 
 def compress(kind: str, data: bytes) -> bytes:
-    """Compressed data.
+    """Return compressed data.
 
     Raises:
         MissingExtraError: It needs a package that is not installed.

@@ -131,7 +131,7 @@ def _topic_dict(topic: str, each: Any, *, rates: bool) -> dict[str, Any]:
 
 
 def as_yaml(value: Any, indent: str = "") -> str:
-    """Information as YAML, in the form of ``rosbag info --yaml``."""
+    """Return information as YAML, in the form of ``rosbag info --yaml``."""
     lines = []
     for key, each in value.items():
         if isinstance(each, list):
@@ -151,7 +151,7 @@ def _scalar(key: str, value: Any) -> str:
 
 
 def value_of(information: dict[str, Any], key: str) -> str:
-    """One value of the information, such as ``duration`` or ``topics``.
+    """Return one value of the information, such as ``duration`` or ``topics``.
 
     Raises:
         BagError: There is no such key.
@@ -165,7 +165,7 @@ def value_of(information: dict[str, Any], key: str) -> str:
 
 
 def size_text(size: float) -> str:
-    """Bytes in words."""
+    """Return bytes as text."""
     for unit in _SIZES:
         size /= 1024.0
         if size < 1024.0:

@@ -63,7 +63,7 @@ def _copy(reader: BagReader, writer: Any) -> int:
 
 
 def _channel(writer: Any, connection: Connection, schemas: dict[tuple[str, str], int]) -> int:
-    """A channel for a connection, and a schema for its type if that is new."""
+    """Return a channel for a connection, with a schema for its type if that is new."""
     definition = connection.header.get("message_definition", "")
     key = (connection.type, definition)
     if key not in schemas:

@@ -50,7 +50,7 @@ class Streamed:
 
 
 def ensure_index(path: Path) -> None:
-    """Make a bag whole that has no index; what cannot be read of it is cut off.
+    """Repair a bag without an index; unreadable parts are cut off.
 
     Raises:
         BagError: It is no bag.
@@ -63,7 +63,7 @@ def ensure_index(path: Path) -> None:
 
 
 def header_of(message: Any) -> dict[str, str]:
-    """The header of a message's connection."""
+    """Return the header of a message's connection."""
     return {
         "type": message._type,
         "md5sum": message._md5sum,
@@ -72,7 +72,7 @@ def header_of(message: Any) -> dict[str, str]:
 
 
 def raw_header(message: Any) -> dict[str, str]:
-    """The header of a raw message's connection.
+    """Return the header of a raw message's connection.
 
     Raises:
         ValueError: It has not four or five parts.

@@ -23,7 +23,7 @@ Keep = Callable[[str, Any, Time], bool]
 
 
 def keep_of(expression: str) -> Keep:
-    """A function of ``topic``, ``m`` and ``t`` from a Python expression.
+    """Compile a function of ``topic``, ``m`` and ``t`` from a Python expression.
 
     Raises:
         BagError: It is no expression.
@@ -113,7 +113,7 @@ def recompress(path: str, compression: str, *, folder: str = "", force: bool = F
 
 
 def reindex(path: str, *, folder: str = "", force: bool = False) -> tuple[Path, BagScan]:
-    """Make a bag whole that was cut off; the old one is kept as ``NAME.orig.bag``.
+    """Repair a truncated bag; the old one is kept as ``NAME.orig.bag``.
 
     Returns:
         Where the old bag is now, and what was found in it.

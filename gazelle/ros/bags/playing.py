@@ -114,7 +114,7 @@ class Player:
             self._running.set()
 
     def step(self) -> None:
-        """While paused, publish one message."""
+        """Publish one message while paused."""
         self._step.set()
 
     def play(self, stop: threading.Event) -> None:
@@ -134,7 +134,7 @@ class Player:
             stop.wait()
 
     def _first_ns(self) -> int:
-        """When the first message of all bags came; seconds as a float would round it away."""
+        """Return the time of the first message of all bags; seconds as a float would round it."""
         return min(
             chunk.start for bag in self._bags if bag.get_message_count() for chunk in bag.chunks()
         )
@@ -277,23 +277,23 @@ class _Pace:
         self._wall = time.monotonic()
 
     def now(self) -> int:
-        """The bags' time [ns]."""
+        """Return the bags' time [ns]."""
         passed = (time.monotonic() - self._wall) * self._rate
         return self.start + round(passed * records.SECOND)
 
     def left(self, target: int) -> float:
-        """Seconds of wall time until a time of the bags [ns]."""
+        """Return seconds of wall time until a time of the bags [ns]."""
         due = self._wall + (target - self.start) / records.SECOND / self._rate
         return due - time.monotonic()
 
     def hold(self, seconds: float) -> None:
-        """The bags' time stood still for so long."""
+        """Shift the time by a pause of so long."""
         self._wall += seconds
 
     def skip(self, nanoseconds: int) -> None:
-        """The bags' time jumps ahead."""
+        """Advance the bags' time by a jump."""
         self._wall -= nanoseconds / records.SECOND / self._rate
 
     def jump_to(self, target: int) -> None:
-        """It is a certain time of the bags now [ns]."""
+        """Set the bags' time [ns]."""
         self._wall = time.monotonic() - (target - self.start) / records.SECOND / self._rate

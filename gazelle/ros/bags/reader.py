@@ -46,7 +46,7 @@ class BagFile:
         self._chunks: OrderedDict[int, memoryview] = OrderedDict()
 
     def view(self) -> memoryview:
-        """All bytes of the file as it is now."""
+        """Return all bytes of the file as it is now."""
         size = self._file.seek(0, 2)
         if len(self._view) != size:
             self.release()
@@ -56,7 +56,7 @@ class BagFile:
         return self._view
 
     def release(self) -> None:
-        """Let go of the file's bytes."""
+        """Release the file's bytes."""
         self._chunks.clear()
         view, self._view = self._view, memoryview(b"")
         mapped, self._map = self._map, None
@@ -82,7 +82,7 @@ class BagFile:
         chunk.data, chunk.compressed = begin, end - begin
 
     def content(self, chunk: Chunk) -> memoryview:
-        """The records of a chunk.
+        """Return the records of a chunk.
 
         Raises:
             BagFormatError: It is damaged.
@@ -102,7 +102,7 @@ class BagFile:
         return found
 
     def entries(self, chunk: Chunk) -> dict[int, Any]:
-        """Seconds, nanoseconds and position of each message, shape (n, 3), by connection.
+        """Return seconds, nanoseconds and position of each message, shape (n, 3), by connection.
 
         Raises:
             BagFormatError: The chunk's index is damaged.
@@ -164,7 +164,7 @@ class BagReader:
         start: int | None = None,
         end: int | None = None,
     ) -> Iterator[RawBagMessage]:
-        """Messages in the order of time; see `messages_of`."""
+        """Yield messages in the order of time; see `messages_of`."""
         return messages_of(self.file, self.index, connections, start, end)
 
     def _read_index(self, *, allow_unindexed: bool) -> BagIndex:
@@ -204,7 +204,7 @@ def check_magic(view: memoryview) -> int:
 
 
 def _read_tail(view: memoryview, header: records.Fields) -> BagIndex:
-    """Connections and chunks from the end of the file."""
+    """Read connections and chunks from the end of the file."""
     index, position = BagIndex(), header.u64("index_pos")
     for _ in range(header.u32("conn_count")):
         fields, begin, end = records.read_record(view, position)
@@ -271,7 +271,7 @@ def messages_of(
     start: int | None = None,
     end: int | None = None,
 ) -> Iterator[RawBagMessage]:
-    """Messages in the order of time, and in that of the file where times are equal.
+    """Yield messages in the order of time, and in that of the file where times are equal.
 
     Args:
         file: The bag's bytes.

@@ -70,7 +70,7 @@ class RecordOptions:
 
 
 def duration_of(text: str) -> float:
-    """Seconds of a duration like ``30``, ``5m`` or ``2h``.
+    """Return seconds of a duration like ``30``, ``5m`` or ``2h``.
 
     Raises:
         BagError: It is none.
@@ -225,7 +225,7 @@ class BagRecorder:
             self._finished(topic)
 
     def _fail(self, error: OSError) -> None:
-        """End; a full disk would fail for each message that comes."""
+        """Stop on an error; a full disk would fail for each message that comes."""
         self._failed = self._failed or error
         self.done.set()
 
@@ -267,7 +267,7 @@ class BagRecorder:
             self._next()
 
     def _next(self) -> None:
-        """A limit is reached: begin another file, or end."""
+        """Start another file at a limit, or stop."""
         if not self._options.split:
             self.done.set()
             self._close()
@@ -330,7 +330,7 @@ class BagRecorder:
             self.files.popleft().unlink(missing_ok=True)
 
     def _rescue(self, output: _Output, active: Path) -> bool:
-        """Make a whole bag of what was written; returns whether there was room for its index."""
+        """Write the index of a bag after an error; returns whether there was room for it."""
         self._path_now = output.path
         with contextlib.suppress(OSError):
             output.stream.close()
@@ -356,7 +356,7 @@ def _pattern(text: str) -> re.Pattern[str]:
 
 
 def check(options: RecordOptions) -> None:
-    """Make sure that something is to be recorded.
+    """Check that something is to be recorded.
 
     Raises:
         BagError: Nothing is, or the limits make no sense.

@@ -80,7 +80,7 @@ class BagIndex:
 
 
 def pack_header(fields: Mapping[str, bytes]) -> bytes:
-    """A header with its length before it."""
+    """Pack a header with its length before it."""
     parts = []
     for name, value in fields.items():
         each = name.encode() + b"=" + value
@@ -90,7 +90,7 @@ def pack_header(fields: Mapping[str, bytes]) -> bytes:
 
 
 def pack_record(op: int, fields: Mapping[str, bytes], data: bytes) -> bytes:
-    """A whole record."""
+    """Pack a whole record."""
     return pack_header({"op": bytes([op]), **fields}) + U32.pack(len(data)) + data
 
 
@@ -104,12 +104,12 @@ def pack_message(connection: int, nanoseconds: int, data: Buffer) -> bytes:
 
 
 def pack_time(nanoseconds: int) -> bytes:
-    """A time as seconds and nanoseconds."""
+    """Pack a time as seconds and nanoseconds."""
     return TIME.pack(*divmod(nanoseconds, SECOND))
 
 
 def pack_connection(connection: Connection) -> bytes:
-    """A connection's record."""
+    """Pack a connection's record."""
     fields = {key: value.encode() for key, value in connection.header.items()}
     fields.setdefault("topic", connection.topic.encode())
     inner = pack_header(fields)[4:]
@@ -128,7 +128,7 @@ class Fields(dict[str, bytes]):
         return value[0] if len(value) == 1 else -1
 
     def u32(self, name: str) -> int:
-        """A 32-bit number.
+        """Return a 32-bit number.
 
         Raises:
             BagFormatError: There is none.
@@ -136,7 +136,7 @@ class Fields(dict[str, bytes]):
         return self._number(name, U32)
 
     def u64(self, name: str) -> int:
-        """A 64-bit number.
+        """Return a 64-bit number.
 
         Raises:
             BagFormatError: There is none.
@@ -144,7 +144,7 @@ class Fields(dict[str, bytes]):
         return self._number(name, U64)
 
     def time(self, name: str) -> int:
-        """A time in nanoseconds.
+        """Return a time in nanoseconds.
 
         Raises:
             BagFormatError: There is none.
@@ -156,7 +156,7 @@ class Fields(dict[str, bytes]):
         return int(seconds) * SECOND + int(nanoseconds)
 
     def text(self, name: str) -> str:
-        """A text; empty if there is none."""
+        """Return a text; empty if there is none."""
         return self.get(name, b"").decode("utf-8", errors="replace")
 
     def _number(self, name: str, form: struct.Struct) -> int:
@@ -167,7 +167,7 @@ class Fields(dict[str, bytes]):
 
 
 def unpack_fields(data: Buffer) -> Fields:
-    """The fields of a header, or of a connection's data.
+    """Return the fields of a header, or of a connection's data.
 
     Raises:
         BagFormatError: A field is longer than the header, or is none.
@@ -189,7 +189,7 @@ def unpack_fields(data: Buffer) -> Fields:
 
 
 def read_record(data: Buffer, position: int) -> tuple[Fields, int, int]:
-    """A record in a buffer: its header, and where its data begin and end.
+    """Read a record in a buffer: its header, and the range of its data.
 
     Raises:
         BagFormatError: It is malformed, or goes beyond the end of the buffer.
@@ -234,7 +234,7 @@ def message_at(data: Buffer, position: int) -> tuple[int, int]:
 
 
 def connection_of(fields: Fields, data: Buffer) -> Connection:
-    """The connection that a record describes.
+    """Return the connection that a record describes.
 
     Raises:
         BagFormatError: It is malformed.

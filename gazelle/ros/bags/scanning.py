@@ -23,7 +23,7 @@ class BagScan:
 
 
 def scan(view: memoryview, position: int) -> BagScan:
-    """All connections and messages of a bag.
+    """Return all connections and messages of a bag.
 
     Args:
         view: The bytes of the file.
@@ -40,7 +40,7 @@ class _Scanner:
         self._open: Chunk | None = None
 
     def run(self, position: int) -> BagScan:
-        """Go through the records until the end, or until one is damaged."""
+        """Scan the records until the end, or until one is damaged."""
         end = len(self._view)
         while position < end:
             try:
@@ -81,7 +81,7 @@ class _Scanner:
             self._close_chunk()
 
     def _content(self, content: memoryview) -> None:
-        """The records of a chunk."""
+        """Scan the records of a chunk."""
         place = 0
         while place < len(content):
             inner, first, after = records.read_record(content, place)
@@ -102,7 +102,7 @@ class _Scanner:
                 self._chunk(position, fields, after + 4, len(self._view))
 
     def _loose_message(self, fields: Fields, position: int, end: int) -> None:
-        """A message of a chunk that was never finished."""
+        """Add a message of a chunk that was never finished."""
         if self._open is None:
             self._open = Chunk(position, 0, 0, {}, compression.NONE, data=position)
         chunk = self._open

@@ -65,7 +65,7 @@ class BagWriter:
         return self._file.tell() + self._size
 
     def connect(self, topic: str, header: Mapping[str, str]) -> Connection:
-        """A new connection."""
+        """Add a connection."""
         connection = Connection(self._next_id, topic, dict(header))
         self._next_id += 1
         self.index.connections[connection.id] = connection
@@ -73,7 +73,7 @@ class BagWriter:
         return connection
 
     def write(self, connection: Connection, nanoseconds: int, data: Buffer) -> None:
-        """A message that came at a time [ns]."""
+        """Write a message that came at a time [ns]."""
         if not self._rows:
             self._start = self._end = nanoseconds
         elif nanoseconds < self._start:
@@ -93,7 +93,7 @@ class BagWriter:
         self._size += len(data)
 
     def flush(self) -> None:
-        """Complete the chunk and hand it to the system."""
+        """Complete the chunk and flush it to the system."""
         if self._parts:
             self._write_chunk()
         self._file.flush()
@@ -167,7 +167,7 @@ def check_compression(kind: str) -> str:
 
 
 def open_new(path: Path, *, compression: str, chunk_bytes: int) -> tuple[IO[bytes], BagWriter]:
-    """Begin a bag, in the place of a file that is there.
+    """Create a bag, replacing an existing file.
 
     Raises:
         OSError: There is no room for its header; no file is left.
@@ -186,7 +186,7 @@ def open_new(path: Path, *, compression: str, chunk_bytes: int) -> tuple[IO[byte
 def open_for_appending(
     path: Path, *, compression: str, chunk_bytes: int
 ) -> tuple[IO[bytes], BagWriter]:
-    """A bag's file, cut off where its index began, and a writer that goes on there.
+    """Open a bag's file, cut off where its index began, and a writer that continues there.
 
     Raises:
         BagError: It is no bag, or has no index.

@@ -32,7 +32,7 @@ class NodeArguments:
     """Private parameters, as YAML."""
 
     def start(self, *, rosout: bool = True, **keywords: Any) -> Node:
-        """The node, as soon as there is a master, with its private parameters set.
+        """Start the node, as soon as there is a master, with its private parameters set.
 
         Args:
             rosout: Publish this process's warnings and log on ``/rosout``.
@@ -53,7 +53,7 @@ class NodeArguments:
         return node
 
     def _join(self, **keywords: Any) -> Node:
-        """The node; nodes of ROS wait for a master that is not there yet, however long."""
+        """Return the node; nodes of ROS wait for a master however long."""
         begin = time.monotonic()
         said = False
         while True:
@@ -71,7 +71,7 @@ class NodeArguments:
 def parse_arguments(
     arguments: Sequence[str], name: str, *, anonymous: bool = False
 ) -> NodeArguments:
-    """Take a command line apart.
+    """Parse a command line.
 
     Args:
         arguments: Without the program.

@@ -19,7 +19,7 @@ def record(arguments: Sequence[str]) -> int:
 
 
 def play(arguments: Sequence[str]) -> int:
-    """Play; returns the exit code."""
+    """Play bags; returns the exit code."""
     found = parse_arguments(arguments, "play", anonymous=True)
     parsed = _parsed("play", commandline.configure_play, found.plain)
     return commandline.play(parsed, found.options)

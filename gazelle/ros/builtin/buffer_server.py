@@ -13,7 +13,7 @@ _FREQUENCY_HZ = 100.0
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Answer until the node ends; returns the exit code."""
+    """Serve until the node ends; returns the exit code."""
     sys.argv = ["buffer_server", *arguments]
     rospy.init_node("tf_buffer")
     frequency = float(rospy.get_param("~check_frequency", _FREQUENCY_HZ))

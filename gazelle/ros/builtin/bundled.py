@@ -25,14 +25,14 @@ from gazelle.ros.builtin.package import BuiltinPackage
 
 @functools.cache
 def folders() -> dict[str, Path]:
-    """The folders of the packages by name."""
+    """Return the folders of the packages by name."""
     found = sorted(assets.root().glob("*/package.xml"))
     return {manifest.parent.name: manifest.parent for manifest in found}
 
 
 @functools.cache
 def package(name: str) -> BuiltinPackage | None:
-    """The package of a name, or None."""
+    """Return the package of a name, or None."""
     folder = folders().get(name)
     if folder is None:
         return None

@@ -12,17 +12,17 @@ from gazelle.ros.tools.watching import NODE_NAME
 
 
 def topic(arguments: Sequence[str]) -> int:
-    """Do what rostopic does; returns the exit code."""
+    """Run rostopic's command line; returns the exit code."""
     return run_command("topic", arguments)
 
 
 def service(arguments: Sequence[str]) -> int:
-    """Do what rosservice does; returns the exit code."""
+    """Run rosservice's command line; returns the exit code."""
     return run_command("service", arguments)
 
 
 def param(arguments: Sequence[str]) -> int:
-    """Do what rosparam does; returns the exit code."""
+    """Run rosparam's command line; returns the exit code."""
     return run_command("param", arguments)
 
 

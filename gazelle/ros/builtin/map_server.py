@@ -36,7 +36,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def read_map(path: str) -> OccupancyMap:
-    """The map of a YAML file.
+    """Read the map of a YAML file.
 
     Raises:
         RosError: The file or its picture cannot be read, or it lacks a key.
@@ -48,7 +48,7 @@ def read_map(path: str) -> OccupancyMap:
 
 
 def _picture_alone(image: str, resolution: str) -> OccupancyMap:
-    """The map of the deprecated command line: a picture and the side of a pixel [m]."""
+    """Return the map of the deprecated command line: a picture and the side of a pixel [m]."""
     try:
         side = float(resolution)
         settings = MapSettings(image, side, (0.0, 0.0, 0.0), False, *_LIMITS)
@@ -85,7 +85,7 @@ class MapService:
         return message
 
     def _change(self, request: Any) -> Any:
-        """Take another map; what cannot be read changes nothing."""
+        """Load another map; an unreadable one changes nothing."""
         answer: Any = self._results()
         try:
             grid = load_map(request.map_url)
@@ -107,7 +107,7 @@ class MapService:
 
 
 def grid_message(grid: OccupancyMap, frame: str, now: int) -> Any:
-    """A ``nav_msgs/OccupancyGrid`` of a map at a time [ns]."""
+    """Return a ``nav_msgs/OccupancyGrid`` of a map at a time [ns]."""
     message: Any = load_message("nav_msgs/OccupancyGrid")()
     stamp = Time(nsecs=now)
     message.header.stamp, message.header.frame_id = stamp, frame
@@ -122,7 +122,7 @@ def grid_message(grid: OccupancyMap, frame: str, now: int) -> Any:
 
 
 def grid_of_message(message: Any) -> OccupancyMap:
-    """The map of a ``nav_msgs/OccupancyGrid``.
+    """Return the map of a ``nav_msgs/OccupancyGrid``.
 
     Raises:
         RosError: There are not as many cells as its size says.

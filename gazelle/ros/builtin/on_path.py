@@ -46,7 +46,7 @@ with contextlib.suppress(ImportError):
 
 
 def offer(environment: MutableMapping[str, str] | None = None) -> Path | None:
-    """Let what is started with an environment find ROS's commands, and Python find its modules.
+    """Add ROS's commands and Python's modules to an environment's paths.
 
     An installed ROS comes after them. Where there is no place to write, nothing is changed.
 
@@ -70,7 +70,7 @@ def _put_first(env: MutableMapping[str, str], name: str, folder: Path) -> None:
 
 
 def _files() -> dict[str, str]:
-    """From the name of each file to what is in it."""
+    """Return the contents of files by name."""
     python = _quoted(sys.executable)
     files = {name: _PYTHON.format(python=python) for name in _PYTHONS}
     for name, words in tool_names.COMMANDS.items():
@@ -88,14 +88,14 @@ def _program(name: str, module: str, words: tuple[str, ...]) -> str:
 
 
 def _quoted(path: str) -> str:
-    """A path as one word of the shell; double quotes, as single ones are Python's here."""
+    """Return a path as one word of the shell; double quotes, as single ones are Python's here."""
     for special in '\\"$`':
         path = path.replace(special, f"\\{special}")
     return f'"{path}"'
 
 
 def _made(files: Mapping[str, str]) -> Path | None:
-    """A folder with these files, named after what is in them; None if it cannot be written."""
+    """Return a folder with these files, named after their contents; None if it is not writable."""
     key = hashlib.sha256(repr(sorted(files.items())).encode()).hexdigest()[:16]
     base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "gazelle" / "programs"
     folder = base / key

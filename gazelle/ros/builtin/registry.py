@@ -107,12 +107,12 @@ def register(package: BuiltinPackage) -> None:
 
 
 def packages() -> list[str]:
-    """Names of all built-in packages."""
+    """Return names of all built-in packages."""
     return sorted({*_OWN, *bundled.folders(), *_registered, *entry_points_of_others(GROUP)})
 
 
 def package(name: str) -> BuiltinPackage | None:
-    """The built-in package of a name, or None.
+    """Return the built-in package of a name, or None.
 
     Raises:
         RosError: An entry point of that name does not lead to a package.
@@ -132,7 +132,7 @@ def package(name: str) -> BuiltinPackage | None:
 
 
 def stand_in(name: str) -> Path | None:
-    """A folder with the manifest of a package whose work is done here, or None.
+    """Return a folder with the manifest of a package whose nodes are built in, or None.
 
     ``rospkg`` and ``$(find)`` find such packages by it, as they do where ROS is installed.
     """
@@ -142,7 +142,7 @@ def stand_in(name: str) -> Path | None:
 
 
 def main_of(name: str, kind: str) -> Main:
-    """The function that runs a built-in node.
+    """Return the function that runs a built-in node.
 
     Raises:
         RosError: There is no such node.

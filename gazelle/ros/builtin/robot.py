@@ -29,7 +29,7 @@ def joint_main(arguments: Sequence[str]) -> int:
 
 
 def described_joints(node: Node) -> JointTree:
-    """The joints of the robot in the nearest parameter ``robot_description``.
+    """Return the joints of the robot in the nearest parameter ``robot_description``.
 
     Raises:
         RosError: There is none, or it is malformed.

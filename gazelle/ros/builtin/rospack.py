@@ -12,7 +12,7 @@ from gazelle.ros.messages.search import find_packages
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Do what rospack does for ``find``, ``list`` and ``list-names``; returns the exit code.
+    """Run rospack's ``find``, ``list`` and ``list-names``; returns the exit code.
 
     Raises:
         RosError: There is no such package or command.
@@ -35,7 +35,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _all(packages: Packages) -> dict[str, str]:
-    """From the name of each package that has a folder to the folder."""
+    """Return the folder of each package that has one, by name."""
     found = {name: str(folder) for name, folder in find_packages(packages.path).items()}
     for name in registry.packages():
         known = registry.package(name)

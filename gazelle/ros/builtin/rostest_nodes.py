@@ -53,7 +53,7 @@ def _run(name: str, test: type[unittest.TestCase], arguments: Sequence[str]) -> 
 
 class _Test(unittest.TestCase):
     def param(self, name: str, default: Any = _REQUIRED) -> Any:
-        """A private parameter."""
+        """Return a private parameter."""
         value = rospy.get_param(f"~{name}", None)
         if value is None:
             if default is _REQUIRED:
@@ -62,7 +62,7 @@ class _Test(unittest.TestCase):
         return value
 
     def entries(self, name: str) -> list[dict[str, Any]]:
-        """A parameter that is a list of dicts, each with a name."""
+        """Return a parameter that is a list of dicts, each with a name."""
         found: list[dict[str, Any]] = self.param(name, [])
         for each in found:
             if "name" not in each:
@@ -84,7 +84,7 @@ class HzTest(_Test):
     """Compares the rate of a topic with the wanted one."""
 
     def test_hz(self) -> None:
-        """The rate is ``~hz``, give or take ``~hzerror``."""
+        """Test that the rate is ``~hz``, give or take ``~hzerror``."""
         rate, duration = float(self.param("hz")), float(self.param("test_duration"))
         margin = float(self.param("hzerror")) if rate else 0.0
         wall = bool(self.param("wall_clock", default=False))
@@ -125,7 +125,7 @@ class ParamTest(_Test):
     """Waits for a parameter."""
 
     def test_param(self) -> None:
-        """The parameter is set, and to the wanted value if there is one."""
+        """Test that the parameter is set, and to the wanted value if there is one."""
         name, wanted = self.param("param_name_target"), self.param("param_value_expected", None)
         there = _wait(lambda: rospy.has_param(name), float(self.param("wait_time", 20)))
         self.assertTrue(there, f"the parameter {name} is not set")
@@ -137,7 +137,7 @@ class PublishTest(_Test):
     """Waits for messages."""
 
     def test_publish(self) -> None:
-        """A message comes on every topic, but for those that are marked as negative."""
+        """Test that a message comes on every topic, except those that are marked as negative."""
         topics = self.entries("topics")
         self.assertTrue(topics, "no topic is named in ~topics")
         heard: set[str] = set()
@@ -155,11 +155,11 @@ class AdvertiseTest(_Test):
     """Waits for topics and services."""
 
     def test_advertise_topics(self) -> None:
-        """All topics of ``~topics`` are advertised."""
+        """Test that all topics of ``~topics`` are advertised."""
         self._all(self.entries("topics"), lambda: dict(rospy.get_published_topics()), "Topic")
 
     def test_advertise_services(self) -> None:
-        """All services of ``~services`` are advertised."""
+        """Test that all services of ``~services`` are advertised."""
         from gazelle.ros.compat.rosservice import get_service_list, get_service_type
 
         def known() -> dict[str, Any]:

@@ -40,7 +40,7 @@ def _show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    """Ours as one line, as rospy's are; others as Python shows them."""
+    """Show our warnings as one line, as rospy's are; others as Python shows them."""
     text = f"[WARN] {message}\n"
     if not issubclass(category, GazelleWarning):
         text = warnings.formatwarning(message, category, filename, lineno, line)

@@ -62,7 +62,7 @@ def _repeat(node: Node, transform: Any, seconds: float) -> None:
 
 
 def _transform(words: Sequence[str], usage: str) -> Any:
-    """The message of a command line.
+    """Return the message of a command line.
 
     Raises:
         RosError: The command line is wrong.
@@ -86,7 +86,9 @@ def _transform(words: Sequence[str], usage: str) -> Any:
 
 
 def from_angles(yaw: float, pitch: float, roll: float) -> Quaternion:
-    """The quaternion (x, y, z, w) of turns about fixed axes: roll about x, pitch y, yaw z [rad].
+    """Return the quaternion (x, y, z, w) of roll about x, pitch about y, yaw about z [rad].
+
+    The axes are fixed.
 
     Formula: product of the three quaternions, as in REP 103's convention.
     """

@@ -36,7 +36,7 @@ TERMINALS = (
 
 
 def main(words: Sequence[str]) -> int:
-    """Do what a terminal is asked for; returns the exit code, if this process goes on at all.
+    """Run a terminal's command line; returns the exit code, if this process continues at all.
 
     Args:
         words: The terminal's name, and its command line; `IN_PLACE` before them lets terminals
@@ -68,7 +68,7 @@ def has_display(environment: Mapping[str, str]) -> bool:
 
 
 def real_terminal(name: str, environment: Mapping[str, str]) -> str | None:
-    """The terminal itself, if it is installed and can show its window."""
+    """Return the terminal itself, if it is installed and can show its window."""
     if not has_display(environment):
         return None
     for folder in environment.get("PATH", os.defpath).split(os.pathsep):
@@ -88,7 +88,7 @@ def _is_ours(program: str) -> bool:
 
 
 def programs(name: str, arguments: Sequence[str]) -> list[list[str]]:
-    """The command lines that a terminal's command line holds."""
+    """Return the command lines inside a terminal's command line."""
     found: list[list[str]] = []
     rest = list(arguments)
     while rest:
@@ -103,14 +103,17 @@ def programs(name: str, arguments: Sequence[str]) -> list[list[str]]:
 
 
 def _command(words: list[str]) -> list[str]:
-    """A command line; one word that is no program is a text for a shell, as terminals take it."""
+    """Return a command line.
+
+    One word that is no program is a text for a shell, as in terminals.
+    """
     if len(words) == 1 and shutil.which(words[0]) is None:
         return ["/bin/sh", "-c", words[0]]
     return words
 
 
 def _started(name: str, why: str, command: list[str]) -> tuple[list[str], Path]:
-    """A command and its log; one line says so."""
+    """Return a command and its log; one line reports them."""
     folder = os.environ.get("ROS_LOG_DIR") or f"{os.environ.get('ROS_HOME') or '~/.ros'}/log"
     base = expanded(folder)
     base.mkdir(parents=True, exist_ok=True)

@@ -113,6 +113,6 @@ def _words(values: deque[float]) -> str:
 
 
 def _rate(times: deque[float]) -> float:
-    """Of the wall [Hz]; 0 for what came once."""
+    """Return the rate in wall time [Hz]; 0 for a single event."""
     length = times[-1] - times[0]
     return (len(times) - 1) / length if length > 0.0 else 0.0

@@ -114,7 +114,7 @@ def _connected(buffer: Any, source: str, target: str) -> bool:
 
 
 def _wait_for(buffer: Any, source: str, target: str) -> None:
-    """Give the first transforms time to come: of the wall, as the world's may stand still."""
+    """Wait for the first transforms in wall time, as the world's may stand still."""
     for _ in range(20):
         if _connected(buffer, source, target) or process.shutdown.wait(_PATIENCE_S / 20):
             return

@@ -63,7 +63,7 @@ def relay(arguments: Sequence[str]) -> int:
 
 
 def throttle(arguments: Sequence[str]) -> int:
-    """Pass on so many messages, or bytes, a second at most; returns the exit code."""
+    """Forward so many messages, or bytes, a second at most; returns the exit code."""
     usage = (
         "throttle messages IN_TOPIC MESSAGES_PER_SECOND [OUT_TOPIC], "
         "or throttle bytes IN_TOPIC BYTES_PER_SECOND WINDOW [OUT_TOPIC]"
@@ -81,7 +81,7 @@ def throttle(arguments: Sequence[str]) -> int:
 
 
 def drop(arguments: Sequence[str]) -> int:
-    """Leave out X of every Y messages; returns the exit code."""
+    """Drop X of every Y messages; returns the exit code."""
     usage = "drop IN_TOPIC X Y [OUT_TOPIC]"
     found = parse_arguments(arguments, "drop", anonymous=True)
     if len(found.plain) < 3:
@@ -168,7 +168,7 @@ class _ByteGate:
 
 
 def mux(arguments: Sequence[str]) -> int:
-    """Pass on one of several topics, chosen by a service; returns the exit code."""
+    """Forward one of several topics, chosen by a service; returns the exit code."""
     found = parse_arguments(arguments, "mux")
     if len(found.plain) < 2:
         raise RosError(

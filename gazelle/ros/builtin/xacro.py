@@ -52,7 +52,7 @@ def expand(file: str | Path, arguments: Mapping[str, str]) -> str:
 
 @contextlib.contextmanager
 def as_in_ros1() -> Iterator[Any]:
-    """Let the package find packages as ROS 1 does, and have the names of ROS 1; yields the package."""
+    """Adapt the package to ROS 1's packages and names while it lasts; yields the package."""
     try:
         xacro = xacro_engine.engine()
     except ImportError:

@@ -13,7 +13,7 @@ SUFFIX = "Config"
 
 
 def cfg_files(package: str) -> dict[str, Path]:
-    """The ``.cfg`` files of a package on ROS_PACKAGE_PATH, by the names of their modules."""
+    """Return the ``.cfg`` files of a package on ROS_PACKAGE_PATH, by their modules' names."""
     folder = find_packages().get(package)
     if folder is None:
         return {}
@@ -38,7 +38,7 @@ class CfgLoader(importlib.abc.Loader):
     """Loads ``PACKAGE.cfg`` and the modules in it."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
-        """An empty package, or the module of a ``.cfg`` file.
+        """Return an empty package, or the module of a ``.cfg`` file.
 
         Raises:
             ModuleNotFoundError: There is no such file.
@@ -52,4 +52,4 @@ class CfgLoader(importlib.abc.Loader):
         return load_cfg(package, member[0])
 
     def exec_module(self, module: ModuleType) -> None:
-        """Nothing: the module is made whole."""
+        """Do nothing: the module is complete already."""

@@ -11,7 +11,7 @@ from gazelle.ros.builtin.commands import run_command
 
 
 def run(command: str, arguments: Sequence[str] | None = None) -> None:
-    """Do what a tool does, in a process of its own; its words go to this one's ``sys.stdout``.
+    """Run a tool in a process of its own; its output goes to this one's ``sys.stdout``.
 
     Started by roslaunch as a node, this process becomes the tool, so that signals reach it.
 

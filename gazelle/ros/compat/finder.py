@@ -35,7 +35,7 @@ _KINDS = ("msg", "srv")
 
 @cache
 def own_modules() -> frozenset[str]:
-    """Names of the top-level modules of ROS that this package has itself."""
+    """Return names of the top-level modules of ROS that this package has itself."""
     folder = Path(__file__).parent
     private = {
         "__init__",
@@ -57,7 +57,7 @@ def own_modules() -> frozenset[str]:
 
 @cache
 def substitutes() -> dict[str, str]:
-    """The top-level modules that stand in for a user's own, where there are none.
+    """Return the top-level modules that replace a user's own, if those are missing.
 
     Returns:
         By name, the package that they are in.
@@ -82,13 +82,16 @@ class AliasLoader(importlib.abc.Loader):
         self._home = home
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
-        """The module itself, so that there is one of it, whatever it is called."""
+        """Return the module itself, so that there is only one under any name."""
         module = importlib.import_module(f"{self._home}.{spec.name}")
         self._spec = module.__spec__
         return module
 
     def exec_module(self, module: ModuleType) -> None:
-        """Undo what the import system did to the module; ``from actionlib import msg`` finds messages."""
+        """Undo the import system's changes of the module.
+
+        ``from actionlib import msg`` finds messages.
+        """
         name = module.__spec__.name if module.__spec__ is not None else ""
         module.__spec__ = self._spec
         kinds = {kind for kind in _KINDS if has_definitions(name, kind)}
@@ -113,7 +116,7 @@ class CopyLoader(importlib.abc.Loader):
 
 
 def _importing(package: str, kinds: Collection[str]) -> Callable[[str], ModuleType]:
-    """A package's ``__getattr__``: its definitions are no files beside it, as Python thinks."""
+    """Return a package's ``__getattr__``, as its definitions are no files beside it."""
 
     def find(name: str) -> ModuleType:
         if name not in kinds:
@@ -132,7 +135,7 @@ class RosFinder(importlib.abc.MetaPathFinder):
         path: Sequence[str] | None,
         target: ModuleType | None = None,
     ) -> ModuleSpec | None:
-        """The spec of a module; None if it is not one of ROS."""
+        """Return the spec of a module; None if it is not one of ROS."""
         del target
         package, _, rest = fullname.partition(".")
         kind, _, member = rest.partition(".")
@@ -154,13 +157,13 @@ class RosFinder(importlib.abc.MetaPathFinder):
 
     @staticmethod
     def _elsewhere(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
-        """The spec of a module in a package that lies in another folder than its package says."""
+        """Return the spec of a module of a package, if the module lies in another folder."""
         named = workspace_code.named_spec(name)
         return named if named is not None and PathFinder.find_spec(name, path) is None else None
 
     @staticmethod
     def _package(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
-        """A package's own Python code, the user's first; an empty module where it has none.
+        """Return a package's own Python code, the user's first; an empty module without any.
 
         Gazelle has the definitions of many packages, but the code of few: that of ``openai_ros``,
         say, is the user's.
@@ -183,7 +186,7 @@ class RosFinder(importlib.abc.MetaPathFinder):
 
 
 def _below_a_substitute(package: str, fullname: str) -> ModuleSpec | None:
-    """The spec of a module in a package, if that package is a substitute and no code of the user's."""
+    """Return the spec of a module in a substitute package, unless the user has the package."""
     home = substitutes().get(package)
     parent = sys.modules.get(package)
     if home is None or getattr(parent, "__name__", "") != f"{home}.{package}":
@@ -223,14 +226,14 @@ class Installed:
     """Result of `install`: at the end of a ``with`` block, the installation is undone."""
 
     def __enter__(self) -> None:
-        """Nothing is left to do."""
+        """Do nothing: it is installed already."""
 
     def __exit__(self, *error: object) -> None:
         uninstall()
 
 
 def install() -> Installed:
-    """Make ``import rospy`` and its like import Gazelle's, whatever else is installed.
+    """Install the import hook: ``import rospy`` and its like import Gazelle's.
 
     It may be called more than once; as many calls of `uninstall` undo it. As a context manager it
     undoes itself.
@@ -246,7 +249,7 @@ def install() -> Installed:
 
 
 def uninstall() -> None:
-    """Undo `install`; modules that were imported stay with those who have them."""
+    """Undo `install`; modules that were imported stay."""
     global _uses  # noqa: PLW0603  # there is one import system
     if not _uses:
         return

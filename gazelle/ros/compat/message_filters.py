@@ -30,7 +30,7 @@ class SimpleFilter:
         return number
 
     def signalMessage(self, *msg: Any) -> None:  # noqa: N802
-        """Pass messages on."""
+        """Send messages to the callbacks."""
         for callback, arguments in list(self.callbacks.values()):
             callback(*(msg + arguments))
 
@@ -45,11 +45,11 @@ class Subscriber(SimpleFilter):
         self.sub = TopicSubscriber(*args, **kwargs)
 
     def callback(self, msg: Any) -> None:
-        """Pass a message on."""
+        """Forward a message."""
         self.signalMessage(msg)
 
     def getTopic(self) -> str:  # noqa: N802
-        """The name of the topic."""
+        """Return the name of the topic."""
         return str(self.topic)
 
     def unregister(self) -> None:
@@ -57,14 +57,14 @@ class Subscriber(SimpleFilter):
         self.sub.unregister()
 
     def __getattr__(self, key: str) -> Any:
-        """The name, type and so on of the subscriber."""
+        """Return the name, type and so on of the subscriber."""
         if key == "sub":
             raise AttributeError(key)
         return getattr(self.sub, key)
 
 
 def _stamp(message: Any, *, headerless: bool) -> Time | None:
-    """The time of a message: its header's, or if that is allowed, now."""
+    """Return the time of a message: its header's, or if that is allowed, now."""
     if hasattr(message, "header") and hasattr(message.header, "stamp"):
         stamp: Time = message.header.stamp
         return stamp
@@ -97,11 +97,11 @@ class Cache(SimpleFilter):
         self.connectInput(f)
 
     def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802
-        """Keep the messages of a filter, too."""
+        """Add a filter whose messages are kept."""
         self.incoming_connection = f.registerCallback(self.add)
 
     def add(self, msg: Any) -> None:
-        """Keep a message, and pass it on."""
+        """Store a message, and forward it."""
         stamp = _stamp(msg, headerless=self.allow_headerless)
         if stamp is None:
             return
@@ -115,29 +115,29 @@ class Cache(SimpleFilter):
         self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802
-        """The messages from one time to another, both included."""
+        """Return the messages from one time to another, both included."""
         return [m for t, m in self._pairs() if from_stamp <= t <= to_stamp]
 
     def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802
-        """The oldest message not older than a time; None if there is none."""
+        """Return the oldest message not older than a time; None if there is none."""
         return next((m for t, m in self._pairs() if t >= stamp), None)
 
     def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802
-        """The latest message not later than a time; None if there is none."""
+        """Return the latest message not later than a time; None if there is none."""
         return next((m for t, m in reversed(self._pairs()) if t <= stamp), None)
 
     def getLastestTime(self) -> Time | None:  # noqa: N802
-        """The time of the latest message; None if there is none."""
+        """Return the time of the latest message; None if there is none."""
         return self.cache_times[-1] if self.cache_times else None
 
     getLatestTime = getLastestTime  # noqa: N815
 
     def getOldestTime(self) -> Time | None:  # noqa: N802
-        """The time of the oldest message; None if there is none."""
+        """Return the time of the oldest message; None if there is none."""
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:  # noqa: N802
-        """The latest message; None if there is none."""
+        """Return the latest message; None if there is none."""
         return self.cache_msgs[-1] if self.cache_msgs else None
 
     def _pairs(self) -> list[tuple[Time, Any]]:
@@ -175,7 +175,7 @@ class TimeSynchronizer(SimpleFilter):
         ]
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
-        """Take a message of a filter."""
+        """Add a message of a filter."""
         del my_queue_index
         with self.lock:
             if self.enable_reset:
@@ -186,7 +186,7 @@ class TimeSynchronizer(SimpleFilter):
                 self.signalMessage(*(queue.pop(stamp) for queue in self.queues))
 
     def _forget_after_jump(self) -> bool:
-        """Forget what waits if simulated time jumped back; whether it did."""
+        """Discard waiting messages if simulated time jumped back; returns whether it did."""
         if is_wallclock():
             return False
         now = get_rostime()
@@ -227,7 +227,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
-        """Take a message of a filter; the first after time jumped back is left out."""
+        """Add a message of a filter; the first after time jumped back is left out."""
         del my_queue_index
         stamp = _stamp(msg, headerless=self.allow_headerless)
         if stamp is None:
@@ -248,7 +248,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
                     return
 
     def _near(self, queue: Queue, stamp: Time) -> list[Time]:
-        """The times in a queue that are close to another, the closest first."""
+        """Return the times in a queue that are close to another, the closest first."""
         gaps = ((abs(each - stamp), each) for each in queue)
         return [each for _, each in sorted(pair for pair in gaps if pair[0] <= self.slop)]
 

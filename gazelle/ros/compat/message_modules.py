@@ -27,7 +27,7 @@ def _class_names(package: str, kind: str) -> list[str]:
 
 
 def _load(package: str, kind: str, name: str) -> Any:
-    """A class by its name in a module.
+    """Return a class by its name in a module.
 
     Raises:
         AttributeError: There is none.
@@ -69,7 +69,7 @@ class MessageLoader(importlib.abc.Loader):
     """Loads ``PACKAGE.msg``, ``PACKAGE.srv``, and the module of one class in them."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
-        """An empty module, or one for a class.
+        """Return an empty module, or one for a class.
 
         Raises:
             ModuleNotFoundError: There is no such class.
@@ -91,15 +91,15 @@ class MessageLoader(importlib.abc.Loader):
             setattr(module, each, _load(package, kind, each))
 
     def exec_module(self, module: ModuleType) -> None:
-        """Nothing: classes are made when they are asked for."""
+        """Do nothing: classes are made on demand."""
 
 
 class PackageLoader(importlib.abc.Loader):
     """Loads a package that has definitions and no Python code."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
-        """An empty package."""
+        """Return an empty package."""
         return ModuleType(spec.name, f"The ROS package {spec.name}.")
 
     def exec_module(self, module: ModuleType) -> None:
-        """Nothing is in it."""
+        """Do nothing: the package is empty."""

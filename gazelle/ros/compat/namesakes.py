@@ -44,7 +44,10 @@ def _xacro(_: Any) -> AbstractContextManager[Any]:
 
 @contextlib.contextmanager
 def _yaml(yaml: Any) -> Iterator[None]:
-    """Let ``load`` and ``load_all`` do without a loader, as in PyYAML 5: with the one for plain data."""
+    """Allow ``load`` and ``load_all`` without a loader, as in PyYAML 5.
+
+    They use the one for plain data then.
+    """
     values = {}
     for name in ("load", "load_all"):
         plain = getattr(yaml, name)

@@ -28,7 +28,7 @@ __all__ = [
 
 
 def rosbagmain(argv: Sequence[str] | None = None) -> None:
-    """Do what ``rosbag`` does, with a command line, by default this process's.
+    """Run ``rosbag`` with a command line, by default this process's.
 
     Raises:
         SystemExit: It failed.

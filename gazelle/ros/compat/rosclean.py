@@ -24,7 +24,7 @@ def get_disk_usage(d: str) -> int:
 
 
 def get_human_readable_disk_usage(d: str) -> str:
-    """The same as people write it, such as ``1.5M``.
+    """Return the disk usage as text, such as ``1.5M``.
 
     Raises:
         CleanupException: There is no such folder.

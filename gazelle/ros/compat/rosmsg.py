@@ -32,7 +32,7 @@ def _text(kind: Kind, name: str, *, raw: bool) -> str:
 
 
 def get_msg_text(type_: str, raw: bool = False, rospack: Any = None) -> str:  # noqa: FBT001, FBT002  # rosmsg's interface
-    """The definition of a message with those of its fields; with `raw` as it is in its file.
+    """Return the definition of a message with those of its fields, or with `raw` the file's text.
 
     Raises:
         ROSMsgException: There is no such type.
@@ -42,7 +42,7 @@ def get_msg_text(type_: str, raw: bool = False, rospack: Any = None) -> str:  # 
 
 
 def get_srv_text(type_: str, raw: bool = False, rospack: Any = None) -> str:  # noqa: FBT001, FBT002  # rosmsg's interface
-    """The definition of a service; see `get_msg_text`.
+    """Return the definition of a service; see `get_msg_text`.
 
     Raises:
         ROSMsgException: There is no such type.
@@ -52,7 +52,7 @@ def get_srv_text(type_: str, raw: bool = False, rospack: Any = None) -> str:  # 
 
 
 def list_types(package: str, mode: str = MODE_MSG, rospack: Any = None) -> list[str]:
-    """Full names of a package's types.
+    """Return full names of a package's types.
 
     Raises:
         ValueError: There is no such package.
@@ -65,17 +65,17 @@ def list_types(package: str, mode: str = MODE_MSG, rospack: Any = None) -> list[
 
 
 def list_msgs(package: str, rospack: Any = None) -> list[str]:
-    """Full names of a package's messages."""
+    """Return full names of a package's messages."""
     return list_types(package, MODE_MSG, rospack)
 
 
 def list_srvs(package: str, rospack: Any = None) -> list[str]:
-    """Full names of a package's services."""
+    """Return full names of a package's services."""
     return list_types(package, MODE_SRV, rospack)
 
 
 def iterate_packages(rospack: Any, mode: str) -> Iterator[tuple[str, str]]:
-    """Packages with types of a mode, and their folders, which are empty for those built in."""
+    """Yield packages with types of a mode, and their folders, empty for built-in ones."""
     from gazelle.ros.messages.search import find_packages
 
     del rospack
@@ -86,13 +86,13 @@ def iterate_packages(rospack: Any, mode: str) -> Iterator[tuple[str, str]]:
 
 
 def rosmsg_search(rospack: Any, mode: str, base_type: str) -> Iterator[str]:
-    """Full names of all types of a short name."""
+    """Yield full names of all types of a short name."""
     del rospack
     yield from definitions.types_named(base_type, _kind(mode))
 
 
 def rosmsg_md5(mode: str, type_: str) -> str:
-    """The MD5 sum of a type.
+    """Return the MD5 sum of a type.
 
     Raises:
         OSError: There is no such type.
@@ -104,7 +104,7 @@ def rosmsg_md5(mode: str, type_: str) -> str:
 
 
 def rosmsgmain(mode: str = MODE_MSG) -> None:
-    """Do what ``rosmsg`` or ``rossrv`` does, with this process's command line.
+    """Run ``rosmsg`` or ``rossrv`` with this process's command line.
 
     Raises:
         SystemExit: It failed.

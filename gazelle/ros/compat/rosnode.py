@@ -31,7 +31,7 @@ def _graph() -> GraphInspector:
 
 @raising(ROSNodeIOException)
 def get_node_names(namespace: str | None = None) -> list[str]:
-    """Names of the nodes in a namespace.
+    """Return names of the nodes in a namespace.
 
     Raises:
         ROSNodeIOException: The master does not answer.
@@ -41,25 +41,25 @@ def get_node_names(namespace: str | None = None) -> list[str]:
 
 @raising(ROSNodeIOException)
 def get_api_uri(master: Any, caller_id: str, skip_cache: bool = False) -> str | None:  # noqa: FBT001, FBT002  # rosnode's interface
-    """The address of a node; None if there is none."""
+    """Return the address of a node; None if there is none."""
     del master
     return _graph().node_uri(caller_id, fresh=skip_cache)
 
 
 @raising(ROSNodeIOException)
 def get_machines_by_nodes() -> list[str]:
-    """Names of the machines with nodes."""
+    """Return names of the machines with nodes."""
     return nodes.machines(_graph())
 
 
 @raising(ROSNodeIOException)
 def get_nodes_by_machine(machine: str) -> list[str]:
-    """Names of the nodes of a machine."""
+    """Return names of the nodes of a machine."""
     return nodes.nodes_on(_graph(), machine)
 
 
 def kill_nodes(node_names: list[str]) -> tuple[list[str], list[str]]:
-    """End nodes.
+    """Shut nodes down.
 
     Returns:
         Those that were told, and those that could not be.
@@ -106,7 +106,7 @@ def rosnode_ping_all(
     verbose: bool = False,  # noqa: FBT001, FBT002  # rosnode's interface
     skip_cache: bool = False,  # noqa: FBT001, FBT002
 ) -> tuple[list[str], list[str]]:
-    """Nodes that answer, and nodes that do not."""
+    """Return nodes that answer, and nodes that do not."""
     del verbose, skip_cache
     graph = _graph()
     dead = nodes.dead_nodes(graph)
@@ -118,7 +118,7 @@ def _complain(text: str) -> None:
 
 
 def cleanup_master_blacklist(master: Any, blacklist: list[str]) -> None:
-    """Take nodes off the master."""
+    """Unregister nodes from the master."""
     del master
     nodes.unregister(_graph(), blacklist)
 
@@ -135,7 +135,7 @@ def rosnode_listnodes(
 
 
 def rosnodemain(argv: Sequence[str] | None = None) -> None:
-    """Do what the command rosnode does; see `gazelle.ros.compat.commands.run`.
+    """Run rosnode's command line; see `gazelle.ros.compat.commands.run`.
 
     Args:
         argv: The command line, by default this process's.

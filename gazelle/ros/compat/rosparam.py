@@ -30,13 +30,13 @@ class RosParamIOException(RosParamException):
 
 
 def get_param_server() -> Master:
-    """The master, whose methods raise rosgraph's errors."""
+    """Return the master, whose methods raise rosgraph's errors."""
     return Master(f"rosparam-{os.getpid()}")
 
 
 @raising(RosParamIOException)
 def get_param(param: str) -> Any:
-    """The value of a parameter.
+    """Return the value of a parameter.
 
     Raises:
         MasterError: It is not set.
@@ -46,7 +46,7 @@ def get_param(param: str) -> Any:
 
 @raising(RosParamIOException)
 def list_params(ns: str) -> list[str]:
-    """Names of the parameters in a namespace."""
+    """Return names of the parameters in a namespace."""
     space = make_global_ns(ns)
     return sorted(name for name in get_param_server().getParamNames() if name.startswith(space))
 
@@ -180,7 +180,7 @@ def dump_params(filename: str | None, param: str, verbose: bool = False) -> None
 
 
 def yamlmain(argv: Sequence[str] | None = None) -> None:
-    """Do what the command rosparam does; see `gazelle.ros.compat.commands.run`.
+    """Run rosparam's command line; see `gazelle.ros.compat.commands.run`.
 
     Args:
         argv: The command line, by default this process's.
@@ -192,6 +192,6 @@ def yamlmain(argv: Sequence[str] | None = None) -> None:
 
 
 def _fullusage() -> None:
-    """Say what there is, and end the process."""
+    """Print the usage, and end the process."""
     yamlmain(["rosparam", "--help"])
     raise SystemExit(0)

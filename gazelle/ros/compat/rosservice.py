@@ -36,7 +36,7 @@ def get_service_list(
     namespace: str | None = None,
     include_nodes: bool = False,  # noqa: FBT001, FBT002  # rosservice's interface
 ) -> Any:
-    """Names of the services, of a node or in a namespace; with their nodes if asked for.
+    """Return names of the services, of a node or in a namespace; with their nodes on request.
 
     Raises:
         ROSServiceIOException: The master does not answer.
@@ -51,7 +51,7 @@ def get_service_list(
 
 @raising(ROSServiceIOException)
 def get_service_type(service_name: str) -> str | None:
-    """The type of a service; None if there is none."""
+    """Return the type of a service; None if there is none."""
     try:
         return services.service_type(_graph(), service_name)
     except MasterUnreachableError:
@@ -62,7 +62,7 @@ def get_service_type(service_name: str) -> str | None:
 
 @raising(ROSServiceIOException, ROSServiceException)
 def get_service_class_by_name(service_name: str) -> Any:
-    """The class of a service's type.
+    """Return the class of a service's type.
 
     Raises:
         ROSServiceException: There is no such service, or its type is not known.
@@ -72,7 +72,7 @@ def get_service_class_by_name(service_name: str) -> Any:
 
 @raising(ROSServiceIOException)
 def get_service_node(service_name: str) -> str | None:
-    """The node that offers a service; None if nobody does."""
+    """Return the node that provides a service; None without one."""
     try:
         return services.service_node(_graph(), service_name)
     except MasterUnreachableError:
@@ -83,13 +83,13 @@ def get_service_node(service_name: str) -> str | None:
 
 @raising(ROSServiceIOException)
 def get_service_uri(service_name: str) -> str | None:
-    """The address of a service; None if there is none."""
+    """Return the address of a service; None if there is none."""
     return _graph().service_uri(_graph().resolve(service_name))
 
 
 @raising(ROSServiceIOException, ROSServiceException)
 def get_service_args(service_name: str) -> str:
-    """Names of the request's fields.
+    """Return names of the request's fields.
 
     Raises:
         ROSServiceException: There is no such service.
@@ -120,7 +120,7 @@ def get_service_headers(service_name: str, service_uri: str) -> dict[str, str]:
 
 @raising(ROSServiceIOException)
 def rosservice_find(service_type: str) -> list[str]:
-    """Services of a type."""
+    """Return services of a type."""
     return services.services_of_type(_graph(), service_type)
 
 
@@ -148,7 +148,7 @@ def call_service(
 
 
 def rosservicemain(argv: Sequence[str] | None = None) -> None:
-    """Do what the command rosservice does; see `gazelle.ros.compat.commands.run`.
+    """Run rosservice's command line; see `gazelle.ros.compat.commands.run`.
 
     Args:
         argv: The command line, by default this process's.

@@ -36,7 +36,7 @@ unitrun = rosunit.unitrun
 
 
 def get_master() -> Master:
-    """The master."""
+    """Return the master."""
     return Master("/roslib")
 
 
@@ -56,7 +56,7 @@ def _is_in(place: int, topic: str, node: str) -> bool:
 
 
 def rostestmain() -> None:
-    """Do what ``rostest`` does, with this process's command line.
+    """Run ``rostest`` with this process's command line.
 
     Raises:
         SystemExit: A test failed, or there is none.

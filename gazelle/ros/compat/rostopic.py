@@ -39,7 +39,7 @@ def get_topic_type(
     topic: str,
     blocking: bool = False,  # noqa: FBT001, FBT002  # rostopic's interface
 ) -> tuple[str | None, str | None, Evaluator | None]:
-    """The type of a topic, its name, and a function for the field that is meant in its messages.
+    """Return the type of a topic, its name, and a function for the requested field.
 
     Args:
         topic: Name of a topic, perhaps with a path of fields.
@@ -65,7 +65,7 @@ def get_topic_class(
     topic: str,
     blocking: bool = False,  # noqa: FBT001, FBT002  # rostopic's interface
 ) -> tuple[Any, str | None, Evaluator | None]:
-    """As `get_topic_type`, with the class of the messages.
+    """Return the same as `get_topic_type`, with the class of the messages.
 
     Raises:
         ROSTopicException: The type is not known.
@@ -80,7 +80,7 @@ def get_topic_class(
 
 
 def msgevalgen(pattern: str) -> Evaluator | None:
-    """A function that finds a field by its path, such as ``/pose/position[0]``."""
+    """Return a function that finds a field by its path, such as ``/pose/position[0]``."""
     if not pattern or pattern == "/":
         return None
     steps = parse_path(pattern)
@@ -99,13 +99,13 @@ def get_topic_list(master: Any = None) -> tuple[list[Any], list[Any]]:
 
 @raising(ROSTopicIOException)
 def find_by_type(topic_type: str) -> list[str]:
-    """Topics of a type."""
+    """Return topics of a type."""
     return listing.topics_of_type(_graph(), topic_type)
 
 
 @raising(ROSTopicIOException, ROSTopicException)
 def get_info_text(topic: str) -> str:
-    """Type, publishers and subscribers of a topic.
+    """Return type, publishers and subscribers of a topic.
 
     Raises:
         ROSTopicException: There is none.
@@ -119,7 +119,7 @@ def create_publisher(
     latch: bool,  # noqa: FBT001  # rostopic's interface
     disable_rostime: bool = True,  # noqa: FBT001, FBT002
 ) -> tuple[Publisher, Any]:
-    """A publisher, and the class of its messages; makes this process a node if it is none.
+    """Create a publisher; also returns the class of its messages, and initialises a node.
 
     Raises:
         ROSTopicException: The type is not known.
@@ -192,7 +192,7 @@ class ROSTopicHz:
         self._meters.setdefault(topic, RateMeter(self._window)).add(now)
 
     def get_hz(self, topic: str | None = None) -> tuple[float, float, float, float, int] | None:
-        """Rate [Hz], smallest and largest gap, their spread [s], and how many messages count."""
+        """Return rate [Hz], smallest and largest gap, their spread [s], and number of messages."""
         meter = self._meters.get(topic)
         return None if meter is None else meter.read()
 
@@ -213,7 +213,7 @@ class ROSTopicHz:
 
 
 def rostopicmain(argv: Sequence[str] | None = None) -> None:
-    """Do what the command rostopic does; see `gazelle.ros.compat.commands.run`.
+    """Run rostopic's command line; see `gazelle.ros.compat.commands.run`.
 
     Args:
         argv: The command line, by default this process's.

@@ -110,7 +110,7 @@ def xml_results_file(
     is_rostest: bool = False,  # noqa: FBT001, FBT002  # rosunit's interface
     env: Mapping[str, str] | None = None,
 ) -> str:
-    """The file for the results of a test; its folder is made if need be."""
+    """Return the file for the results of a test; its folder is created if need be."""
     from gazelle.ros.compat.rospkg import get_test_results_dir
 
     folder = Path(get_test_results_dir(env)) / test_pkg

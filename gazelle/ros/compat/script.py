@@ -167,7 +167,7 @@ def _explain(error: BaseException, source: bytes, file: Path) -> None:
 
 @contextlib.contextmanager
 def _simulated_sleep() -> Iterator[None]:
-    """Let ``time.sleep`` of the user's code wait for the node's clock."""
+    """Make ``time.sleep`` of the user's code wait for the node's clock while it lasts."""
     real = time.sleep
 
     def sleep(seconds: float, /) -> None:

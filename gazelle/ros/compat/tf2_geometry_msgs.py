@@ -41,7 +41,7 @@ def _unit(transform: Any) -> Quaternion:
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """The message itself."""
+    """Return the message itself."""
     return msg
 
 
@@ -49,28 +49,28 @@ from_msg_msg = to_msg_msg
 
 
 def transform_to_kdl(t: Any) -> Any:
-    """PyKDL's frame of a ``TransformStamped``."""
+    """Return PyKDL's frame of a ``TransformStamped``."""
     from gazelle.ros.compat.tf2_kdl import transform_to_kdl as convert
 
     return convert(t)
 
 
 def do_transform_point(point: Any, transform: Any) -> Any:
-    """A ``PointStamped`` in the target frame of a ``TransformStamped``."""
+    """Transform a ``PointStamped`` to the target frame of a ``TransformStamped``."""
     result = _make("PointStamped", transform)
     result.point.x, result.point.y, result.point.z = _moved(point.point, transform)
     return result
 
 
 def do_transform_vector3(vector3: Any, transform: Any) -> Any:
-    """A ``Vector3Stamped`` in the target frame: turned, not moved."""
+    """Rotate a ``Vector3Stamped`` to the target frame, without translation."""
     result = _make("Vector3Stamped", transform)
     result.vector.x, result.vector.y, result.vector.z = _turned(vector3.vector, transform)
     return result
 
 
 def do_transform_pose(pose: Any, transform: Any) -> Any:
-    """A ``PoseStamped`` in the target frame."""
+    """Transform a ``PoseStamped`` to the target frame."""
     result = _make("PoseStamped", transform)
     _put_pose(result.pose, pose.pose, transform)
     return result
@@ -83,7 +83,7 @@ def _put_pose(result: Any, pose: Any, transform: Any) -> None:
 
 
 def do_transform_wrench(wrench: Any, transform: Any) -> Any:
-    """A ``WrenchStamped`` in the target frame: force and torque turned."""
+    """Rotate force and torque of a ``WrenchStamped`` to the target frame."""
     result = _make("WrenchStamped", transform)
     force, torque = result.wrench.force, result.wrench.torque
     force.x, force.y, force.z = _turned(wrench.wrench.force, transform)
@@ -92,14 +92,14 @@ def do_transform_wrench(wrench: Any, transform: Any) -> Any:
 
 
 def transform_covariance(cov_in: Any, transform: Any) -> list[float]:
-    """The covariance of a pose, 36 numbers by rows, in the target frame."""
+    """Transform the covariance of a pose, 36 numbers by rows, to the target frame."""
     turn = np.kron(np.identity(2), np.array(matrix(_unit(transform))))
     turned: list[float] = (turn @ np.reshape(cov_in, (6, 6)) @ turn.T).ravel().tolist()
     return turned
 
 
 def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
-    """A ``PoseWithCovarianceStamped`` in the target frame."""
+    """Transform a ``PoseWithCovarianceStamped`` to the target frame."""
     result = _make("PoseWithCovarianceStamped", transform)
     _put_pose(result.pose.pose, pose.pose.pose, transform)
     result.pose.covariance = transform_covariance(pose.pose.covariance, transform)

@@ -42,11 +42,11 @@ class BufferCore:
         self._make = load_message("geometry_msgs/TransformStamped")
 
     def set_transform(self, transform: Any, authority: str = "") -> None:
-        """Take a ``TransformStamped``; one that cannot be is logged and left out."""
+        """Add a ``TransformStamped``; an invalid one is logged and left out."""
         self._set(transform, authority, static=False)
 
     def set_transform_static(self, transform: Any, authority: str = "") -> None:
-        """Take a ``TransformStamped`` that holds at all times."""
+        """Add a ``TransformStamped`` that holds at all times."""
         self._set(transform, authority, static=True)
 
     def _set(self, transform: Any, authority: str, *, static: bool) -> None:
@@ -63,7 +63,7 @@ class BufferCore:
         )
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Any) -> Any:
-        """The ``TransformStamped`` from source to target at a time, 0 for the latest.
+        """Return the ``TransformStamped`` from source to target at a time, 0 for the latest.
 
         Raises:
             TransformException: There is none; its class says why.
@@ -80,7 +80,7 @@ class BufferCore:
         source_time: Any,
         fixed_frame: str,
     ) -> Any:
-        """The transform from source at one time to target at another.
+        """Return the transform from source at one time to target at another.
 
         Raises:
             TransformException: There is none; its class says why.
@@ -159,7 +159,7 @@ class BufferCore:
         return "canTransform: " + " ".join(unknown) if unknown else None
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
-        """The latest time at which both frames are known.
+        """Return the latest time at which both frames are known.
 
         Raises:
             TransformException: There is none; its class says why.
@@ -168,15 +168,15 @@ class BufferCore:
         return Time(nsecs=stamp)
 
     def clear(self) -> None:
-        """Forget all transforms but static ones."""
+        """Discard all transforms but static ones."""
         self.tree.clear()
 
     def all_frames_as_yaml(self) -> str:
-        """Parent, broadcaster and times of each frame, as YAML."""
+        """Return parent, broadcaster and times of each frame, as YAML."""
         return as_yaml(self.tree)
 
     def all_frames_as_string(self) -> str:
-        """One line for each frame and its parent."""
+        """Return one line for each frame and its parent."""
         return self.tree.as_string()
 
     # The names of the real module, for those who reach for them.
@@ -199,7 +199,7 @@ class BufferCore:
 
 
 def nanoseconds(moment: Any) -> int:
-    """A time or duration [ns].
+    """Return a time or duration [ns].
 
     Raises:
         TypeError: It is neither.

@@ -16,7 +16,7 @@ _Function = Callable[_Given, _Result]
 def raising(
     unreachable: type[Exception], otherwise: type[Exception] | None = None
 ) -> Callable[[_Function[_Given, _Result]], _Function[_Given, _Result]]:
-    """Let a function raise the errors that programs for ROS expect of it.
+    """Wrap a function to raise the errors that programs for ROS expect.
 
     Args:
         unreachable: Raised where the master does not answer.

@@ -40,7 +40,7 @@ ROSOUT = NodePlan(
 
 
 def master_program(host: str, port: int, run_id: str) -> Program:
-    """The program of a master.
+    """Return the program of a master.
 
     Args:
         host: The name nodes reach it by.
@@ -72,7 +72,7 @@ def await_master(master: MasterProxy, process: NodeProcess) -> None:
 
 
 def await_rosout(master: MasterProxy) -> bool:
-    """Give rosout time to come, so that nothing is lost that nodes log at once.
+    """Wait for rosout, so that nothing is lost that nodes log at once.
 
     Returns:
         Whether it has.

@@ -22,7 +22,7 @@ _LONGEST = 20
 
 
 def summary(plan: LaunchPlan) -> str:
-    """Parameters and nodes, as roslaunch shows them before it starts."""
+    """Return parameters and nodes, as roslaunch shows them before it starts."""
     lines = ["SUMMARY", "========", "", "PARAMETERS"]
     lines += [
         f" * {name}: {_short(parameter.value)}"
@@ -50,7 +50,7 @@ def _short(value: Any) -> str:
 
 
 def arguments(plan: LaunchPlan) -> str:
-    """The arguments that the files take, required ones first."""
+    """Return the arguments that the files take, required ones first."""
     groups: dict[str, list[Argument]] = {"Required Arguments:": [], "Optional Arguments:": []}
     for each in plan.arguments.values():
         if not each.constant:
@@ -68,7 +68,7 @@ def arguments(plan: LaunchPlan) -> str:
 
 
 def parameters(plan: LaunchPlan, packages: Packages) -> str:
-    """All parameters as YAML; commands are run.
+    """Return all parameters as YAML; commands are run.
 
     Raises:
         LaunchError: A command fails.
@@ -80,7 +80,7 @@ def parameters(plan: LaunchPlan, packages: Packages) -> str:
 
 
 def find_node(plan: LaunchPlan, name: str) -> NodePlan:
-    """The node of a name.
+    """Return the node of a name.
 
     Raises:
         LaunchError: There is none; the hint names the closest.
@@ -93,7 +93,7 @@ def find_node(plan: LaunchPlan, name: str) -> NodePlan:
 
 
 def command(node: NodePlan, packages: Packages, master_uri: str) -> list[str]:
-    """The command line that runs a node, with what its environment needs before it.
+    """Return the command line of a node, with its environment before it.
 
     Raises:
         LaunchError: It has no program.

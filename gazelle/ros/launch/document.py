@@ -45,23 +45,23 @@ class Element:
         return self.tag
 
     def all(self, tag: str) -> Iterator[Element]:
-        """This element and those below it that have a tag, from top to bottom."""
+        """Yield this element and those below it that have a tag, from top to bottom."""
         if self.tag == tag:
             yield self
         for child in self.children:
             yield from child.all(tag)
 
     def find(self, tag: str) -> Element | None:
-        """The first child that has a tag; None if there is none."""
+        """Return the first child that has a tag; None if there is none."""
         return next((child for child in self.children if child.tag == tag), None)
 
     def error(self, message: str, hint: str | None = None) -> LaunchError:
-        """An error that names this element."""
+        """Return an error that names this element."""
         return LaunchError(message, file=self.file, line=self.line, element=self.label, hint=hint)
 
 
 def read_document(path: str) -> Element:
-    """The ``<launch>`` element of a file.
+    """Read the ``<launch>`` element of a file.
 
     Raises:
         LaunchError: There is no such file, it is not XML, or it has not exactly one ``<launch>``.
@@ -77,7 +77,7 @@ def read_document(path: str) -> Element:
 
 
 def parse_document(data: bytes, name: str) -> Element:
-    """The ``<launch>`` element of XML; ``name`` stands for the file in errors.
+    """Parse the ``<launch>`` element of XML; ``name`` stands for the file in errors.
 
     Raises:
         LaunchError: It is not XML, or has not exactly one ``<launch>``.
@@ -94,7 +94,7 @@ def parse_document(data: bytes, name: str) -> Element:
 
 
 def parse_element(data: bytes, name: str) -> Element:
-    """The root element of XML; ``name`` stands for the file in errors.
+    """Parse the root element of XML; ``name`` stands for the file in errors.
 
     No-break spaces and the like are taken as spaces, with a warning.
 

@@ -37,14 +37,14 @@ class MissingArgumentError(SubstitutionError):
         self.argument = argument
 
     def ask_for_it_at(self, file: str | None, line: int | None) -> None:
-        """Say that an <include> should give it, unless one is named already."""
+        """Add a hint that an <include> should set it, unless one is named already."""
         if self.hint and "include" not in self.hint:
             self.hint = f"give it in the <include> at {file}:{line}"
             self.args = (f"{self.args[0].rpartition('; ')[0]}; {self.hint}",)
 
 
 def place_error(error: LaunchError, file: str, line: int, element: str) -> None:
-    """Say where an error was found; one that knows its place keeps it."""
+    """Add the place of an error; one that knows its place keeps it."""
     if error.file is not None:
         return
     error.file, error.line, error.element = file, line, element

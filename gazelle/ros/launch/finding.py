@@ -13,7 +13,9 @@ _SUFFIXES = (".launch", ".launch.xml", ".test")
 
 
 def find_launch_file(package: str, name: str, packages: Packages) -> Path:
-    """The launch file of a package; ``name`` is a path in it, or a file's name anywhere in it.
+    """Return the launch file of a package.
+
+    ``name`` is a path in it, or a file's name anywhere in it.
 
     Raises:
         MissingPackageError: There is no such package.
@@ -38,7 +40,7 @@ def find_launch_file(package: str, name: str, packages: Packages) -> Path:
 
 
 def require_name(package: str, packages: Packages) -> None:
-    """Nothing if there is no such package; where only a package is given, its files are named.
+    """Raise an error if only a package is given, with the names of its launch files.
 
     Raises:
         LaunchError: There is such a package: one of its launch files must be named, too.
@@ -51,7 +53,7 @@ def require_name(package: str, packages: Packages) -> None:
 
 
 def _files(folder: Path, name: str | None = None) -> dict[str, list[Path]]:
-    """The launch files below a folder, and all of a name, by their names."""
+    """Return the launch files below a folder, and all of a name, by their names."""
     known: dict[str, list[Path]] = {}
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(each for each in folders if not each.startswith("."))

@@ -10,14 +10,14 @@ from gazelle.ros.launch.errors import LaunchError
 
 
 def ros_home(environment: Mapping[str, str] | None = None) -> Path:
-    """ROS_HOME, else ``~/.ros``."""
+    """Return ROS_HOME, else ``~/.ros``."""
     env = os.environ if environment is None else environment
     given = env.get("ROS_HOME")
     return Path(given) if given else Path.home() / ".ros"
 
 
 def log_folder(run_id: str, environment: Mapping[str, str] | None = None) -> Path:
-    """The folder of a run's logs, made if need be.
+    """Return the folder of a run's logs, created if need be.
 
     Raises:
         LaunchError: It cannot be made.
@@ -29,7 +29,7 @@ def log_folder(run_id: str, environment: Mapping[str, str] | None = None) -> Pat
 
 
 def made(folder: Path) -> Path:
-    """The folder, which exists now.
+    """Create the folder, and return it.
 
     Raises:
         LaunchError: It cannot be made.

@@ -60,15 +60,15 @@ class LaunchWatchdog:
                 )
 
     def watch(self, group: int) -> None:
-        """End a process group if this process is killed."""
+        """Register a process group to end if this process is killed."""
         self._tell(f"watch {group}")
 
     def forget(self, group: int) -> None:
-        """A process group has ended; its number may be another's by now."""
+        """Unregister a process group that has ended; its number may be another's by now."""
         self._tell(f"forget {group}")
 
     def close(self) -> None:
-        """All groups have ended."""
+        """Stop: all groups have ended."""
         with self._lock:
             process, self._process = self._process, None
         if process is None:

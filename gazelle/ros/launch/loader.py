@@ -101,7 +101,7 @@ def declared_arguments(
     *,
     packages: Packages | None = None,
 ) -> LaunchPlan:
-    """A plan that holds no more than what arguments launch files declare.
+    """Return a plan with only the declared arguments of launch files.
 
     Raises:
         LaunchError: A file is malformed.
@@ -154,7 +154,7 @@ class _Loader:
         self.plan.arguments |= self._declared(root, scope)
 
     def finish(self, args: Mapping[str, str]) -> None:
-        """Judge the plan as a whole."""
+        """Check the plan as a whole."""
         for name in sorted(set(args) - self._used):
             if not name.startswith("_"):
                 hint = did_you_mean(name, self._used)
@@ -172,7 +172,7 @@ class _Loader:
         self._find_conflicts()
 
     def _find_conflicts(self) -> None:
-        """Parameters that hide each other: one is a value and has others below it."""
+        """Find parameters that hide each other: one is a value and has others below it."""
         for name, parameter in self.plan.parameters.items():
             above = names.namespace_of(name).rstrip("/")
             while above:
@@ -220,7 +220,7 @@ class _Loader:
 
     @staticmethod
     def _declared(root: Element, scope: LaunchScope) -> dict[str, Argument]:
-        """The arguments of a file, with the texts that describe them."""
+        """Return the arguments of a file, with their documentation."""
         found: dict[str, Argument] = {}
         for element in root.children:
             name = element.attributes.get("name", "")

@@ -30,7 +30,7 @@ def is_local(address: str) -> bool:
 
 
 def check(plan: LaunchPlan) -> None:
-    """Make sure that all nodes can run here.
+    """Check that all nodes can run here.
 
     Raises:
         LaunchError: One is meant for another machine, or for one that is not declared.

@@ -31,7 +31,7 @@ def read_node(
     *,
     machine: str,
 ) -> tuple[NodePlan, list[LaunchParameter]]:
-    """A ``<node>`` or ``<test>``, and its private parameters.
+    """Read a ``<node>`` or ``<test>``, and its private parameters.
 
     Args:
         element: The element.
@@ -70,7 +70,7 @@ def read_node(
 
 
 def _child(child: Element, outer: LaunchScope, own: LaunchScope, plan: LaunchPlan) -> None:
-    """Take over one element of a node."""
+    """Add one element of a node."""
     tag = child.tag.lower()
     if tag == "remap":
         old, new = outer.required(child, "from", "to")

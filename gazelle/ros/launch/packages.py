@@ -38,11 +38,11 @@ class Packages:
         return self._environment.get("ROS_PACKAGE_PATH", "")
 
     def installed(self, package: str) -> Path | None:
-        """The folder of a package on ROS_PACKAGE_PATH; None if it is not there."""
+        """Return the folder of a package on ROS_PACKAGE_PATH; None if it is not there."""
         return search.find_packages(self.path).get(package)
 
     def find(self, package: str) -> Path | None:
-        """The folder of a package, installed or built in, if it has one."""
+        """Return the folder of a package, installed or built in, if it has one."""
         found = self.installed(package)
         if found is None:
             known = registry.package(package)
@@ -50,7 +50,7 @@ class Packages:
         return found or registry.stand_in(package)
 
     def folder(self, package: str) -> Path:
-        """The folder of a package, installed or built in.
+        """Return the folder of a package, installed or built in.
 
         Raises:
             MissingPackageError: It is neither.
@@ -61,7 +61,7 @@ class Packages:
         return found
 
     def missing(self, package: str) -> MissingPackageError:
-        """The error that says a package is not there, and what to do."""
+        """Return the error for a missing package, with a hint."""
         known = [*search.find_packages(self.path), *registry.packages()]
         close = did_you_mean(package, known)
         hint = "add the folder it is in to ROS_PACKAGE_PATH"
@@ -105,7 +105,7 @@ class Packages:
         return text if found == Path(text) else str(found)
 
     def programs(self, package: str, kind: str) -> list[Path]:
-        """The files that may be the program of a node, the best first."""
+        """Return the candidates for a node's program, the best first."""
         folder = self.find(package)
         if folder is None:
             return []
@@ -115,7 +115,7 @@ class Packages:
         return found
 
     def program(self, package: str, kind: str) -> Path | None:
-        """The file that is the program of a node; None if there is none that can run."""
+        """Return a node's program; None if there is none that can run."""
         for path in self.programs(package, kind):
             if _is_program(path) or is_python(path):
                 return path
@@ -133,7 +133,7 @@ class Packages:
         return sorted(found | set(known.nodes if known is not None else ()))
 
     def missing_program(self, package: str, kind: str) -> LaunchError:
-        """The error that says a node has no program, and what to do."""
+        """Return the error for a node without a program, with a hint."""
         if self.find(package) is None and registry.package(package) is None:
             return self.missing(package)
         rejected = self.programs(package, kind)
@@ -150,7 +150,7 @@ class Packages:
         return LaunchError(f"package '{package}' has no program '{kind}'", hint=hint)
 
     def unnamed_program(self, package: str) -> LaunchError:
-        """The error that says a package stands where a program of it should stand beside it."""
+        """Return the error for a package without the name of a program beside it."""
         known = self.program_names(package)
         hint = f"there are: {', '.join(known)}" if known else self._contents(package)
         return LaunchError(f"'{package}' is a package: name one of its programs too", hint=hint)
@@ -203,7 +203,7 @@ def _files_named(root: Path, name: str) -> Iterator[Path]:
 
 
 def _files(root: Path) -> Iterator[Path]:
-    """All files below a folder, but not those of hidden folders and of builds."""
+    """Yield all files below a folder, except those of hidden folders and of builds."""
     for folder, folders, files in os.walk(root):
         folders[:] = sorted(f for f in folders if f[0] != "." and f not in _SKIPPED)
         for name in sorted(files):
@@ -211,7 +211,7 @@ def _files(root: Path) -> Iterator[Path]:
 
 
 def _unbuilt(kind: str) -> str:
-    """Why a package that has no programs at all may lack one of this name."""
+    """Return a note why a package without programs may lack one of this name."""
     if kind.endswith(".py"):
         return "the package has no programs; is its 'scripts' folder missing?"
     return "it is written in C++ and not built here"

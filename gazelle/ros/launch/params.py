@@ -40,7 +40,7 @@ def put_at(plan: LaunchPlan, name: str, parameter: LaunchParameter) -> None:
 
 
 def read_param(element: Element, scope: LaunchScope) -> LaunchParameter:
-    """The parameter of a ``<param>``, its name as written.
+    """Read the parameter of a ``<param>``, its name as written.
 
     Raises:
         LaunchError: It has not exactly one source of its value, or a value of the wrong type.
@@ -76,7 +76,7 @@ def _value(source: str, text: str, kind: str) -> Any:
 
 
 def read_rosparam(element: Element, scope: LaunchScope, plan: LaunchPlan) -> None:
-    """Put what a ``<rosparam>`` asks for into the plan, seen from the scope's namespace.
+    """Add a ``<rosparam>`` to the plan, relative to the scope's namespace.
 
     Raises:
         LaunchError: The command is unknown, the file cannot be read, or the text is not YAML.
@@ -134,7 +134,7 @@ def _load(
 
 
 def flatten(name: str, value: Any) -> list[tuple[str, Any]]:
-    """A mapping as single parameters with their names; another value as it is."""
+    """Return a mapping as single parameters with their names; another value as it is."""
     if not isinstance(value, dict):
         return [(names.canonical(name), value)]
     found = []

@@ -116,7 +116,7 @@ class NodeProcess:
         self.spawned += 1
 
     def poll(self) -> int | None:
-        """Its exit code, negative for a signal; None while it runs."""
+        """Return its exit code, negative for a signal; None while it runs."""
         if self._process is None:
             return None
         code = self._process.poll()
@@ -140,7 +140,7 @@ class NodeProcess:
             os.killpg(self._process.pid, number)
 
     def _end_group(self) -> None:
-        """End what the process left behind."""
+        """Stop the processes that the process left."""
         if self._process is None or not self._group_lives():
             return
         self.signal(signal.SIGTERM)
@@ -172,7 +172,7 @@ class NodeProcess:
 def stop_all(
     processes: Iterable[NodeProcess], patience: StopTimeouts, first: int = signal.SIGINT
 ) -> list[NodeProcess]:
-    """End processes, all at the same time: SIGINT, then SIGTERM, then SIGKILL.
+    """Stop processes, all at the same time: SIGINT, then SIGTERM, then SIGKILL.
 
     Args:
         processes: What to end.

@@ -86,7 +86,7 @@ def script_command(path: Path) -> tuple[str, ...]:
 
 
 def node_arguments(node: NodePlan, log_file: Path | None = None) -> list[str]:
-    """The arguments of a node: its own, its remappings, its name.
+    """Return the arguments of a node: its own, its remappings, its name.
 
     Raises:
         LaunchError: Its ``args`` or ``launch-prefix`` are not well quoted.
@@ -100,7 +100,7 @@ def node_arguments(node: NodePlan, log_file: Path | None = None) -> list[str]:
 
 
 def prefix_arguments(node: NodePlan) -> list[str]:
-    """The words of ``launch-prefix``.
+    """Return the words of ``launch-prefix``.
 
     Raises:
         LaunchError: It is not well quoted.
@@ -109,7 +109,7 @@ def prefix_arguments(node: NodePlan) -> list[str]:
 
 
 def prefixed_command(node: NodePlan, program: Program) -> list[str]:
-    """A program's command line behind the words of ``launch-prefix``.
+    """Return a program's command line behind the words of ``launch-prefix``.
 
     ``python3`` before a Python script names what runs it anyway. A terminal, as in ``xterm -e``,
     is left out where it cannot open a window.
@@ -137,7 +137,7 @@ def _split(text: str, node: NodePlan) -> list[str]:
 def node_environment(
     node: NodePlan, master_uri: str, environment: Mapping[str, str] | None = None
 ) -> dict[str, str]:
-    """The environment of a node's process."""
+    """Return the environment of a node's process."""
     env = dict(os.environ if environment is None else environment)
     env["ROS_MASTER_URI"] = master_uri
     env.pop("ROS_NAMESPACE", None)
@@ -153,7 +153,7 @@ def node_environment(
 def parameter_value(
     parameter: LaunchParameter, packages: Packages, environment: Mapping[str, str] | None = None
 ) -> Any:
-    """The value to set; a `ParameterCommand` is run.
+    """Return the value to set; a `ParameterCommand` is run.
 
     Raises:
         LaunchError: The command fails, or its output is of another type.
@@ -168,7 +168,7 @@ def parameter_value(
 
 
 def command_line(words: Sequence[str], packages: Packages) -> list[str]:
-    """The command of a ``<param command>`` as it can be executed here.
+    """Return the command of a ``<param command>`` in its executable form.
 
     Raises:
         LaunchError: There is no such program.

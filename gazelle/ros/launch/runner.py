@@ -161,7 +161,7 @@ class Launch(Closeable):
         self._guard.forget(process.pid)
 
     def _find_programs(self) -> list[tuple[NodePlan, Program]]:
-        """The programs of all nodes that have one.
+        """Return the programs of all nodes that have one.
 
         As with roslaunch those without are named and left out, unless one is required; where
         none has one, nothing is begun.
@@ -314,7 +314,7 @@ class Launch(Closeable):
         return self._failed
 
     def look(self) -> None:
-        """Look once at all processes: report ends, respawn what is due."""
+        """Check all processes once: report ends, respawn what is due."""
         with self._lock:
             self._look()
 
@@ -360,13 +360,13 @@ class Launch(Closeable):
     # Ending ------------------------------------------------------------------------------
 
     def end(self, reason: str = "") -> None:
-        """Ask the launch to end; it does when `spin` returns and it is closed."""
+        """Request the launch to end; it does when `spin` returns and it is closed."""
         if reason:
             self._say(reason)
         self.ended.set()
 
     def close(self) -> None:
-        """End all nodes, then what this launch put on the master, then the master."""
+        """Stop all nodes, then remove what this launch put on the master, then stop the master."""
         self.ended.set()
         with self._lock:
             nodes, ending = list(self.processes), list(reversed(self._core))

@@ -33,7 +33,7 @@ class LaunchScope:
     """True below an include with ``pass_all_args``."""
 
     def child(self, namespace: str | None = None) -> LaunchScope:
-        """The scope of a group: what is set in it stays in it."""
+        """Return the scope of a group: its settings stay in it."""
         return replace(
             self,
             namespace=self.namespace if namespace is None else self.below(namespace),
@@ -46,18 +46,21 @@ class LaunchScope:
         )
 
     def included(self, namespace: str | None, arguments: dict[str, str], file: str) -> LaunchScope:
-        """The scope of an included file: it has its own arguments, and shares ``~`` parameters."""
+        """Return the scope of an included file.
+
+        It has its own arguments, and shares ``~`` parameters.
+        """
         words = replace(self.words, arguments=arguments, file=file, anonymous={})
         scope = replace(self.child(namespace), words=words, private=self.private)
         scope.declared = set()
         return scope
 
     def below(self, name: str) -> str:
-        """A namespace seen from here, with slashes at both ends."""
+        """Return a namespace relative to this one, with slashes at both ends."""
         return names.as_namespace(names.join(self.namespace, name))
 
     def text(self, element: Element, key: str) -> str | None:
-        """An attribute with its substitutions done; None if it is not there.
+        """Return an attribute with its substitutions done; None if it is missing.
 
         Raises:
             SubstitutionError: A ``$(...)`` in it has no value.
@@ -68,7 +71,7 @@ class LaunchScope:
         return self.resolve(raw, element)
 
     def resolve(self, text: str, element: Element) -> str:
-        """Text of an element with its substitutions done.
+        """Return text of an element with its substitutions done.
 
         Raises:
             SubstitutionError: A ``$(...)`` in it has no value.
@@ -80,7 +83,7 @@ class LaunchScope:
             raise
 
     def required(self, element: Element, *keys: str) -> tuple[str, ...]:
-        """Attributes that must be there.
+        """Return attributes that must be present.
 
         Raises:
             LaunchError: One is missing.
@@ -96,7 +99,7 @@ class LaunchScope:
         return tuple(found)
 
     def flag(self, element: Element, key: str) -> bool:
-        """An attribute that is ``true`` or ``false``; false if it is not there.
+        """Return an attribute that is ``true`` or ``false``; false if it is missing.
 
         Raises:
             LaunchError: It is something else.
@@ -109,7 +112,7 @@ class LaunchScope:
         return _YES_NO[value.lower()]
 
     def number(self, element: Element, key: str, default: float) -> float:
-        """An attribute that is a number.
+        """Return an attribute that is a number.
 
         Raises:
             LaunchError: It is something else.

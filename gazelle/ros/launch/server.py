@@ -48,7 +48,7 @@ class LaunchServer:
         self.key = f"/roslaunch/uris/host_{name}__{self._server.port}"
 
     def close(self) -> None:
-        """Answer no more."""
+        """Stop serving."""
         self._server.close()
         loop.release(self._loop)
 

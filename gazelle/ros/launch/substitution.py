@@ -45,7 +45,7 @@ class Substitution:
     """Names that ``$(anon X)`` gave, by X."""
 
     def resolve(self, text: str) -> str:
-        """`text` with every ``$(...)`` replaced.
+        """Return `text` with every ``$(...)`` replaced.
 
         Raises:
             SubstitutionError: One is malformed, unknown, or has no value.
@@ -58,7 +58,7 @@ class Substitution:
         return self._find_all(self._replace_all(text))
 
     def evaluate(self, expression: str) -> Any:
-        """The value of the expression of ``$(eval EXPRESSION)``.
+        """Return the value of the expression of ``$(eval EXPRESSION)``.
 
         Raises:
             SubstitutionError: It is not valid, or uses a name that is not there.

@@ -92,7 +92,7 @@ class TestReport:
         ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
 
     def summary(self) -> str:
-        """The report for people."""
+        """Return the report as text."""
         lines = ["", "[ROSTEST]" + "-" * 71, ""]
         for case in self.cases:
             lines.append(f"[{case.name}][{(case.kind + '!').upper() if case.kind else 'passed'}]")
@@ -110,7 +110,7 @@ def results_folder() -> Path:
 
 
 def report_name(file: Path) -> tuple[str, str]:
-    """The package of a test file, and what its report is called."""
+    """Return the package of a test file, and the name of its report."""
     path = file.resolve()
     for name, folder in find_packages().items():
         if path.is_relative_to(folder.resolve()):
@@ -211,7 +211,7 @@ def _wait(launch: Launch, node: TestPlan, test: TestPlan) -> str:
 
 
 def read_results(path: Path, name: str) -> list[Case]:
-    """The cases in a result file of gtest's or JUnit's form.
+    """Read the cases in a result file of gtest's or JUnit's form.
 
     Raises:
         OSError: It cannot be read, or is too long.

@@ -21,7 +21,7 @@ _PLAIN_NUMBER = re.compile(r"[-+*/ .0-9eEpi]+")
 
 
 def convert(text: str, kind: str) -> Any:
-    """Text as a value of a kind (`KINDS`).
+    """Convert text to a value of a kind (`KINDS`).
 
     Raises:
         LaunchError: The kind is unknown, or the text is no such value.
@@ -49,7 +49,7 @@ def _convert(text: str, kind: str) -> Any:
 
 
 def automatic(text: str) -> Any:
-    """Text as the number or boolean it looks like, else as it is."""
+    """Return text as the number or boolean it looks like, else as it is."""
     try:
         if "." in text:
             return float(text)
@@ -62,7 +62,7 @@ def automatic(text: str) -> Any:
 
 
 def truth(text: str) -> bool:
-    """``true``, ``1``, ``false`` or ``0`` as a boolean.
+    """Return ``true``, ``1``, ``false`` or ``0`` as a boolean.
 
     Raises:
         LaunchError: It is none of them.
@@ -76,7 +76,7 @@ def truth(text: str) -> bool:
 
 
 def parse_yaml(text: str) -> Any:
-    """As `load_yaml`, but raises what PyYAML does; LaunchError for an angle that is none."""
+    """Parse like `load_yaml`, but raise PyYAML's errors; LaunchError for an invalid angle."""
     import yaml
 
     refuse_deep(text)
@@ -84,7 +84,7 @@ def parse_yaml(text: str) -> Any:
 
 
 def parse_yaml_documents(text: str) -> list[Any]:
-    """As `load_yaml_documents`, but raises what PyYAML does."""
+    """Parse like `load_yaml_documents`, but raise PyYAML's errors."""
     import yaml
 
     refuse_deep(text)
@@ -92,7 +92,9 @@ def parse_yaml_documents(text: str) -> list[Any]:
 
 
 def load_yaml(text: str, name: str = "", first: int = 1) -> Any:
-    """YAML with rosparam's extras: ``!degrees 90``, ``!radians pi/2``, ``deg(90)``, ``rad(pi/2)``.
+    """Load YAML with rosparam's extras.
+
+    They are ``!degrees 90``, ``!radians pi/2``, ``deg(90)`` and ``rad(pi/2)``.
 
     All angles come out in radians (http://wiki.ros.org/rosparam#YAML_Format). No-break spaces and
     the like are taken as spaces, with a warning.
@@ -117,7 +119,7 @@ def load_yaml(text: str, name: str = "", first: int = 1) -> Any:
 
 
 def load_yaml_documents(text: str, name: str = "") -> list[Any]:
-    """All documents of YAML text, as `load_yaml` reads one.
+    """Load all documents of YAML text, like `load_yaml`.
 
     Raises:
         LaunchError: It is not YAML.
@@ -132,7 +134,7 @@ def load_yaml_documents(text: str, name: str = "") -> list[Any]:
 
 
 def _plain(text: str, name: str, first: int = 1) -> str:
-    """Text with plain blanks; those that were not and curly quotes are a warning."""
+    """Return text with plain blanks; unusual ones and curly quotes give a warning."""
     clean, line = characters.plain(text, _COMMENT)
     if line is not None:
         _warn(characters.MESSAGE, name, line + first - 1)
@@ -166,7 +168,7 @@ _loaders: list[Any] = []
 
 
 def _loader() -> Any:
-    """The YAML loader, made once and when it is needed."""
+    """Return the YAML loader, made once and when it is needed."""
     if _loaders:
         return _loaders[0]
     import yaml
@@ -196,7 +198,7 @@ def _loader() -> Any:
 
 
 def angle(text: str, unit: str) -> float:
-    """A number, or a product of numbers and ``pi``, with or without ``deg(...)`` around it.
+    """Return a number, or a product of numbers and ``pi``, with or without ``deg(...)`` around it.
 
     Raises:
         LaunchError: It is something else.

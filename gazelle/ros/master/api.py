@@ -35,7 +35,7 @@ class MasterApi:
         self._api = Api(self._methods())
 
     def dispatch(self, method: str, params: list[Any]) -> list[Any]:
-        """Do a call; see `gazelle.ros.apis.Api.dispatch`."""
+        """Call a method; see `gazelle.ros.apis.Api.dispatch`."""
         return self._api.dispatch(method, params)
 
     def prepare(self, method: str, params: list[Any]) -> Callable[[], list[Any]]:
@@ -77,22 +77,25 @@ class MasterApi:
     # The master itself -------------------------------------------------------------------
 
     def get_pid(self, _caller: str) -> Triple:
-        """The process the master runs in."""
+        """Return the process the master runs in."""
         return 1, "", os.getpid()
 
     def get_uri(self, _caller: str) -> Triple:
-        """The master's URI."""
+        """Return the master's URI."""
         return 1, "", self.uri
 
     def shutdown(self, _caller: str, reason: str) -> Triple:
-        """End the master."""
+        """Stop the master."""
         self._shutdown(reason)
         return 1, "shutdown", 0
 
     # Topics ------------------------------------------------------------------------------
 
     def register_publisher(self, caller: str, topic: str, kind: str, uri: str) -> Triple:
-        """`caller` publishes `topic`; all subscribers are told. Returns subscriber URIs."""
+        """Register `caller` as a publisher of `topic`, and notify subscribers; returns their URIs.
+
+        Returns subscriber URIs.
+        """
         entry = self._enter(caller, uri)
         self.registrations.publishers.add(topic, entry)
         self.registrations.note_publisher_type(topic, kind)
@@ -101,25 +104,28 @@ class MasterApi:
         return 1, f"Registered [{caller}] as publisher of [{topic}]", subscribers
 
     def unregister_publisher(self, caller: str, topic: str, uri: str) -> Triple:
-        """`caller` publishes `topic` no longer; all subscribers are told."""
+        """Unregister `caller` as a publisher of `topic`, and notify all subscribers."""
         triple = self._give_up(self.registrations.publishers, caller, topic, uri)
         if triple[2]:
             self._tell_publishers(topic)
         return triple
 
     def register_subscriber(self, caller: str, topic: str, kind: str, uri: str) -> Triple:
-        """`caller` subscribes to `topic`. Returns publisher URIs."""
+        """Register `caller` as a subscriber of `topic`; returns publisher URIs.
+
+        Returns publisher URIs.
+        """
         entry = self._enter(caller, uri)
         self.registrations.subscribers.add(topic, entry)
         self.registrations.note_subscriber_type(topic, kind)
         return 1, f"Subscribed to [{topic}]", self.registrations.publisher_uris(topic)
 
     def unregister_subscriber(self, caller: str, topic: str, uri: str) -> Triple:
-        """`caller` subscribes to `topic` no longer."""
+        """Unregister `caller` as a subscriber of `topic`."""
         return self._give_up(self.registrations.subscribers, caller, topic, uri)
 
     def get_published_topics(self, _caller: str, space: str) -> Triple:
-        """Topics with publishers in a namespace, and their types."""
+        """Return topics with publishers in a namespace, and their types."""
         types = self.registrations.topic_types
         found = [
             [topic, types.get(topic, names.ANY_TYPE)]
@@ -129,12 +135,12 @@ class MasterApi:
         return 1, "current topics", found
 
     def get_topic_types(self, _caller: str) -> Triple:
-        """All topics that ever had a type."""
+        """Return all topics that ever had a type."""
         types = self.registrations.topic_types
         return 1, "current system state", [[topic, kind] for topic, kind in types.items()]
 
     def get_system_state(self, _caller: str) -> Triple:
-        """Publishers, subscribers, services."""
+        """Return publishers, subscribers, services."""
         known = self.registrations
         services = [[name, [node]] for name, (node, _) in known.services.items()]
         state = [known.publishers.state(), known.subscribers.state(), services]
@@ -143,12 +149,12 @@ class MasterApi:
     # Services and nodes ------------------------------------------------------------------
 
     def register_service(self, caller: str, service: str, address: str, uri: str) -> Triple:
-        """`caller` provides `service` from now on, whoever did before."""
+        """Register `caller` as the provider of `service`, in place of any other."""
         self.registrations.serve(service, address, self._enter(caller, uri))
         return 1, f"Registered [{caller}] as provider of [{service}]", 1
 
     def unregister_service(self, caller: str, service: str, address: str) -> Triple:
-        """`caller` provides `service` no longer, if it still did under that address."""
+        """Unregister `caller` as the provider of `service`, if it still was under that address."""
         entry = self.registrations.nodes.get(caller)
         if entry is None:
             return 1, f"[{caller}] is not a registered node", 0
@@ -158,14 +164,14 @@ class MasterApi:
         return 1, f"Unregistered [{caller}] as provider of [{service}]", 1
 
     def lookup_service(self, _caller: str, service: str) -> Triple:
-        """The address of a service."""
+        """Return the address of a service."""
         found = self.registrations.services.get(service)
         if found is None:
             return -1, "no provider", ""
         return 1, f"rosrpc URI: [{found[1]}]", found[1]
 
     def lookup_node(self, _caller: str, node: str) -> Triple:
-        """The URI of a node."""
+        """Return the URI of a node."""
         entry = self.registrations.nodes.get(node)
         if entry is None:
             return -1, f"unknown node [{node}]", ""
@@ -183,14 +189,14 @@ class MasterApi:
         return 1, f"parameter {key} set", 0
 
     def get_param(self, _caller: str, key: str) -> Triple:
-        """The value of a parameter or namespace."""
+        """Return the value of a parameter or namespace."""
         try:
             return 1, f"Parameter [{key}]", self.parameters.get(key)
         except KeyError:
             return -1, f"Parameter [{key}] is not set", 0
 
     def has_param(self, _caller: str, key: str) -> Triple:
-        """True if it is set."""
+        """Return True if it is set."""
         return 1, key, self.parameters.has(key)
 
     def delete_param(self, caller: str, key: str) -> Triple:
@@ -203,7 +209,7 @@ class MasterApi:
         return 1, f"parameter {key} deleted", 0
 
     def search_param(self, caller: str, key: str) -> Triple:
-        """The nearest parameter of that name, seen from the caller upwards."""
+        """Return the nearest parameter of that name, from the caller's namespace upwards."""
         if not names.is_global(caller):
             raise ValueError("namespace must be global")
         found = self.parameters.search(caller, key)
@@ -212,17 +218,17 @@ class MasterApi:
         return 1, f"Found [{found}]", found
 
     def get_param_names(self, _caller: str) -> Triple:
-        """All keys that hold a value."""
+        """Return all keys that hold a value."""
         return 1, "Parameter names", self.parameters.names()
 
     def subscribe_param(self, caller: str, uri: str, key: str) -> Triple:
-        """Tell `caller` about changes of `key`; returns its value now, or an empty dict."""
+        """Subscribe `caller` to changes of `key`; returns its value now, or an empty dict."""
         self.registrations.subscribe_parameter(key, self._enter(caller, uri))
         value = self.parameters.get(key) if self.parameters.has(key) else {}
         return 1, f"Subscribed to parameter [{key}]", value
 
     def unsubscribe_param(self, caller: str, uri: str, key: str) -> Triple:
-        """Tell `caller` no more."""
+        """Unsubscribe `caller` from changes of `key`."""
         entry = self.registrations.find(caller, uri)
         if entry is not None and self.registrations.unsubscribe_parameter(key, entry):
             self.registrations.leave_if_empty(entry)
@@ -231,7 +237,7 @@ class MasterApi:
     # Inner -------------------------------------------------------------------------------
 
     def _enter(self, name: str, uri: str) -> NodeEntry:
-        """The node's entry; a former node of that name is told to end."""
+        """Return the node's entry; a former node of that name is requested to shut down."""
         former_topics: list[str] = []
         known = self.registrations.nodes.get(name)
         if known is not None and known.uri != uri:
@@ -259,7 +265,7 @@ class MasterApi:
             self._notify(uri, "publisherUpdate", (CALLER, topic, publishers))
 
     def _tell_parameter(self, caller: str, key: str, value: Any) -> None:
-        """Tell all who subscribed, except the caller itself."""
+        """Notify all subscribers of a parameter, except the caller itself."""
         subscribers = self.registrations.parameter_subscribers
         if not subscribers:
             return

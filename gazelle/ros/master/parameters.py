@@ -25,7 +25,7 @@ class ParameterTree:
         """Dicts that nobody else has, by their identity."""
 
     def get(self, key: str) -> Any:
-        """The value of `key`, which is not to be changed; a namespace is a dict.
+        """Return the value of `key`, which is not to be changed; a namespace is a dict.
 
         Raises:
             KeyError: It is not set.
@@ -37,7 +37,7 @@ class ParameterTree:
         return value
 
     def has(self, key: str) -> bool:
-        """True if `key` is set, if only to an empty dict."""
+        """Return True if `key` is set, if only to an empty dict."""
         return self._find(key) is not _MISSING
 
     def set(self, key: str, value: Any) -> None:
@@ -73,7 +73,7 @@ class ParameterTree:
         del self._writable(parts[:-1])[parts[-1]]
 
     def _writable(self, parts: list[str]) -> dict[str, Any]:
-        """The dict at the end of a way, after all on the way were copied that others may have."""
+        """Return the dict at the end of a path, after copying shared ones on it."""
         place = self._root = self._own(self._root)
         for part in parts:
             inner = place.get(part)
@@ -91,11 +91,11 @@ class ParameterTree:
         return made
 
     def names(self) -> list[str]:
-        """All keys that hold a value; namespaces and empty dicts are not among them."""
+        """Return all keys that hold a value; namespaces and empty dicts are not among them."""
         return list(_leaves(self._root, SEPARATOR))
 
     def search(self, namespace: str, key: str) -> str | None:
-        """The name of `key` in the nearest enclosing namespace that has its first part.
+        """Return the name of `key` in the nearest enclosing namespace that has its first part.
 
         Args:
             namespace: Where to begin: the name of a node.

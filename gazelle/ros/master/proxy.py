@@ -27,7 +27,7 @@ TAKEN_HINT = (
 
 
 def value_of(method: str, triple: Any) -> Any:
-    """The value of an answer.
+    """Return the value of an answer.
 
     Raises:
         ApiError: Its code is not 1.
@@ -85,11 +85,11 @@ class MasterProxy:
         self._client.close()
 
     def get_pid(self) -> int:
-        """Process of the master."""
+        """Return process of the master."""
         return int(self.call("getPid"))
 
     def greet(self) -> int:
-        """Process of the master, asked with little patience.
+        """Return the process of the master, with a short timeout.
 
         Raises:
             MasterUnreachableError: Nobody listens.
@@ -104,46 +104,46 @@ class MasterProxy:
             shy.close()
 
     def get_uri(self) -> str:
-        """The URI the master has for itself."""
+        """Return the URI the master has for itself."""
         return str(self.call("getUri"))
 
     def lookup_node(self, name: str) -> str:
-        """URI of a node."""
+        """Return URI of a node."""
         return str(self.call("lookupNode", name))
 
     def lookup_service(self, name: str) -> str:
-        """Address of a service, ``rosrpc://HOST:PORT``."""
+        """Return address of a service, ``rosrpc://HOST:PORT``."""
         return str(self.call("lookupService", name))
 
     def published_topics(self, subgraph: str = "") -> list[tuple[str, str]]:
-        """Topics with publishers in a namespace, and their types."""
+        """Return topics with publishers in a namespace, and their types."""
         return [(topic, kind) for topic, kind in self.call("getPublishedTopics", subgraph)]
 
     def topic_types(self) -> list[tuple[str, str]]:
-        """All topics the master knows a type of."""
+        """Return all topics the master knows a type of."""
         return [(topic, kind) for topic, kind in self.call("getTopicTypes")]
 
     def system_state(
         self,
     ) -> tuple[dict[str, list[str]], dict[str, list[str]], dict[str, list[str]]]:
-        """Publishers by topic, subscribers by topic, providers by service."""
+        """Return publishers by topic, subscribers by topic, providers by service."""
         pubs, subs, services = self.call("getSystemState")
         return dict(pubs), dict(subs), dict(services)
 
     def register_publisher(self, topic: str, kind: str, uri: str) -> list[str]:
-        """Returns the URIs of the subscribers."""
+        """Register a publisher; returns the URIs of the subscribers."""
         return list(self.call("registerPublisher", topic, kind, uri))
 
     def unregister_publisher(self, topic: str, uri: str) -> bool:
-        """False if it was not registered."""
+        """Unregister a publisher; False if it was not registered."""
         return bool(self.call("unregisterPublisher", topic, uri))
 
     def register_subscriber(self, topic: str, kind: str, uri: str) -> list[str]:
-        """Returns the URIs of the publishers."""
+        """Register a subscriber; returns the URIs of the publishers."""
         return list(self.call("registerSubscriber", topic, kind, uri))
 
     def unregister_subscriber(self, topic: str, uri: str) -> bool:
-        """False if it was not registered."""
+        """Unregister a subscriber; False if it was not registered."""
         return bool(self.call("unregisterSubscriber", topic, uri))
 
     def register_service(self, name: str, address: str, uri: str) -> None:
@@ -151,11 +151,11 @@ class MasterProxy:
         self.call("registerService", name, address, uri)
 
     def unregister_service(self, name: str, address: str) -> bool:
-        """False if it was not registered."""
+        """Unregister a service; False if it was not registered."""
         return bool(self.call("unregisterService", name, address))
 
     def get_param(self, key: str) -> Any:
-        """The value of a parameter."""
+        """Return the value of a parameter."""
         return self.call("getParam", key)
 
     def set_param(self, key: str, value: Any) -> None:
@@ -163,7 +163,7 @@ class MasterProxy:
         self.call("setParam", key, value)
 
     def has_param(self, key: str) -> bool:
-        """True if it is set."""
+        """Return True if it is set."""
         return bool(self.call("hasParam", key))
 
     def delete_param(self, key: str) -> None:
@@ -175,18 +175,18 @@ class MasterProxy:
         return str(self.call("searchParam", key))
 
     def param_names(self) -> list[str]:
-        """All keys that hold a value."""
+        """Return all keys that hold a value."""
         return list(self.call("getParamNames"))
 
     def subscribe_param(self, key: str, uri: str) -> Any:
-        """Be told about changes; returns the value now, ``{}`` if there is none."""
+        """Subscribe to changes; returns the value now, ``{}`` if there is none."""
         return self.call("subscribeParam", uri, key)
 
     def unsubscribe_param(self, key: str, uri: str) -> None:
-        """Be told no more."""
+        """Unsubscribe from changes."""
         self.call("unsubscribeParam", uri, key)
 
 
 def _no_master(uri: str, why: str) -> NoMasterError:
-    """The error for a port that something else has."""
+    """Return the error for a port that something else uses."""
     return NoMasterError(f"what listens at {uri} is no ROS master ({why})", hint=TAKEN_HINT)

@@ -19,7 +19,7 @@ class NodeEntry:
     parameters: dict[str, None] = field(default_factory=dict)
 
     def is_empty(self) -> bool:
-        """True if nothing is registered any more."""
+        """Return True if nothing is registered any more."""
         return not (self.topics or self.services or self.parameters)
 
 
@@ -34,12 +34,12 @@ class Roles:
         return topic in self._nodes
 
     def add(self, topic: str, node: NodeEntry) -> None:
-        """`node` takes the role for `topic`."""
+        """Add `node` to the role for `topic`."""
         self._nodes.setdefault(topic, {})[node.name] = None
         node.topics[self.role, topic] = None
 
     def remove(self, topic: str, node: NodeEntry) -> bool:
-        """`node` gives the role up; False if it did not have it."""
+        """Remove `node` from the role for `topic`; False if it did not have it."""
         names = self._nodes.get(topic)
         if names is None or node.name not in names:
             return False
@@ -50,15 +50,15 @@ class Roles:
         return True
 
     def names(self, topic: str) -> list[str]:
-        """Nodes with the role for `topic`."""
+        """Return the nodes with the role for `topic`."""
         return list(self._nodes.get(topic, ()))
 
     def state(self) -> list[list[object]]:
-        """All of it, as getSystemState shows it."""
+        """Return all roles in the form of getSystemState."""
         return [[topic, list(names)] for topic, names in self._nodes.items()]
 
     def topics(self) -> list[str]:
-        """Topics somebody has the role for."""
+        """Return the topics with a node in the role."""
         return list(self._nodes)
 
 
@@ -79,7 +79,7 @@ class Registrations:
         self.parameter_subscribers: dict[str, dict[str, None]] = {}
 
     def enter(self, name: str, uri: str) -> tuple[NodeEntry, NodeEntry | None]:
-        """The entry of a node, and the entry it replaced if the name had another URI."""
+        """Return the entry of a node, and the entry it replaced if the name had another URI."""
         entry = self.nodes.get(name)
         if entry is not None and entry.uri == uri:
             return entry, None
@@ -89,12 +89,12 @@ class Registrations:
         return fresh, entry
 
     def find(self, name: str, uri: str) -> NodeEntry | None:
-        """The node if it is known under that URI."""
+        """Return the node if it is known under that URI."""
         entry = self.nodes.get(name)
         return entry if entry is not None and entry.uri == uri else None
 
     def leave_if_empty(self, entry: NodeEntry) -> None:
-        """Drop a node that has nothing registered."""
+        """Remove a node without registrations."""
         if entry.is_empty() and self.nodes.get(entry.name) is entry:
             del self.nodes[entry.name]
 
@@ -111,22 +111,22 @@ class Registrations:
         return self.uris(self.subscribers.names(topic))
 
     def note_publisher_type(self, topic: str, kind: str) -> None:
-        """The last publisher that names a type decides it."""
+        """Set the type of the last publisher that names one."""
         if kind != ANY_TYPE or topic not in self.topic_types:
             self.topic_types[topic] = kind
 
     def note_subscriber_type(self, topic: str, kind: str) -> None:
-        """A subscriber decides the type only where nobody did yet."""
+        """Set a subscriber's type, unless the topic has one."""
         if kind != ANY_TYPE:
             self.topic_types.setdefault(topic, kind)
 
     def serve(self, service: str, address: str, entry: NodeEntry) -> None:
-        """`entry` is the provider of `service` from now on."""
+        """Set `entry` as the provider of `service`."""
         self.services[service] = (entry.name, address)
         entry.services[service] = None
 
     def stop_serving(self, service: str, address: str, entry: NodeEntry) -> bool:
-        """Undo `serve`; False if somebody else, or another address, took over."""
+        """Undo `serve`; False if another node or address took over."""
         current = self.services.get(service) == (entry.name, address)
         if current:
             del self.services[service]
@@ -136,7 +136,7 @@ class Registrations:
         return current
 
     def subscribe_parameter(self, key: str, entry: NodeEntry) -> None:
-        """`entry` is told about changes of `key`."""
+        """Subscribe `entry` to changes of `key`."""
         self.parameter_subscribers.setdefault(key, {})[entry.name] = None
         entry.parameters[key] = None
 

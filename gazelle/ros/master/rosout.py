@@ -35,7 +35,7 @@ class RosoutAggregator:
         serve_loggers(self._node)
 
     def close(self) -> None:
-        """End the node."""
+        """Close the node."""
         self._node.close()
 
     def _pass_on(self, message: Any) -> None:
@@ -44,7 +44,7 @@ class RosoutAggregator:
 
 
 def _log_class() -> type[RawMessage]:
-    """The raw class, with the definition that subscribers without it need."""
+    """Return the raw class, with the definition that subscribers without it need."""
     from gazelle.ros.messages import load_message
 
     LogMessage._full_text = load_message("rosgraph_msgs/Log")._full_text

@@ -79,7 +79,7 @@ class Master(Closeable):
             self._start_rosout()
 
     def close(self) -> None:
-        """End it: its socket and threads are gone when this returns."""
+        """Stop it: its socket and threads are gone when this returns."""
         if self._closed:
             return
         self._closed = True
@@ -120,7 +120,7 @@ class Master(Closeable):
 
 
 def require_free(host: str, port: int) -> None:
-    """Make sure that a master can be started there.
+    """Check that a master can be started there.
 
     Raises:
         RosError: The port is taken; it says by whom.
@@ -132,7 +132,7 @@ def require_free(host: str, port: int) -> None:
 
 
 def _cannot_listen(error: OSError, host: str, port: int) -> RosError:
-    """The error that says who has the port, as far as can be seen."""
+    """Return the error that names the user of the port, as far as known."""
     text = f"cannot listen on {host}:{port}: "
     if error.errno != errno.EADDRINUSE:
         return RosError(text + (error.strerror or str(error)))

@@ -51,7 +51,7 @@ class StructMethods(dict[int, Callable[..., Any]]):
 
 
 def shared_names() -> dict[str, Any]:
-    """The names that all compiled encoders and decoders refer to."""
+    """Return the names that all compiled encoders and decoders refer to."""
     names: dict[str, Any] = {}
     for code in "?" + "".join(sorted(set(STRUCT_CODES.values()))):
         names[f"_unpackers_{code}".replace("?", "bool")] = StructMethods(
@@ -71,7 +71,7 @@ def shared_names() -> dict[str, Any]:
 
 
 def octets(value: Any, count: int | None) -> bytes | bytearray | memoryview:
-    """The bytes of a ``uint8[]`` that is not given as ``bytes``.
+    """Return the bytes of a ``uint8[]`` that is not given as ``bytes``.
 
     Raises:
         TypeError: It is no sequence of bytes.
@@ -95,7 +95,7 @@ def octets(value: Any, count: int | None) -> bytes | bytearray | memoryview:
 
 
 def numbers(value: Any, base: str, count: int | None) -> bytes:
-    """An array of numbers that is neither a list nor a tuple, with its length if that may vary.
+    """Encode an array of numbers that is no list or tuple, with its length if that varies.
 
     Args:
         value: A numpy array of any shape (taken row by row), or another sequence.
@@ -132,7 +132,7 @@ def _numpy_bytes(value: Any, base: str) -> bytes:
 
 
 def _check_unlike(given: Any, wanted: Any) -> None:
-    """Integers of either sign may become each other, and bools numbers; the rest not.
+    """Check that kinds are compatible: integers of either sign are, and bools with numbers.
 
     Raises:
         TypeError: The kinds are too far apart.
@@ -142,7 +142,7 @@ def _check_unlike(given: Any, wanted: Any) -> None:
 
 
 def view(data: bytes, base: str, count: int, offset: int) -> Any:
-    """A numpy array on top of the bytes of a message, without a copy."""
+    """Return a numpy array on top of the bytes of a message, without a copy."""
     import numpy as np
 
     return np.ndarray((count,), DTYPES[base], data, offset)

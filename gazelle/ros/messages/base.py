@@ -62,7 +62,7 @@ class Message:
         _compile(self, "serialize")(self, buff)
 
     def deserialize(self, data: bytes, numpy: bool = False) -> Self:  # noqa: FBT001, FBT002  # brief for callers
-        """Take over the fields from bytes; bytes left over are ignored.
+        """Set the fields from bytes; bytes left over are ignored.
 
         Args:
             data: The serialised message.
@@ -80,7 +80,7 @@ class Message:
         self.serialize(buff)
 
     def deserialize_numpy(self, data: bytes, numpy: Any) -> Self:
-        """Take over the fields from bytes, numeric arrays as numpy arrays.
+        """Set the fields from bytes, numeric arrays as numpy arrays.
 
         As genpy does, and unlike ``deserialize(data, numpy=True)``, this leaves ``uint8[]`` bytes.
         """
@@ -100,7 +100,7 @@ class Message:
         return self._slot_types
 
     def _check_types(self, exc: BaseException | None = None) -> None:
-        """Say which field holds a wrong value.
+        """Raise an error that names the field with a wrong value.
 
         Raises:
             SerializationError: One does, or ``exc`` is given.
@@ -175,7 +175,7 @@ def _equal(mine: Any, theirs: Any) -> bool:
 
 
 def _listed(value: Any) -> Any:
-    """A numpy array, or what it is compared with, as a list."""
+    """Return a numpy array, or its counterpart in a comparison, as a list."""
     if hasattr(value, "tolist"):
         return value.tolist()
     return list(value) if isinstance(value, (list, tuple, bytes, bytearray)) else value

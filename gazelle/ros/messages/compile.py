@@ -19,7 +19,7 @@ _warned: set[str] = set()
 
 
 def compiled(owner: type[Message], method: str) -> Any:
-    """The method of a generated class, compiled now if it is not yet, and set on the class."""
+    """Return the method of a generated class, compiled on first use and set on the class."""
     with _lock:
         made = owner.__dict__.get(method)
         if made is None:

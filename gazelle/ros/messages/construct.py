@@ -12,7 +12,7 @@ HEAD = "def __init__(self, *args, **kwds):"
 def write_constructor(
     spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]]
 ) -> str:
-    """Source of ``__init__``; without arguments it takes the shortest way."""
+    """Write the source of ``__init__``; without arguments it takes the shortest way."""
     names = [field.attribute for field in spec.fields]
     defaults = [default(field, code, known) for field in spec.fields]
     with code.block("if kwds:"):
@@ -44,7 +44,7 @@ def write_constructor(
 
 
 def default(field: Field, code: GeneratedCode, known: dict[str, type[Message]]) -> str:
-    """An expression for the default of a field."""
+    """Return an expression for the default of a field."""
     if not field.is_array:
         return _element_default(field.base, code, known)
     if field.base in OCTETS:

@@ -45,7 +45,7 @@ class DecoderWriter:
         """True if the last thing read was a slice, which may run over the end unnoticed."""
 
     def position(self, extra: int = 0) -> str:
-        """An expression for where the next byte is, plus ``extra``."""
+        """Return an expression for the position of the next byte, plus ``extra``."""
         offset = self._offset + extra
         if not self._base:
             return str(offset)
@@ -164,7 +164,7 @@ class DecoderWriter:
         self.sliced = False
 
     def _loop_over(self, field: Field, target: str) -> tuple[str, str, str]:
-        """Locals for the list, for the number of elements, and for the position in a loop."""
+        """Return locals for the list, the number of elements, and the position in a loop."""
         self.flush()
         length = str(field.length) if field.length is not None else self._length()
         values = self._code.variable()
@@ -226,7 +226,7 @@ class DecoderWriter:
         return codes if codes is None else _read_codes(spec, self._known)
 
     def _make_element(self, field: Field, local: str, targets: list[str]) -> None:
-        """Make the objects of an element, and collect where its numbers go."""
+        """Create the objects of an element, and collect the targets of its numbers."""
         if field.base in _TIME_CODES:
             self._code.line(f"{local} = _new(_{field.base.capitalize()})")
             targets += [f"{local}.secs", f"{local}.nsecs"]
@@ -245,7 +245,7 @@ class DecoderWriter:
 def write_deserialize(
     spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]]
 ) -> str:
-    """Source of ``deserialize(self, data, numpy=False)``: the plain decoder, unless told."""
+    """Write the source of ``deserialize(self, data, numpy=False)``, by default plain."""
     code.line("if numpy: return self._decode_arrays(data)")
     code.line("if type(data) is not bytes: data = bytes(data)")
     _write_guarded(spec, code, known, "plain")
@@ -255,7 +255,7 @@ def write_deserialize(
 def write_decoder(
     spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]], mode: str
 ) -> str:
-    """Source of ``_decode_MODE(self, data)``, which returns the message."""
+    """Write the source of ``_decode_MODE(self, data)``, which returns the message."""
     _write_guarded(spec, code, known, mode)
     return code.source(f"def _decode_{mode}(self, data):")
 
@@ -292,7 +292,10 @@ def _write_body(
 def write_element_decoder(
     spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]], mode: str
 ) -> str:
-    """Source of ``_read_MODE(self, data, place, size)``, which returns where the message ends."""
+    """Write the source of ``_read_MODE(self, data, place, size)``.
+
+    It returns the message's end.
+    """
     decoder = DecoderWriter(code, known, mode, start="place")
     decoder.message(spec, "self")
     decoder.flush()
@@ -324,5 +327,5 @@ def _has_octets(spec: MessageSpec, known: dict[str, type[Message]]) -> bool:
 
 
 def _word(code: str) -> str:
-    """A struct code as part of a name."""
+    """Return a struct code as part of a name."""
     return "bool" if code == "?" else code

@@ -19,7 +19,7 @@ Md5Of = Callable[[str], str]
 
 
 def hashed_text(spec: MessageSpec, md5_of: Md5Of) -> str:
-    """The text whose MD5 sum identifies a message: constants, then fields, no comments."""
+    """Return the text whose MD5 sum identifies a message: constants, then fields, no comments."""
     lines = [f"{each.type} {each.name}={each.text}" for each in spec.constants]
     for field in spec.fields:
         if field.base in BUILTIN:
@@ -30,24 +30,24 @@ def hashed_text(spec: MessageSpec, md5_of: Md5Of) -> str:
 
 
 def message_md5(spec: MessageSpec, md5_of: Md5Of) -> str:
-    """MD5 sum of a message; ``md5_of`` gives those of the messages in it."""
+    """Return MD5 sum of a message; ``md5_of`` gives those of the messages in it."""
     return _md5(hashed_text(spec, md5_of))
 
 
 def service_md5(spec: ServiceSpec, md5_of: Md5Of) -> str:
-    """MD5 sum of a service."""
+    """Return MD5 sum of a service."""
     return _md5(hashed_text(spec.request, md5_of) + hashed_text(spec.response, md5_of))
 
 
 def full_text(spec: MessageSpec, lookup: Lookup) -> str:
-    """A definition followed by all that it depends on, each once."""
+    """Return a definition followed by all that it depends on, each once."""
     names = dict.fromkeys(_all_depends(spec, lookup))
     others = [f"{SEPARATOR}\nMSG: {name}\n{lookup(name).text}" for name in names]
     return "\n".join([spec.text, *others])
 
 
 def split_full_text(text: str) -> tuple[str, dict[str, str]]:
-    """The main definition of a full text, and the texts of the others by their names."""
+    """Return the main definition of a full text, and the texts of the others by their names."""
     main, *others = text.split(f"\n{SEPARATOR}\n")
     depends = {}
     for part in others:

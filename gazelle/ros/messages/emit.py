@@ -40,7 +40,7 @@ class GeneratedCode:
         self._depth -= 1
 
     def variable(self, kind: str = "v") -> str:
-        """A fresh local name."""
+        """Return a fresh local name."""
         self._variables += 1
         return f"{kind}{self._variables}"
 
@@ -58,12 +58,12 @@ class GeneratedCode:
         return name
 
     def source(self, head: str) -> str:
-        """The text of the function under this ``def`` line."""
+        """Return the text of the function under this ``def`` line."""
         return "\n".join([head, *(self._lines or ["    pass"]), ""])
 
 
 def fixed_codes(spec: MessageSpec, known: dict[str, type[Message]]) -> str | None:
-    """Struct codes of a message whose size is always the same; otherwise ``None``.
+    """Return struct codes of a message whose size is always the same; otherwise ``None``.
 
     Arrays of fixed length count as not fixed, unless they are of octets.
     """

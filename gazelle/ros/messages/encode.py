@@ -180,7 +180,7 @@ class Later:
 
 
 def write_encoder(spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]]) -> str:
-    """Source of ``serialize(self, buff)``."""
+    """Write the source of ``serialize(self, buff)``."""
     with code.block("try:"):
         code.line("w = buff.write")
         encoder = EncoderWriter(code, known)
@@ -200,7 +200,7 @@ def write_encoder(spec: MessageSpec, code: GeneratedCode, known: dict[str, type[
 def write_element_encoder(
     spec: MessageSpec, code: GeneratedCode, known: dict[str, type[Message]]
 ) -> str:
-    """Source of ``_write(self, w)``, for messages in arrays; errors are the caller's."""
+    """Write the source of ``_write(self, w)``, for messages in arrays; errors are the caller's."""
     encoder = EncoderWriter(code, known)
     encoder.message(spec, "self")
     encoder.flush()

@@ -16,7 +16,7 @@ def message_class(
     known: dict[str, type[Message]],
     module: str = "msg",
 ) -> type[Message]:
-    """A message class; its code is compiled when it is first used.
+    """Create a message class; its code is compiled when it is first used.
 
     Args:
         spec: The definition.
@@ -50,7 +50,7 @@ def service_class(
     request: type[Message],
     response: type[Message],
 ) -> type[ServiceDefinition]:
-    """A service class, which names its request and response classes."""
+    """Create a service class, which names its request and response classes."""
     package, _, short = spec.full_name.partition("/")
     body: dict[str, Any] = {
         "__slots__": (),

@@ -52,7 +52,7 @@ class PackageDefinitions:
 
 @functools.cache
 def bundled_packages() -> frozenset[str]:
-    """Names of the packages that come with Gazelle."""
+    """Return names of the packages that come with Gazelle."""
     return frozenset(path.stem for path in _FOLDER.glob("*.defs"))
 
 

@@ -85,7 +85,7 @@ def parse_service(full_name: str, text: str, *, file: str | None = None) -> Serv
 
 
 def action_messages(name: str, text: str, *, file: str | None = None) -> dict[str, str]:
-    """The texts of the seven messages that an action stands for.
+    """Return the texts of the seven messages that an action stands for.
 
     Args:
         name: The action's name without its package.

@@ -12,7 +12,7 @@ def recipe(message_class: type[Message]) -> tuple[str, str, str]:
 
 
 def blank(name: str, md5sum: str, text: str) -> Message:
-    """A message of a type, with its fields not yet set."""
+    """Return a message of a type, with its fields not yet set."""
     from gazelle.ros.messages.registry import class_from_text, load_message
 
     try:

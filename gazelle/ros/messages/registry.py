@@ -44,7 +44,7 @@ class Registry:
         self._lock = threading.RLock()
 
     def message(self, name: str) -> type[Message]:
-        """The class of a message type.
+        """Return the class of a message type.
 
         Raises:
             UnknownTypeError: There is no definition of it, or of a type in it.
@@ -58,7 +58,7 @@ class Registry:
             return self._messages.get(name) or self._make_message(name)
 
     def service(self, name: str) -> type[ServiceDefinition]:
-        """The class of a service type.
+        """Return the class of a service type.
 
         Raises:
             UnknownTypeError: There is no definition of it, or of a type in it.
@@ -71,7 +71,7 @@ class Registry:
             return self._services.get(name) or self._make_service(name)
 
     def forget(self, name: str) -> None:
-        """Drop the classes of a type and of all that contain it."""
+        """Remove the classes of a type and of all that contain it."""
         with self._lock:
             stale = {name} | {f"{name}{half}" for half in _HALVES}
             for each, made in list(self._messages.items()):
@@ -205,7 +205,7 @@ load_service = _registry.service
 
 
 def register(package: str, name: str, text: str, kind: str | None = None) -> None:
-    """Make a definition known, before any other of this name.
+    """Register a definition, before any other of this name.
 
     Args:
         package: Name of the package.
@@ -232,7 +232,7 @@ def register(package: str, name: str, text: str, kind: str | None = None) -> Non
 
 
 def definitions(kind: str = "msg") -> list[str]:
-    """Full names of all known types of a kind: ``msg``, ``srv`` or ``action``, sorted.
+    """Return full names of all known types of a kind: ``msg``, ``srv`` or ``action``, sorted.
 
     Searches all packages on ROS_PACKAGE_PATH.
     """
@@ -245,13 +245,15 @@ def definitions(kind: str = "msg") -> list[str]:
 
 
 def package_names(package: str, kind: str = "msg") -> list[str]:
-    """Names, without the package, of a package's types of a kind, sorted."""
+    """Return names, without the package, of a package's types of a kind, sorted."""
     which = {"msg": "messages", "srv": "services", "action": "actions"}[kind]
     return sorted({name for source in _sources(package) for name in getattr(source, which)})
 
 
 def class_from_text(name: str, text: str) -> type[Message]:
-    """A message class from a full text, such as bags and connections carry; kept apart by name.
+    """Return a message class from a full text, such as bags and connections carry.
+
+    Kept apart by name.
 
     Args:
         name: Full type name.

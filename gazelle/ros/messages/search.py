@@ -21,12 +21,14 @@ _crawled: dict[str, dict[str, Path]] = {}
 
 
 def package_path() -> str:
-    """The folders to search, as ROS_PACKAGE_PATH has them."""
+    """Return the search path, as in ROS_PACKAGE_PATH."""
     return os.environ.get("ROS_PACKAGE_PATH", "")
 
 
 def find_packages(path: str | None = None) -> dict[str, Path]:
-    """Folders of all packages by name; the first of a name wins. Searched once for each path.
+    """Find the folders of all packages by name; the first of a name wins.
+
+    Searched once for each path. Searched once for each path.
 
     Args:
         path: Folders with `os.pathsep` between them; by default ROS_PACKAGE_PATH.
@@ -47,7 +49,7 @@ def forget() -> None:
 
 
 def read_definitions(folder: Path) -> PackageDefinitions:
-    """All definitions in a package's folder; an action that is malformed is left out, and named."""
+    """Read all definitions in a package's folder; a malformed action is left out, and named."""
     found = PackageDefinitions()
     for name, kind in _FOLDERS:
         for file in sorted((folder / name).glob(f"*.{kind}")):

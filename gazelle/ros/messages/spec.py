@@ -142,5 +142,5 @@ class ServiceSpec:
 
 
 def python_name(name: str) -> str:
-    """A field's or constant's name, changed where Python reserves the word."""
+    """Return a field's or constant's name, changed where Python reserves the word."""
     return f"{name}_" if keyword.iskeyword(name) or name == "self" else name

@@ -29,7 +29,7 @@ def strify_message(
     field_filter: FieldFilter | None = None,
     fixed_numeric_width: int | None = None,
 ) -> str:
-    """A message, or any value of a field, as YAML.
+    """Return a message, or any value of a field, as YAML.
 
     Args:
         val: The value.
@@ -44,12 +44,15 @@ def strify_message(
 
 
 def to_yaml(message: Message) -> str:
-    """A message as YAML, as ``rostopic echo`` prints it."""
+    """Return a message as YAML, as ``rostopic echo`` prints it."""
     return strify_message(message)
 
 
 def to_dict(value: Any) -> Any:
-    """A message as plain dicts, lists, numbers and strings; times as ``secs`` and ``nsecs``."""
+    """Return a message as plain dicts, lists, numbers and strings.
+
+    Times as ``secs`` and ``nsecs``.
+    """
     if isinstance(value, Message):
         return {name: to_dict(getattr(value, name)) for name in value.__slots__}
     if isinstance(value, TVal):
@@ -62,7 +65,7 @@ def to_dict(value: Any) -> Any:
 
 
 def from_yaml(message: type[Message] | Message, text: str, keys: Mapping[str, Any] = {}) -> Message:
-    """A message from YAML: a mapping of fields, or a list of all of them.
+    """Return a message from YAML: a mapping of fields, or a list of all of them.
 
     Args:
         message: The class, or a message to fill.
@@ -84,7 +87,7 @@ def from_yaml(message: type[Message] | Message, text: str, keys: Mapping[str, An
 def from_dict(
     message: type[Message] | Message, value: Any, keys: Mapping[str, Any] = {}
 ) -> Message:
-    """A message from a mapping of fields, or from a list of all of them.
+    """Return a message from a mapping of fields, or from a list of all of them.
 
     Raises:
         MessageException: A field does not exist or has a wrong form.
@@ -118,7 +121,7 @@ def fill_message_args(msg: Message | TVal, msg_args: Any, keys: Mapping[str, Any
 
 
 def get_printable_message_args(msg: Message, buff: Any = None, prefix: str = "") -> str:
-    """The names of a message's fields, those of messages in it with dots between."""
+    """Return the names of a message's fields, those of messages in it with dots between."""
     names = []
     for name in msg.__slots__:
         value = getattr(msg, name)

@@ -52,7 +52,7 @@ class JointStatePublisher:
         self._send()
 
     def _take(self, state: Any) -> None:
-        """Take over what somebody says of some joints."""
+        """Store positions of some joints."""
         with self._lock:
             for field, known in self._values.items():
                 for name, value in zip(state.name, getattr(state, field), strict=False):
@@ -82,7 +82,7 @@ class JointStatePublisher:
 
 
 def _zero(joint: TreeJoint) -> float:
-    """0, or the middle of the limits if they exclude 0."""
+    """Return 0, or the middle of the limits if they exclude 0."""
     if joint.lower is None or joint.upper is None or joint.lower <= 0.0 <= joint.upper:
         return 0.0
     return (joint.lower + joint.upper) / 2.0

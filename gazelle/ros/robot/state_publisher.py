@@ -56,7 +56,7 @@ class RobotStatePublisher:
         self._subscriber = node.subscribe("joint_states", states, self.take, queue_size=1)
 
     def take(self, state: Any) -> None:
-        """Take a ``JointState`` and send the transforms of its joints."""
+        """Publish the transforms of the joints of a ``JointState``."""
         if len(state.name) != len(state.position):
             if state.position:
                 _LOG.error("a JointState has %d names and %d positions", len(state.name),

@@ -54,7 +54,7 @@ class TreeJoint:
     mimic: TreeMimic | None = None
 
     def placed(self, position: float) -> tuple[Vector, Quaternion]:
-        """Translation and rotation of the child in the parent at a position [rad or m]."""
+        """Return translation and rotation of the child in the parent at a position [rad or m]."""
         if self.kind in _TURNING:
             sine, cosine = math.sin(position / 2.0), math.cos(position / 2.0)
             x, y, z = self.axis
@@ -72,7 +72,7 @@ JointTree = dict[str, TreeJoint]
 
 
 def read_joints(text: str) -> JointTree:
-    """The joints of a URDF.
+    """Read the joints of a URDF.
 
     Raises:
         RosError: It is not XML, not a robot, or a joint is malformed.
@@ -176,7 +176,7 @@ def _unit(axis: Vector) -> Vector:
 
 
 def _from_angles(rpy: Vector) -> Quaternion:
-    """The rotation of turns about fixed axes x, y, z [rad]."""
+    """Return the rotation of turns about fixed axes x, y, z [rad]."""
     result = IDENTITY
     for axis, angle in enumerate(rpy):
         turn = [0.0, 0.0, 0.0, math.cos(angle / 2.0)]
@@ -186,7 +186,10 @@ def _from_angles(rpy: Vector) -> Quaternion:
 
 
 def position_of(joints: JointTree, name: str, positions: dict[str, float]) -> float | None:
-    """The position of a joint, its own or that of the joint it follows; None if not known."""
+    """Return the position of a joint, its own or that of the joint it follows.
+
+    None if not known.
+    """
     joint = joints[name]
     if joint.mimic is None:
         return positions.get(name)

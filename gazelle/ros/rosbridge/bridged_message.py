@@ -33,11 +33,11 @@ class BridgedMessage:
         self._made: dict[str, str | bytes] = {}
 
     def __len__(self) -> int:
-        """Bytes of the serialised message."""
+        """Return the number of bytes of the serialised message."""
         return len(self._data)
 
     def encoded(self, compression: str) -> str | bytes:
-        """The ``publish`` message for clients.
+        """Return the ``publish`` message for clients.
 
         Raises:
             DeserializationError: The bytes are no such message.

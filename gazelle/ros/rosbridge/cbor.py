@@ -24,7 +24,7 @@ _TAGS = {
 
 
 def cbor_values(message: Any) -> dict[str, Any]:
-    """The fields of a message, ready for `cbor2.dumps`."""
+    """Return the fields of a message, ready for `cbor2.dumps`."""
     kind: Any = type(message)
     return {name: convert(getattr(message, name)) for name, convert in _packers(kind)}
 

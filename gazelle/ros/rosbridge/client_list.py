@@ -32,13 +32,13 @@ class ClientList:
         return len(self._clients)
 
     def add(self, connection: Any) -> None:
-        """One more."""
+        """Add a connection."""
         address = connection.remote_address
         self._clients[connection] = str(address[0]) if address else "", self._node.clock.now()
         self._publish()
 
     def remove(self, connection: Any) -> None:
-        """One less."""
+        """Remove a connection."""
         self._clients.pop(connection, None)
         self._publish()
 

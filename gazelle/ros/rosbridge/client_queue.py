@@ -32,7 +32,7 @@ class TopicQueue:
         """When a message was sent, or let through, last."""
 
     def due(self) -> float:
-        """When the next may be sent."""
+        """Return the time of the next message."""
         return self.last + self.settings.throttle
 
 
@@ -69,14 +69,14 @@ class ClientQueue:
         return self._answer_bytes > 4 * self._most
 
     def answer(self, text: str) -> None:
-        """Something that must arrive."""
+        """Queue a text that must arrive."""
         with self._lock:
             self._answers.append(text)
             self._answer_bytes += len(text)
         self._wake()
 
     def offer(self, queue: TopicQueue, message: BridgedMessage, now: float) -> None:
-        """A message of a topic; it may be dropped, as the topic's settings say.
+        """Queue a message of a topic; it may be dropped, as the topic's settings say.
 
         Args:
             queue: The topic's.
@@ -99,7 +99,7 @@ class ClientQueue:
         self._wake()
 
     def forget(self, queue: TopicQueue) -> None:
-        """A topic is no longer wanted."""
+        """Remove a topic."""
         with self._lock:
             self._topic_bytes -= sum(map(len, queue.waiting))
             queue.waiting.clear()
@@ -142,7 +142,7 @@ class ClientQueue:
         return Parcel(message=message, settings=queue.settings)
 
     def _shorten(self, queue: TopicQueue, most: int) -> None:
-        """Drop the oldest of a topic, and as many of its turns."""
+        """Remove the oldest messages of a topic, and as many of its turns."""
         while len(queue.waiting) > most:
             self._topic_bytes -= len(queue.waiting.popleft())
             self._turns.remove(queue)

@@ -49,7 +49,7 @@ def call_service(node: Node, service: str, arguments: Any, timeout: float | None
 
 
 def _named(arguments: Any, request: Any) -> Any:
-    """A request's values by name; a list has them in order."""
+    """Return a request's values by name; a list has them in order."""
     if arguments is None:
         return {}
     if not isinstance(arguments, list):
@@ -69,7 +69,7 @@ class PendingRequest:
     error: str = ""
 
     def finish(self, response: Any = None, error: str = "") -> None:
-        """It is answered."""
+        """Finish the request with its answer."""
         self.response, self.error = response, error
         self.done.set()
 
@@ -95,7 +95,7 @@ class OfferedService:
         self._server: ServiceServer = node.serve(name, self._class, self._answer)
 
     def respond(self, identifier: Any, values: Any, *, result: bool) -> None:
-        """The client's answer to a request.
+        """Set the client's answer to a request.
 
         Raises:
             RosError: There is no such request, or the values are no answer; the caller gets an
@@ -117,7 +117,7 @@ class OfferedService:
         pending.finish(response)
 
     def close(self, why: str) -> None:
-        """Offer it no more; who waits for an answer gets an error."""
+        """Close the service; waiting callers get an error."""
         with self._lock:
             self._closed = why
             waiting = list(self._pending.values())
@@ -127,7 +127,7 @@ class OfferedService:
         self._server.close()
 
     def _answer(self, request: Any) -> Any:
-        """Ask the client, and wait for its answer; on a worker thread."""
+        """Call the client, and wait for its answer; on a worker thread."""
         identifier = f"service_request:{self._name}:{next(self._numbers)}"
         pending = PendingRequest()
         with self._lock:
@@ -159,7 +159,7 @@ class ServicePool:
         self._offered: dict[str, tuple[object, OfferedService]] = {}
 
     def offer(self, owner: object, name: str, kind: str, send: Send) -> bool:
-        """Let a client answer a service; whether another, or this one, did so already.
+        """Register a client's service; returns whether the name was registered before.
 
         Raises:
             RosError: There is no such type.
@@ -173,7 +173,7 @@ class ServicePool:
         return before is not None
 
     def withdraw(self, owner: object, name: str) -> bool:
-        """A client answers a service no more; false if it did not."""
+        """Unregister a client's service; false if it was not registered."""
         with self._lock:
             known = self._offered.get(name)
             if known is None or known[0] is not owner:
@@ -185,14 +185,14 @@ class ServicePool:
     def respond(
         self, owner: object, name: str, identifier: Any, values: Any, *, result: bool
     ) -> None:
-        """See `OfferedService.respond`."""
+        """Set an answer; see `OfferedService.respond`."""
         known = self._offered.get(name)
         if known is None or known[0] is not owner:
             raise RosError(f"Service {name} has not been advertised via rosbridge")
         known[1].respond(identifier, values, result=result)
 
     def withdraw_all(self, owner: object) -> None:
-        """A client is gone."""
+        """Unregister all services of a client."""
         with self._lock:
             names = [name for name, (who, _) in self._offered.items() if who is owner]
         for name in names:

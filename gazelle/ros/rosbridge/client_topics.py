@@ -34,7 +34,7 @@ class TopicTypes:
         self._encoders: dict[str, tuple[Any, TopicEncoder]] = {}
 
     def class_of(self, topic: str, wanted: str | None) -> Any:
-        """The class of a topic's messages.
+        """Return the class of a topic's messages.
 
         Args:
             topic: Its name.
@@ -89,7 +89,7 @@ class ClientSubscription:
         self._subscriber: Subscriber | None = None
 
     def request(self, identifier: Any, settings: DeliverySettings) -> None:
-        """One more request, or other settings for one that was made."""
+        """Add a request, or change the settings of one."""
         self._requests[identifier] = settings
         self._merge()
         if self._subscriber is None:
@@ -98,7 +98,7 @@ class ClientSubscription:
             )
 
     def cancel(self, identifier: Any) -> bool:
-        """Forget a request, or all if it is None; whether that was the last."""
+        """Remove a request, or all if it is None; returns whether that was the last."""
         if identifier is None:
             self._requests.clear()
         self._requests.pop(identifier, None)
@@ -220,7 +220,7 @@ class ClientTopics:
         shared.publish(fill_message(shared.message_class(), values, now))
 
     def close(self) -> None:
-        """Undo everything; the client is gone."""
+        """Undo everything at the end of the client."""
         for subscription in self._subscriptions.values():
             subscription.close()
         self._subscriptions.clear()

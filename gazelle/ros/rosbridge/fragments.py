@@ -16,7 +16,7 @@ _MOST_OPEN = 100
 
 
 def split_text(text: str, size: int, identifier: str) -> list[str]:
-    """The ``fragment`` messages of a text, with `size` characters of it each.
+    """Return the ``fragment`` messages of a text, with `size` characters of it each.
 
     A text that is not longer is one message: itself.
     """
@@ -52,7 +52,7 @@ class FragmentBuffer:
         self._touched: dict[Any, float] = {}
 
     def add(self, identifier: Any, number: int, total: int, data: str) -> str | None:
-        """Take a piece; the whole text when it was the last that lacked.
+        """Add a piece; returns the whole text with the last missing one.
 
         Raises:
             RosError: The numbers are impossible or differ from those before, or too much waits.
@@ -88,7 +88,10 @@ class FragmentBuffer:
 
 
 def text_as_png(text: str) -> str:
-    """A text as the bytes of an RGB picture, filled up with line ends: the PNG, as base64."""
+    """Encode a text as a PNG in base64.
+
+    Its bytes are those of an RGB picture, filled up with line ends.
+    """
     from PIL import Image
 
     data = text.encode("utf-8")
@@ -101,7 +104,7 @@ def text_as_png(text: str) -> str:
 
 
 def text_of_png(data: str, most_bytes: int) -> str:
-    """The text in a PNG.
+    """Return the text in a PNG.
 
     Raises:
         RosError: It is none, or its text is longer than `most_bytes`.

@@ -33,7 +33,7 @@ def websocket_main(arguments: Sequence[str]) -> int:
 
 @contextmanager
 def bridge(settings: BridgeSettings, master_uri: str | None = None) -> Iterator[BridgeServer]:
-    """Both nodes in this process, for as long as the block lasts.
+    """Run both nodes in this process, for as long as the block lasts.
 
     Args:
         settings: How the server listens.
@@ -68,7 +68,7 @@ def listening_text(settings: BridgeSettings, port: int) -> str:
 
 
 def _listen(node: Node, settings: BridgeSettings) -> BridgeServer | None:
-    """The server, as soon as its port is free; None if the node is to end first."""
+    """Return the server, as soon as its port is free; None if the node is to end first."""
     while True:
         try:
             return BridgeServer(node, settings)

@@ -23,12 +23,12 @@ class OperationFields:
         self._message = message
 
     def get(self, name: str, default: Any = None) -> Any:
-        """A field of any type, or the default where it is not there or null."""
+        """Return a field of any type, or the default if it is missing or null."""
         value = self._message.get(name)
         return default if value is None else value
 
     def any(self, name: str) -> Any:
-        """A field that has to be there.
+        """Return a field that must be present.
 
         Raises:
             RosError: It is not.
@@ -38,22 +38,22 @@ class OperationFields:
         return self._message[name]
 
     def text(self, name: str, default: str = _MISSING) -> str:
-        """A string."""
+        """Return a string."""
         found: str = self._typed(name, str, default)
         return found
 
     def integer(self, name: str, default: int = _MISSING) -> int:
-        """An int."""
+        """Return an int."""
         found: int = self._typed(name, int, default)
         return found
 
     def flag(self, name: str, default: bool = _MISSING) -> bool:  # noqa: FBT001  # as its siblings
-        """A bool."""
+        """Return a bool."""
         found: bool = self._typed(name, bool, default)
         return found
 
     def number(self, name: str, default: float = _MISSING) -> float:
-        """A number, finite and not below zero."""
+        """Return a number, finite and not below zero."""
         value = self.any(name) if default is _MISSING else self.get(name, default)
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise self._misfit(name, "number", value)

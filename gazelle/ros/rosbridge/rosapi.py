@@ -45,7 +45,10 @@ class RosApi(Closeable):
         self._graph.close()
 
     def _services(self) -> dict[str, tuple[str, Callable[[Any], Any]]]:
-        """Names, types and handlers; a handler gives the fields of the response, in order."""
+        """Return names, types and handlers.
+
+        A handler returns the fields of the response, in order.
+        """
         return {
             "topics": ("Topics", lambda _: self._topics()),
             "topics_and_raw_types": ("TopicsAndRawTypes", lambda _: self._raw_types()),
@@ -81,7 +84,7 @@ class RosApi(Closeable):
     # Topics --------------------------------------------------------------------------------
 
     def _topics(self) -> list[list[str]]:
-        """Names of all topics in use, and their types."""
+        """Return names of all topics in use, and their types."""
         published, subscribed = self._graph.uses()
         types = {name: kind for name, kind, _ in (*published, *subscribed)}
         found = [each for each in types.items() if self._settings.may_use_topic(each[0])]
@@ -100,14 +103,14 @@ class RosApi(Closeable):
         return self._graph.types().get(self._graph.resolve(topic), "")
 
     def _users(self, part: int, topic: str) -> list[str]:
-        """The nodes that publish a topic (0) or subscribe to it (1)."""
+        """Return the nodes that publish a topic (0) or subscribe to it (1)."""
         if not self._settings.may_use_topic(topic):
             return []
         state = self._graph.master.system_state()
         return state[part].get(self._graph.resolve(topic), [])
 
     def _action_servers(self) -> list[str]:
-        """The namespaces with all five topics of an action."""
+        """Return the namespaces with all five topics of an action."""
         parts: dict[str, set[str]] = {}
         for name in self._topics()[0]:
             space, _, last = name.rpartition("/")
@@ -132,7 +135,7 @@ class RosApi(Closeable):
             return ""
 
     def _providers(self, kind: str) -> list[str]:
-        """The nodes that offer services of a type."""
+        """Return the nodes that offer services of a type."""
         wanted = self._services_for(kind)
         return [node for name, nodes in self._graph.services() if name in wanted for node in nodes]
 
@@ -169,7 +172,7 @@ class RosApi(Closeable):
         return []
 
     def _get_param(self, request: Any) -> list[str]:
-        """The value as JSON; the default where there is none."""
+        """Return the value as JSON; the default where there is none."""
         if not self._settings.may_use_parameter(request.name):
             return [""]
         try:
@@ -200,7 +203,7 @@ def _of(node: str, uses: Iterable[tuple[str, list[str]]]) -> list[str]:
 
 
 def _default(text: str) -> Any:
-    """JSON, or else the text itself; nothing if there is none."""
+    """Return JSON, or else the text itself; None if it is empty."""
     try:
         return json.loads(text) if text else None
     except ValueError:

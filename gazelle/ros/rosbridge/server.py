@@ -119,7 +119,7 @@ class BridgeServer(Closeable):
             await self._stop.wait()
 
     def _judge(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Refuse web pages from elsewhere, and clients beyond the limit."""
+        """Return a rejection of web pages from elsewhere, and of clients beyond the limit."""
         if self._clients.count >= self._settings.max_clients:
             return connection.respond(503, "there are too many clients\n")
         origin, host = request.headers.get("Origin"), request.headers.get("Host", "")
@@ -131,7 +131,7 @@ class BridgeServer(Closeable):
         )
 
     async def _talk(self, connection: ServerConnection) -> None:
-        """One client, from its first message to its last."""
+        """Serve one client, from its first message to its last."""
         from websockets.exceptions import ConnectionClosed
 
         news = asyncio.Event()

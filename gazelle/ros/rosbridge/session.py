@@ -73,20 +73,20 @@ class BridgeSession:
         }
 
     def receive(self, text: str | bytes) -> None:
-        """Take a message of the client; what is wrong with it is answered as a status."""
+        """Process a message of the client; its errors are answered as a status."""
         if isinstance(text, bytes):
             self.status("error", "binary messages are not taken: send JSON as text")
             return
         self._take(text, 0)
 
     def close(self) -> None:
-        """Undo all that the client did; it is gone."""
+        """Undo all that the client did, at its end."""
         self.closed = True
         self._context.services.withdraw_all(self)
         self._topics.close()
 
     def status(self, level: str, text: str, identifier: Any = None) -> None:
-        """Tell the client how something went, if it wants to know."""
+        """Send a status to the client, if it wants that level."""
         if _LEVELS.index(level) <= _LEVELS.index(self._level):
             self._send({"op": "status", "level": level, "msg": text}, identifier)
 
@@ -268,7 +268,7 @@ class BridgeSession:
         self._level = level
 
     def _status_from_client(self, _message: OperationFields) -> None:
-        """Clients may tell how they are; nobody asks."""
+        """Ignore a client's status."""
 
     def _auth(self, _message: OperationFields) -> None:
         raise RosError(
@@ -278,7 +278,7 @@ class BridgeSession:
 
 
 def _positive(message: OperationFields, name: str) -> int | None:
-    """An int above zero, or None."""
+    """Return an int above zero, or None."""
     if message.get(name) is None:
         return None
     value = message.integer(name)

@@ -74,7 +74,7 @@ def matches(name: str, patterns: Sequence[str]) -> bool:
 
 
 def read_settings(node: Node, words: Sequence[str] = ()) -> BridgeSettings:
-    """The settings of a node: its private parameters, and ``--NAME VALUE`` on its command line.
+    """Read the settings of a node: its private parameters, and ``--NAME VALUE`` of its arguments.
 
     Raises:
         RosError: A value is none, or asks for what is not supported.
@@ -100,7 +100,7 @@ def read_settings(node: Node, words: Sequence[str] = ()) -> BridgeSettings:
 
 
 def settings_from(given: Mapping[str, Any]) -> BridgeSettings:
-    """Settings of values by name; they may be text, as on a command line.
+    """Convert values by name to settings; they may be text, as on a command line.
 
     Raises:
         RosError: A value is none, or of another type.
@@ -176,7 +176,7 @@ def _text(_name: str, value: Any) -> str:
 
 
 def _patterns(name: str, value: Any) -> tuple[str, ...]:
-    """Patterns as rosbridge writes them: ``[/a, '/b/*']``; a list, or None for none."""
+    """Return patterns in rosbridge's form: ``[/a, '/b/*']``; a list, or None for none."""
     if value is None or value in ("None", ""):
         return ()
     if isinstance(value, str):

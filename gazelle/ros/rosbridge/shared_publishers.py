@@ -82,7 +82,7 @@ class PublisherPool:
     def acquire(
         self, topic: str, find_class: Callable[[], Any], size: int, *, latch: bool
     ) -> SharedPublisher:
-        """A publisher, for one client more until it is released.
+        """Return a publisher, for one client more until it is released.
 
         Args:
             topic: Its name.
@@ -112,7 +112,7 @@ class PublisherPool:
             return shared
 
     def release(self, topic: str) -> None:
-        """One client publishes no more; the topic goes a while after the last."""
+        """Release the publisher of one client; the topic closes a while after the last."""
         with self._lock:
             shared = self._publishers[topic]
             shared.users -= 1

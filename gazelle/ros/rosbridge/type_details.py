@@ -11,7 +11,7 @@ from gazelle.ros.rosbridge.values import split_type
 
 
 def message_details(kind: str) -> list[Any]:
-    """A ``rosapi/TypeDef`` of a message type, and one of each type in it.
+    """Return a ``rosapi/TypeDef`` of a message type, and one of each type in it.
 
     Raises:
         RosError: There is no such type.
@@ -20,7 +20,7 @@ def message_details(kind: str) -> list[Any]:
 
 
 def service_details(kind: str, part: str) -> list[Any]:
-    """The same of the ``request`` or ``response`` of a service type.
+    """Return the ``rosapi/TypeDef`` of the ``request`` or ``response`` of a service type.
 
     Raises:
         RosError: There is no such type.
@@ -30,7 +30,7 @@ def service_details(kind: str, part: str) -> list[Any]:
 
 
 def definition_text(kind: str) -> str:
-    """The whole definition of a type; empty if it is not known."""
+    """Return the whole definition of a type; empty if it is not known."""
     try:
         return load_message(kind)._full_text
     except RosError:
@@ -38,7 +38,7 @@ def definition_text(kind: str) -> str:
 
 
 def _details(message_class: Any) -> list[Any]:
-    """The class first, then what its fields need, each once, in the order of the fields."""
+    """Return the class first, then the types of its fields, each once, in the order of fields."""
     found: dict[str, Any] = {}
 
     def visit(kind: str, each: Any) -> None:

@@ -23,7 +23,7 @@ HEADERS = frozenset({"std_msgs/Header", "Header", "roslib/Header"})
 
 
 def json_values(message: Any) -> dict[str, Any]:
-    """The fields of a message, ready for `json.dumps`."""
+    """Return the fields of a message, ready for `json.dumps`."""
     kind: Any = type(message)
     return {name: convert(getattr(message, name)) for name, convert in _writers(kind)}
 
@@ -44,7 +44,7 @@ def fill_message(message: Any, values: Any, now: Time) -> Any:
 
 
 def split_type(kind: str) -> tuple[str, bool, int | None]:
-    """The base of a field's type, whether it is an array, and its fixed length if it has one."""
+    """Return the base of a field's type, whether it is an array, and its fixed length."""
     base, bracket, length = kind.partition("[")
     length = length.rstrip("]")
     return base, bool(bracket), int(length) if length else None
@@ -81,18 +81,18 @@ def _writer(kind: str) -> Convert:
 
 
 def octets_as_text(value: Any) -> str:
-    """Bytes as base64."""
+    """Return bytes as base64."""
     data = bytes(value) if isinstance(value, (list, tuple)) else value
     return base64.b64encode(data).decode("ascii")
 
 
 def text_of(value: Any) -> str:
-    """A string; what is no UTF-8 in it is replaced, for JSON and CBOR have only text."""
+    """Return a string; invalid UTF-8 in it is replaced, for JSON and CBOR have only text."""
     return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
 
 
 def time_values(value: Any) -> dict[str, int]:
-    """A time or duration."""
+    """Return the fields of a time or duration."""
     return {"secs": int(value.secs), "nsecs": int(value.nsecs)}
 
 

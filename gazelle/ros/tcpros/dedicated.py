@@ -69,7 +69,7 @@ class DedicatedReader:
         return busy and _USABLE and self._loop.dedicated < _MOST
 
     def begin(self, sock: socket.socket) -> None:
-        """Take a socket from the loop."""
+        """Start with a socket of the loop."""
         self._loop.unwatch(sock)
         self.active = True
         self._loop.dedicated += 1

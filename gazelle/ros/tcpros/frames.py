@@ -26,7 +26,7 @@ class ClosedError(ConnectionError):
 
 
 def frame(message: Any) -> bytes:
-    """A message serialised, with its length before it."""
+    """Return a message serialised, with its length before it."""
     buffer = BytesIO()
     buffer.write(_ROOM)
     message.serialize(buffer)
@@ -81,7 +81,7 @@ class FrameReader:
         return frames
 
     def _expect(self, sock: socket.socket) -> None:
-        """Be woken when the rest of a big frame is there, rather than for each piece of it."""
+        """Request a wake-up for the rest of a big frame, rather than for each piece of it."""
         if not _CAN_WAIT_FOR_MORE:
             return
         level = max(1, min(self._missing, _SIP))
@@ -91,7 +91,7 @@ class FrameReader:
                 sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVLOWAT, level)
 
     def cut(self, data: bytes) -> list[bytes]:
-        """The whole frames at the start of `data`; the rest is kept for later."""
+        """Return the whole frames at the start of `data`; the rest is kept for later."""
         frames: list[bytes] = []
         position, end, limit = 0, len(data), self.limit
         unpack = LENGTH.unpack_from
@@ -114,7 +114,7 @@ class FrameReader:
         return frames
 
     def _add(self, data: bytes) -> list[bytes]:
-        """More of a big frame, which is read for itself so that it need not be cut out."""
+        """Add data of a big frame, which is read by itself so that it need not be cut out."""
         self._parts.append(data)
         self._missing -= len(data)
         if self._missing:

@@ -12,14 +12,14 @@ ANY = "*"
 
 
 def encode(fields: Mapping[str, str]) -> bytes:
-    """A whole header, with its length before it."""
+    """Return a whole header, with its length before it."""
     parts = [f"{key}={value}".encode() for key, value in fields.items()]
     body = b"".join(_LENGTH.pack(len(part)) + part for part in parts)
     return _LENGTH.pack(len(body)) + body
 
 
 def decode(body: bytes) -> dict[str, str]:
-    """The fields of a header (without its own length).
+    """Return the fields of a header (without its own length).
 
     Raises:
         ProtocolError: It is malformed.
@@ -42,7 +42,7 @@ def decode(body: bytes) -> dict[str, str]:
 
 
 def require(fields: Mapping[str, str], *names: str) -> None:
-    """Make sure the fields are there.
+    """Check that the fields are present.
 
     Raises:
         ProtocolError: One is missing.
@@ -53,7 +53,7 @@ def require(fields: Mapping[str, str], *names: str) -> None:
 
 
 def check_publisher(fields: Mapping[str, str], topic: str, md5sum: str, kind: str) -> None:
-    """Judge, as a subscriber, what a publisher answered.
+    """Check, as a subscriber, the header of a publisher.
 
     Raises:
         ProtocolError: The publisher refused, or left out what it must tell.
@@ -74,5 +74,5 @@ def check_publisher(fields: Mapping[str, str], topic: str, md5sum: str, kind: st
 
 
 def flag(fields: Mapping[str, str], name: str) -> bool:
-    """True if the field is there and ``1``."""
+    """Return True if the field is present and ``1``."""
     return fields.get(name) == "1"

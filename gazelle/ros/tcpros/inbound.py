@@ -26,13 +26,13 @@ class Receiver(Protocol):
     limits: NetworkLimits
 
     def request_header(self) -> dict[str, str]:
-        """The header to send to a publisher."""
+        """Return the header to send to a publisher."""
 
     def check_header(self, header: dict[str, str]) -> None:
         """Raise RosError if the publisher's header does not fit."""
 
     def receive(self, link: InboundLink, frames: list[bytes], *, now: bool) -> bool:
-        """Take whole messages; may pause the link.
+        """Receive whole messages; may pause the link.
 
         Args:
             link: Where they came from.
@@ -44,10 +44,10 @@ class Receiver(Protocol):
         """
 
     def connected(self, link: InboundLink) -> None:
-        """The link can carry messages from now on."""
+        """Handle a connected link."""
 
     def disconnected(self, link: InboundLink) -> None:
-        """The link cannot carry messages for now."""
+        """Handle a disconnected link."""
 
 
 class InboundLink:
@@ -100,7 +100,7 @@ class InboundLink:
         self._dedicated = DedicatedReader(loop, self._read_next, self._given_back)
 
     def open(self) -> None:
-        """Begin: ask the publisher where to connect to."""
+        """Open the link: request the publisher's address."""
         if self.closed:
             return
         protocols = [["TCPROS"]]
@@ -108,7 +108,7 @@ class InboundLink:
         self._calls.call(self.uri, "requestTopic", params, self._answered)
 
     def close(self) -> None:
-        """End for good."""
+        """Close it for good."""
         self.closed = True
         if self._timer is not None:
             self._timer.cancel()
@@ -144,7 +144,7 @@ class InboundLink:
             self._find()
 
     def _read_answer(self, value: Any) -> tuple[str, int]:
-        """Host and port out of the answer to requestTopic."""
+        """Return host and port from the answer to requestTopic."""
         code, text, choice = value
         if code != 1:
             raise ProtocolError(f"{self.uri} refuses {self._receiver.topic}: {text}")
@@ -223,7 +223,7 @@ class InboundLink:
         return self._receiver.receive(self, frames, now=True) and not self.paused
 
     def _given_back(self, sock: socket.socket, error: RosError | None) -> None:
-        """The socket is the event loop's again."""
+        """Return the socket to the event loop."""
         if sock is not self._sock:  # the link has left it
             self._loop.close(sock)
         elif error is not None:
@@ -239,7 +239,7 @@ class InboundLink:
             self._loop.watch(sock, READ, self._ready)
 
     def _greet(self, frames: list[bytes]) -> list[bytes]:
-        """The first frame is the publisher's header."""
+        """Check the first frame, the publisher's header."""
         header = headers.decode(frames[0])
         self._receiver.check_header(header)
         self.header = header
@@ -262,7 +262,7 @@ class InboundLink:
         self._try_again(ProtocolError(f"{self.uri} does not answer the connection header"))
 
     def _try_again(self, error: RosError) -> None:
-        """Give up this connection, and try another one later."""
+        """Close this connection, and try another one later."""
         if self.closed:
             return
         self._drop()

@@ -174,7 +174,7 @@ class OutboundLink:
                 self._flush()
 
     def _hear(self) -> bool:
-        """Subscribers say nothing after the header; False if this one is gone."""
+        """Check the connection, on which subscribers send nothing more; False if it is closed."""
         try:
             return bool(self._sock.recv(4096, self._flags))
         except (BlockingIOError, InterruptedError):

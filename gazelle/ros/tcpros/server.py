@@ -63,11 +63,11 @@ class TcprosServer:
         self._greeting[_Greeting(self, self._loop, sock, address)] = None
 
     def forget(self, greeting: _Greeting) -> None:
-        """A connection is past its header, or gone."""
+        """Remove a connection that is past its header, or closed."""
         self._greeting.pop(greeting, None)
 
     def hand_over(self, greeting: _Greeting, body: bytes, rest: bytes) -> None:
-        """Give a connection to whom its header names."""
+        """Pass a connection to the target of its header."""
         try:
             self._route(greeting.sock, greeting.address, headers.decode(body), rest)
         except RosError as error:
@@ -124,6 +124,6 @@ class _Greeting:
 
 
 def refuse(sock: socket.socket, text: str) -> None:
-    """Tell the peer why it is cut off."""
+    """Send the peer the reason for the disconnection."""
     with contextlib.suppress(OSError, ProtocolError):
         sock.send(headers.encode({"error": text}))

@@ -115,7 +115,7 @@ class ServiceConnection:
         return self._reader.received > before
 
     def _given_back(self, _sock: socket.socket, error: RosError | None) -> None:
-        """The socket is the event loop's again."""
+        """Return the socket to the event loop."""
         if self._closed:
             self._close_socket()
         elif error is not None:
@@ -148,13 +148,13 @@ class ServiceConnection:
                 self._loop.call_soon(self._linger)
 
     def _linger(self) -> None:
-        """Let the client be the one that ends the connection, if it does so soon."""
+        """Wait for the client to close the connection, if it does so soon."""
         if not self._closed:
             self._loop.watch(self._sock, READ, self._part)
             self._loop.call_later(_LINGER_S, self.close)
 
     def _part(self, _events: int) -> None:
-        """The client closed, or sends more than it may: read, lest that counts as a reset."""
+        """Read after the client closed, or sent too much, lest that counts as a reset."""
         with contextlib.suppress(OSError):
             self._sock.recv(65536)
         self.close()
@@ -185,12 +185,12 @@ class ServiceConnection:
 
 
 def good_answer(body: bytes) -> bytes:
-    """A response as it goes over the wire."""
+    """Encode a response for the wire."""
     return b"\x01" + LENGTH.pack(len(body)) + body
 
 
 def bad_answer(text: str) -> bytes:
-    """A failure as it goes over the wire."""
+    """Encode a failure for the wire."""
     body = text.encode(errors="replace")
     return b"\x00" + LENGTH.pack(len(body)) + body
 
@@ -224,7 +224,7 @@ class ServiceChannel:
         self._sock.close()
 
     def is_stale(self) -> bool:
-        """True if the server closed the connection, or says what nobody asked for."""
+        """Return True if the server closed the connection, or sent something unexpected."""
         self._sock.settimeout(0.0)
         try:
             self._sock.recv(1, socket.MSG_PEEK)

@@ -34,23 +34,23 @@ class FrameCache(Protocol):
     """The placements of one frame."""
 
     def insert(self, stamp: int, placement: ParentTransform) -> str:
-        """Keep a placement; what is returned says why not, and is empty if it is kept."""
+        """Store a placement; returns why not, empty if it is stored."""
 
     def at(self, stamp: int) -> ParentTransform | None:
-        """The placement at a time [ns], 0 for the latest; None if nothing is known.
+        """Return the placement at a time [ns], 0 for the latest; None if nothing is known.
 
         Raises:
             OutsideError: The time is outside of what is known.
         """
 
     def latest(self) -> tuple[int, str] | None:
-        """Time [ns] and parent of the latest placement; time 0 means at all times."""
+        """Return time [ns] and parent of the latest placement; time 0 means at all times."""
 
     def span(self) -> tuple[int, int, int]:
-        """Number of placements, and the times [ns] of the oldest and the latest."""
+        """Return number of placements, and the times [ns] of the oldest and the latest."""
 
     def clear(self) -> None:
-        """Forget what may change with time."""
+        """Discard what may change with time."""
 
 
 class StaticCache:
@@ -62,26 +62,26 @@ class StaticCache:
         self._placement: ParentTransform | None = None
 
     def insert(self, stamp: int, placement: ParentTransform) -> str:
-        """Keep the placement instead of the one before."""
+        """Replace the placement."""
         del stamp
         self._placement = placement
         return ""
 
     def at(self, stamp: int) -> ParentTransform | None:
-        """The placement, at any time."""
+        """Return the placement, at any time."""
         del stamp
         return self._placement
 
     def latest(self) -> tuple[int, str] | None:
-        """Time 0, and the parent."""
+        """Return time 0, and the parent."""
         return (0, self._placement.parent) if self._placement else None
 
     def span(self) -> tuple[int, int, int]:
-        """One placement, without a time."""
+        """Return the span: one placement, without a time."""
         return (1, 0, 0)
 
     def clear(self) -> None:
-        """Static frames stay."""
+        """Do nothing: static frames stay."""
 
 
 class MovingCache:
@@ -100,7 +100,7 @@ class MovingCache:
         self._first = 0
 
     def insert(self, stamp: int, placement: ParentTransform) -> str:
-        """Keep the placement, unless it is older than all that is kept or known already."""
+        """Store the placement, unless it is older than all that are stored, or known already."""
         stamps = self._stamps
         if not stamps or stamp > stamps[-1]:
             stamps.append(stamp)
@@ -129,7 +129,7 @@ class MovingCache:
         self._first = first
 
     def at(self, stamp: int) -> ParentTransform | None:
-        """The placement at a time, between two known ones interpolated."""
+        """Return the placement at a time, between two known ones interpolated."""
         stamps, first = self._stamps, self._first
         if not stamps:
             return None
@@ -169,7 +169,7 @@ class MovingCache:
         )
 
     def latest(self) -> tuple[int, str] | None:
-        """Time and parent of the latest placement."""
+        """Return time and parent of the latest placement."""
         return (self._stamps[-1], self._placements[-1].parent) if self._stamps else None
 
     def span(self) -> tuple[int, int, int]:
@@ -179,12 +179,12 @@ class MovingCache:
         return (len(self._stamps) - self._first, self._stamps[self._first], self._stamps[-1])
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Discard everything."""
         self._stamps.clear()
         self._placements.clear()
         self._first = 0
 
 
 def seconds(stamp: int) -> str:
-    """A time [ns] as tf2 writes it."""
+    """Return a time [ns] as tf2 writes it."""
     return f"{stamp // 1_000_000_000}.{stamp % 1_000_000_000:09d}"

@@ -88,7 +88,7 @@ class FrameTree:
         authority: str = "",
         static: bool = False,
     ) -> bool:
-        """Say where a frame stands in its parent.
+        """Set the pose of a frame in its parent.
 
         Args:
             parent: Name of the parent; one slash in front is dropped, as of `child`.
@@ -135,7 +135,7 @@ class FrameTree:
         _LOG.warning(text, refusal, child, stamp * 1e-9, authority)
 
     def clear(self) -> None:
-        """Forget all placements but static ones; the frames stay known."""
+        """Discard all placements but static ones; the frames stay known."""
         with self._lock:
             for cache in self._caches.values():
                 if cache is not None:
@@ -148,7 +148,7 @@ class FrameTree:
     # Looking up --------------------------------------------------------------------------
 
     def lookup(self, target: str, source: str, stamp: int = 0) -> StampedTransform:
-        """The transform from `source` to `target` at a time.
+        """Return the transform from `source` to `target` at a time.
 
         Raises:
             InvalidArgumentException: A name is empty or starts with a slash.
@@ -166,7 +166,7 @@ class FrameTree:
     def lookup_full(
         self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str
     ) -> StampedTransform:
-        """From `source` at one time to `target` at another, through a frame that stands still.
+        """Return the transform between two times, through a frame that stands still.
 
         Raises:
             InvalidArgumentException: A name is empty or starts with a slash.
@@ -188,7 +188,9 @@ class FrameTree:
         )
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """The latest time [ns] at which both frames are known; 0 if all between them is static.
+        """Return the latest time [ns] at which both frames are known.
+
+        0 if all between them is static.
 
         Raises:
             LookupException: A frame does not exist.
@@ -205,7 +207,7 @@ class FrameTree:
     def chain(
         self, target: str, target_stamp: int, source: str, source_stamp: int, fixed: str
     ) -> list[str]:
-        """The frames on the way from `source` over `fixed` to `target`.
+        """Return the frames on the way from `source` over `fixed` to `target`.
 
         Raises:
             TransformException: As `lookup_full`.
@@ -222,7 +224,7 @@ class FrameTree:
         return name in self._caches
 
     def names(self) -> list[str]:
-        """All frames, in the order in which they became known."""
+        """Return all frames, in the order in which they became known."""
         with self._lock:
             return list(self._caches)
 
@@ -236,7 +238,7 @@ class FrameTree:
             ]
 
     def as_string(self) -> str:
-        """One line for each frame and its parent."""
+        """Return one line for each frame and its parent."""
         lines = []
         for name, _, cache in self.known():
             latest = cache.latest()
@@ -290,7 +292,7 @@ class FrameTree:
     def _way(
         self, target: str, source: str, stamp: int
     ) -> tuple[list[ParentTransform], list[ParentTransform]]:
-        """The placements from `source` up to where the ways meet, and those from `target`."""
+        """Return the placements from `source` up to the common frame, and those from `target`."""
         up, top, outside = self._climb(source, stamp, target)
         if top == target:
             return up, []
@@ -353,7 +355,7 @@ class FrameTree:
         raise self._not_connected(target, source)
 
     def _ancestors(self, name: str) -> list[tuple[int, str]]:
-        """Latest time and parent of a frame, of its parent, and so on to the root."""
+        """Return latest time and parent of a frame, of its parent, and so on to the root."""
         found: list[tuple[int, str]] = []
         cache = self._caches.get(name)
         while cache is not None:
@@ -380,12 +382,12 @@ class FrameTree:
 
 
 def _earlier(common: int, stamp: int) -> int:
-    """The earlier time; 0, a static frame, does not count."""
+    """Return the earlier time; 0, a static frame, does not count."""
     return min(common, stamp) if stamp else common
 
 
 def _accumulate(path: list[ParentTransform]) -> tuple[Vector, Quaternion]:
-    """The transform from the first frame of a path to the parent of the last."""
+    """Return the transform from the first frame of a path to the parent of the last."""
     if not path:
         return ORIGIN, IDENTITY
     translation, rotation = path[0].translation, path[0].rotation

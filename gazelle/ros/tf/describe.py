@@ -17,7 +17,7 @@ def _rate(cache: FrameCache) -> tuple[float, float, float, float]:
 
 
 def as_yaml(tree: FrameTree) -> str:
-    """Parent, broadcaster and times of each frame, as YAML."""
+    """Return parent, broadcaster and times of each frame, as YAML."""
     parts = []
     for name, authority, cache in tree.known():
         latest = cache.latest()
@@ -37,7 +37,7 @@ def as_yaml(tree: FrameTree) -> str:
 
 
 def as_dot(tree: FrameTree, now: int | None = None) -> str:
-    """The tree as a graph in the dot language.
+    """Return the tree as a graph in the dot language.
 
     Args:
         tree: Its frames.

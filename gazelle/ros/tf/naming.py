@@ -16,7 +16,7 @@ PARAMETER = "tf_prefix"
 
 
 def resolve_frame(prefix: str, frame: str) -> str:
-    """A frame's full name; one that begins with a slash is full already, and no name stays none.
+    """Return a frame's full name; one with a leading slash is full, an empty one stays empty.
 
     >>> resolve_frame("r1", "odom"), resolve_frame("/r1", "odom"), resolve_frame("r1", "/map")
     ('r1/odom', 'r1/odom', 'map')
@@ -42,12 +42,12 @@ class FramePrefixes:
         }
 
     def own(self, namespace: str) -> str:
-        """The parameter of a namespace itself; none if it has none, whatever those above it have."""
+        """Return the parameter of a namespace itself; empty without one, whatever is above it."""
         name = namespace.strip("/")
         return self._values.get(f"/{name}" if name else "", "")
 
     def of(self, namespace: str) -> str:
-        """The prefix of a namespace: its own parameter, else that of the nearest above it."""
+        """Return the prefix of a namespace: its own parameter, else the nearest above it."""
         place = "/" + namespace.strip("/")
         while True:
             place = place.rstrip("/")

@@ -16,7 +16,7 @@ IDENTITY: Quaternion = (0.0, 0.0, 0.0, 1.0)
 
 
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
-    """The rotation b followed by the rotation a (Hamilton product)."""
+    """Return the rotation b followed by the rotation a (Hamilton product)."""
     ax, ay, az, aw = a
     bx, by, bz, bw = b
     return (
@@ -28,12 +28,12 @@ def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 def conjugate(q: Quaternion) -> Quaternion:
-    """The inverse of a unit quaternion."""
+    """Return the inverse of a unit quaternion."""
     return (-q[0], -q[1], -q[2], q[3])
 
 
 def rotate(q: Quaternion, v: Vector) -> Vector:
-    """The vector part of ``q v q*``: v rotated, and scaled by the square of q's norm."""
+    """Return the vector part of ``q v q*``: v rotated, and scaled by the square of q's norm."""
     x, y, z, w = q
     vx, vy, vz = v
     ix, iy, iz = w * vx + y * vz - z * vy, w * vy + z * vx - x * vz, w * vz + x * vy - y * vx
@@ -46,23 +46,23 @@ def rotate(q: Quaternion, v: Vector) -> Vector:
 
 
 def add(a: Vector, b: Vector) -> Vector:
-    """The sum."""
+    """Return the sum."""
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
 def minus(a: Vector) -> Vector:
-    """The opposite vector."""
+    """Return the opposite vector."""
     return (-a[0], -a[1], -a[2])
 
 
 def mix(a: Vector, b: Vector, ratio: float) -> Vector:
-    """The point at `ratio` (0 to 1) of the way from a to b."""
+    """Return the point at `ratio` (0 to 1) of the way from a to b."""
     rest = 1.0 - ratio
     return (rest * a[0] + ratio * b[0], rest * a[1] + ratio * b[1], rest * a[2] + ratio * b[2])
 
 
 def slerp(a: Quaternion, b: Quaternion, ratio: float) -> Quaternion:
-    """The rotation at `ratio` of the shorter way from a to b.
+    """Return the rotation at `ratio` of the shorter way from a to b.
 
     Source: Shoemake, Animating rotation with quaternion curves, 1985.
     """
@@ -88,7 +88,7 @@ Matrix = tuple[Vector, Vector, Vector]
 
 
 def matrix(q: Quaternion) -> Matrix:
-    """The rotation matrix, by rows, of a quaternion of any norm but 0."""
+    """Return the rotation matrix, by rows, of a quaternion of any norm but 0."""
     x, y, z, w = q
     s = 2.0 / (x * x + y * y + z * z + w * w)
     xs, ys, zs = x * s, y * s, z * s
@@ -103,7 +103,7 @@ def matrix(q: Quaternion) -> Matrix:
 
 
 def quaternion(m: Matrix) -> Quaternion:
-    """The unit quaternion of a rotation matrix, its largest part positive.
+    """Return the unit quaternion of a rotation matrix, its largest part positive.
 
     Source: Shepperd, Quaternion from rotation matrix, 1978.
     """
@@ -129,14 +129,14 @@ def quaternion(m: Matrix) -> Quaternion:
 
 
 def product(a: Matrix, b: Matrix) -> Matrix:
-    """The matrix product."""
+    """Return the matrix product."""
     columns = tuple(zip(*b, strict=True))
     first, second, third = (tuple(x * c[0] + y * c[1] + z * c[2] for c in columns) for x, y, z in a)
     return (_vector(first), _vector(second), _vector(third))
 
 
 def apply(m: Matrix, v: Vector) -> Vector:
-    """The matrix times the vector."""
+    """Return the matrix times the vector."""
     return _vector(tuple(row[0] * v[0] + row[1] * v[1] + row[2] * v[2] for row in m))
 
 

@@ -10,7 +10,7 @@ from gazelle.ros.tf.core import FrameTree
 def take_transforms(
     tree: FrameTree, message: Any, *, authority: str = "", static: bool = False
 ) -> None:
-    """Place all frames that a ``tf2_msgs/TFMessage`` tells.
+    """Add all transforms of a ``tf2_msgs/TFMessage``.
 
     Args:
         tree: Takes them.

@@ -23,7 +23,7 @@ def twist(
     stamp: int,
     interval: int,
 ) -> tuple[Vector, Vector]:
-    """Linear [m/s] and angular [rad/s] velocity of a frame, averaged over an interval.
+    """Return linear [m/s] and angular [rad/s] velocity of a frame, averaged over an interval.
 
     Args:
         tree: The frames.
@@ -66,7 +66,7 @@ def _referred(
     point_frame: str,
     stamp: int,
 ) -> tuple[Vector, Vector]:
-    """The velocity with the axes of another frame, and of another point."""
+    """Return the velocity with the axes of another frame, and of another point."""
     there = tree.lookup(reference, observer, stamp)
     spin = rotate(there.rotation, angular)
     speed = rotate(there.rotation, linear)

@@ -18,14 +18,14 @@ Kind = Literal["msg", "srv"]
 
 
 def types_named(name: str, kind: Kind) -> list[str]:
-    """The types a word may mean: itself if it has a package, else all types of that name."""
+    """Return the types of a word: itself if it has a package, else all types of that name."""
     if "/" in name:
         return [name]
     return [each for each in definitions(kind) if each.partition("/")[2] == name]
 
 
 def show_type(name: str, kind: Kind, *, raw: bool = False) -> str:
-    """The definition of a type; those of its fields below them, unless it is raw.
+    """Return the definition of a type; those of its fields below them, unless it is raw.
 
     Raises:
         ToolError: There is no such type.
@@ -37,7 +37,7 @@ def show_type(name: str, kind: Kind, *, raw: bool = False) -> str:
 
 
 def type_md5(name: str, kind: Kind) -> str:
-    """The MD5 sum of a type.
+    """Return the MD5 sum of a type.
 
     Raises:
         ToolError: There is no such type.
@@ -49,7 +49,7 @@ def type_md5(name: str, kind: Kind) -> str:
 
 
 def package_types(package: str, kind: Kind) -> list[str]:
-    """Full names of the types of a package.
+    """Return full names of the types of a package.
 
     Raises:
         ToolError: There is no such package.
@@ -63,7 +63,7 @@ def package_types(package: str, kind: Kind) -> list[str]:
 
 
 def packages_with(kind: Kind) -> list[str]:
-    """Names of the packages that have types."""
+    """Return names of the packages that have types."""
     return sorted({name.partition("/")[0] for name in definitions(kind)})
 
 

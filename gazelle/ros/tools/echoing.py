@@ -149,7 +149,7 @@ def _wait(writer: Echo, stop: threading.Event, *, simulated: bool) -> None:
 
 
 def _leaf_type(kind: str, steps: list[FieldAccess]) -> str | None:
-    """The type of a field, if the message's type is known here and the field is no message."""
+    """Return the type of a field, if the message's type is known and it is no message."""
     if not steps:
         return None
     from gazelle.errors import Error
@@ -183,14 +183,14 @@ def echo_bag(
 
 
 def _within(topic: str, wanted: str | None) -> list[FieldAccess] | None:
-    """The steps from a topic to what is wanted; None if it is another topic."""
+    """Return the steps from a topic to a wanted field; None if it is another topic."""
     if wanted is None or topic == wanted:
         return []
     return parse_path(wanted[len(topic) :]) if wanted.startswith(topic + "/") else None
 
 
 def filter_of(expression: str) -> Callable[[Message], bool]:
-    """A function of a message ``m`` from a Python expression.
+    """Compile a function of a message ``m`` from a Python expression.
 
     Raises:
         ToolError: It is no expression.

@@ -25,7 +25,7 @@ class FieldAccess:
 
 
 def parse_path(text: str) -> list[FieldAccess]:
-    """The steps of a path.
+    """Parse the steps of a path.
 
     Raises:
         ToolError: A step is malformed.
@@ -50,7 +50,7 @@ def _step(part: str) -> FieldAccess:
 
 
 def value_at(message: Any, steps: Sequence[FieldAccess]) -> Any:
-    """The part of a message that a path leads to; of a slice, the parts of all its elements.
+    """Return the part of a message at a path; of a slice, the parts of all its elements.
 
     Raises:
         ToolError: There is no such field or element.
@@ -76,7 +76,7 @@ def value_at(message: Any, steps: Sequence[FieldAccess]) -> Any:
 
 
 def type_at(message_class: type[Message], steps: Sequence[FieldAccess]) -> str:
-    """The type of the field a path leads to, as its definition has it.
+    """Return the type of the field at a path, as in its definition.
 
     Raises:
         ToolError: There is no such field.
@@ -94,7 +94,7 @@ def type_at(message_class: type[Message], steps: Sequence[FieldAccess]) -> str:
 
 
 def texts_as_texts(message: Message, arguments: Sequence[Any]) -> list[Any]:
-    """Values of a command line, where a number that is meant for a field of text is text.
+    """Return values of a command line, with numbers for text fields as text.
 
     ``2.0`` and ``max`` are both words for people; YAML makes a number of the first.
     """

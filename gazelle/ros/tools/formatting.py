@@ -14,7 +14,7 @@ Transform = Callable[[Any, str | None], Any]
 
 
 def leave_out(*, strings: bool, arrays: bool) -> Transform:
-    """A function that puts notes in place of strings and arrays of a message.
+    """Return a function that replaces strings and arrays of a message by notes.
 
     It takes a value and its type, None for a whole message.
     """
@@ -48,18 +48,18 @@ def leave_out(*, strings: bool, arrays: bool) -> Transform:
 
 @functools.lru_cache(maxsize=256)
 def _shown_class(names: tuple[str, ...], kinds: tuple[str, ...]) -> type[Message]:
-    """A message class with these fields, for showing only."""
+    """Return a message class with these fields, for showing only."""
     return type("Shown", (Message,), {"__slots__": list(names), "_slot_types": list(kinds)})
 
 
 def as_yaml(value: Any, *, offset: Time | None = None, width: int | None = None) -> str:
-    """A value as ``rostopic echo`` prints it."""
+    """Return a value as ``rostopic echo`` prints it."""
     text = strify_message(value, time_offset=offset, fixed_numeric_width=width)
     return str(text)
 
 
 def shown_fields(message: Message, *, strings: bool, arrays: bool) -> Iterable[str]:
-    """Names of the fields that are plotted."""
+    """Yield names of the fields that are plotted."""
     for name, kind in zip(message.__slots__, message._slot_types, strict=True):
         if not (arrays and "[" in kind) and not (strings and "string" in kind):
             yield name
@@ -78,11 +78,11 @@ class Plot:
         self._arrays = arrays
 
     def header(self, value: Any) -> str:
-        """The names of the columns."""
+        """Return the names of the columns."""
         return "%time," + ",".join(name for name, _ in self._cells(value, "field"))
 
     def line(self, value: Any, stamp: Time, *, offset: Time | None = None) -> str:
-        """One message; its own stamp goes before the one given."""
+        """Return one message as a line; its own stamp precedes the one given."""
         header = getattr(value, "header", None) if getattr(value, "_has_header", False) else None
         when = header.stamp if header is not None else stamp
         begin = offset.to_nsec() if offset is not None else 0
@@ -90,7 +90,7 @@ class Plot:
         return f"{when.to_nsec() - begin},{cells}"
 
     def _cells(self, value: Any, name: str) -> Iterable[tuple[str, Any]]:
-        """Columns and their values, in order."""
+        """Yield columns and their values, in order."""
         if isinstance(value, Message):
             shown = set(shown_fields(value, strings=self._strings, arrays=self._arrays))
             for field, kind in zip(value.__slots__, value._slot_types, strict=True):

@@ -36,15 +36,15 @@ class GraphInspector(Closeable):
         self._uris: dict[str, str | None] = {}
 
     def resolve(self, name: str) -> str:
-        """The global name that the user means."""
+        """Return the global name of a user's name."""
         return names.resolve(name, self.caller)
 
     def types(self) -> dict[str, str]:
-        """The types of topics."""
+        """Return the types of topics."""
         return dict(self.master.topic_types())
 
     def uses(self) -> tuple[Uses, Uses]:
-        """Publications and subscriptions, in the master's order."""
+        """Return publications and subscriptions, in the master's order."""
         publishers, subscribers, _ = self.master.system_state()
         types = self.types()
 
@@ -54,11 +54,11 @@ class GraphInspector(Closeable):
         return typed(publishers), typed(subscribers)
 
     def services(self) -> list[tuple[str, list[str]]]:
-        """Services and who provides them."""
+        """Return services and their providers."""
         return list(self.master.system_state()[2].items())
 
     def nodes(self, namespace: str | None = None) -> list[str]:
-        """Names of all nodes, sorted; or of those in a namespace."""
+        """Return names of all nodes, sorted; or of those in a namespace."""
         state = self.master.system_state()
         found = {node for part in state for nodes in part.values() for node in nodes}
         if namespace is None:
@@ -67,7 +67,7 @@ class GraphInspector(Closeable):
         return sorted(node for node in found if node.startswith(space))
 
     def node_uri(self, node: str, *, fresh: bool = False) -> str | None:
-        """The address of a node; None if there is no such node."""
+        """Return the address of a node; None if there is no such node."""
         if fresh or node not in self._uris:
             try:
                 self._uris[node] = self.master.lookup_node(node)
@@ -76,14 +76,14 @@ class GraphInspector(Closeable):
         return self._uris[node]
 
     def service_uri(self, service: str) -> str | None:
-        """The address of a service; None if nobody offers it."""
+        """Return the address of a service; None if nobody offers it."""
         try:
             return self.master.lookup_service(service)
         except ApiError:
             return None
 
     def unknown(self, what: str, name: str, known: Iterable[str]) -> ToolError:
-        """The error for a name that is not on the graph."""
+        """Return the error for a name that is not on the graph."""
         return ToolError(f"there is no {what} {name}", hint=did_you_mean(name, known))
 
     def close(self) -> None:

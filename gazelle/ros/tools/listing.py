@@ -96,7 +96,7 @@ def _write_uses(out: TextIO, uses: Uses, indent: str, role: str) -> None:
 
 
 def topic_info(graph: GraphInspector, topic: str) -> str:
-    """Type, publishers and subscribers of a topic.
+    """Return type, publishers and subscribers of a topic.
 
     Raises:
         ToolError: Nobody uses it.
@@ -152,7 +152,7 @@ def _may_have(kind: str, path: str) -> bool:
 
 
 def closest_topic(graph: GraphInspector, name: str) -> str | None:
-    """A hint for a topic that is not there: one with nearly that name, or with such fields."""
+    """Return a hint for a missing topic: one with a similar name, or with such fields."""
     types = graph.types()
     for topic, kind in types.items():
         if name.startswith(f"{topic}/") and not _may_have(kind, name.removeprefix(topic)):
@@ -162,7 +162,9 @@ def closest_topic(graph: GraphInspector, name: str) -> str | None:
 
 
 def topic_type(graph: GraphInspector, name: str) -> str:
-    """The type of a topic; for a field of its messages, the type, the field and the field's type.
+    """Return the type of a topic.
+
+    For a field of its messages, the type, the field and the field's type.
 
     Raises:
         ToolError: Nobody uses it.
@@ -178,5 +180,5 @@ def topic_type(graph: GraphInspector, name: str) -> str:
 
 
 def topics_of_type(graph: GraphInspector, kind: str) -> list[str]:
-    """The topics of a type, sorted."""
+    """Return the topics of a type, sorted."""
     return sorted(topic for topic, each in graph.types().items() if each == kind)

@@ -25,7 +25,7 @@ _LINE = "-" * 80
 def list_nodes(
     graph: GraphInspector, space: str | None = None, *, uris: bool = False, names: bool = True
 ) -> str:
-    """Nodes of a namespace, or all: names, addresses, or both, one a line."""
+    """Return nodes of a namespace, or all: names, addresses, or both, one a line."""
     lines = []
     for node in graph.nodes(space):
         if not uris:
@@ -101,7 +101,7 @@ def _connections(graph: GraphInspector, uri: str) -> str:
 
 
 def _detail(text: str) -> str:
-    """Ports and socket of a connection, from a node's description of it."""
+    """Return ports and socket of a connection, from a node's description of it."""
     match = _CONNECTION.match(text)
     if match is None:
         return ""
@@ -110,7 +110,7 @@ def _detail(text: str) -> str:
 
 
 def _peer(graph: GraphInspector, peer: str, topic: str) -> str:
-    """A peer, with its name where it is given by its address."""
+    """Return a peer, with its name where it is given by its address."""
     if not peer.startswith("http://"):
         return peer
     for part in graph.master.system_state()[:2]:
@@ -122,13 +122,13 @@ def _peer(graph: GraphInspector, peer: str, topic: str) -> str:
 
 
 def machines(graph: GraphInspector) -> list[str]:
-    """The hosts that nodes run on, sorted."""
+    """Return the hosts that nodes run on, sorted."""
     found = {urlsplit(graph.node_uri(node) or "").hostname for node in graph.nodes()}
     return sorted(host for host in found if host)
 
 
 def nodes_on(graph: GraphInspector, machine: str) -> list[str]:
-    """The nodes of a host, sorted.
+    """Return the nodes of a host, sorted.
 
     Raises:
         ToolError: The host is not known.
@@ -157,7 +157,7 @@ def _addresses(host: str) -> set[str]:
 
 
 def kill(graph: GraphInspector, nodes: Sequence[str]) -> list[str]:
-    """Ask nodes to end; returns those that could not be asked."""
+    """Request nodes to shut down; returns those that did not answer."""
     failed = []
     for node in nodes:
         uri = graph.node_uri(node, fresh=True)
@@ -224,7 +224,7 @@ def ping(
 
 
 def process_of(graph: GraphInspector, node: str) -> int | None:
-    """The number of a node's process; None if it does not answer."""
+    """Return the number of a node's process; None if it does not answer."""
     uri = graph.node_uri(node, fresh=True)
     if uri is None:
         return None
@@ -243,12 +243,12 @@ def alive(graph: GraphInspector, node: str) -> bool:
 
 
 def dead_nodes(graph: GraphInspector) -> list[str]:
-    """The nodes that are registered and do not answer, sorted."""
+    """Return the nodes that are registered and do not answer, sorted."""
     return [node for node in graph.nodes() if not alive(graph, node)]
 
 
 def unregister(graph: GraphInspector, nodes: Sequence[str]) -> None:
-    """Take all that nodes registered off the master."""
+    """Unregister everything of some nodes from the master."""
     publishers, subscribers, services = graph.master.system_state()
     for node in nodes:
         uri = graph.node_uri(node, fresh=True)

@@ -21,13 +21,13 @@ _NAMESPACE_KEY = "_ns"
 
 
 def list_parameters(graph: GraphInspector, space: str | None = None) -> list[str]:
-    """Names of parameters, sorted; those of a namespace, or all."""
+    """Return names of parameters, sorted; those of a namespace, or all."""
     below = names.as_namespace(graph.resolve(space) if space else "/")
     return sorted(name for name in graph.master.param_names() if name.startswith(below))
 
 
 def get_parameter(graph: GraphInspector, name: str) -> Any:
-    """The value of a parameter or namespace.
+    """Return the value of a parameter or namespace.
 
     Raises:
         ToolError: It is not set.
@@ -41,7 +41,7 @@ def get_parameter(graph: GraphInspector, name: str) -> Any:
 
 
 def as_yaml(value: Any) -> str:
-    """A value as ``rosparam get`` writes it."""
+    """Return a value as ``rosparam get`` writes it."""
     import yaml
 
     text = str(yaml.dump(_plain(value)))
@@ -49,7 +49,7 @@ def as_yaml(value: Any) -> str:
 
 
 def _plain(value: Any) -> Any:
-    """Binary data of XML-RPC as bytes, which YAML knows."""
+    """Convert binary data of XML-RPC to bytes, which YAML knows."""
     if isinstance(value, dict):
         return {key: _plain(inner) for key, inner in value.items()}
     if isinstance(value, (list, tuple)):
@@ -58,7 +58,7 @@ def _plain(value: Any) -> Any:
 
 
 def pretty(value: Any, indent: str = "") -> str:
-    """A value for people; no YAML where strings look like something else."""
+    """Return a value for display; no YAML where strings look like something else."""
     if not isinstance(value, dict):
         return str(value) + "\n" if isinstance(value, str) else as_yaml(value)
     lines = []
@@ -141,7 +141,7 @@ def load_parameters(
 
 
 def dump_parameters(graph: GraphInspector, space: str | None = None) -> str:
-    """A namespace, or all parameters, as YAML.
+    """Return a namespace, or all parameters, as YAML.
 
     Raises:
         ToolError: It is not set.
@@ -150,14 +150,14 @@ def dump_parameters(graph: GraphInspector, space: str | None = None) -> str:
 
 
 def as_document(value: Any) -> str:
-    """A value as the YAML document that rosparam writes."""
+    """Return a value as the YAML document that rosparam writes."""
     import yaml
 
     return str(yaml.dump(_plain(value)))
 
 
 def leaves(value: Any, name: str) -> Iterator[tuple[str, Any]]:
-    """All parameters of a namespace that are no namespaces themselves, with their names."""
+    """Yield all parameters of a namespace that are no namespaces themselves, with their names."""
     if not isinstance(value, dict):
         yield name, value
         return

@@ -28,7 +28,7 @@ _PIPED_HZ = 10.0
 
 
 def parse_arguments(words: Iterable[str]) -> list[Any]:
-    """Words of a command line as YAML values.
+    """Parse words of a command line as YAML values.
 
     Raises:
         ToolError: One is not YAML.
@@ -45,7 +45,7 @@ def parse_arguments(words: Iterable[str]) -> list[Any]:
 
 
 def documents(stream: TextIO) -> Iterator[list[Any]]:
-    """The YAML documents of a stream, as soon as each is complete: when ``---`` follows it.
+    """Yield the YAML documents of a stream, as soon as each is complete: when ``---`` follows it.
 
     What is after the last ``---`` is not complete and left out.
     """
@@ -61,7 +61,7 @@ def documents(stream: TextIO) -> Iterator[list[Any]]:
 
 
 def file_documents(path: str) -> list[list[Any]]:
-    """The YAML documents of a file.
+    """Return the YAML documents of a file.
 
     Raises:
         ToolError: The file cannot be read, or is not YAML.
@@ -128,7 +128,7 @@ class MessagePublisher:
         self._node.close()
 
     def message(self, arguments: list[Any]) -> Any:
-        """A message from values.
+        """Return a message from values.
 
         Raises:
             ToolError: They do not fit its fields.
@@ -207,7 +207,7 @@ class MessagePublisher:
             rate.sleep(self._stop.is_set)
 
     def _wait_for_subscriber(self) -> None:
-        """Give subscribers a moment to connect, as messages may be over in no time."""
+        """Wait a moment for subscribers, as messages may be over in no time."""
         deadline = time.monotonic() + _PATIENCE_S
         while self._publisher.num_connections == 0 and time.monotonic() < deadline:
             if self._stop.wait(0.01):

@@ -23,7 +23,7 @@ _COLUMNS = ("topic", "rate", "min_delta", "max_delta", "std_dev", "window")
 
 
 def statistics(values: Sequence[float]) -> tuple[float, float, float, float]:
-    """Mean, smallest, largest and standard deviation of values; there is at least one."""
+    """Return mean, smallest, largest and standard deviation of values; there is at least one."""
     mean = sum(values) / len(values)
     spread = math.sqrt(sum((value - mean) ** 2 for value in values) / len(values))
     return mean, min(values), max(values), spread
@@ -43,7 +43,7 @@ class RateMeter:
         self._lock = threading.Lock()
 
     def add(self, now: float) -> bool:
-        """An event at a time [s]; false if time went back, and all begins anew."""
+        """Add an event at a time [s]; false if time went back, and everything starts again."""
         with self._lock:
             steady = self._last is None or now >= self._last
             if self._last is None or not steady:
@@ -54,7 +54,7 @@ class RateMeter:
             return steady
 
     def read(self) -> tuple[float, float, float, float, int] | None:
-        """Rate [Hz], smallest, largest and spread of gaps [s], and how many events count.
+        """Return rate [Hz], smallest, largest and spread of gaps [s], and the number of events.
 
         None if there was no event since the last time.
         """
@@ -163,7 +163,7 @@ class SizeMeter:
         self._lock = threading.Lock()
 
     def add(self, now: float, size: int) -> None:
-        """A message of `size` bytes at a time [s]."""
+        """Add a message of `size` bytes at a time [s]."""
         with self._lock:
             self._events.append((now, size))
 

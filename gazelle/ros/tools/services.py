@@ -22,7 +22,7 @@ _PATIENCE_S = 5.0
 
 
 def list_services(graph: GraphInspector, space: str | None = None) -> list[tuple[str, list[str]]]:
-    """Services and their nodes, sorted; those of a namespace, or all."""
+    """Return services and their nodes, sorted; those of a namespace, or all."""
     found = sorted(graph.services())
     if space is None:
         return found
@@ -32,7 +32,7 @@ def list_services(graph: GraphInspector, space: str | None = None) -> list[tuple
 
 
 def service_node(graph: GraphInspector, service: str) -> str:
-    """The node that provides a service.
+    """Return the node that provides a service.
 
     Raises:
         ToolError: Nobody does.
@@ -45,7 +45,7 @@ def service_node(graph: GraphInspector, service: str) -> str:
 
 
 def service_uri(graph: GraphInspector, service: str) -> str:
-    """The address of a service.
+    """Return the address of a service.
 
     Raises:
         ToolError: Nobody offers it.
@@ -76,7 +76,7 @@ def probe(graph: GraphInspector, service: str) -> dict[str, str]:
 
 
 def service_type(graph: GraphInspector, service: str) -> str:
-    """The type of a service.
+    """Return the type of a service.
 
     Raises:
         ToolError: Nobody offers it, or it does not answer.
@@ -85,7 +85,7 @@ def service_type(graph: GraphInspector, service: str) -> str:
 
 
 def services_of_type(graph: GraphInspector, kind: str) -> list[str]:
-    """The services of a type; those that do not answer are left out."""
+    """Return the services of a type; those that do not answer are left out."""
     found = []
     for name, _ in graph.services():
         try:
@@ -97,7 +97,7 @@ def services_of_type(graph: GraphInspector, kind: str) -> list[str]:
 
 
 def service_arguments(graph: GraphInspector, service: str) -> str:
-    """The fields of a service's request, with spaces between.
+    """Return the fields of a service's request, separated by spaces.
 
     Raises:
         ToolError: Nobody offers it, or it does not answer.
@@ -107,7 +107,7 @@ def service_arguments(graph: GraphInspector, service: str) -> str:
 
 
 def service_info(graph: GraphInspector, service: str) -> str:
-    """Node, address, type and arguments of a service.
+    """Return node, address, type and arguments of a service.
 
     Raises:
         ToolError: Nobody offers it, or it does not answer.
@@ -144,7 +144,7 @@ class ServiceCaller:
         return bool(self._class._request_class.__slots__)
 
     def request(self, arguments: list[Any]) -> Any:
-        """A request from values.
+        """Return a request from values.
 
         Raises:
             ToolError: They do not fit its fields.
@@ -164,7 +164,7 @@ class ServiceCaller:
         return made
 
     def call(self, request: Any) -> Any:
-        """The response.
+        """Call the service; returns the response.
 
         Raises:
             ServiceError: The call failed.

@@ -23,7 +23,7 @@ _POLL_S = 0.1
 def wait_for_topic(
     graph: GraphInspector, name: str, stop: threading.Event
 ) -> tuple[str, str, str] | None:
-    """Topic, type and path that a name means, when there is such a topic; None if stopped."""
+    """Return topic, type and path of a name, when there is such a topic; None if stopped."""
     wanted = graph.resolve(name)
     said = False
     while not stop.is_set():
@@ -41,7 +41,7 @@ def wait_for_topic(
 
 
 def tool_node(graph: GraphInspector, **keywords: Any) -> Node:
-    """A node for a tool, under the name that a launch file gave, else under one of its own."""
+    """Return a node for a tool, under the name of a launch file, else under one of its own."""
     given = os.environ.get(NODE_NAME)
     name = graph.resolve(given) if given else names.anonymous(graph.caller)
     return Node(name, master_uri=graph.master_uri, **keywords)

@@ -50,7 +50,7 @@ class Arcball:
         self._now = self._before = self._down
 
     def place(self, center: Iterable[float], radius: float) -> None:
-        """Say where the ball is in the window.
+        """Set the place of the ball in the window.
 
         Args:
             center: Of the ball, in pixels.
@@ -60,11 +60,11 @@ class Arcball:
         self._center = [float(number) for number in center][:2]
 
     def setaxes(self, *axes: npt.ArrayLike) -> None:
-        """The axes a constrained ball turns about."""
+        """Set the axes a constrained ball turns about."""
         self._axes = [np.asarray(unit_vector(axis)) for axis in axes] or None
 
     def setconstrain(self, constrain: bool) -> None:  # noqa: FBT001  # the interface of ROS
-        """Turn about the nearest of the axes only."""
+        """Set whether to turn about the nearest of the axes only."""
         self._constrain = constrain
 
     def getconstrain(self) -> bool:
@@ -72,7 +72,7 @@ class Arcball:
         return self._constrain
 
     def down(self, point: npt.ArrayLike) -> None:
-        """The button went down at a place in the window, in pixels."""
+        """Start a drag at a place in the window, in pixels."""
         self._pressed = arcball_map_to_sphere(point, self._center, self._radius)
         self._down = self._before = self._now
         if self._constrain and self._axes is not None:
@@ -82,7 +82,7 @@ class Arcball:
             self._axis = None
 
     def drag(self, point: npt.ArrayLike) -> None:
-        """The mouse is at a place in the window, in pixels."""
+        """Drag to a place in the window, in pixels."""
         there = arcball_map_to_sphere(point, self._center, self._radius)
         if self._axis is not None:
             there = arcball_constrain_to_axis(there, self._axis)
@@ -95,17 +95,17 @@ class Arcball:
         self._now = quaternion_multiply(turn, self._down)
 
     def next(self, acceleration: float = 0.0) -> None:
-        """Go on turning as before."""
+        """Continue the last turn."""
         turned = quaternion_slerp(self._before, self._now, 2.0 + acceleration, 0, False)
         self._before, self._now = self._now, turned
 
     def matrix(self) -> Floats:
-        """The attitude, shape (4, 4)."""
+        """Return the attitude, shape (4, 4)."""
         return quaternion_matrix(self._now)
 
 
 def arcball_map_to_sphere(point: npt.ArrayLike, center: npt.ArrayLike, radius: float) -> Floats:
-    """The place on the unit ball below a place in the window."""
+    """Return the place on the unit ball below a place in the window."""
     place, middle = np.asarray(point, dtype=np.float64), np.asarray(center, dtype=np.float64)
     x, y = (place[0] - middle[0]) / radius, (middle[1] - place[1]) / radius
     length = math.hypot(x, y)
@@ -115,7 +115,7 @@ def arcball_map_to_sphere(point: npt.ArrayLike, center: npt.ArrayLike, radius: f
 
 
 def arcball_constrain_to_axis(point: npt.ArrayLike, axis: npt.ArrayLike) -> Floats:
-    """The nearest place, in front, on the circle about an axis."""
+    """Return the nearest place, in front, on the circle about an axis."""
     unit = np.asarray(axis, dtype=np.float64)
     place = np.array(point, dtype=np.float64)
     place = place - unit * float(unit @ place)
@@ -128,7 +128,7 @@ def arcball_constrain_to_axis(point: npt.ArrayLike, axis: npt.ArrayLike) -> Floa
 
 
 def arcball_nearest_axis(point: npt.ArrayLike, axes: Iterable[npt.ArrayLike]) -> Floats:
-    """The axis whose circle is nearest to a place on the ball."""
+    """Return the axis whose circle is nearest to a place on the ball."""
     place = np.asarray(point, dtype=np.float64)
     return max(
         (np.asarray(axis, dtype=np.float64) for axis in axes),

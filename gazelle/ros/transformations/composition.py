@@ -14,7 +14,7 @@ from gazelle.ros.transformations.vectors import EPS
 
 
 def concatenate_matrices(*matrices: npt.ArrayLike) -> Floats:
-    """The product of matrices: the last acts first."""
+    """Return the product of matrices: the last acts first."""
     result = np.identity(4)
     for matrix in matrices:
         result = result @ np.asarray(matrix, dtype=np.float64)
@@ -34,7 +34,7 @@ def compose_matrix(
     translate: npt.ArrayLike | None = None,
     perspective: npt.ArrayLike | None = None,
 ) -> Floats:
-    """The matrix that scales, shears, turns, moves, and projects, in this order.
+    """Return the matrix that scales, shears, rotates, translates, and projects, in this order.
 
     Args:
         scale: Factors along x, y and z.
@@ -95,7 +95,7 @@ def decompose_matrix(
 
 
 def orthogonalization_matrix(lengths: npt.ArrayLike, angles: npt.ArrayLike) -> Floats:
-    """The matrix from fractional coordinates of a crystal's cell to Cartesian ones.
+    """Return the matrix from fractional coordinates of a crystal's cell to Cartesian ones.
 
     Args:
         lengths: Of the cell's edges.
@@ -122,7 +122,7 @@ def superimposition_matrix(
     scaling: bool = False,  # noqa: FBT001, FBT002  # callers pass it by position
     usesvd: bool = True,  # noqa: FBT001, FBT002
 ) -> Floats:
-    """The turn and move that bring points closest to others.
+    """Return the rotation and translation that map points closest to others.
 
     Args:
         v0: The points, shape (3, n) or (4, n), n at least 3.

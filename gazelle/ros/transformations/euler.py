@@ -39,7 +39,7 @@ AXES = _names()
 
 
 def _kind(axes: Axes) -> tuple[tuple[int, int, int], bool, bool, bool]:
-    """The axes of turns that follow each other about axes that stand still.
+    """Return the axes of consecutive turns about fixed axes.
 
     Returns:
         The axes in order; whether two are the same; whether the order is odd; whether the
@@ -54,12 +54,15 @@ def _kind(axes: Axes) -> tuple[tuple[int, int, int], bool, bool, bool]:
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
-    """The rotation matrix of three turns."""
+    """Return the rotation matrix of three turns."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") -> Floats:
-    """The quaternion of three turns; arrays of one number are numbers, as NumPy had it of old."""
+    """Return the quaternion of three turns.
+
+    Arrays of one number are numbers, as NumPy had it of old.
+    """
     order, _, _, reverse = _kind(axes)
     angles = (ak, aj, ai) if reverse else (ai, aj, ak)
     result = np.array([0.0, 0.0, 0.0, 1.0])
@@ -72,7 +75,7 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: Axes = "sxyz") 
 
 
 def euler_from_matrix(matrix: npt.ArrayLike, axes: Axes = "sxyz") -> tuple[float, float, float]:
-    """The three turns that make a rotation.
+    """Return the three turns that make a rotation.
 
     Args:
         matrix: Shape (3, 3) or larger.
@@ -107,5 +110,5 @@ def _turns_xyx(m: Any) -> tuple[float, float, float]:
 def euler_from_quaternion(
     quaternion: npt.ArrayLike, axes: Axes = "sxyz"
 ) -> tuple[float, float, float]:
-    """The three turns that make a rotation given as a quaternion of any norm."""
+    """Return the three turns that make a rotation given as a quaternion of any norm."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)

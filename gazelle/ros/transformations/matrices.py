@@ -25,29 +25,29 @@ def _four_by_four(matrix: npt.ArrayLike) -> Floats:
 
 
 def identity_matrix() -> Floats:
-    """The matrix that changes nothing."""
+    """Return the identity."""
     return np.identity(4)
 
 
 def inverse_matrix(matrix: npt.ArrayLike) -> Floats:
-    """The matrix that undoes another."""
+    """Return the inverse of a matrix."""
     return np.asarray(np.linalg.inv(_four_by_four(matrix)), dtype=np.float64)
 
 
 def translation_matrix(direction: npt.ArrayLike) -> Floats:
-    """The matrix that moves by a vector."""
+    """Return the matrix that translates by a vector."""
     result = np.identity(4)
     result[:3, 3] = _three(direction)
     return result
 
 
 def translation_from_matrix(matrix: npt.ArrayLike) -> Floats:
-    """The vector a matrix moves by, shape (3,)."""
+    """Return the translation of a matrix, shape (3,)."""
     return _four_by_four(matrix)[:3, 3].copy()
 
 
 def reflection_matrix(point: npt.ArrayLike, normal: npt.ArrayLike) -> Floats:
-    """The matrix that mirrors at a plane, given by a point in it and its normal."""
+    """Return the matrix that reflects at a plane, given by a point in it and its normal."""
     unit = unit_vector(_three(normal))
     result = np.identity(4)
     result[:3, :3] -= 2.0 * np.outer(unit, unit)
@@ -56,7 +56,7 @@ def reflection_matrix(point: npt.ArrayLike, normal: npt.ArrayLike) -> Floats:
 
 
 def reflection_from_matrix(matrix: npt.ArrayLike) -> tuple[Floats, Floats]:
-    """Point (homogeneous) and normal of the plane a matrix mirrors at.
+    """Return point (homogeneous) and normal of the plane of a reflection.
 
     Raises:
         ValueError: It is not a reflection.
@@ -71,7 +71,7 @@ def reflection_from_matrix(matrix: npt.ArrayLike) -> tuple[Floats, Floats]:
 def rotation_matrix(
     angle: float, direction: npt.ArrayLike, point: npt.ArrayLike | None = None
 ) -> Floats:
-    """The matrix that turns about an axis.
+    """Return the matrix that rotates about an axis.
 
     Args:
         angle: By how much [rad].
@@ -91,7 +91,7 @@ def rotation_matrix(
 
 
 def rotation_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Floats, Floats]:
-    """Angle [rad], direction and a point (homogeneous) of the axis a matrix turns about.
+    """Return angle [rad], direction and a point (homogeneous) of the axis of a rotation.
 
     Raises:
         ValueError: It is not a rotation.
@@ -111,7 +111,7 @@ def rotation_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Floats, Floats]:
 def scale_matrix(
     factor: float, origin: npt.ArrayLike | None = None, direction: npt.ArrayLike | None = None
 ) -> Floats:
-    """The matrix that scales.
+    """Return the matrix that scales.
 
     Args:
         factor: By how much; -1 mirrors at a point.
@@ -131,7 +131,7 @@ def scale_matrix(
 
 
 def scale_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Floats, Floats | None]:
-    """Factor, origin (homogeneous) and direction (None if alike in all) of a scaling.
+    """Return factor, origin (homogeneous) and direction (None if alike in all) of a scaling.
 
     Raises:
         ValueError: Nothing stays where it is.

@@ -23,7 +23,7 @@ def projection_matrix(
     perspective: npt.ArrayLike | None = None,
     pseudo: bool = False,  # noqa: FBT001, FBT002  # callers pass it by position
 ) -> Floats:
-    """The matrix that projects onto a plane.
+    """Return the matrix that projects onto a plane.
 
     Args:
         point: In the plane.
@@ -94,7 +94,7 @@ def clip_matrix(
     far: float,
     perspective: bool = False,  # noqa: FBT001, FBT002  # callers pass it by position
 ) -> Floats:
-    """The matrix that takes a box, or a frustum, to the cube from -1 to 1.
+    """Return the matrix that maps a box, or a frustum, to the cube from -1 to 1.
 
     Raises:
         ValueError: The volume is empty, or a frustum starts behind the eye.
@@ -127,7 +127,7 @@ def clip_matrix(
 def shear_matrix(
     angle: float, direction: npt.ArrayLike, point: npt.ArrayLike, normal: npt.ArrayLike
 ) -> Floats:
-    """The matrix that shears along a plane.
+    """Return the matrix that shears along a plane.
 
     Args:
         angle: By which the normal is bent [rad].
@@ -151,7 +151,7 @@ def shear_matrix(
 
 
 def shear_from_matrix(matrix: npt.ArrayLike) -> tuple[float, Floats, Floats, Floats]:
-    """Angle [rad], direction, point (homogeneous) and normal of a shear.
+    """Return angle [rad], direction, point (homogeneous) and normal of a shear.
 
     Raises:
         ValueError: It is not a shear.

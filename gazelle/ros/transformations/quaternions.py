@@ -12,7 +12,7 @@ from gazelle.ros.transformations.vectors import EPS
 
 
 def quaternion_about_axis(angle: float, axis: npt.ArrayLike) -> Floats:
-    """The turn by an angle about an axis of any length."""
+    """Return the quaternion of an angle about an axis of any length."""
     direction = np.asarray(axis, dtype=np.float64)[:3]
     length = math.sqrt(float(direction @ direction))
     result = np.zeros(4)
@@ -23,7 +23,7 @@ def quaternion_about_axis(angle: float, axis: npt.ArrayLike) -> Floats:
 
 
 def quaternion_matrix(quaternion: npt.ArrayLike) -> Floats:
-    """The rotation matrix of a quaternion of any norm; of one near 0, the identity."""
+    """Return the rotation matrix of a quaternion of any norm; of one near 0, the identity."""
     x, y, z, w = np.asarray(quaternion, dtype=np.float64)[:4].tolist()
     norm = x * x + y * y + z * z + w * w
     if norm < EPS:
@@ -40,7 +40,7 @@ def quaternion_matrix(quaternion: npt.ArrayLike) -> Floats:
 
 
 def quaternion_from_matrix(matrix: npt.ArrayLike) -> Floats:
-    """The unit quaternion of a rotation matrix, its decisive part positive.
+    """Return the unit quaternion of a rotation matrix, its decisive part positive.
 
     Source: Shepperd, Quaternion from rotation matrix, 1978.
     """
@@ -61,7 +61,7 @@ def quaternion_from_matrix(matrix: npt.ArrayLike) -> Floats:
 
 
 def quaternion_multiply(quaternion1: npt.ArrayLike, quaternion0: npt.ArrayLike) -> Floats:
-    """The Hamilton product: the turn `quaternion0`, followed by `quaternion1`."""
+    """Return the Hamilton product: the rotation `quaternion0`, followed by `quaternion1`."""
     ax, ay, az, aw = np.asarray(quaternion1, dtype=np.float64)[:4].tolist()
     bx, by, bz, bw = np.asarray(quaternion0, dtype=np.float64)[:4].tolist()
     return np.array(
@@ -75,7 +75,7 @@ def quaternion_multiply(quaternion1: npt.ArrayLike, quaternion0: npt.ArrayLike) 
 
 
 def quaternion_conjugate(quaternion: npt.ArrayLike) -> Floats:
-    """The quaternion with its vector part turned round."""
+    """Return the quaternion with its vector part negated."""
     return np.asarray(quaternion, dtype=np.float64)[:4] * (-1.0, -1.0, -1.0, 1.0)
 
 
@@ -92,7 +92,7 @@ def quaternion_slerp(
     spin: int = 0,
     shortestpath: bool = True,  # noqa: FBT001, FBT002  # callers pass it by position
 ) -> Floats:
-    """The rotation a part of the way from one to another.
+    """Return the rotation at a fraction of the way between two.
 
     Args:
         quat0: Where it starts.
@@ -122,7 +122,7 @@ def quaternion_slerp(
 
 
 def random_quaternion(rand: npt.ArrayLike | None = None) -> Floats:
-    """A rotation, all equally likely.
+    """Return a rotation from the uniform distribution.
 
     Args:
         rand: Three numbers between 0 and 1, shape (3,); by default random ones.
@@ -143,5 +143,5 @@ def random_quaternion(rand: npt.ArrayLike | None = None) -> Floats:
 
 
 def random_rotation_matrix(rand: npt.ArrayLike | None = None) -> Floats:
-    """A rotation matrix; see `random_quaternion`."""
+    """Return a rotation matrix; see `random_quaternion`."""
     return quaternion_matrix(random_quaternion(rand))

@@ -14,7 +14,7 @@ EPS = 4.0 * float(np.finfo(np.float64).eps)
 
 
 def vector_norm(data: npt.ArrayLike, axis: int | None = None, out: Floats | None = None) -> Any:
-    """The length of vectors: of all of `data` as one, or along an axis.
+    """Return the length of vectors: of all of `data` as one, or along an axis.
 
     Args:
         data: Any shape.
@@ -31,7 +31,10 @@ def vector_norm(data: npt.ArrayLike, axis: int | None = None, out: Floats | None
 
 
 def unit_vector(data: npt.ArrayLike, axis: int | None = None, out: Floats | None = None) -> Any:
-    """The vectors scaled to length 1; see `vector_norm`. A vector of length 0 gives NaN."""
+    """Return the vectors scaled to length 1; see `vector_norm`.
+
+    A vector of length 0 gives NaN. A vector of length 0 gives NaN.
+    """
     values = np.asarray(data, dtype=np.float64)
     norm = np.sqrt(np.sum(values * values, axis=axis, keepdims=axis is not None))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -43,7 +46,7 @@ def unit_vector(data: npt.ArrayLike, axis: int | None = None, out: Floats | None
 
 
 def random_vector(size: Any) -> Floats:
-    """Numbers between 0 and 1.
+    """Return random numbers between 0 and 1.
 
     Args:
         size: The shape.
@@ -52,14 +55,14 @@ def random_vector(size: Any) -> Floats:
 
 
 def eigenvector(matrix: Floats, value: float, tolerance: float = 1e-8) -> list[Floats]:
-    """Real unit eigenvectors of an eigenvalue, as many as numpy finds."""
+    """Return real unit eigenvectors of an eigenvalue, as many as numpy finds."""
     values, vectors = np.linalg.eig(matrix)
     found = np.flatnonzero(np.abs(np.real(values) - value) < tolerance)
     return [np.real(vectors[:, index]).squeeze() for index in found]
 
 
 def fixed_point(matrix: Floats) -> Floats:
-    """A point that a transformation leaves where it is, homogeneous, shape (4,).
+    """Return a fixed point of a transformation, homogeneous, shape (4,).
 
     Raises:
         ValueError: There is none.

@@ -77,7 +77,7 @@ class AsyncClient:
             peer.close()
 
     def retire(self, peer: _Peer) -> None:
-        """A peer has nothing to do and no connection."""
+        """Remove an idle peer without a connection."""
         if self._peers.get(peer.uri) is peer:
             del self._peers[peer.uri]
 
@@ -253,7 +253,7 @@ class _Peer:
         self._conclude(value, failure)
 
     def _break(self, text: str) -> None:
-        """The connection is gone; a call over an old one is tried again over a new one."""
+        """Handle a broken connection; a call over an old one is repeated over a new one."""
         stale = self._busy and not self._fresh and not self._reader
         self._drop()
         if not self._busy:

@@ -25,7 +25,7 @@ _MOST_IDLE = 4
 
 
 def value_of_answer(message: HttpMessage, limits: NetworkLimits) -> Any:
-    """The value of an answer.
+    """Return the value of an answer.
 
     Raises:
         ProtocolError: Its HTTP status is no success.
@@ -56,7 +56,7 @@ class BlockingClient:
         self._closed = False
 
     def call(self, method: str, *params: Any) -> Any:
-        """The value of the answer.
+        """Call a method; returns the value of the answer.
 
         Raises:
             MarshalError: A parameter cannot be sent, or the answer is no XML-RPC.
@@ -111,7 +111,7 @@ class BlockingClient:
         return self._finish(sock, message)
 
     def _take(self) -> socket.socket | None:
-        """An idle connection that is still open."""
+        """Return an idle connection that is still open."""
         while True:
             with self._lock:
                 sock = self._idle.pop() if self._idle else None

@@ -63,7 +63,7 @@ class MessageReader:
         self.expects_continue = False
 
     def __bool__(self) -> bool:
-        """True if part of a message is here."""
+        """Return True if part of a message has arrived."""
         return bool(self._buffer) or self._message is not None
 
     def feed(self, data: bytes) -> None:
@@ -71,7 +71,7 @@ class MessageReader:
         self._buffer += data
 
     def next(self) -> HttpMessage | None:
-        """The next whole message, or None.
+        """Return the next whole message, or None.
 
         Raises:
             HttpError: The stream is not acceptable; it cannot be read further.
@@ -88,7 +88,7 @@ class MessageReader:
         return message
 
     def end(self) -> HttpMessage | None:
-        """The stream ended: the message whose body was everything up to here, if any."""
+        """Return the message whose body ended with the stream, if any."""
         message, self._message = self._message, None
         if message is None or self._length is not None:
             return None
@@ -115,7 +115,7 @@ class MessageReader:
         return True
 
     def _check_start(self) -> None:
-        """Refuse early what is no HTTP, such as a TCPROS header on this port."""
+        """Raise an error early for anything but HTTP, such as a TCPROS header on this port."""
         start = bytes(self._buffer[:16]).lstrip(b"\r\n")
         if start and not start[:1].isalpha():
             raise HttpError(400, "this is no HTTP")
@@ -155,7 +155,7 @@ class MessageReader:
 
 
 def request(host: str, path: str, body: bytes) -> bytes:
-    """A POST request with an XML body."""
+    """Return a POST request with an XML body."""
     head = (
         f"POST {path} HTTP/1.1\r\nHost: {host}\r\nUser-Agent: gazelle\r\n"
         f"Content-Type: text/xml\r\nContent-Length: {len(body)}\r\n\r\n"
@@ -164,7 +164,7 @@ def request(host: str, path: str, body: bytes) -> bytes:
 
 
 def response(status: int, body: bytes, *, keep_alive: bool = True, kind: str = "text/xml") -> bytes:
-    """A response; HTTP/1.1."""
+    """Return a response; HTTP/1.1."""
     head = (
         f"HTTP/1.1 {status} {REASONS.get(status, 'Error')}\r\nServer: gazelle\r\n"
         f"Content-type: {kind}\r\nContent-length: {len(body)}\r\n"

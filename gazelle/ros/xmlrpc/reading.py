@@ -30,7 +30,7 @@ _PIECE_BYTES = 64 * 1024
 
 
 def read_call(document: bytes, limits: NetworkLimits = LIMITS) -> tuple[str, list[Any]]:
-    """The method's name and the parameters of a call.
+    """Read the method's name and the parameters of a call.
 
     Raises:
         MarshalError: It is no XML-RPC call, or exceeds a limit.
@@ -42,7 +42,7 @@ def read_call(document: bytes, limits: NetworkLimits = LIMITS) -> tuple[str, lis
 
 
 def read_response(document: bytes, limits: NetworkLimits = LIMITS) -> Any:
-    """The value of an answer.
+    """Read the value of an answer.
 
     Raises:
         FaultError: It is a fault.
@@ -209,7 +209,7 @@ _BOOLEANS = {"0": False, "1": True, "false": False, "true": True}
 
 
 def _binary(data: bytes) -> Any:
-    """The standard library's wrapper, as ROS programs expect; imported late, for it is slow."""
+    """Return the standard library's wrapper, as ROS programs expect; its import is slow."""
     from xmlrpc.client import Binary
 
     return Binary(data)

@@ -114,7 +114,7 @@ class XmlRpcServer:
         return min(number, len(idle))
 
     def forget(self, connection: _Connection) -> None:
-        """A connection closed."""
+        """Remove a closed connection."""
         self._connections.pop(connection, None)
 
     def prepared(self, body: bytes) -> Step:
@@ -125,7 +125,7 @@ class XmlRpcServer:
             return functools.partial(_raise, error)
 
     def _prepare_call(self, method: str, params: list[Any]) -> Step:
-        """A call, or several in one."""
+        """Return the step of a call, or of several in one."""
         if method != "system.multicall":
             return self._prepare(method, params)
         calls = params[0] if len(params) == 1 and isinstance(params[0], list) else None
@@ -146,7 +146,7 @@ def _raise(error: Exception) -> None:
 
 
 def _do_one(step: Step) -> Any:
-    """Do one of several calls, which fails for itself."""
+    """Run one of several calls, which fails by itself."""
     try:
         return [step()]
     except Exception as error:  # noqa: BLE001  # as above
@@ -154,7 +154,7 @@ def _do_one(step: Step) -> Any:
 
 
 def _answered(value: Any) -> bytes:
-    """The document of an answer; raises nothing, and may take long."""
+    """Return the document of an answer; raises nothing, and may take long."""
     try:
         return write_response(value)
     except Exception as error:  # noqa: BLE001  # a bad value must not end the server
@@ -175,7 +175,7 @@ def _inner_call(call: Any) -> tuple[str, list[Any]]:
 
 
 def _fault_text(error: Exception) -> str:
-    """A fault's text, in the form Python's own XML-RPC server has."""
+    """Return a fault's text, in the form of Python's own XML-RPC server."""
     own = isinstance(error, (MarshalError, UnknownMethodError))
     return f"{Exception if own else type(error)}:{error}"
 
@@ -229,7 +229,7 @@ class _Connection:
             self.close()
 
     def _read(self) -> bool:
-        """Take in what there is; False if there is nothing more to do."""
+        """Read available data; False if there is nothing more to do."""
         try:
             data = self._sock.recv(_CHUNK)
         except (BlockingIOError, InterruptedError):
@@ -243,7 +243,7 @@ class _Connection:
         return True
 
     def _serve(self) -> None:
-        """Answer every whole request, but none before the client took the last answer."""
+        """Answer every whole request, but none before the client read the last answer."""
         while not (self._closing or self._working or self._outgoing) and self._answer_next():
             self._flush()
 
@@ -264,7 +264,7 @@ class _Connection:
         return self._exchange(message)
 
     def _exchange(self, message: HttpMessage) -> bool:
-        """Answer a request; False if that goes on beside the loop."""
+        """Answer a request; False if that continues beside the loop."""
         if message.first[0] != "POST":
             self._put(message, b"POST only", 501)
         elif message.headers.keys() & _BROWSER:
@@ -278,7 +278,7 @@ class _Connection:
         return not self._working
 
     def _aside(self, task: Callable[[], None]) -> None:
-        """Do something that takes long; nothing more is read until it is done."""
+        """Run a slow task beside the loop; nothing more is read until it is done."""
         self._working = True
         self._wait_for(0)
         self._server.aside.post(task)

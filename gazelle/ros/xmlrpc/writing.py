@@ -20,7 +20,7 @@ _ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", "\r": "&#13;"}
 
 
 def write_call(method: str, params: Sequence[Any]) -> bytes:
-    """The document of a method call.
+    """Write the document of a method call.
 
     Raises:
         MarshalError: XML-RPC cannot carry one of the parameters.
@@ -36,7 +36,7 @@ def write_call(method: str, params: Sequence[Any]) -> bytes:
 
 
 def write_response(value: Any) -> bytes:
-    """The document of an answer.
+    """Write the document of an answer.
 
     Raises:
         MarshalError: XML-RPC cannot carry the value.
@@ -48,7 +48,7 @@ def write_response(value: Any) -> bytes:
 
 
 def write_fault(code: int, text: str) -> bytes:
-    """The document of a failure."""
+    """Write the document of a failure."""
     out = ["<?xml version='1.0'?>\n<methodResponse><fault>"]
     _write(
         {"faultCode": code, "faultString": _FORBIDDEN.sub("?", text)},
@@ -60,7 +60,7 @@ def write_fault(code: int, text: str) -> bytes:
 
 
 def escape(text: str) -> str:
-    """Text as it stands in XML.
+    """Return text escaped for XML.
 
     Raises:
         MarshalError: It holds control characters.
@@ -76,7 +76,7 @@ def escape(text: str) -> str:
 
 
 def check_value(value: Any) -> None:
-    """Make sure that `write_call` can carry `value`.
+    """Check that `write_call` can encode `value`.
 
     Raises:
         MarshalError: It cannot.
@@ -138,7 +138,7 @@ def _write_struct(value: Mapping[Any, Any], out: list[str], depth: int) -> None:
 
 
 def _write_other(value: Any, out: list[str], depth: int) -> None:
-    """Subclasses of the plain types, bytes, dates, and numpy's numbers."""
+    """Write subclasses of the plain types, bytes, dates, and numpy's numbers."""
     if value is None:
         raise MarshalTypeError("XML-RPC has no value for None")
     if isinstance(value, (bytes, bytearray, memoryview)):
@@ -156,7 +156,7 @@ def _write_other(value: Any, out: list[str], depth: int) -> None:
 
 
 def _write_foreign(value: Any, out: list[str], depth: int) -> None:
-    """The standard library's wrappers, dates, and numpy's numbers and arrays."""
+    """Write the standard library's wrappers, dates, and numpy's numbers and arrays."""
     if _is_standard(value, "Binary"):
         _write_other(value.data, out, depth)
     elif _is_standard(value, "DateTime"):
@@ -171,6 +171,6 @@ def _write_foreign(value: Any, out: list[str], depth: int) -> None:
 
 
 def _is_standard(value: Any, name: str) -> bool:
-    """True for the standard library's wrapper of that name, which is slow to import."""
+    """Return True for the standard library's wrapper of that name, which is slow to import."""
     module = sys.modules.get("xmlrpc.client")
     return module is not None and isinstance(value, getattr(module, name))

@@ -31,7 +31,7 @@ _OF_NAMES: dict[str, tuple[Callable[[str], bool], ...]] = {
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Do what the first word says; returns the exit code."""
+    """Run the sub-command; returns the exit code."""
     words = begin_node("controller_manager", arguments)
     command = _SHORT.get(words[0], words[0]) if words else ""
     try:
@@ -54,7 +54,7 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def begin_node(name: str, arguments: Sequence[str]) -> list[str]:
-    """Begin a node whose name nobody else has; returns its own arguments."""
+    """Start a node with a unique name; returns its own arguments."""
     sys.argv = [name, *arguments]
     rospy.init_node(name, argv=sys.argv, anonymous=True)
     return rospy.myargv()[1:]

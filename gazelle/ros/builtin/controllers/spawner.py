@@ -144,7 +144,7 @@ class Spawner:
 
 
 def _controllers_of(word: str) -> list[str]:
-    """The controllers that a word of the command line means: itself, or those of a YAML file.
+    """Return the controllers of a word of the command line: itself, or those of a YAML file.
 
     The file's parameters are set first, in the namespace of the node.
     """

@@ -59,7 +59,7 @@ class Keyboard:
         termios.tcsetattr(self._number, termios.TCSANOW, self._before)
 
     def wait(self, seconds: float) -> list[str] | None:
-        """The keys pressed since the last time, waited for at most so long.
+        """Return the keys pressed since the last time, waited for at most so long.
 
         Returns:
             Characters, or what the terminal sends for other keys, such as `UP`; None when the
@@ -75,7 +75,7 @@ class Keyboard:
         return _KEY.findall(data.decode(errors="replace")) if data else None
 
     def _listen(self) -> None:
-        """Let keys come at once, and not appear on the screen."""
+        """Set the terminal to deliver keys at once, without echo."""
         import termios
 
         mode = [*self._before]

@@ -46,7 +46,7 @@ class StepwiseDrive:
     sent: tuple[float, float] = (0.0, 0.0)
 
     def press(self, key: str) -> bool:
-        """Change what is wanted; False for keys of no meaning."""
+        """Handle a key; False for keys without meaning."""
         forwards = {"w": 1, UP: 1, "x": -1, DOWN: -1}.get(key, 0)
         left = {"a": 1, LEFT: 1, "d": -1, RIGHT: -1}.get(key, 0)
         if key in {"s", " "}:
@@ -58,7 +58,7 @@ class StepwiseDrive:
         return bool(forwards or left)
 
     def advance(self) -> tuple[float, float]:
-        """Go a little from what is sent to what is wanted; gives what is to be sent."""
+        """Advance the command towards its target; returns the command."""
         self.sent = (
             _towards(self.sent[0], self.wanted[0], _LINEAR_STEP / 2.0),
             _towards(self.sent[1], self.wanted[1], _ANGULAR_STEP / 2.0),
@@ -104,7 +104,7 @@ def _message(twist: Any, linear: float, angular: float) -> Any:
 
 
 def _bounded(value: float, limit: float) -> float:
-    """Rounded, so that as many steps back end at zero."""
+    """Return a rounded value, so that as many steps back end at zero."""
     return round(min(max(value, -limit), limit), 6)
 
 

@@ -57,7 +57,7 @@ class KeyDrive:
     direction: tuple[int, int, int, int] = (0, 0, 0, 0)
 
     def press(self, key: str) -> bool:
-        """Take a key; True if it changed the speeds."""
+        """Handle a key; True if it changed the speeds."""
         factors = _FACTORS.get(key)
         if factors is None:
             self.direction = _MOVES.get(key, (0, 0, 0, 0))

@@ -31,7 +31,7 @@ class JntArray:
         return 1
 
     def resize(self, size: int) -> None:
-        """Make it of another size, and zero."""
+        """Set another size, and zero all."""
         self.data = np.zeros(size)
 
     def __len__(self) -> int:

@@ -132,7 +132,7 @@ class Tree:
         self._segments: dict[str, tuple[Segment, str]] = {}
 
     def addSegment(self, segment: Segment, hook_name: str) -> bool:
-        """Put a segment on one that is there; return whether that could be done."""
+        """Add a segment to an existing one; return whether that was possible."""
         name = segment.getName()
         known = hook_name == self._root or hook_name in self._segments
         if not known or name in self._segments:

@@ -11,7 +11,10 @@ from gazelle.ros.compat.PyKDL.rotation import Rotation
 
 
 def diff(a: Any, b: Any, dt: float = 1.0) -> Any:
-    """The velocity that takes a to b in `dt` seconds: a vector for rotations, a twist for frames."""
+    """Return the velocity from a to b in `dt` seconds.
+
+    It is a vector for rotations, a twist for frames.
+    """
     if isinstance(a, Frame):
         return Twist(diff(a.p, b.p, dt), diff(a.M, b.M, dt))
     if isinstance(a, Rotation):

@@ -35,23 +35,26 @@ class Frame:
 
     @staticmethod
     def Identity() -> Frame:
-        """The frame in its parent's place."""
+        """Return the identity."""
         return Frame()
 
     @staticmethod
     def DH(a: float, alpha: float, d: float, theta: float) -> Frame:
-        """The frame of Denavit and Hartenberg's parameters: about and along z, then x."""
+        """Return the frame of Denavit and Hartenberg's parameters: about and along z, then x."""
         turned = Rotation.RotZ(theta)
         return Frame(turned * Rotation.RotX(alpha), turned * Vector(a, 0, 0) + Vector(0, 0, d))
 
     @staticmethod
     def DH_Craig1989(a: float, alpha: float, d: float, theta: float) -> Frame:
-        """The frame of Denavit and Hartenberg's parameters as J. Craig has them: x, then z."""
+        """Return the frame of Denavit and Hartenberg's parameters as J.
+
+        Craig has them: x, then z.
+        """
         turned = Rotation.RotX(alpha)
         return Frame(turned * Rotation.RotZ(theta), Vector(a, 0, 0) + turned * Vector(0, 0, d))
 
     def Inverse(self, value: Any = None) -> Any:
-        """The inverse, or the inverse times a value."""
+        """Return the inverse, or the inverse times a value."""
         turned = self.M.Inverse()
         inverse = Frame(turned, -(turned * self.p))
         return inverse if value is None else inverse * value
@@ -77,7 +80,7 @@ class Frame:
             self.M[line, column] = value
 
     def __mul__(self, other: Any) -> Any:
-        """The product with a frame; a vector, twist or wrench as the parent sees it."""
+        """Return the product with a frame; a vector, twist or wrench in the parent frame."""
         if isinstance(other, Frame):
             return Frame(self.M * other.M, self.M * other.p + self.p)
         if isinstance(other, Vector):

@@ -26,11 +26,11 @@ class _Pair:
 
     @classmethod
     def Zero(cls) -> Self:
-        """Zeros."""
+        """Return zeros."""
         return cls()
 
     def ReverseSign(self) -> None:
-        """Turn it round."""
+        """Reverse its sign."""
         self._first.ReverseSign()
         self._second.ReverseSign()
 
@@ -90,7 +90,7 @@ class Twist(_Pair):
         self._second = Vector(value)
 
     def RefPoint(self, base: Vector) -> Twist:
-        """The twist with the reference point moved by a vector."""
+        """Return the twist with the reference point moved by a vector."""
         return Twist(self.vel + self.rot * base, self.rot)
 
 
@@ -116,5 +116,5 @@ class Wrench(_Pair):
         self._second = Vector(value)
 
     def RefPoint(self, base: Vector) -> Wrench:
-        """The wrench with the reference point moved by a vector."""
+        """Return the wrench with the reference point moved by a vector."""
         return Wrench(self.force, self.torque + self.force * base)

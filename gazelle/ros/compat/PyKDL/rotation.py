@@ -34,69 +34,69 @@ class Rotation:
 
     @staticmethod
     def of(matrix: rotations.Matrix) -> Rotation:
-        """The rotation of a matrix."""
+        """Return the rotation of a matrix."""
         made = Rotation()
         made.matrix = matrix
         return made
 
     @staticmethod
     def Identity() -> Rotation:
-        """No rotation."""
+        """Return the identity."""
         return Rotation()
 
     @staticmethod
     def Quaternion(x: float, y: float, z: float, w: float) -> Rotation:
-        """The rotation of a unit quaternion."""
+        """Return the rotation of a unit quaternion."""
         return Rotation.of(rotations.matrix((x, y, z, w)))
 
     @staticmethod
     def RotX(angle: float) -> Rotation:
-        """About x [rad]."""
+        """Return a rotation about x [rad]."""
         return Rotation.Rot2(Vector(1, 0, 0), angle)
 
     @staticmethod
     def RotY(angle: float) -> Rotation:
-        """About y [rad]."""
+        """Return a rotation about y [rad]."""
         return Rotation.Rot2(Vector(0, 1, 0), angle)
 
     @staticmethod
     def RotZ(angle: float) -> Rotation:
-        """About z [rad]."""
+        """Return a rotation about z [rad]."""
         return Rotation.Rot2(Vector(0, 0, 1), angle)
 
     @staticmethod
     def Rot(axis: Vector, angle: float) -> Rotation:
-        """About an axis of any length [rad]."""
+        """Return a rotation about an axis of any length [rad]."""
         unit = Vector(axis)
         unit.Normalize()
         return Rotation.Rot2(unit, angle)
 
     @staticmethod
     def Rot2(axis: Vector, angle: float) -> Rotation:
-        """About an axis of length 1 [rad]."""
+        """Return a rotation about an axis of length 1 [rad]."""
         sine = math.sin(angle / 2)
         x, y, z = axis
         return Rotation.Quaternion(x * sine, y * sine, z * sine, math.cos(angle / 2))
 
     @staticmethod
     def RPY(roll: float, pitch: float, yaw: float) -> Rotation:
-        """Roll about x, then pitch about y, then yaw about z, all axes fixed [rad]."""
+        """Return roll about x, then pitch about y, then yaw about z, all axes fixed [rad]."""
         turned: Rotation = Rotation.RotZ(yaw) * Rotation.RotY(pitch) * Rotation.RotX(roll)
         return turned
 
     @staticmethod
     def EulerZYX(alpha: float, beta: float, gamma: float) -> Rotation:
-        """About z, then the new y, then the new x [rad]."""
+        """Return a rotation about z, then the new y, then the new x [rad]."""
         return Rotation.RPY(gamma, beta, alpha)
 
     @staticmethod
     def EulerZYZ(alpha: float, beta: float, gamma: float) -> Rotation:
-        """About z, then the new y, then the new z [rad]."""
+        """Return a rotation about z, then the new y, then the new z [rad]."""
         turned: Rotation = Rotation.RotZ(alpha) * Rotation.RotY(beta) * Rotation.RotZ(gamma)
         return turned
 
     def GetQuaternion(self) -> rotations.Quaternion:
-        """The unit quaternion (x, y, z, w)."""
+        """Return the unit quaternion (x, y, z, w)."""
         return rotations.quaternion(self.matrix)
 
     def GetRPY(self) -> tuple[float, float, float]:
@@ -108,19 +108,19 @@ class Rotation:
         return math.atan2(h, i), pitch, math.atan2(d, a)
 
     def GetEulerZYX(self) -> tuple[float, float, float]:
-        """The angles about z, y and x [rad]."""
+        """Return the angles about z, y and x [rad]."""
         roll, pitch, yaw = self.GetRPY()
         return yaw, pitch, roll
 
     def GetEulerZYZ(self) -> tuple[float, float, float]:
-        """The angles about z, y and z [rad]."""
+        """Return the angles about z, y and z [rad]."""
         (a, _, c), (d, _, f), (g, h, i) = self.matrix
         if abs(i) > 1 - _POLE:
             return (math.atan2(d, a), 0.0, 0.0) if i > 0 else (math.atan2(-d, -a), math.pi, 0.0)
         return math.atan2(f, c), math.atan2(math.hypot(g, h), i), math.atan2(h, -g)
 
     def GetRotAngle(self, eps: float = EPSILON) -> tuple[float, Vector]:
-        """Its angle, 0 to pi [rad], and its axis; (0, 0, 1) where there is none."""
+        """Return its angle, 0 to pi [rad], and its axis; (0, 0, 1) where there is none."""
         x, y, z, w = self.GetQuaternion()
         sign = -1.0 if w < 0 else 1.0
         length = math.hypot(x, y, z)
@@ -130,32 +130,32 @@ class Rotation:
         return angle, Vector(x, y, z) / (sign * length)
 
     def GetRot(self) -> Vector:
-        """Its axis, as long as its angle [rad]."""
+        """Return its axis, as long as its angle [rad]."""
         angle, axis = self.GetRotAngle(0.0)
         return axis * angle
 
     def DoRotX(self, angle: float) -> None:
-        """Turn it about its own x [rad]."""
+        """Rotate it about its own x [rad]."""
         self.matrix = (self * Rotation.RotX(angle)).matrix
 
     def DoRotY(self, angle: float) -> None:
-        """Turn it about its own y [rad]."""
+        """Rotate it about its own y [rad]."""
         self.matrix = (self * Rotation.RotY(angle)).matrix
 
     def DoRotZ(self, angle: float) -> None:
-        """Turn it about its own z [rad]."""
+        """Rotate it about its own z [rad]."""
         self.matrix = (self * Rotation.RotZ(angle)).matrix
 
     def UnitX(self, value: Vector | None = None) -> Vector:
-        """The first column; set with an argument."""
+        """Return the first column; set with an argument."""
         return self._column(0, value)
 
     def UnitY(self, value: Vector | None = None) -> Vector:
-        """The second column; set with an argument."""
+        """Return the second column; set with an argument."""
         return self._column(1, value)
 
     def UnitZ(self, value: Vector | None = None) -> Vector:
-        """The third column; set with an argument."""
+        """Return the third column; set with an argument."""
         return self._column(2, value)
 
     def _column(self, place: int, value: Vector | None) -> Vector:
@@ -165,13 +165,13 @@ class Rotation:
         return Vector(*(line[place] for line in self.matrix))
 
     def Inverse(self, value: Any = None) -> Any:
-        """The inverse, or the inverse times a value."""
+        """Return the inverse, or the inverse times a value."""
         inverse = Rotation(*(self.matrix[0] + self.matrix[1] + self.matrix[2]))
         inverse.SetInverse()
         return inverse if value is None else inverse * value
 
     def SetInverse(self) -> None:
-        """Turn it round."""
+        """Invert it."""
         one, two, three = zip(*self.matrix, strict=True)
         self.matrix = (one, two, three)
 
@@ -185,7 +185,7 @@ class Rotation:
         self.matrix = (one, two, three)
 
     def __mul__(self, other: Any) -> Any:
-        """The product with a rotation; a vector, twist or wrench turned."""
+        """Return the product with a rotation; a vector, twist or wrench rotated."""
         if isinstance(other, Rotation):
             return Rotation.of(rotations.product(self.matrix, other.matrix))
         if isinstance(other, Vector):

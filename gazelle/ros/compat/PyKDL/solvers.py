@@ -69,7 +69,7 @@ class ChainFkSolverPos_recursive:
         self._chain = chain
 
     def JntToCart(self, q_in: JntArray, p_out: Frame, segmentNr: int = -1) -> int:  # noqa: N803
-        """Put the frame of the end of the first segments, or of all, into ``p_out``."""
+        """Write the frame of the end of the first segments, or of all, to ``p_out``."""
         count = self._chain.getNrOfSegments() if segmentNr < 0 else segmentNr
         if len(q_in) != self._chain.getNrOfJoints() or count > self._chain.getNrOfSegments():
             return E_SIZE_MISMATCH
@@ -85,7 +85,7 @@ class ChainJntToJacSolver:
         self._chain = chain
 
     def JntToJac(self, q_in: JntArray, jac: Jacobian) -> int:
-        """Put the Jacobian into ``jac``."""
+        """Write the Jacobian to ``jac``."""
         if len(q_in) != self._chain.getNrOfJoints():
             return E_SIZE_MISMATCH
         jac.data = _jacobian(self._chain, q_in.data)
@@ -100,7 +100,7 @@ class ChainIkSolverVel_pinv:
         self._chain, self._eps = chain, eps
 
     def CartToJnt(self, q_in: JntArray, v_in: Twist, qdot_out: JntArray) -> int:
-        """Put the speeds into ``qdot_out``."""
+        """Write the speeds to ``qdot_out``."""
         inverse = np.linalg.pinv(_jacobian(self._chain, q_in.data), rcond=self._eps)
         qdot_out.data = inverse @ np.array([v_in[place] for place in range(6)])
         return E_NOERROR
@@ -115,7 +115,7 @@ class _Newton:
         self._chain, self._limits, self._most, self._eps = chain, limits, maxiter, eps
 
     def CartToJnt(self, q_init: JntArray, p_in: Frame, q_out: JntArray) -> int:
-        """Put positions into ``q_out`` at which the end is at a frame; 0 if they are found."""
+        """Write positions with the end at a frame to ``q_out``; 0 if they are found."""
         positions = np.array(q_init.data)
         for _ in range(self._most):
             error = _error(self._chain, positions, p_in)
@@ -171,7 +171,7 @@ class ChainIkSolverPos_LMA:
         self._chain, self._eps, self._most = chain, eps, maxiter
 
     def CartToJnt(self, q_init: JntArray, p_in: Frame, q_out: JntArray) -> int:
-        """Put positions into ``q_out`` at which the end is at a frame; 0 if they are found."""
+        """Write positions with the end at a frame to ``q_out``; 0 if they are found."""
         positions, damping = np.array(q_init.data), _DAMPING
         error = _error(self._chain, positions, p_in)
         for _ in range(self._most):

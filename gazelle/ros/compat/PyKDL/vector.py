@@ -21,7 +21,7 @@ def close(a: Sequence[float], b: Sequence[float]) -> bool:
 
 
 def row(values: Sequence[float]) -> str:
-    """Numbers as KDL prints them."""
+    """Return numbers as KDL prints them."""
     return ",".join(f"{value:{_WIDTH}.{DIGITS}g}" for value in values)
 
 
@@ -44,15 +44,15 @@ class Vector:
         return (x, y, z)
 
     def x(self, value: float | None = None) -> float:
-        """The first number; set with an argument."""
+        """Return the first number; set with an argument."""
         return self._part(0, value)
 
     def y(self, value: float | None = None) -> float:
-        """The second number; set with an argument."""
+        """Return the second number; set with an argument."""
         return self._part(1, value)
 
     def z(self, value: float | None = None) -> float:
-        """The third number; set with an argument."""
+        """Return the third number; set with an argument."""
         return self._part(2, value)
 
     def _part(self, place: int, value: float | None) -> float:
@@ -62,22 +62,25 @@ class Vector:
 
     @staticmethod
     def Zero() -> Vector:
-        """The vector of zeros."""
+        """Return the vector of zeros."""
         return Vector()
 
     def Norm(self, eps: float = EPSILON) -> float:
-        """Its length."""
+        """Return its length."""
         del eps
         return math.hypot(*self._values)
 
     def Normalize(self, eps: float = EPSILON) -> float:
-        """Make its length 1, and return what it was; one shorter than `eps` becomes (1, 0, 0)."""
+        """Scale to length 1, and return the former length.
+
+        One shorter than `eps` becomes (1, 0, 0).
+        """
         length = self.Norm()
         self._values = [1.0, 0.0, 0.0] if length < eps else [v / length for v in self._values]
         return length
 
     def ReverseSign(self) -> None:
-        """Turn it round."""
+        """Reverse its sign."""
         self._values = [-value for value in self._values]
 
     def __len__(self) -> int:
@@ -106,7 +109,7 @@ class Vector:
     @overload
     def __mul__(self, other: float) -> Vector: ...
     def __mul__(self, other: Vector | float) -> Vector:
-        """The multiple, or the cross product with a vector."""
+        """Return the multiple, or the cross product with a vector."""
         if isinstance(other, Vector):
             (a, b, c), (x, y, z) = self._values, other._values
             return Vector(b * z - c * y, c * x - a * z, a * y - b * x)
@@ -125,5 +128,5 @@ class Vector:
 
 
 def dot(a: Vector, b: Vector) -> float:
-    """The inner product."""
+    """Return the inner product."""
     return sum(x * y for x, y in zip(a, b, strict=True))

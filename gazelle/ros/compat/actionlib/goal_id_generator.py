@@ -19,9 +19,9 @@ class GoalIDGenerator:
         self.name = name
 
     def set_name(self, name: str) -> None:
-        """Begin names with another."""
+        """Set the prefix of names."""
         self.name = name
 
     def generate_ID(self) -> Any:  # noqa: N802  # actionlib's name
-        """A new ``GoalID``."""
+        """Return a new ``GoalID``."""
         return goal_id(process.require(), self.name)

@@ -21,7 +21,7 @@ class HandleTrackerDeleter:
         self.status_tracker = status_tracker
 
     def __call__(self, ptr: Any) -> None:
-        """Note the time; the handle itself does not matter."""
+        """Record the time; the handle itself does not matter."""
         del ptr
         if self.action_server:
             with self.action_server.lock:

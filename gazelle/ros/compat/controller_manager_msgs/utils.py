@@ -30,7 +30,7 @@ cm_services = {
 def get_controller_managers(
     namespace: str = "/", initial_guess: Sequence[str] | None = None
 ) -> list[str]:
-    """The namespaces of the controller managers, sorted.
+    """Return the namespaces of the controller managers, sorted.
 
     Args:
         namespace: Look below this one.
@@ -51,7 +51,7 @@ def is_controller_manager(namespace: str) -> bool:
 
 
 def _candidates(namespace: str) -> list[str]:
-    """Namespaces that list controllers."""
+    """Return namespaces that list controllers."""
     try:
         services = rosservice.get_service_list(namespace=namespace)
     except rosservice.ROSServiceIOException:
@@ -73,7 +73,7 @@ class ControllerManagerLister:
         self._known: list[str] = []
 
     def __call__(self) -> list[str]:
-        """The namespaces of the controller managers, sorted."""
+        """Return the namespaces of the controller managers, sorted."""
         self._known = get_controller_managers(self._namespace, self._known)
         return self._known
 
@@ -92,7 +92,10 @@ class ControllerLister:
         self._proxy = self._connect()
 
     def __call__(self) -> list[Any]:
-        """The ``ControllerState`` of each controller; none if the manager does not answer."""
+        """Return the ``ControllerState`` of each controller.
+
+        None if the manager does not answer.
+        """
         for _ in range(2):
             try:
                 return list(self._proxy().controller)
@@ -106,12 +109,12 @@ class ControllerLister:
 
 
 def filter_by_name(ctrl_list: Iterable[Any], ctrl_name: str, match_substring: bool = False) -> Any:  # noqa: FBT001, FBT002  # the original's interface
-    """The controllers of a name, or with a text in their name."""
+    """Return the controllers of a name, or with a text in their name."""
     return _having("name", ctrl_list, ctrl_name, part=match_substring)
 
 
 def filter_by_type(ctrl_list: Iterable[Any], ctrl_type: str, match_substring: bool = False) -> Any:  # noqa: FBT001, FBT002
-    """The controllers of a type, or with a text in their type."""
+    """Return the controllers of a type, or with a text in their type."""
     return _having("type", ctrl_list, ctrl_type, part=match_substring)
 
 
@@ -120,7 +123,7 @@ def filter_by_state(
     ctrl_state: str,
     match_substring: bool = False,  # noqa: FBT001, FBT002
 ) -> list[Any]:
-    """The controllers in a state, or with a text in their state."""
+    """Return the controllers in a state, or with a text in their state."""
     return _having("state", ctrl_list, ctrl_state, part=match_substring)
 
 
@@ -138,7 +141,10 @@ def filter_by_hardware_interface(
     hardware_interface: str,
     match_substring: bool = False,  # noqa: FBT001, FBT002
 ) -> list[Any]:
-    """The controllers that claim something in an interface, or one with a text in its name."""
+    """Return the controllers that claim something in an interface.
+
+    With `match_substring`, a part of its name is enough.
+    """
     fits = _matcher(hardware_interface, part=match_substring)
     return [
         each
@@ -153,7 +159,7 @@ def filter_by_resources(
     hardware_interface: str | None = None,
     match_any: bool = False,  # noqa: FBT001, FBT002
 ) -> list[Any]:
-    """The controllers that claim resources through one interface.
+    """Return the controllers that claim resources through one interface.
 
     Args:
         ctrl_list: Among these.
@@ -171,7 +177,7 @@ def filter_by_resources(
 
 
 def get_rosparam_controller_names(namespace: str = "/") -> list[str]:
-    """Names of what may be the parameters of a controller: namespaces with a value ``type``."""
+    """Return names of possible parameters of a controller: namespaces with a value ``type``."""
     space = namespace if namespace.endswith("/") else f"{namespace}/"
     below = (name.partition(space)[2].split("/") for name in rosparam.list_params(namespace))
     return sorted(words[0] for words in below if len(words) == 2 and words[1] == "type")

@@ -32,25 +32,25 @@ class CvBridge:
     """Converts between ``Image`` messages and arrays of shape (height, width[, channels])."""
 
     def encoding_to_cvtype2(self, encoding: str) -> int:
-        """OpenCV's number of an encoding's type."""
+        """Return OpenCV's number of an encoding's type."""
         return getCvType(encoding)
 
     def encoding_to_dtype_with_channels(self, encoding: str) -> tuple[str, int]:
-        """Numpy's type of one value, such as ``uint8``, and the number of channels."""
+        """Return NumPy's type of one value, such as ``uint8``, and the number of channels."""
         found = encoding_of(encoding)
         return np.dtype(found.kind).name, found.channels
 
     def cvtype2_to_dtype_with_channels(self, cvtype: int) -> tuple[str, int]:
-        """The same for OpenCV's number of a type."""
+        """Return type and channels of OpenCV's number of a type."""
         kinds = ("u1", "i1", "u2", "i2", "i4", "f4", "f8")
         return np.dtype(kinds[cvtype & 7]).name, (cvtype >> 3) + 1
 
     def dtype_with_channels_to_cvtype2(self, dtype: Any, n_channels: int) -> str:
-        """The plain encoding of arrays, such as ``8UC3``."""
+        """Return the plain encoding of arrays, such as ``8UC3``."""
         return encoding_for(np.dtype(dtype), n_channels)
 
     def imgmsg_to_cv2(self, img_msg: Any, desired_encoding: str = "passthrough") -> Image:
-        """The array of an ``Image``.
+        """Return the array of an ``Image``.
 
         Args:
             img_msg: The message.
@@ -66,7 +66,7 @@ class CvBridge:
         return _converted(image, source, encoding_of(desired_encoding))
 
     def cv2_to_imgmsg(self, cvim: Image, encoding: str = "passthrough", header: Any = None) -> Any:
-        """The ``Image`` of an array.
+        """Return the ``Image`` of an array.
 
         Args:
             cvim: The array.
@@ -105,7 +105,9 @@ class CvBridge:
     def compressed_imgmsg_to_cv2(
         self, cmprs_img_msg: Any, desired_encoding: str = "passthrough"
     ) -> Image:
-        """The array of a ``CompressedImage``, as bgr8 unless wanted otherwise; needs OpenCV.
+        """Return the array of a ``CompressedImage``, as bgr8 unless wanted otherwise.
+
+        Needs OpenCV.
 
         Raises:
             CvBridgeError: OpenCV is not installed, or it cannot read the image.
@@ -122,7 +124,7 @@ class CvBridge:
         return _converted(image, source, encoding_of(desired_encoding))
 
     def cv2_to_compressed_imgmsg(self, cvim: Image, dst_format: str = "jpg") -> Any:
-        """The ``CompressedImage`` of an array; needs OpenCV.
+        """Return the ``CompressedImage`` of an array; needs OpenCV.
 
         Raises:
             CvBridgeError: OpenCV is not installed, or cannot write it.
@@ -137,7 +139,10 @@ class CvBridge:
 
 
 def _array(message: Any, source: Encoding) -> Image:
-    """The pixels of a message, in this machine's byte order; a view where that is possible."""
+    """Return the pixels of a message, in this machine's byte order.
+
+    A view where that is possible.
+    """
     kind = np.dtype((">" if message.is_bigendian else "<") + source.kind)
     pixel = kind.itemsize * source.channels
     data = np.frombuffer(bytes(message.data), np.uint8)
@@ -169,7 +174,7 @@ def _converted(image: Image, source: Encoding, target: Encoding) -> Image:
 
 
 def _coloured(image: Image, target: Encoding) -> Image:
-    """Grey as colours."""
+    """Convert grey to colours."""
     return _with_alpha(np.repeat(image[:, :, None], 3, axis=2), target)
 
 
@@ -218,7 +223,7 @@ _NAMES = {"Y": "GRAY", "rgb": "RGB", "bgr": "BGR", "rgba": "RGBA", "bgra": "BGRA
 
 
 def _with_depth(image: Image, target: Encoding) -> Image:
-    """The same image with values of another type; 8 bits become 16 by filling the range."""
+    """Return the same image with values of another type; 8 bits become 16 by filling the range."""
     if image.dtype == np.dtype(target.kind):
         return image
     if image.dtype == np.uint8 and target.kind == "u2":

@@ -39,7 +39,7 @@ class Encoding:
 
 
 def encoding_of(name: str) -> Encoding:
-    """The encoding of a name.
+    """Return the encoding of a name.
 
     Raises:
         CvBridgeError: It is unknown.
@@ -61,7 +61,7 @@ def encoding_of(name: str) -> Encoding:
 
 
 def encoding_for(kind: np.dtype[np.generic], channels: int) -> str:
-    """The name of the plain encoding of arrays, such as ``8UC3``.
+    """Return the name of the plain encoding of arrays, such as ``8UC3``.
 
     Raises:
         CvBridgeError: OpenCV has no such type.
@@ -73,7 +73,7 @@ def encoding_for(kind: np.dtype[np.generic], channels: int) -> str:
 
 
 def getCvType(encoding: str) -> int:  # noqa: N802  # cv_bridge's name
-    """OpenCV's number of an encoding's type."""
+    """Return OpenCV's number of an encoding's type."""
     found = encoding_of(encoding)
     depth = [*DEPTHS.values()].index(found.kind)
     return depth + ((found.channels - 1) << 3)

@@ -18,7 +18,7 @@ class DynamicReconfigureCallbackException(DynamicReconfigureException):
 
 
 def find_reconfigure_services() -> list[str]:
-    """Names of the nodes whose parameters can be changed."""
+    """Return names of the nodes whose parameters can be changed."""
     from gazelle.ros.compat.rosservice import rosservice_find
 
     found = rosservice_find("dynamic_reconfigure/Reconfigure")
@@ -26,5 +26,5 @@ def find_reconfigure_services() -> list[str]:
 
 
 def get_parameter_names(descr: Any) -> list[str]:
-    """Names of the parameters in a description's defaults."""
+    """Return names of the parameters in a description's defaults."""
     return [*descr.defaults]

@@ -67,7 +67,7 @@ class Client:
         )
 
     def get_configuration(self, timeout: float | None = None) -> Config | None:
-        """The values; None if they do not come in time [s]."""
+        """Return the values; None if they do not come in time [s]."""
         self._wait(lambda: self.config is not None, timeout)
         return self.config
 
@@ -79,7 +79,7 @@ class Client:
         return self.param_description
 
     def get_group_descriptions(self, timeout: float | None = None) -> Config | None:
-        """The groups of parameters; None if they do not come in time [s]."""
+        """Return the groups of parameters; None if they do not come in time [s]."""
         self._wait(lambda: self.group_description is not None, timeout)
         return self.group_description
 
@@ -88,7 +88,7 @@ class Client:
             self._news.wait_for(lambda: done() or process.shutdown.is_set(), timeout)
 
     def update_configuration(self, changes: dict[str, Any]) -> Config:
-        """Change values; returns all of them as the node took them.
+        """Set values; returns all of them as the node accepted them.
 
         Raises:
             DynamicReconfigureParameterException: There is no such parameter, or it cannot have
@@ -109,7 +109,7 @@ class Client:
         return self.config
 
     def update_groups(self, changes: dict[str, bool]) -> Config:
-        """Switch groups of parameters on and off; see `update_configuration`."""
+        """Enable and disable groups of parameters; see `update_configuration`."""
         groups = self.get_configuration() or Config()
         tree = groups.get("groups", Config())
         _switch(tree, changes)
@@ -164,7 +164,7 @@ def _switch(group: dict[str, Any], changes: dict[str, bool]) -> None:
 
 
 def _cast(name: str, kinds: dict[str, str], value: Any) -> Any:
-    """A value as its parameter's type, from what users write."""
+    """Convert a value to its parameter's type, from what users write."""
     kind = kinds.get(name)
     if kind is None:
         raise DynamicReconfigureParameterException(f"don't know parameter: {name}")

@@ -24,7 +24,7 @@ class Config(dict[str, Any]):
         self[name] = value
 
     def copy(self) -> Self:
-        """The same values in another object."""
+        """Return the same values in another object."""
         return type(self)(self)
 
 
@@ -33,7 +33,7 @@ def _message(name: str) -> Any:
 
 
 def _kind(name: str, value: Any) -> str:
-    """The kind of parameter that a value is of."""
+    """Return the kind of a value's parameter."""
     for kind, python in _PYTHON.items():
         if type(value) is python:
             return kind
@@ -41,7 +41,7 @@ def _kind(name: str, value: Any) -> str:
 
 
 def encode_config(config: dict[str, Any], flat: bool = True) -> Any:  # noqa: FBT001, FBT002  # dynamic_reconfigure's interface
-    """The ``Config`` message of values.
+    """Return the ``Config`` message of values.
 
     Raises:
         DynamicReconfigureParameterException: A value is of no known type.
@@ -70,7 +70,7 @@ def _put_groups(message: Any, group: dict[str, Any]) -> None:
 
 
 def decode_config(msg: Any, description: Any = None) -> Config:
-    """The values of a ``Config`` message.
+    """Return the values of a ``Config`` message.
 
     Args:
         msg: The message.
@@ -93,7 +93,7 @@ def _set_states(group: dict[str, Any], states: dict[tuple[int, str], bool]) -> N
 
 
 def initial_groups(group: dict[str, Any]) -> Config:
-    """The state of a described group and those in it."""
+    """Return the state of a described group and those in it."""
     return Config(
         name=group["name"],
         state=group.get("state", True),
@@ -106,12 +106,12 @@ def initial_groups(group: dict[str, Any]) -> Config:
 
 
 def initial_config(msg: Any, description: Any = None) -> Config:
-    """The values of a message, and the groups of a description."""
+    """Return the values of a message, and the groups of a description."""
     return decode_config(msg, description)
 
 
 def extract_params(group: dict[str, Any]) -> list[dict[str, Any]]:
-    """The parameters described in a group and those in it."""
+    """Return the parameters described in a group and those in it."""
     found = list(group["parameters"])
     for each in group["groups"]:
         found += extract_params(each)
@@ -119,7 +119,7 @@ def extract_params(group: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def encode_description(descr: Any) -> Any:
-    """The ``ConfigDescription`` message of a generated module."""
+    """Return the ``ConfigDescription`` message of a generated module."""
     message = _message("ConfigDescription")()
     message.max = encode_config(descr.max)
     message.min = encode_config(descr.min)
@@ -153,7 +153,7 @@ def _put_group(message: Any, group: dict[str, Any]) -> None:
 
 
 def decode_description(msg: Any) -> Config:
-    """The groups of a ``ConfigDescription`` message, as nested dicts."""
+    """Return the groups of a ``ConfigDescription`` message, as nested dicts."""
     least, most, usual = (decode_config(each) for each in (msg.min, msg.max, msg.dflt))
     groups = {}
     for each in msg.groups:

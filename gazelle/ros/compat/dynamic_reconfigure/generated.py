@@ -19,7 +19,7 @@ _open: list[list[types.ModuleType]] = []
 
 
 def load_cfg(package: str, name: str) -> types.ModuleType:
-    """The module ``PACKAGE.cfg.NAME``.
+    """Load the module ``PACKAGE.cfg.NAME``.
 
     Raises:
         ModuleNotFoundError: The package has no such ``.cfg`` file.
@@ -70,7 +70,7 @@ def _pushed(made: list[types.ModuleType]) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _as_program(arguments: list[str], folder: str) -> Iterator[None]:
-    """Let the process look like the one that runs a script."""
+    """Set the process's arguments and folder to those of a script while it lasts."""
     argv, path = sys.argv, list(sys.path)
     sys.argv = arguments
     sys.path.insert(0, folder)
@@ -95,7 +95,7 @@ def _line_in(error: BaseException, file: Path) -> int | None:
 def take(
     package: str, name: str, description: dict[str, Any], constants: Sequence[dict[str, Any]]
 ) -> None:
-    """Take what a ``.cfg`` file describes; called by its generator."""
+    """Store the description of a ``.cfg`` file; called by its generator."""
     if not _open:
         return
     module: Any = types.ModuleType(

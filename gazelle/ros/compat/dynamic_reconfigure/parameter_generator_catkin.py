@@ -25,7 +25,7 @@ _NAME = re.compile(r"[a-zA-Z][a-zA-Z0-9_]*")
 
 
 def _typed(name: str, kind: str, what: str, value: Any) -> Any:
-    """A value of a parameter's type; ints are doubles, too."""
+    """Return a value of a parameter's type; ints are doubles, too."""
     python = _PYTHON.get(kind)
     if python is None:
         raise DynamicReconfigureParameterException(f"'{name}' has the unknown type {kind!r}")
@@ -50,7 +50,7 @@ class ParameterGenerator:
         self.constants: list[dict[str, Any]] = []
 
     def const(self, name: str, type: str, value: Any, descr: str) -> dict[str, Any]:  # noqa: A002  # the interface
-        """A named value, for an `enum`.
+        """Return a named value, for an `enum`.
 
         Raises:
             TypeError: The value is not of the type.
@@ -71,7 +71,7 @@ class ParameterGenerator:
 
     @staticmethod
     def enum(constants: list[dict[str, Any]], description: str) -> str:
-        """An edit method that offers constants.
+        """Return an edit method that offers constants.
 
         Raises:
             DynamicReconfigureParameterException: They are of different types.
@@ -90,7 +90,9 @@ class ParameterGenerator:
         return self.group.add_group(name, type, state)
 
     def generate(self, pkgname: str, nodename: str, name: str) -> int:
-        """Nothing is written: whoever runs the ``.cfg`` file takes the description from here.
+        """Return 0 and write nothing.
+
+        Whoever runs the ``.cfg`` file takes the description from here.
 
         Returns:
             0, which ``.cfg`` files give to ``exit``.
@@ -182,7 +184,7 @@ class Group:
         self._parameters.append(made)
 
     def description(self) -> dict[str, Any]:
-        """The group as a generated module has it."""
+        """Return the group as a generated module has it."""
         state = "true" if self.state else "false"
         classes = [name.upper() for name in self._path]
         return {

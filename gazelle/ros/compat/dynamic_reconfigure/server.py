@@ -65,7 +65,7 @@ class Server:
         )
 
     def update_configuration(self, changes: dict[str, Any]) -> Config:
-        """Change values, and return all of them as they were taken."""
+        """Set values, and return all of them as accepted."""
         with self.mutex:
             wanted = self.config.copy()
             wanted.update(changes)

@@ -17,7 +17,7 @@ def spawn_sdf_model_client(
     reference_frame: str,
     gazebo_namespace: str,
 ) -> bool | None:
-    """Put a model of SDF there; waits for the service, for ever if need be.
+    """Spawn a model of SDF; waits for the service, for ever if need be.
 
     Args:
         model_name: Its name.
@@ -42,7 +42,7 @@ def spawn_urdf_model_client(
     reference_frame: str,
     gazebo_namespace: str,
 ) -> bool | None:
-    """The same with URDF; see `spawn_sdf_model_client`."""
+    """Spawn a model of URDF; see `spawn_sdf_model_client`."""
     fields = (model_name, model_xml, robot_namespace, initial_pose, reference_frame)
     return _call(gazebo_namespace, "spawn_urdf_model", "SpawnModel", fields)
 
@@ -54,7 +54,7 @@ def set_model_configuration_client(
     joint_positions: Sequence[float],
     gazebo_namespace: str,
 ) -> bool | None:
-    """Put joints of a model somewhere; waits for the service, for ever if need be.
+    """Set joint positions of a model; waits for the service, for ever if need be.
 
     Args:
         model_name: Whose joints.

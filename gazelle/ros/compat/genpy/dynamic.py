@@ -6,7 +6,7 @@ from gazelle.ros.messages import Message, class_from_text
 
 
 def generate_dynamic(core_type: str, msg_cat: str) -> dict[str, type[Message]]:
-    """The class of a type, and of those it contains, by name.
+    """Generate the class of a type, and of those it contains, by name.
 
     Args:
         core_type: Its name.

@@ -39,7 +39,7 @@ __all__ = [
 
 
 def get_message_class(message_type: str, reload_on_error: bool = False) -> Any:  # noqa: FBT001, FBT002  # genpy's interface
-    """The class of a message type, such as ``std_msgs/String``; None if it is not known."""
+    """Return the class of a message type, such as ``std_msgs/String``; None if it is not known."""
     del reload_on_error
     try:
         return load_message(message_type)
@@ -48,7 +48,7 @@ def get_message_class(message_type: str, reload_on_error: bool = False) -> Any: 
 
 
 def get_service_class(service_type: str, reload_on_error: bool = False) -> Any:  # noqa: FBT001, FBT002  # genpy's interface
-    """The class of a service type; None if it is not known."""
+    """Return the class of a service type; None if it is not known."""
     del reload_on_error
     try:
         return load_service(service_type)

@@ -44,7 +44,7 @@ class PinholeCameraModel:
         self.stamp: Any = None
 
     def fromCameraInfo(self, msg: Any) -> None:
-        """Take the values of a ``CameraInfo``."""
+        """Set the values of a ``CameraInfo``."""
         self.full_K, self.R = _matrix(3, 3, msg.K), _matrix(3, 3, msg.R)
         self.D = _matrix(len(msg.D), 1, msg.D) if len(msg.D) else None
         self.full_P = _matrix(3, 4, msg.P)
@@ -55,7 +55,7 @@ class PinholeCameraModel:
         self.K, self.P = self._visible(self.full_K), self._visible(self.full_P)
 
     def _visible(self, full: Floats) -> Floats:
-        """A matrix for the part of the image that is sent, and its binning."""
+        """Return a matrix for the sent part of the image, and its binning."""
         seen = full.copy()
         seen[0, 2] -= self.raw_roi.x_offset
         seen[1, 2] -= self.raw_roi.y_offset
@@ -64,12 +64,12 @@ class PinholeCameraModel:
         return seen
 
     def project3dToPixel(self, point: Sequence[float]) -> tuple[float, float]:
-        """The rectified pixel (u, v) of a point in the camera's optical frame [m]."""
+        """Return the rectified pixel (u, v) of a point in the camera's optical frame [m]."""
         x, y, w = self.P @ (point[0], point[1], point[2], 1.0)
         return (float(x / w), float(y / w)) if w else (math.nan, math.nan)
 
     def projectPixelTo3dRay(self, uv: Sequence[float]) -> tuple[float, float, float]:
-        """The direction of length 1 in which a rectified pixel looks."""
+        """Return the direction of length 1 of a rectified pixel's ray."""
         x = (uv[0] - self.cx()) / self.fx()
         y = (uv[1] - self.cy()) / self.fy()
         norm = math.sqrt(x * x + y * y + 1.0)
@@ -92,55 +92,58 @@ class PinholeCameraModel:
         return Z * deltaV / self.fy()
 
     def fullResolution(self) -> tuple[int, int]:
-        """Width and height of the whole image [px]."""
+        """Return width and height of the whole image [px]."""
         return self.width, self.height
 
     def intrinsicMatrix(self) -> Floats | None:
-        """`K`."""
+        """Return `K`."""
         return self.K
 
     def distortionCoeffs(self) -> Floats | None:
-        """`D`."""
+        """Return `D`."""
         return self.D
 
     def rotationMatrix(self) -> Floats | None:
-        """`R`."""
+        """Return `R`."""
         return self.R
 
     def projectionMatrix(self) -> Floats:
-        """`P`."""
+        """Return `P`."""
         return self.P
 
     def fullIntrinsicMatrix(self) -> Floats | None:
-        """`K` for the whole image."""
+        """Return `K` for the whole image."""
         return self.full_K
 
     def fullProjectionMatrix(self) -> Floats:
-        """`P` for the whole image."""
+        """Return `P` for the whole image."""
         return self.full_P
 
     def cx(self) -> float:
-        """The centre's u [px]."""
+        """Return the centre's u [px]."""
         return float(self.P[0, 2])
 
     def cy(self) -> float:
-        """The centre's v [px]."""
+        """Return the centre's v [px]."""
         return float(self.P[1, 2])
 
     def fx(self) -> float:
-        """The focal length along u [px]."""
+        """Return the focal length along u [px]."""
         return float(self.P[0, 0])
 
     def fy(self) -> float:
-        """The focal length along v [px]."""
+        """Return the focal length along v [px]."""
         return float(self.P[1, 1])
 
     def Tx(self) -> float:
-        """The projection's translation along u: minus focal length times baseline [px m]."""
+        """Return the projection's translation along u [px m].
+
+        It is minus focal length times baseline.
+        """
         return float(self.P[0, 3])
 
     def Ty(self) -> float:
-        """The projection's translation along v [px m]."""
+        """Return the projection's translation along v [px m]."""
         return float(self.P[1, 3])
 
     def fovX(self) -> float:
@@ -152,7 +155,7 @@ class PinholeCameraModel:
         return 2 * math.atan(self.height / self.binning_y / (2 * self.fy()))
 
     def tfFrame(self) -> str | None:
-        """Its optical frame."""
+        """Return its optical frame."""
         return self.tf_frame
 
 
@@ -168,24 +171,24 @@ class StereoCameraModel:
         self.left, self.right = PinholeCameraModel(), PinholeCameraModel()
 
     def fromCameraInfo(self, left_msg: Any, right_msg: Any) -> None:
-        """Take the values of two ``CameraInfo``."""
+        """Set the values of two ``CameraInfo``."""
         self.left.fromCameraInfo(left_msg)
         self.right.fromCameraInfo(right_msg)
 
     def tfFrame(self) -> str | None:
-        """The left camera's optical frame."""
+        """Return the left camera's optical frame."""
         return self.left.tfFrame()
 
     def project3dToPixel(
         self, point: Sequence[float]
     ) -> tuple[tuple[float, float], tuple[float, float]]:
-        """The rectified pixels of a point, left and right."""
+        """Return the rectified pixels of a point, left and right."""
         return self.left.project3dToPixel(point), self.right.project3dToPixel(point)
 
     def projectPixelTo3d(
         self, left_uv: Sequence[float], disparity: float
     ) -> tuple[float, float, float]:
-        """The point [m] of a left pixel and its disparity [px]; the origin if that is 0."""
+        """Return the point [m] of a left pixel and its disparity [px]; the origin if that is 0."""
         if disparity == 0:
             return 0.0, 0.0, 0.0
         depth = self.getZ(disparity)
@@ -194,9 +197,9 @@ class StereoCameraModel:
         return x, y, depth
 
     def getZ(self, disparity: float) -> float:
-        """The depth [m] of a disparity [px]."""
+        """Return the depth [m] of a disparity [px]."""
         return math.inf if disparity == 0 else -self.right.Tx() / disparity
 
     def getDisparity(self, Z: float) -> float:
-        """The disparity [px] of a depth [m]."""
+        """Return the disparity [px] of a depth [m]."""
         return math.inf if Z == 0 else -self.right.Tx() / Z

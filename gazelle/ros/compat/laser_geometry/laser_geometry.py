@@ -35,7 +35,7 @@ class LaserProjection:
         range_cutoff: float = -1.0,
         channel_options: int = ChannelOption.DEFAULT,
     ) -> Any:
-        """The cloud of a scan, in the scan's frame.
+        """Return the cloud of a scan, in the scan's frame.
 
         Args:
             scan_in: The ``LaserScan``.

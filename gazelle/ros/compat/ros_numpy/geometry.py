@@ -16,7 +16,7 @@ _VECTORS = ("geometry_msgs/Vector3", "geometry_msgs/Point", "geometry_msgs/Point
 
 
 def _triple(message: Any, hom: bool = False) -> Floats:  # noqa: FBT001, FBT002  # ros_numpy's interface
-    """x, y and z; with `hom` a 1 behind a point's and a 0 behind a vector's."""
+    """Return x, y and z; with `hom` a 1 behind a point's and a 0 behind a vector's."""
     last = [] if not hom else [0.0 if message._type.endswith("Vector3") else 1.0]
     return np.array([message.x, message.y, message.z, *last])
 
@@ -41,13 +41,13 @@ for _name in _VECTORS:
 
 @converts_to_numpy("geometry_msgs/Quaternion")
 def quat_to_numpy(msg: Any) -> Floats:
-    """x, y, z and w."""
+    """Return x, y, z and w."""
     return np.array([msg.x, msg.y, msg.z, msg.w])
 
 
 @converts_from_numpy("geometry_msgs/Quaternion")
 def numpy_to_quat(array: ArrayLike) -> Any:
-    """The ``Quaternion`` of x, y, z and w."""
+    """Return the ``Quaternion`` of x, y, z and w."""
     return load_message("geometry_msgs/Quaternion")(*np.asarray(array, dtype=float).tolist())
 
 
@@ -65,13 +65,13 @@ def _put(place: Any, turn: Any, array: ArrayLike) -> None:
 
 @converts_to_numpy("geometry_msgs/Transform")
 def transform_to_numpy(msg: Any) -> Floats:
-    """The 4x4 matrix."""
+    """Return the 4x4 matrix."""
     return _matrix(msg.translation, msg.rotation)
 
 
 @converts_from_numpy("geometry_msgs/Transform")
 def numpy_to_transform(array: ArrayLike) -> Any:
-    """The ``Transform`` of a 4x4 matrix."""
+    """Return the ``Transform`` of a 4x4 matrix."""
     made: Any = load_message("geometry_msgs/Transform")()
     _put(made.translation, made.rotation, array)
     return made
@@ -79,13 +79,13 @@ def numpy_to_transform(array: ArrayLike) -> Any:
 
 @converts_to_numpy("geometry_msgs/Pose")
 def pose_to_numpy(msg: Any) -> Floats:
-    """The 4x4 matrix."""
+    """Return the 4x4 matrix."""
     return _matrix(msg.position, msg.orientation)
 
 
 @converts_from_numpy("geometry_msgs/Pose")
 def numpy_to_pose(array: ArrayLike) -> Any:
-    """The ``Pose`` of a 4x4 matrix."""
+    """Return the ``Pose`` of a 4x4 matrix."""
     made: Any = load_message("geometry_msgs/Pose")()
     _put(made.position, made.orientation, array)
     return made

@@ -14,13 +14,13 @@ from gazelle.ros.compat.ros_numpy.registry import converts_from_numpy, converts_
 
 @converts_to_numpy("sensor_msgs/Image")
 def image_to_numpy(msg: Any) -> NDArray[Any]:
-    """The pixels as they are in the message."""
+    """Return the pixels as they are in the message."""
     return CvBridge().imgmsg_to_cv2(msg)
 
 
 @converts_from_numpy("sensor_msgs/Image")
 def numpy_to_image(arr: NDArray[Any], encoding: str) -> Any:
-    """The ``Image`` of pixels.
+    """Return the ``Image`` of pixels.
 
     Raises:
         CvBridgeError: They do not fit the encoding.

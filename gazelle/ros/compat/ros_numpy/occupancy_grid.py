@@ -13,14 +13,14 @@ from gazelle.ros.messages import load_message
 
 @converts_to_numpy("nav_msgs/OccupancyGrid")
 def occupancygrid_to_numpy(msg: Any) -> np.ma.MaskedArray[Any, Any]:
-    """The cells (height, width), -1 of them masked."""
+    """Return the cells (height, width), -1 of them masked."""
     cells = np.asarray(msg.data, dtype=np.int8).reshape(msg.info.height, msg.info.width)
     return np.ma.array(cells, mask=cells == -1, fill_value=-1)
 
 
 @converts_from_numpy("nav_msgs/OccupancyGrid")
 def numpy_to_occupancy_grid(arr: NDArray[Any], info: Any = None) -> Any:
-    """The ``OccupancyGrid`` of cells of int8; masked ones become -1.
+    """Return the ``OccupancyGrid`` of cells of int8; masked ones become -1.
 
     Raises:
         TypeError: The array has not two dimensions of int8.

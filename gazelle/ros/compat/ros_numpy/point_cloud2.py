@@ -27,7 +27,7 @@ _CODES = {np.dtype(kind): code for code, kind in _KINDS.items()}
 
 @converts_to_numpy(PointField, plural=True)
 def fields_to_dtype(fields: Sequence[Any], point_step: int) -> np.dtype[np.void]:
-    """The record type of a cloud's points."""
+    """Return the record type of a cloud's points."""
     kinds = [np.dtype((_KINDS[f.datatype], (f.count,) if f.count > 1 else ())) for f in fields]
     return np.dtype(
         {
@@ -41,7 +41,7 @@ def fields_to_dtype(fields: Sequence[Any], point_step: int) -> np.dtype[np.void]
 
 @converts_from_numpy(PointField, plural=True)
 def dtype_to_fields(dtype: np.dtype[np.void]) -> list[Any]:
-    """The ``PointField`` messages of a record type."""
+    """Return the ``PointField`` messages of a record type."""
     made = []
     for name in dtype.names or ():
         fields: Any = dtype.fields
@@ -53,7 +53,7 @@ def dtype_to_fields(dtype: np.dtype[np.void]) -> list[Any]:
 
 @converts_to_numpy(PointCloud2)
 def pointcloud2_to_array(cloud_msg: Any, squeeze: bool = True) -> NDArray[np.void]:  # noqa: FBT001, FBT002  # ros_numpy's interface
-    """The points: (width,) for a cloud of one row if it is to be squeezed, else (height, width)."""
+    """Return the points: (width,) for one row on request, else (height, width)."""
     columns = split_columns(cloud_msg)
     kind = fields_to_dtype(cloud_msg.fields, cloud_msg.point_step)
     cloud = np.zeros((cloud_msg.height, cloud_msg.width), kind)
@@ -67,7 +67,7 @@ def pointcloud2_to_array(cloud_msg: Any, squeeze: bool = True) -> NDArray[np.voi
 def array_to_pointcloud2(
     cloud_arr: NDArray[np.void], stamp: Any = None, frame_id: str | None = None
 ) -> Any:
-    """The ``PointCloud2`` of records, (width,) or (height, width)."""
+    """Return the ``PointCloud2`` of records, (width,) or (height, width)."""
     rows = np.atleast_2d(cloud_arr)
     message = PointCloud2()
     if stamp is not None:
@@ -89,7 +89,7 @@ def get_xyz_points(
     remove_nans: bool = True,  # noqa: FBT001, FBT002  # ros_numpy's interface
     dtype: Any = float,
 ) -> NDArray[Any]:
-    """The places of records, (..., 3); those that are not finite are left out if asked."""
+    """Return the places of records, (..., 3), on request without those that are not finite."""
     if remove_nans:
         good = np.isfinite(cloud_array["x"])
         good &= np.isfinite(cloud_array["y"]) & np.isfinite(cloud_array["z"])
@@ -98,12 +98,12 @@ def get_xyz_points(
 
 
 def pointcloud2_to_xyz_array(cloud_msg: Any, remove_nans: bool = True) -> NDArray[Any]:  # noqa: FBT001, FBT002  # ros_numpy's interface
-    """The places of a cloud's points, (n, 3) [m]."""
+    """Return the places of a cloud's points, (n, 3) [m]."""
     return get_xyz_points(pointcloud2_to_array(cloud_msg), remove_nans)
 
 
 def split_rgb_field(cloud_arr: NDArray[np.void]) -> NDArray[np.void]:
-    """Records with ``r``, ``g`` and ``b`` in place of the packed ``rgb``."""
+    """Return records with ``r``, ``g`` and ``b`` in place of the packed ``rgb``."""
     packed = np.ascontiguousarray(cloud_arr["rgb"]).view(np.uint32)
     kept = [name for name in cloud_arr.dtype.names or () if name != "rgb"]
     fields: Any = cloud_arr.dtype.fields
@@ -117,7 +117,7 @@ def split_rgb_field(cloud_arr: NDArray[np.void]) -> NDArray[np.void]:
 
 
 def merge_rgb_fields(cloud_arr: NDArray[np.void]) -> NDArray[np.void]:
-    """Records with the packed ``rgb`` in place of ``r``, ``g`` and ``b``."""
+    """Return records with the packed ``rgb`` in place of ``r``, ``g`` and ``b``."""
     r, g, b = (np.asarray(cloud_arr[name], dtype=np.uint32) for name in "rgb")
     kept = [name for name in cloud_arr.dtype.names or () if name not in set("rgb")]
     fields: Any = cloud_arr.dtype.fields

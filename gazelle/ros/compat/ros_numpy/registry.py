@@ -11,12 +11,12 @@ _from_numpy: dict[tuple[str, bool], Function] = {}
 
 
 def _key(msgtype: Any, *, plural: bool) -> tuple[str, bool]:
-    """Messages of one type may have several classes, so types go by name."""
+    """Return the key of a type: its name, as messages of one type may have several classes."""
     return str(getattr(msgtype, "_type", msgtype)), plural
 
 
 def converts_to_numpy(msgtype: Any, plural: bool = False) -> Callable[[Function], Function]:  # noqa: FBT001, FBT002  # ros_numpy's interface
-    """Decorates the function that makes arrays of messages, or with `plural` of lists of them."""
+    """Decorate the function that makes arrays of messages, or with `plural` of lists of them."""
 
     def decorate(function: Function) -> Function:
         _to_numpy[_key(msgtype, plural=plural)] = function
@@ -26,7 +26,7 @@ def converts_to_numpy(msgtype: Any, plural: bool = False) -> Callable[[Function]
 
 
 def converts_from_numpy(msgtype: Any, plural: bool = False) -> Callable[[Function], Function]:  # noqa: FBT001, FBT002  # ros_numpy's interface
-    """Decorates the function that makes messages of arrays; see `converts_to_numpy`."""
+    """Decorate the function that makes messages of arrays; see `converts_to_numpy`."""
 
     def decorate(function: Function) -> Function:
         _from_numpy[_key(msgtype, plural=plural)] = function
@@ -36,7 +36,7 @@ def converts_from_numpy(msgtype: Any, plural: bool = False) -> Callable[[Functio
 
 
 def numpify(msg: Any, *args: Any, **kwargs: Any) -> Any:
-    """The array of a message, or of a list of messages of one type.
+    """Return the array of a message, or of a list of messages of one type.
 
     Raises:
         ValueError: Nobody said how, or the list is empty.
@@ -55,7 +55,7 @@ def numpify(msg: Any, *args: Any, **kwargs: Any) -> Any:
 
 
 def msgify(msg_type: Any, numpy_obj: Any, *args: Any, **kwargs: Any) -> Any:
-    """The message of an array.
+    """Return the message of an array.
 
     Args:
         msg_type: Its class, or a list with the class for a list of messages.

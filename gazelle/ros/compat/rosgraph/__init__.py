@@ -45,5 +45,5 @@ __all__ = [
 
 
 def myargv(argv: Iterable[str] | None = None) -> list[str]:
-    """The command line without remappings."""
+    """Return the command line without remappings."""
     return [each for each in (sys.argv if argv is None else argv) if names.REMAP not in each]

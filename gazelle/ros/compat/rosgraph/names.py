@@ -34,12 +34,12 @@ def isstring(s: Any) -> bool:
 
 
 def canonicalize_name(name: str) -> str:
-    """The name without doubled or trailing slashes."""
+    """Return the name without doubled or trailing slashes."""
     return names.canonical(name) if name else name
 
 
 def make_global_ns(name: str) -> str:
-    """A namespace with slashes at both ends.
+    """Return a namespace with slashes at both ends.
 
     Raises:
         ValueError: The name is private.
@@ -50,7 +50,7 @@ def make_global_ns(name: str) -> str:
 
 
 def namespace(name: str) -> str:
-    """The namespace of a global name, with a slash at the end.
+    """Return the namespace of a global name, with a slash at the end.
 
     Raises:
         TypeError: It is no string.
@@ -63,7 +63,7 @@ def namespace(name: str) -> str:
 def get_ros_namespace(
     env: Mapping[str, str] | None = None, argv: Iterable[str] | None = None
 ) -> str:
-    """The namespace of this process: of ``__ns:=``, else of ROS_NAMESPACE, else the root."""
+    """Return the namespace of this process: ``__ns:=``, else ROS_NAMESPACE, else the root."""
     for argument in sys.argv if argv is None else argv:
         if argument.startswith("__ns:="):
             return make_global_ns(argument[len("__ns:=") :])
@@ -72,12 +72,15 @@ def get_ros_namespace(
 
 
 def make_caller_id(name: str) -> str:
-    """A node's global name from its base name."""
+    """Return a node's global name from its base name."""
     return make_global_ns(ns_join(get_ros_namespace(), name))[:-1]
 
 
 def load_mappings(argv: Iterable[str]) -> dict[str, str]:
-    """The remappings of a command line, unresolved; without private parameters (``_p:=1``)."""
+    """Load the remappings of a command line, unresolved.
+
+    Without private parameters (``_p:=1``).
+    """
     found = names.split_arguments(argv)[1]
     return {old: new for old, new in found.items() if new and (old[0] != "_" or old[:2] == "__")}
 
@@ -100,12 +103,12 @@ def is_legal_remap(arg: str) -> bool:
 
 
 def resolve_name(name: str, namespace_: str, remappings: Mapping[str, str] | None = None) -> str:
-    """The global name that a name means to the node `namespace_`."""
+    """Return the global name of a name for the node `namespace_`."""
     return names.resolve(name, namespace_, remappings)
 
 
 def script_resolve_name(script_name: str, name: str) -> str:
-    """The global name that a name means to a script that is no node."""
+    """Return the global name of a name for a script that is no node."""
     if not name:
         return get_ros_namespace()
     if is_global(name):
@@ -116,7 +119,7 @@ def script_resolve_name(script_name: str, name: str) -> str:
 
 
 def anonymous_name(id: str) -> str:  # noqa: A002  # rosgraph's interface
-    """A name nobody else has."""
+    """Return a unique name."""
     import random
 
     name = f"{id}_{socket.gethostname()}_{os.getpid()}_{random.randint(0, sys.maxsize)}"  # noqa: S311  # not a secret

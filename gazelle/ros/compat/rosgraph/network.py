@@ -16,7 +16,7 @@ class ROSHandshakeException(Exception):  # noqa: N818  # rosgraph's name
 
 
 def parse_http_host_and_port(url: str) -> tuple[str, int]:
-    """Host and port of an address.
+    """Parse host and port of an address.
 
     Raises:
         ValueError: It is none.
@@ -33,7 +33,7 @@ def get_address_override() -> str | None:
 
 
 def get_local_address() -> str:
-    """The address other nodes reach this machine by."""
+    """Return this machine's address for other nodes."""
     return net.default_host()
 
 
@@ -41,7 +41,7 @@ get_host_name = get_local_address
 
 
 def get_local_addresses() -> list[str]:
-    """Addresses of this machine."""
+    """Return addresses of this machine."""
     found = {net.LOOPBACK}
     with contextlib.suppress(OSError):
         found |= {str(entry[4][0]) for entry in socket.getaddrinfo(socket.gethostname(), None)}
@@ -67,17 +67,17 @@ def use_ipv6() -> bool:
 
 
 def create_local_xmlrpc_uri(port: int) -> str:
-    """The address of an XML-RPC server on this machine."""
+    """Return the address of an XML-RPC server on this machine."""
     return net.uri_of(net.default_host(), port)
 
 
 def encode_ros_handshake_header(header: dict[str, str]) -> bytes:
-    """A connection header as it goes over the wire."""
+    """Encode a connection header for the wire."""
     return headers.encode({key: str(value) for key, value in header.items()})
 
 
 def decode_ros_handshake_header(header_str: bytes) -> dict[str, str]:
-    """A connection header from the wire.
+    """Decode a connection header from the wire.
 
     Raises:
         ROSHandshakeException: It is malformed.

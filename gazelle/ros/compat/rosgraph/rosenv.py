@@ -16,7 +16,7 @@ DEFAULT_MASTER_URI = "http://localhost:11311/"
 
 
 def get_master_uri(env: Mapping[str, str] | None = None, argv: Iterable[str] | None = None) -> str:
-    """Of the master: ``__master:=``, else ROS_MASTER_URI, else this machine's usual port."""
+    """Return the master's URI: ``__master:=``, else ROS_MASTER_URI, else this machine's port."""
     for argument in sys.argv if argv is None else argv:
         if argument.startswith("__master:="):
             return argument[len("__master:=") :]

@@ -13,7 +13,7 @@ class SilenceableXMLRPCRequestHandler(SimpleXMLRPCRequestHandler):
     protocol_version = "HTTP/1.1"
 
     def log_message(self, format: str, *args: Any) -> None:  # noqa: A002  # the base's name
-        """Say nothing."""
+        """Log nothing."""
 
 
 class ThreadingXMLRPCServer(ThreadingMixIn, SimpleXMLRPCServer):
@@ -34,7 +34,7 @@ class XmlRpcHandler:
     """Derive from it to offer methods."""
 
     def _ready(self, uri: str) -> None:
-        """The server listens at this address."""
+        """Handle the start of the server at an address."""
 
     def _shutdown(self, reason: str) -> None:
-        """The server ends."""
+        """Handle the end of the server."""

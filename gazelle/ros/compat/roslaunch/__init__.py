@@ -67,7 +67,7 @@ NAME = "roslaunch"
 
 
 def configure_logging(uuid: str) -> None:
-    """Accepted: Gazelle's launcher needs no set-up of its logs."""
+    """Do nothing: Gazelle's launcher needs no set-up of its logs."""
     del uuid
 
 

@@ -13,7 +13,7 @@ from gazelle.ros.launch.plan import LaunchPlan
 
 
 def get_args(roslaunch_files: Sequence[str]) -> dict[str, tuple[str | None, str | None]]:
-    """The texts that describe the arguments, and their default values, by name.
+    """Return documentation and default values of the arguments, by name.
 
     Raises:
         RLException: A file is malformed.

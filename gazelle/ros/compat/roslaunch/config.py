@@ -34,12 +34,12 @@ class ROSLaunchConfig:
         self.config_errors: list[str] = []
 
     def add_roslaunch_file(self, f: str) -> None:
-        """Remember that a file was read."""
+        """Record that a file was read."""
         if f not in self.roslaunch_files:
             self.roslaunch_files.append(f)
 
     def add_config_error(self, msg: str) -> None:
-        """Remember what is wrong."""
+        """Record an error."""
         self.config_errors.append(msg)
 
     def add_param(self, p: Param, filename: str | None = None, verbose: bool = True) -> None:  # noqa: FBT001, FBT002  # roslaunch's interface
@@ -76,12 +76,12 @@ class ROSLaunchConfig:
         (self.nodes_core if core else self.nodes).append(node)
 
     def assign_machines(self) -> None:
-        """Give every node the machine it names, or this one."""
+        """Assign every node to the machine it names, or this one."""
         for node in [*self.nodes, *self.tests]:
             node.machine = self.machines.get(node.machine_name or "", self.machines[""])
 
     def has_remote_nodes(self) -> bool:
-        """False: nodes run on this machine."""
+        """Return False: nodes run on this machine."""
         return False
 
     def take(self, plan: LaunchPlan) -> None:

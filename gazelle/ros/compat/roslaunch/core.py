@@ -34,7 +34,7 @@ def printerrlog(msg: str) -> None:
 
 
 def generate_run_id() -> str:
-    """A new name for a run."""
+    """Return a new name for a run."""
     return str(uuid.uuid1())
 
 
@@ -98,15 +98,15 @@ class Master:
         self.uri = uri or net.default_master_uri()
 
     def get_host(self) -> str:
-        """The host in its address."""
+        """Return the host in its address."""
         return net.split_uri(self.uri)[0]
 
     def get_port(self) -> int:
-        """The port in its address."""
+        """Return the port in its address."""
         return net.split_uri(self.uri)[1]
 
     def get(self) -> Any:
-        """A proxy of its API."""
+        """Return a proxy of its API."""
         from xmlrpc.client import ServerProxy
 
         return ServerProxy(self.uri)

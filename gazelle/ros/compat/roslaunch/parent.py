@@ -128,7 +128,7 @@ class ROSLaunchParent:
         self.runner = runner
 
     def spin_once(self) -> None:
-        """Look once at all nodes."""
+        """Check all nodes once."""
         if self.runner is not None:
             self.runner.spin_once()
 
@@ -146,7 +146,7 @@ class ROSLaunchParent:
             self.shutdown()
 
     def shutdown(self) -> None:
-        """End all nodes, and the master if this launch started it."""
+        """Stop all nodes, and the master if this launch started it."""
         if self.runner is not None:
             self.runner.stop()
 
@@ -199,7 +199,7 @@ class Runner:
         self._thread.start()
 
     def add_process_listener(self, listener: ProcessListener) -> None:
-        """Tell somebody more of the end of nodes."""
+        """Add a listener to the end of nodes."""
         self._listeners.append(listener)
 
     def launch_node(self, node: Node) -> tuple[Process | None, bool]:
@@ -213,7 +213,7 @@ class Runner:
         return Process(process, self._launch.forget), True
 
     def spin_once(self) -> None:
-        """Look once at all nodes."""
+        """Check all nodes once."""
         self._launch.look()
 
     def spin(self) -> None:
@@ -221,7 +221,7 @@ class Runner:
         self._launch.ended.wait()
 
     def stop(self) -> None:
-        """End the launch."""
+        """Stop the launch."""
         with self._stop:
             if self._stopped:
                 return
@@ -246,7 +246,7 @@ class Runner:
     # Signals -----------------------------------------------------------------------------------
 
     def _take_signals(self) -> None:
-        """End nodes at signals, then do what was done at them before."""
+        """Stop nodes at signals, then call their earlier handlers."""
         if threading.current_thread() is not threading.main_thread():
             return
         self._relay = SignalRelay(self._end)
@@ -267,7 +267,7 @@ class Runner:
             self._relay = None
 
     def _end(self, number: int) -> None:
-        """End nodes, then have the main thread do what was done at the signal before."""
+        """Stop nodes, then call the signal's earlier handler in the main thread."""
         self.stop()
         self._over = True
         signal.pthread_kill(threading.main_thread().ident or 0, number)

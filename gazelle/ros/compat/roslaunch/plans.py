@@ -15,7 +15,7 @@ Files = list[Any]
 
 
 def load_plan(files: Files, texts: list[str] | None = None) -> LaunchPlan:
-    """The plan of launch files and of texts.
+    """Load the plan of launch files and of texts.
 
     Raises:
         LaunchError: One is malformed.
@@ -43,7 +43,7 @@ def _merge(whole: LaunchPlan, part: LaunchPlan) -> None:
 
 
 def plan_of(node: Node) -> NodePlan:
-    """The plan of a script's node."""
+    """Return the plan of a script's node."""
     return NodePlan(
         package=node.package,
         type=node.type,
@@ -63,7 +63,7 @@ def plan_of(node: Node) -> NodePlan:
 
 
 def node_of(plan: NodePlan) -> Node:
-    """A script's node, or test, of a plan."""
+    """Return a script's node, or test, of a plan."""
     common: dict[str, Any] = {
         "name": plan.name,
         "namespace": plan.namespace,

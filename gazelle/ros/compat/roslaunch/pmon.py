@@ -12,7 +12,7 @@ class ProcessListener:
     """Is told of the end of processes that end by themselves."""
 
     def process_died(self, process_name: str, exit_code: int) -> None:
-        """A process has ended."""
+        """Handle the end of a process."""
 
 
 class Process:
@@ -54,12 +54,12 @@ class Process:
         return self._process.running
 
     def stop(self, errors: list[str] | None = None) -> None:
-        """End it, and do not start it again."""
+        """Stop it, without a respawn."""
         del errors
         self._forget(self._process)
 
     def get_info(self) -> dict[str, Any]:
-        """All that is known of it."""
+        """Return all its properties."""
         info: dict[str, Any] = {
             "spawn_count": self.spawn_count,
             "args": self.args,

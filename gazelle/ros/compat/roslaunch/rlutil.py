@@ -21,7 +21,7 @@ _LOOK_S = 0.1
 
 
 def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
-    """Files instead of packages and files: ``[PKG, FILE]`` becomes ``[PATH]``.
+    """Return paths of launch files: ``[PKG, FILE]`` becomes ``[PATH]``.
 
     Raises:
         RLException: There is no such file.
@@ -42,7 +42,7 @@ def resolve_launch_arguments(args: Sequence[str]) -> list[str]:
 
 
 def get_or_generate_uuid(options_runid: str | None, options_wait_for_master: Any) -> str:
-    """The name of the run: the one given, that of the master, or a new one.
+    """Return the name of the run: the one given, that of the master, or a new one.
 
     Args:
         options_runid: It, if it is known.
@@ -94,14 +94,14 @@ def print_file_list(roslaunch_files: list[Any]) -> None:
 
 
 def check_log_disk_usage() -> None:
-    """Nothing: logs are small here."""
+    """Do nothing: logs are small here."""
 
 
 def update_terminal_name(ros_master_uri: str) -> None:
-    """Nothing: the terminal keeps its title."""
+    """Do nothing: the terminal keeps its title."""
     del ros_master_uri
 
 
 def change_terminal_name(args: Sequence[str], is_core: Any) -> None:
-    """Nothing: the terminal keeps its title."""
+    """Do nothing: the terminal keeps its title."""
     del args, is_core

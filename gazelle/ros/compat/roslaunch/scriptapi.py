@@ -20,7 +20,7 @@ class ROSLaunch:
         self.started = False
 
     def start(self) -> None:
-        """Be ready for nodes.
+        """Start to accept nodes.
 
         Raises:
             RLException: It cannot be started.
@@ -49,9 +49,9 @@ class ROSLaunch:
         self.parent.spin()
 
     def spin_once(self) -> None:
-        """Look once at all nodes."""
+        """Check all nodes once."""
         self.parent.spin_once()
 
     def stop(self) -> None:
-        """End all nodes."""
+        """Stop all nodes."""
         self.parent.shutdown()

@@ -23,7 +23,7 @@ def resolve_args(
     resolve_anon: bool = True,  # noqa: FBT001, FBT002  # roslaunch's interface
     filename: str | None = None,
 ) -> Any:
-    """The text with every ``$(...)`` replaced.
+    """Return the text with every ``$(...)`` replaced.
 
     Args:
         arg_str: The text; one that is empty or None is returned as it is.

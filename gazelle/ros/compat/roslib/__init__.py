@@ -12,7 +12,7 @@ _interactive = False
 
 
 def load_manifest(package_name: str, bootstrap_version: str = "0.7") -> None:
-    """Make the Python code of a package importable; one that is not found is left out."""
+    """Make the Python code of a package importable; a missing package is ignored."""
     del bootstrap_version
     from gazelle.ros.messages.search import find_packages
 
@@ -27,6 +27,6 @@ def is_interactive() -> bool:
 
 
 def set_interactive(interactive: bool) -> None:  # noqa: FBT001  # roslib's interface
-    """Say whether somebody types the commands."""
+    """Set whether the commands are typed."""
     global _interactive  # noqa: PLW0603  # it is one of the process
     _interactive = interactive

@@ -56,7 +56,7 @@ __all__ = [
 
 
 def package_resource_name(name: str) -> tuple[str, str]:
-    """Package and base of a type's name; the package is empty if there is none.
+    """Return package and base of a type's name; the package is empty if there is none.
 
     Raises:
         ValueError: It has more than two parts.
@@ -68,17 +68,17 @@ def package_resource_name(name: str) -> tuple[str, str]:
 
 
 def resource_name(res_pkg_name: str, name: str, my_pkg: str | None = None) -> str:
-    """The full name of a type; short if it is of one's own package."""
+    """Return the full name of a type; short if it is of one's own package."""
     if res_pkg_name and res_pkg_name != my_pkg:
         return f"{res_pkg_name}{PRN_SEPARATOR}{name}"
     return name
 
 
 def resource_name_base(name: str) -> str:
-    """The name without its package."""
+    """Return the name without its package."""
     return name.rpartition(PRN_SEPARATOR)[2]
 
 
 def resource_name_package(name: str) -> str | None:
-    """The package of a name; None if it has none."""
+    """Return the package of a name; None if it has none."""
     return name.partition(PRN_SEPARATOR)[0] if PRN_SEPARATOR in name else None

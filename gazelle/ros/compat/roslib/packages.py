@@ -29,7 +29,7 @@ def get_pkg_dir(
     ros_root: Any = None,
     ros_package_path: str | None = None,
 ) -> str | None:
-    """The folder of a package.
+    """Return the folder of a package.
 
     Raises:
         InvalidROSPkgException: It is required, and there is none.
@@ -45,7 +45,7 @@ def get_pkg_dir(
 
 
 def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
-    """Folder and name of the package that a folder is in; None if it is in none."""
+    """Return folder and name of the package that a folder is in; None if it is in none."""
     for folder in (Path(d).resolve(), *Path(d).resolve().parents):
         if (folder / "package.xml").is_file() or (folder / "manifest.xml").is_file():
             return str(folder), folder.name
@@ -53,7 +53,7 @@ def get_dir_pkg(d: str) -> tuple[str | None, str | None]:
 
 
 def find_node(pkg: str, node_type: str, rospack: Any = None) -> list[str]:
-    """Programs of a node."""
+    """Return programs of a node."""
     del rospack
     return [str(path) for path in Packages().programs(pkg, node_type)]
 
@@ -61,7 +61,7 @@ def find_node(pkg: str, node_type: str, rospack: Any = None) -> list[str]:
 def find_resource(
     pkg: str, resource_name: str, filter_fn: Any = None, rospack: Any = None
 ) -> list[str]:
-    """Files of a name in a package."""
+    """Return files of a name in a package."""
     del rospack
     folder = get_pkg_dir(pkg)
     found = [str(path) for path in Path(folder or ".").rglob(resource_name) if path.is_file()]
@@ -69,5 +69,5 @@ def find_resource(
 
 
 def resource_file(package: str, subdir: str, resource_name: str) -> str:
-    """The path of a file in a folder of a package."""
+    """Return the path of a file in a folder of a package."""
     return str(Path(get_pkg_dir(package) or ".") / subdir / resource_name)

@@ -10,7 +10,7 @@ __all__ = ["DEFAULT_MASTER_PORT", "Master", "master", "master_api", "rosmaster_m
 
 
 def rosmaster_main() -> None:
-    """Do what ``rosmaster`` does, with this process's command line.
+    """Run ``rosmaster`` with this process's command line.
 
     Raises:
         SystemExit: It failed.

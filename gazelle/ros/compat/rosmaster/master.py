@@ -27,7 +27,7 @@ class Master:
         self._running: Running | None = None
 
     def start(self) -> None:
-        """Answer from now on.
+        """Start the master.
 
         Raises:
             OSError: The port is taken.
@@ -40,7 +40,7 @@ class Master:
         return self._running is not None and not self._running.ended.is_set()
 
     def stop(self) -> None:
-        """Answer no more."""
+        """Stop the master."""
         if self._running is not None:
             self._running.close()
             self._running = None

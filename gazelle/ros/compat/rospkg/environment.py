@@ -18,7 +18,7 @@ def get_ros_package_path(env: Mapping[str, str] | None = None) -> str | None:
 
 
 def get_ros_paths(env: Mapping[str, str] | None = None) -> list[str]:
-    """The folders packages are searched in."""
+    """Return the search path of packages."""
     found = [get_ros_root(env), *(get_ros_package_path(env) or "").split(os.pathsep)]
     return [each for each in found if each]
 

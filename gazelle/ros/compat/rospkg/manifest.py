@@ -48,7 +48,7 @@ class Manifest:
     is_catkin: bool = True
 
     def get_export(self, tag: str, attr: str, convert: bool = True) -> list[str]:  # noqa: FBT001, FBT002  # rospkg's interface
-        """Values of an attribute in ``<export>``."""
+        """Return values of an attribute in ``<export>``."""
         del convert
         return [each.get(attr) for each in self.exports if each.tag == tag and each.get(attr)]
 

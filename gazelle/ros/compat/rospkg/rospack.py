@@ -40,15 +40,15 @@ class RosPack:
 
     @classmethod
     def get_instance(cls, ros_paths: Iterable[str] | None = None) -> Self:
-        """An object for these folders."""
+        """Return an object for these folders."""
         return cls(ros_paths)
 
     def list(self) -> list[str]:
-        """Names of all packages."""
+        """Return names of all packages."""
         return list(search.find_packages(os.pathsep.join(self.ros_paths)))
 
     def get_path(self, name: str) -> str:
-        """The folder of a package.
+        """Return the folder of a package.
 
         Raises:
             ResourceNotFound: There is none.
@@ -68,7 +68,7 @@ class RosPack:
         return parse_manifest_file(self.get_path(name))
 
     def get_depends(self, name: str, implicit: bool = True) -> builtins.list[str]:  # noqa: FBT001, FBT002  # rospkg's interface
-        """Packages a package needs; with `implicit` those they need, too.
+        """Return the dependencies of a package; with `implicit` theirs, too.
 
         Raises:
             ResourceNotFound: There is no such package.
@@ -85,7 +85,7 @@ class RosPack:
         return [*found]
 
     def get_depends_on(self, name: str, implicit: bool = True) -> builtins.list[str]:  # noqa: FBT001, FBT002
-        """Packages that need a package."""
+        """Return packages that need a package."""
         return [each for each in self.list() if name in self.get_depends(each, implicit)]
 
     def get_rosdeps(self, package: str, implicit: bool = True) -> builtins.list[str]:  # noqa: FBT001, FBT002
@@ -94,7 +94,7 @@ class RosPack:
         return [each for each in self.get_depends(package, implicit) if each not in own]
 
     def stack_of(self, package: str) -> None:
-        """Nothing: stacks are no more.
+        """Return None: there are no stacks any more.
 
         Raises:
             ResourceNotFound: There is no such package.
@@ -106,12 +106,12 @@ class RosStack(RosPack):
     """Stacks are no more; there is none."""
 
     def list(self) -> list[str]:
-        """Nothing."""
+        """Return an empty list."""
         return []
 
 
 def get_package_name(path: str) -> str | None:
-    """The name of the package that a path is in; None if it is in none."""
+    """Return the name of the package that a path is in; None if it is in none."""
     place = Path(path).resolve()
     for folder in (place, *place.parents):
         if (folder / PACKAGE_FILE).is_file():
@@ -120,7 +120,7 @@ def get_package_name(path: str) -> str | None:
 
 
 def list_by_path(manifest_name: str, path: str, cache: dict[str, str]) -> list[str]:
-    """Names of the packages below a folder; their folders go into `cache`."""
+    """Return names of the packages below a folder; their folders go into `cache`."""
     del manifest_name
     found = search.find_packages(path)
     cache.update({name: str(folder) for name, folder in found.items()})
@@ -130,7 +130,10 @@ def list_by_path(manifest_name: str, path: str, cache: dict[str, str]) -> list[s
 def expand_to_packages(
     names: Iterable[str], rospack: RosPack, rosstack: RosStack
 ) -> tuple[list[str], list[str]]:
-    """Those of the names that are packages, and the others; there are no stacks to expand."""
+    """Return those of the names that are packages, and the others.
+
+    There are no stacks to expand.
+    """
     del rosstack
     wanted, known = list(names), set(rospack.list())
     return [each for each in wanted if each in known], [e for e in wanted if e not in known]

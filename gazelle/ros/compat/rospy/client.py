@@ -82,7 +82,7 @@ def init_node(
     xmlrpc_port: int = 0,
     tcpros_port: int = 0,
 ) -> None:
-    """Make this process a node; waits for a master that is not there yet.
+    """Initialise this process as a node; waits for a master.
 
     Args:
         name: Of the node, without namespace; ``__name:=`` on the command line wins.
@@ -164,7 +164,7 @@ def _begin(name: str, *, anonymous: bool, wall: bool) -> None:
 
 
 def _join(name: str, **options: Any) -> Node:
-    """The node, as soon as there is a master, which scripts may have started a moment ago.
+    """Return the node, as soon as there is a master, which scripts may have started just now.
 
     Raises:
         RosError: It cannot be made, or what is there is no master.
@@ -232,7 +232,7 @@ def on_shutdown(h: Callable[[], Any]) -> None:
 
 
 def myargv(argv: Iterable[str] | None = None) -> list[str]:
-    """The command line without remappings."""
+    """Return the command line without remappings."""
     return [each for each in (sys.argv if argv is None else argv) if graph_names.REMAP not in each]
 
 
@@ -249,7 +249,7 @@ def get_published_topics(namespace: str = "/") -> list[list[str]]:
 
 
 def get_master(env: Any = None) -> MasterProxy:
-    """The master; see `MasterProxy`."""
+    """Return the master; see `MasterProxy`."""
     del env
     return MasterProxy(master_uri())
 
@@ -257,7 +257,7 @@ def get_master(env: Any = None) -> MasterProxy:
 def wait_for_message(
     topic: str, topic_type: Any, timeout: values.Duration | float | None = None
 ) -> Any:
-    """The next message of a topic.
+    """Return the next message of a topic.
 
     Args:
         topic: Its name.
@@ -292,7 +292,7 @@ def wait_for_message(
 
 
 def reset() -> None:
-    """End the node and forget it, so that `init_node` may be called anew in this process."""
+    """Close the node and discard it, so that `init_node` may be called again in this process."""
     global _begun  # noqa: PLW0603  # there is one node a process
     process.end("reset")
     process.reset()

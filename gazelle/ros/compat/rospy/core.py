@@ -61,7 +61,7 @@ def is_initialized() -> bool:
 
 
 def set_initialized(initialized: bool) -> None:  # noqa: FBT001  # rospy's interface
-    """Say that the node runs, or does not."""
+    """Set whether the node runs."""
     if initialized:
         process.ready.set()
     else:
@@ -79,7 +79,7 @@ def is_shutdown_requested() -> bool:
 
 
 def signal_shutdown(reason: str) -> None:
-    """End the node."""
+    """Shut the node down."""
     process.end(reason)
     process.wait_ended()
 
@@ -108,7 +108,7 @@ def _check_hook(h: Any) -> None:
 
 
 def get_node_uri() -> str | None:
-    """Of the node's XML-RPC server; None before `init_node`."""
+    """Return the URI of the node's XML-RPC server; None before `init_node`."""
     return None if process.node is None else process.node.uri
 
 
@@ -125,7 +125,7 @@ def get_ros_root(required: bool = False, env: Any = None) -> Any:  # noqa: FBT00
 
 
 def parse_rosrpc_uri(uri: str) -> tuple[str, int]:
-    """Host and port of a service's address.
+    """Parse host and port of a service's address.
 
     Raises:
         ValueError: It is none.
@@ -140,7 +140,7 @@ _servers = threading.local()
 
 
 def xmlrpcapi(uri: str, cache: bool = True) -> Any:  # noqa: FBT001, FBT002  # rospy's interface
-    """The XML-RPC API at an address; None for an address that is none."""
+    """Return the XML-RPC API at an address; None for an address that is none."""
     import xmlrpc.client
 
     if not uri or not urlparse(uri).netloc:

@@ -30,22 +30,22 @@ class Guest:
         """Address without a server: a guest is told of no changes."""
 
     def resolve(self, name: str) -> str:
-        """The global name that a name means."""
+        """Return the global name of a name."""
         return names.resolve_name(name)
 
     def wait_closed(self, timeout: float | None = None) -> bool:
-        """Guests are never closed; this only waits."""
+        """Wait for a duration: guests are never closed."""
         return process.shutdown.wait(timeout)
 
     @staticmethod
     def neighbour_service(host: str, port: int, name: str) -> ServiceServer | None:
-        """The server of a service in this process, if it is here."""
+        """Return the server of a service in this process, if it is here."""
         from gazelle.ros.node import Node
 
         return Node.neighbour_service(host, port, name)
 
     def forget_client(self, client: Any) -> None:
-        """Guests do not keep their clients."""
+        """Do nothing: guests do not keep their clients."""
 
 
 _guests: dict[str, Guest] = {}
@@ -53,12 +53,12 @@ _lock = threading.Lock()
 
 
 def master_uri() -> str:
-    """Of the master this process talks to: the command line's, or ROS_MASTER_URI."""
+    """Return the URI of this process's master: the command line's, or ROS_MASTER_URI."""
     return names.get_mappings().get("__master") or net.default_master_uri()
 
 
 def user() -> Node:
-    """The node, or a guest while there is none."""
+    """Return the node, or a guest while there is none."""
     if process.node is not None:
         return process.node
     uri = master_uri()

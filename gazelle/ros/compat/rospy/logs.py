@@ -64,7 +64,7 @@ logger = logging.getLogger("rosout")
 
 
 def level_of(record: logging.LogRecord) -> int:
-    """The level of ROS of a log record."""
+    """Return the level of ROS of a log record."""
     for level in (FATAL, ERROR, WARN, INFO):
         if record.levelno >= LEVELS[level]:
             return level
@@ -175,7 +175,7 @@ def start_rosout() -> None:
 
 
 def stop() -> None:
-    """Take back what was started."""
+    """Stop what was started."""
     global _publisher  # noqa: PLW0603  # there is one node a process
     _publisher = None
     for handler in list(logger.handlers):
@@ -228,7 +228,7 @@ def _write(level: int, msg: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) 
 
 
 def _family(level: int) -> tuple[Log, Log, Log, Log]:
-    """The log functions of a level: plain, once, throttled, throttled when identical."""
+    """Return the log functions of a level: plain, once, throttled, throttled when identical."""
 
     def plain(msg: Any, *args: Any, **kwargs: Any) -> None:
         _write(level, msg, args, kwargs)

@@ -40,7 +40,7 @@ def is_message_class(kind: Any) -> bool:
 
 
 def args_kwds_to_message(data_class: Any, args: Sequence[Any], kwds: Mapping[str, Any]) -> Any:
-    """The message that the arguments of a call make.
+    """Return the message of a call's arguments.
 
     Args:
         data_class: Its class.
@@ -84,7 +84,7 @@ def deserialize_messages(
     max_msgs: int | None = None,
     start: int = 0,
 ) -> None:
-    """Take whole messages out of a buffer.
+    """Deserialise whole messages of a buffer.
 
     Args:
         b: The buffer, from `start` to its position; what is left stays in it.

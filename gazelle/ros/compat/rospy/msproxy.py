@@ -66,5 +66,5 @@ class MasterProxy:
         return params.search_param(key)
 
     def get_param_cached(self, key: str) -> Any:
-        """The value of a parameter, asked for only once."""
+        """Return the value of a parameter, requested only once."""
         return params.get_param_cached(key)

@@ -90,7 +90,7 @@ def isstring(value: Any) -> bool:
 
 
 def get_caller_id() -> str:
-    """The global name of this node."""
+    """Return the global name of this node."""
     return identity.caller
 
 
@@ -98,22 +98,22 @@ get_name = get_caller_id
 
 
 def get_namespace() -> str:
-    """The namespace of this node, with slashes at both ends."""
+    """Return the namespace of this node, with slashes at both ends."""
     return identity.namespace
 
 
 def get_mappings() -> dict[str, str]:
-    """The remappings of the command line, as given."""
+    """Return the remappings of the command line, as given."""
     return identity.mappings
 
 
 def get_resolved_mappings() -> dict[str, str]:
-    """The remappings, with both sides resolved for the node."""
+    """Return the remappings, with both sides resolved for the node."""
     return identity.resolved
 
 
 def reload_mappings(argv: Iterable[str]) -> None:
-    """Take remappings and namespace from another command line."""
+    """Set remappings and namespace from another command line."""
     identity.reload(argv)
 
 
@@ -129,7 +129,7 @@ def _set_caller_id(caller_id: str) -> None:
 
 
 def resolve_name(name: str, caller_id: str | None = None) -> str:
-    """The global name that a name means to this node (or another), remapped."""
+    """Return the global name of a name for this node (or another), remapped."""
     if not caller_id:
         caller_id = _own_name()
     if not name:
@@ -147,7 +147,7 @@ def _own_name() -> str:
 
 
 def resolve_name_without_node_name(name: str) -> str:
-    """As `resolve_name`, before the node has a name.
+    """Return the same as `resolve_name`, before the node has a name.
 
     Raises:
         ValueError: The name is private.
@@ -161,7 +161,7 @@ def resolve_name_without_node_name(name: str) -> str:
 
 
 def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -> str:  # noqa: FBT001, FBT002  # rospy's interface
-    """The name a name is remapped to; the name itself if it is not remapped."""
+    """Return the remapped name; the name itself if it is not remapped."""
     if not caller_id:
         caller_id = _own_name()
     if name in identity.mappings:
@@ -171,7 +171,7 @@ def remap_name(name: str, caller_id: str | None = None, resolved: bool = True) -
 
 
 def scoped_name(caller_id: str, name: str) -> str:
-    """A global name as seen from a node's namespace."""
+    """Return a global name as seen from a node's namespace."""
     if not is_global(caller_id):
         raise ValueError(f"caller_id must be global: {caller_id}")
     space = names.namespace_of(caller_id)
@@ -181,12 +181,12 @@ def scoped_name(caller_id: str, name: str) -> str:
 
 
 def global_name(name: str) -> str:
-    """The name with a slash in front."""
+    """Return the name with a slash in front."""
     return name if is_global(name) else SEP + name
 
 
 def valid_name(param_name: str, resolve: bool = True) -> Any:  # noqa: FBT001, FBT002  # rospy's interface
-    """A check of a parameter: a function of its value and the caller."""
+    """Return a check of a parameter: a function of its value and the caller."""
 
     def check(value: Any, caller_id: str) -> str:
         if not isinstance(value, str) or not value or not is_legal_name(value):

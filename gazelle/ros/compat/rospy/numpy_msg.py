@@ -10,7 +10,7 @@ import numpy as np
 
 @functools.cache
 def numpy_msg(msg_type: Any) -> Any:
-    """The class of messages of a type, with numpy arrays in place of lists and tuples."""
+    """Return the class of messages of a type, with numpy arrays in place of lists and tuples."""
 
     def deserialize(self: Any, data: bytes) -> Any:
         return self.deserialize_numpy(data, np)

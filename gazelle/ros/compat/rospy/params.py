@@ -24,7 +24,7 @@ _unspecified: Any = _Unspecified()
 
 
 def get_param(param_name: str, default: Any = _unspecified) -> Any:
-    """The value of a parameter; a namespace is a dict.
+    """Return the value of a parameter; a namespace is a dict.
 
     Raises:
         KeyError: It is not set, and no default was given.
@@ -34,7 +34,7 @@ def get_param(param_name: str, default: Any = _unspecified) -> Any:
 
 
 def get_param_cached(param_name: str, default: Any = _unspecified) -> Any:
-    """As `get_param`, asking the master only once.
+    """Return the same as `get_param`, with a single request to the master.
 
     Raises:
         KeyError: It is not set, and no default was given.
@@ -58,7 +58,7 @@ def _get(param_name: str, default: Any, ask: Any) -> Any:
 
 
 def get_param_names() -> list[str]:
-    """All keys that hold a value."""
+    """Return all keys that hold a value."""
     return user().parameters.names()
 
 

@@ -30,7 +30,7 @@ class Time(values.Time):
 
     @staticmethod
     def now() -> Time:
-        """The node's time.
+        """Return the node's time.
 
         Raises:
             ROSInitException: There is no node yet.
@@ -39,12 +39,12 @@ class Time(values.Time):
 
     @classmethod
     def from_seconds(cls, float_secs: float) -> Self:
-        """The time at a number of seconds [s]; `from_sec` does the same."""
+        """Return the time at a number of seconds [s]; `from_sec` does the same."""
         return cls.from_sec(float_secs)
 
 
 def get_rostime() -> Time:
-    """The node's time; 0 while simulated time did not begin.
+    """Return the node's time; 0 while simulated time did not begin.
 
     Raises:
         ROSInitException: There is no node yet.
@@ -54,7 +54,7 @@ def get_rostime() -> Time:
 
 
 def get_time() -> float:
-    """The node's time [s].
+    """Return the node's time [s].
 
     Raises:
         ROSInitException: There is no node yet.
@@ -75,12 +75,12 @@ def is_rostime_initialized() -> bool:
 
 
 def set_rostime_initialized(val: bool) -> None:  # noqa: FBT001  # rospy's interface
-    """Say whether there is a time without a node; if so, it is the machine's."""
+    """Set whether there is a time without a node; if so, it is the machine's."""
     process.own_clock = WallClock() if val else None
 
 
 def switch_to_wallclock() -> None:
-    """Go by the time of the machine from now on."""
+    """Switch to the time of the machine."""
     _set_clock(WallClock())
 
 
@@ -105,7 +105,7 @@ def _set_clock(clock: TimeSource) -> None:
 
 
 def get_rostime_cond() -> threading.Condition:
-    """A condition that nobody signals; kept for scripts that only take its lock."""
+    """Return an unused condition, kept for scripts that only take its lock."""
     return _condition
 
 

@@ -125,7 +125,7 @@ class Service(_Service):
             pass
 
     def shutdown(self, reason: str = "") -> None:
-        """Offer the service no longer."""
+        """Close the service."""
         del reason
         self._closed.set()
         if self._server is not None:
@@ -206,7 +206,7 @@ class ServiceProxy(_Service):
             raise ServiceException(f"unable to connect to service: {error}") from None
 
     def _check_there(self) -> None:
-        """Say so if nobody offers it: rospy connects before it looks at the request."""
+        """Raise an error without a provider: rospy connects before it checks the request."""
         try:
             user().master.lookup_service(self.resolved_name)
         except ApiError:

@@ -49,7 +49,7 @@ class NodeProcessState:
         self._relay: SignalRelay | None = None
 
     def require(self) -> Node:
-        """The node.
+        """Return the node.
 
         Raises:
             ROSInitException: There is none yet.
@@ -72,20 +72,20 @@ class NodeProcessState:
         return self.node.clock
 
     def adopt(self, node: Node) -> None:
-        """Begin: the node exists, and what was asked for before is done now."""
+        """Set the node, and run the deferred actions."""
         self.node = node
         node.on_shutdown.append(self._asked_to_end)
         atexit.register(self._at_exit)
 
     def start(self) -> None:
-        """Do what had to wait for the node."""
+        """Run the deferred actions."""
         self.ready.set()
         waiting, self.waiting = self.waiting, []
         for each in waiting:
             each()
 
     def when_ready(self, action: Callable[[], None]) -> None:
-        """Do something now, or once there is a node."""
+        """Call a function now, or once there is a node."""
         with self._lock:
             if self.node is None:
                 self.waiting.append(action)
@@ -95,7 +95,10 @@ class NodeProcessState:
     # The end ---------------------------------------------------------------------------------
 
     def end(self, reason: str) -> None:
-        """Shut down: hooks first, then the node. Only the first call does it."""
+        """Shut down: hooks first, then the node.
+
+        Only the first call has an effect. Only the first call does it.
+        """
         with self._lock:
             if self._ender is not None:
                 return
@@ -145,7 +148,7 @@ class NodeProcessState:
     # Signals ---------------------------------------------------------------------------------
 
     def catch_signals(self) -> None:
-        """End the node at Ctrl-C and when the process is told to terminate."""
+        """Shut the node down at Ctrl-C and when the process is terminated."""
         self._relay = SignalRelay(self._end_apart)
         for number in (signal.SIGTERM, signal.SIGINT):
             self._previous[number] = signal.signal(number, self._on_signal)
@@ -160,11 +163,11 @@ class NodeProcessState:
                 previous(number, frame)
 
     def _end_apart(self, number: int) -> None:
-        """End on a thread that Python waits for, since hooks may take long."""
+        """Shut down on a thread that Python waits for, since hooks may take long."""
         threading.Thread(target=self.end, args=(f"signal-{number}",), name="shutdown").start()
 
     def reset(self) -> None:
-        """Forget everything, as if the process had just begun; the node must be closed."""
+        """Reset all state of the process; the node must be closed."""
         with contextlib.suppress(ValueError):  # only the main thread may set signals
             for number, previous in self._previous.items():
                 signal.signal(number, previous)

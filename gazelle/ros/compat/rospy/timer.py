@@ -44,7 +44,7 @@ def sleep(duration: values.Duration | float) -> None:
 
 
 def _given_up(length: values.Duration) -> Callable[[], bool]:
-    """When a sleep ends before its time: at the shutdown.
+    """Return the condition that ends a sleep early: the shutdown.
 
     A hook of the shutdown may sleep, but not for ever where simulated time stands still.
     """
@@ -149,7 +149,7 @@ class Timer(threading.Thread):
         return self._shutdown or process.shutdown.is_set()
 
     def run(self) -> None:
-        """The thread."""
+        """Run the timer's thread."""
         rate = Rate(1.0 / self._period.to_sec(), reset=self._reset)
         expected: values.Time = get_rostime() + self._period
         last: tuple[values.Time | None, values.Time | None, float | None] = (None, None, None)

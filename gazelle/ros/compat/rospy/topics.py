@@ -68,11 +68,11 @@ class Topic:
         self.impl: Any = None
 
     def get_num_connections(self) -> int:
-        """Nodes connected now."""
+        """Return the number of connected nodes."""
         return 0 if self.impl is None else int(self.impl.get_num_connections())
 
     def unregister(self) -> None:
-        """Take no more part in the topic."""
+        """Unregister from the topic."""
         impl, self.impl = self.impl, None
         if impl is not None:
             impl.close()
@@ -87,7 +87,7 @@ class SubscribeListener:
         topic_publish: Callable[..., None],
         peer_publish: Callable[[Any], None],
     ) -> None:
-        """A subscriber connected.
+        """Handle a new subscriber.
 
         Args:
             topic_name: The topic's resolved name.
@@ -96,7 +96,7 @@ class SubscribeListener:
         """
 
     def peer_unsubscribe(self, topic_name: str, num_peers: int) -> None:
-        """A subscriber went.
+        """Handle the end of a subscriber.
 
         Args:
             topic_name: The topic's resolved name.

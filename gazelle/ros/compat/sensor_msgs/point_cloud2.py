@@ -37,7 +37,7 @@ def read_points(
     skip_nans: bool = False,  # noqa: FBT001, FBT002  # sensor_msgs's interface
     uvs: Iterable[Sequence[int]] = (),
 ) -> Iterator[tuple[Any, ...]]:
-    """The points of a cloud, one tuple each.
+    """Yield the points of a cloud, one tuple each.
 
     Args:
         cloud: The ``PointCloud2``.
@@ -67,7 +67,7 @@ def read_points_list(
     skip_nans: bool = False,  # noqa: FBT001, FBT002  # sensor_msgs's interface
     uvs: Iterable[Sequence[int]] = (),
 ) -> list[Any]:
-    """The points of a cloud as named tuples ``Point``; see `read_points`."""
+    """Read the points of a cloud as named tuples ``Point``; see `read_points`."""
     if field_names is None:
         field_names = [field.name for field in cloud.fields]
     point = namedtuple("Point", field_names)  # type: ignore[misc]  # noqa: PYI024  # names come with the cloud
@@ -75,7 +75,7 @@ def read_points_list(
 
 
 def create_cloud(header: Any, fields: Sequence[Any], points: Any) -> Any:
-    """A ``PointCloud2`` of one row.
+    """Create a ``PointCloud2`` of one row.
 
     Args:
         header: Its header.
@@ -118,7 +118,7 @@ def create_cloud(header: Any, fields: Sequence[Any], points: Any) -> Any:
 
 
 def create_cloud_xyz32(header: Any, points: Any) -> Any:
-    """A ``PointCloud2`` of points with x, y and z [m] in single precision."""
+    """Create a ``PointCloud2`` of points with x, y and z [m] in single precision."""
     fields = [
         PointField(name, 4 * place, PointField.FLOAT32, 1) for place, name in enumerate("xyz")
     ]
@@ -144,7 +144,10 @@ def _parts(
 
 
 def _columns(cloud: Any, names: Sequence[str] | None) -> list[NDArray[Any]]:
-    """The values of the wanted fields, each (height, width); views of the message's data."""
+    """Return the values of the wanted fields, each (height, width).
+
+    Views of the message's data.
+    """
     if getattr(cloud, "_type", None) != PointCloud2._type:
         raise TypeError(f"this is no sensor_msgs/PointCloud2: {type(cloud).__name__}")
     known = {field.name for field in cloud.fields}
@@ -167,7 +170,10 @@ def _columns(cloud: Any, names: Sequence[str] | None) -> list[NDArray[Any]]:
 
 
 def split_columns(cloud: Any) -> dict[str, NDArray[Any]]:
-    """The fields of a cloud as arrays of shape (height, width) or, with a count, (h, w, count)."""
+    """Return the fields of a cloud as arrays.
+
+    Shapes are (height, width) or, with a count, (height, width, count).
+    """
     columns = _columns(cloud, None)
     names = [name for name, _, _ in _parts(cloud.fields, big_endian=bool(cloud.is_bigendian))]
     pairs = itertools.groupby(zip(names, columns, strict=True), key=lambda pair: pair[0])

@@ -24,22 +24,22 @@ Pair = tuple[list[float], list[float]]
 
 
 def strip_leading_slash(s: str) -> str:
-    """The name without a slash in front."""
+    """Return the name without a slash in front."""
     return s.removeprefix("/")
 
 
 def _plain(*frames: str) -> list[str]:
-    """Names without a slash in front."""
+    """Return names without a slash in front."""
     return [strip_leading_slash(frame) for frame in frames]
 
 
 def xyz_to_mat44(pos: Any) -> Any:
-    """The matrix of a position message."""
+    """Return the matrix of a position message."""
     return translation_matrix((pos.x, pos.y, pos.z))
 
 
 def xyzw_to_mat44(ori: Any) -> Any:
-    """The matrix of an orientation message."""
+    """Return the matrix of an orientation message."""
     return quaternion_matrix((ori.x, ori.y, ori.z, ori.w))
 
 
@@ -57,15 +57,15 @@ class Transformer:
         self._using_dedicated_thread = False
 
     def allFramesAsDot(self, current_time: Any = None) -> str:
-        """The tree as a graph in the dot language."""
+        """Return the tree as a graph in the dot language."""
         return self._buffer._allFramesAsDot(current_time)  # noqa: SLF001  # a class beside this one
 
     def allFramesAsString(self) -> str:
-        """One line for each frame and its parent."""
+        """Return one line for each frame and its parent."""
         return self._buffer.all_frames_as_string()
 
     def setTransform(self, transform: Any, authority: str = "default_authority") -> None:
-        """Take a ``TransformStamped``."""
+        """Add a ``TransformStamped``."""
         self._buffer.set_transform(transform, authority)
 
     def canTransform(self, target_frame: str, source_frame: str, time: Any) -> bool:
@@ -142,13 +142,13 @@ class Transformer:
         source_time: Any,
         fixed_frame: str,
     ) -> list[str]:
-        """The frames on the way."""
+        """Return the frames on the way between two."""
         return self._buffer._chain(  # noqa: SLF001  # a class beside this one
             target_frame, target_time, source_frame, source_time, fixed_frame
         )
 
     def clear(self) -> None:
-        """Forget all transforms but static ones."""
+        """Discard all transforms but static ones."""
         self._buffer.clear()
 
     def frameExists(self, frame_id: str) -> bool:
@@ -156,11 +156,11 @@ class Transformer:
         return strip_leading_slash(frame_id) in self.getFrameStrings()
 
     def getFrameStrings(self) -> list[str]:
-        """All frames that have a parent."""
+        """Return all frames that have a parent."""
         return [name for name, _, cache in self._buffer.tree.known() if cache.latest()]
 
     def getLatestCommonTime(self, source_frame: str, dest_frame: str) -> Time:
-        """The latest time at which both frames are known.
+        """Return the latest time at which both frames are known.
 
         Raises:
             TransformException: There is none.
@@ -169,7 +169,7 @@ class Transformer:
         return self._buffer.get_latest_common_time(target, source)
 
     def lookupTransform(self, target_frame: str, source_frame: str, time: Any) -> Pair:
-        """Translation [m] and rotation (x, y, z, w) from source to target.
+        """Return translation [m] and rotation (x, y, z, w) from source to target.
 
         Raises:
             TransformException: There is none; its class says why.
@@ -185,7 +185,7 @@ class Transformer:
         source_time: Any,
         fixed_frame: str,
     ) -> Pair:
-        """Translation and rotation from source at one time to target at another.
+        """Return translation and rotation from source at one time to target at another.
 
         Raises:
             TransformException: There is none; its class says why.
@@ -197,7 +197,7 @@ class Transformer:
     def lookupTwist(
         self, tracking_frame: str, observation_frame: str, time: Any, averaging_interval: Any
     ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Linear [m/s] and angular [rad/s] velocity of a frame, in the frame that observes it.
+        """Return linear [m/s] and angular [rad/s] velocity of a frame, in the observing frame.
 
         Raises:
             TransformException: There is no transform; its class says why.
@@ -222,7 +222,7 @@ class Transformer:
         time: Any,
         averaging_interval: Any,
     ) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """Linear and angular velocity of a frame, as seen from another.
+        """Return linear and angular velocity of a frame, relative to another.
 
         Args:
             tracking_frame: What moves.
@@ -248,11 +248,11 @@ class Transformer:
         )
 
     def setUsingDedicatedThread(self, value: bool) -> None:
-        """Say that transforms come while one waits for them."""
+        """Set whether transforms come while one waits for them."""
         self._using_dedicated_thread = value
 
     def getTFPrefix(self) -> str:
-        """Nothing: prefixes are no more."""
+        """Return an empty text: there are no prefixes any more."""
         return ""
 
 
@@ -265,7 +265,7 @@ class TransformerROS(Transformer):
     """A `Transformer` that transforms messages."""
 
     def asMatrix(self, target_frame: str, hdr: Any) -> Any:
-        """The matrix that takes points from the frame of a header to the target."""
+        """Return the matrix that maps points from the frame of a header to the target."""
         return self.fromTranslationRotation(
             *self.lookupTransform(target_frame, hdr.frame_id, hdr.stamp)
         )
@@ -273,19 +273,19 @@ class TransformerROS(Transformer):
     def fromTranslationRotation(
         self, translation: Sequence[float], rotation: Sequence[float]
     ) -> Any:
-        """The matrix of a translation and a quaternion."""
+        """Return the matrix of a translation and a quaternion."""
         return translation_matrix(translation) @ quaternion_matrix(rotation)
 
     def transformPoint(self, target_frame: str, ps: Any) -> Any:
-        """A ``PointStamped`` in another frame."""
+        """Transform a ``PointStamped`` to another frame."""
         return self._move("PointStamped", "point", 1.0, target_frame, ps)
 
     def transformVector3(self, target_frame: str, v3s: Any) -> Any:
-        """A ``Vector3Stamped`` in another frame."""
+        """Transform a ``Vector3Stamped`` to another frame."""
         return self._move("Vector3Stamped", "vector", 0.0, target_frame, v3s)
 
     def _move(self, kind: str, field: str, weight: float, target_frame: str, stamped: Any) -> Any:
-        """Turn three numbers, and move them if they weigh something."""
+        """Transform three numbers; translate them if their weight is not zero."""
         result, three = _made(kind, target_frame, stamped), getattr(stamped, field)
         moved = self.asMatrix(target_frame, stamped.header) @ (three.x, three.y, three.z, weight)
         put = getattr(result, field)
@@ -293,14 +293,14 @@ class TransformerROS(Transformer):
         return result
 
     def transformQuaternion(self, target_frame: str, ps: Any) -> Any:
-        """A ``QuaternionStamped`` in another frame."""
+        """Transform a ``QuaternionStamped`` to another frame."""
         result = _made("QuaternionStamped", target_frame, ps)
         turned = self.asMatrix(target_frame, ps.header) @ xyzw_to_mat44(ps.quaternion)
         _put_quaternion(result.quaternion, turned)
         return result
 
     def transformPose(self, target_frame: str, ps: Any) -> Any:
-        """A ``PoseStamped`` in another frame."""
+        """Transform a ``PoseStamped`` to another frame."""
         result = _made("PoseStamped", target_frame, ps)
         pose = xyz_to_mat44(ps.pose.position) @ xyzw_to_mat44(ps.pose.orientation)
         moved = self.asMatrix(target_frame, ps.header) @ pose
@@ -310,7 +310,7 @@ class TransformerROS(Transformer):
         return result
 
     def transformPointCloud(self, target_frame: str, point_cloud: Any) -> Any:
-        """A ``PointCloud`` in another frame."""
+        """Transform a ``PointCloud`` to another frame."""
         result: Any = load_message("sensor_msgs/PointCloud")()
         result.header.stamp = point_cloud.header.stamp
         result.header.frame_id = target_frame

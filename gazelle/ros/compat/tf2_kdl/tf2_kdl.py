@@ -17,7 +17,7 @@ from gazelle.ros.messages import load_message
 
 
 def transform_to_kdl(t: Any) -> PyKDL.Frame:
-    """The frame of a ``TransformStamped``."""
+    """Return the frame of a ``TransformStamped``."""
     turn, place = t.transform.rotation, t.transform.translation
     return PyKDL.Frame(
         PyKDL.Rotation.Quaternion(turn.x, turn.y, turn.z, turn.w),
@@ -32,40 +32,40 @@ def _moved(value: Any, transform: Any) -> Any:
 
 
 def do_transform_vector(vector: PyKDL.Vector, transform: Any) -> Any:
-    """A vector in the target frame: turned and moved."""
+    """Transform a vector to the target frame: rotated and translated."""
     return _moved(vector, transform)
 
 
 def do_transform_frame(frame: PyKDL.Frame, transform: Any) -> Any:
-    """A frame in the target frame."""
+    """Transform a frame to the target frame."""
     return _moved(frame, transform)
 
 
 def do_transform_twist(twist: PyKDL.Twist, transform: Any) -> Any:
-    """A twist in the target frame, its reference point moved too."""
+    """Transform a twist to the target frame, with its reference point."""
     return _moved(twist, transform)
 
 
 def do_transform_wrench(wrench: PyKDL.Wrench, transform: Any) -> Any:
-    """A wrench in the target frame, its reference point moved too."""
+    """Transform a wrench to the target frame, with its reference point."""
     return _moved(wrench, transform)
 
 
 def to_msg_vector(vector: Any) -> Any:
-    """The ``PointStamped`` of a stamped vector."""
+    """Return the ``PointStamped`` of a stamped vector."""
     message: Any = load_message("geometry_msgs/PointStamped")(header=vector.header)
     message.point.x, message.point.y, message.point.z = vector
     return message
 
 
 def from_msg_vector(msg: Any) -> Any:
-    """The stamped vector of a ``PointStamped``."""
+    """Return the stamped vector of a ``PointStamped``."""
     vector = PyKDL.Vector(msg.point.x, msg.point.y, msg.point.z)
     return Stamped(vector, msg.header.stamp, msg.header.frame_id)
 
 
 def convert_vector(vector: Any) -> Any:
-    """A copy of a stamped vector."""
+    """Return a copy of a stamped vector."""
     return Stamped(PyKDL.Vector(vector), vector.header.stamp, vector.header.frame_id)
 
 

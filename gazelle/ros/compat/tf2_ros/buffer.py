@@ -52,7 +52,7 @@ class Buffer(BufferCore, BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = _ZERO
     ) -> Any:
-        """The ``TransformStamped`` from source to target.
+        """Return the ``TransformStamped`` from source to target.
 
         Args:
             target_frame: Where values are wanted.
@@ -75,7 +75,10 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Any = _ZERO,
     ) -> Any:
-        """The transform from source at one time to target at another; see `lookup_transform`."""
+        """Return the transform from source at one time to target at another.
+
+        See `lookup_transform`.
+        """
         asked = (target_frame, target_time, source_frame, source_time, fixed_frame)
         self.can_transform_full(*asked, timeout)
         return self.lookup_transform_full_core(*asked)
@@ -121,7 +124,7 @@ class Buffer(BufferCore, BufferInterface):
         return answer if return_debug_tuple else answer[0]
 
     def _wait(self, ask: Callable[[], Answer], timeout: Any) -> Answer:
-        """Ask again whenever something changed, until the time is over."""
+        """Call a function again whenever something changed, until the timeout."""
         answer = ask()
         if answer[0] or not timeout > _ZERO:
             return answer

@@ -54,7 +54,7 @@ class BufferClient(BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = _ZERO
     ) -> Any:
-        """The ``TransformStamped`` from source to target.
+        """Return the ``TransformStamped`` from source to target.
 
         Raises:
             TransformException: There is none; its class says why.
@@ -76,7 +76,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Any = _ZERO,
     ) -> Any:
-        """The transform from source at one time to target at another.
+        """Return the transform from source at one time to target at another.
 
         Raises:
             TransformException: There is none; its class says why.

@@ -43,7 +43,7 @@ class TransformRegistration:
         self._by_type[key] = callback
 
     def get(self, key: Any) -> Callback:
-        """The function for a type.
+        """Return the function for a type.
 
         Raises:
             TypeException: There is none.
@@ -68,11 +68,11 @@ class ConvertRegistration:
     _convert: ClassVar[dict[Any, Callback]] = {}
 
     def add_from_msg(self, key: Any, callback: Callback) -> None:
-        """Make values of a type from messages by a function."""
+        """Register a function that makes values of a type from messages."""
         self._from_msg[key] = callback
 
     def add_to_msg(self, key: Any, callback: Callback) -> None:
-        """Make messages from values of a type by a function."""
+        """Register a function that makes messages from values of a type."""
         self._to_msg[key] = callback
 
     def add_convert(self, key: Any, callback: Callback) -> None:
@@ -80,7 +80,7 @@ class ConvertRegistration:
         self._convert[key] = callback
 
     def get_from_msg(self, key: Any) -> Callback:
-        """The function that makes values of a type from messages.
+        """Return the function that makes values of a type from messages.
 
         Raises:
             TypeException: There is none.
@@ -88,7 +88,7 @@ class ConvertRegistration:
         return self._get(self._from_msg, key)
 
     def get_to_msg(self, key: Any) -> Callback:
-        """The function that makes messages from values of a type.
+        """Return the function that makes messages from values of a type.
 
         Raises:
             TypeException: There is none.
@@ -96,7 +96,7 @@ class ConvertRegistration:
         return self._get(self._to_msg, key)
 
     def get_convert(self, key: Any) -> Callback:
-        """The function that converts a pair of types.
+        """Return the function that converts a pair of types.
 
         Raises:
             TypeException: There is none.
@@ -112,7 +112,7 @@ class ConvertRegistration:
 
 
 def _for_type(known: dict[Any, Callback], key: Any) -> Callback | None:
-    """The entry of a type, or of the message type of the same name."""
+    """Return the entry of a type, or of the message type of the same name."""
     if key in known:
         return known[key]
     name = getattr(key, "_type", None)
@@ -134,7 +134,7 @@ class BufferInterface:
         timeout: Any = _ZERO,
         new_type: Any = None,
     ) -> Any:
-        """A stamped value in another frame.
+        """Transform a stamped value to another frame.
 
         Args:
             object_stamped: With ``header.frame_id`` and ``header.stamp``.
@@ -161,7 +161,7 @@ class BufferInterface:
         timeout: Any = _ZERO,
         new_type: Any = None,
     ) -> Any:
-        """A stamped value in another frame at another time; see `transform`."""
+        """Transform a stamped value to another frame at another time; see `transform`."""
         apply = self.registration.get(type(object_stamped))
         header = object_stamped.header
         found = self.lookup_transform_full(
@@ -173,7 +173,7 @@ class BufferInterface:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Any, timeout: Any = _ZERO
     ) -> Any:
-        """The transform from source to target at a time, 0 for the latest."""
+        """Return the transform from source to target at a time, 0 for the latest."""
         raise NotImplementedException
 
     def lookup_transform_full(
@@ -185,7 +185,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Any = _ZERO,
     ) -> Any:
-        """The transform from source at one time to target at another."""
+        """Return the transform from source at one time to target at another."""
         raise NotImplementedException
 
     def can_transform(
@@ -208,13 +208,13 @@ class BufferInterface:
 
 
 def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802  # tf2_ros's name
-    """The value with a header."""
+    """Return the value with a header."""
     obj.header = load_message("std_msgs/Header")(frame_id=frame_id, stamp=stamp)
     return obj
 
 
 def convert(a: Any, b_type: Any) -> Any:
-    """The value as another type.
+    """Return the value as another type.
 
     Raises:
         TypeException: Nobody said how.

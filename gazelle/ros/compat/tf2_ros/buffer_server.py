@@ -52,7 +52,7 @@ class BufferServer:
             self.start()
 
     def start(self) -> None:
-        """Answer from now on."""
+        """Start the server."""
         if not self._thread.is_alive():
             self._thread.start()
         self.server.start()

@@ -46,7 +46,7 @@ class TransformListener:
         self.tf_static_sub.unregister()
 
     def check_for_reset(self) -> None:
-        """Forget what moves if simulated time jumped back."""
+        """Discard changing transforms if simulated time jumped back."""
         with self._lock:
             now = get_rostime()
             if now < self.last_update:
@@ -56,14 +56,14 @@ class TransformListener:
             self.last_update = now
 
     def callback(self, data: Any) -> None:
-        """Take a message of /tf."""
+        """Add a message of /tf."""
         self.check_for_reset()
         who = data._connection_header.get("callerid", "default_authority")
         for transform in data.transforms:
             self.buffer.set_transform(transform, who)
 
     def static_callback(self, data: Any) -> None:
-        """Take a message of /tf_static."""
+        """Add a message of /tf_static."""
         self.check_for_reset()
         who = data._connection_header.get("callerid", "default_authority")
         for transform in data.transforms:

@@ -16,7 +16,7 @@ __all__ = ["do_transform_cloud", "from_msg_msg", "to_msg_msg", "transform_to_kdl
 
 
 def do_transform_cloud(cloud: Any, transform: Any) -> Any:
-    """The points of a cloud in the target frame of a ``TransformStamped``, as a cloud of one row.
+    """Transform the points of a cloud to the target frame, as a cloud of one row.
 
     The first three values of a point are its place; the others stay as they are.
     """

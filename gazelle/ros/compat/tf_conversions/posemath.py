@@ -29,18 +29,18 @@ __all__ = [
 
 
 def fromTf(tf: tuple[Sequence[float], Sequence[float]]) -> Frame:
-    """The frame of a translation and a quaternion, as ``lookupTransform`` returns them."""
+    """Return the frame of a translation and a quaternion, as returned by ``lookupTransform``."""
     place, turn = tf
     return Frame(Rotation.Quaternion(turn[0], turn[1], turn[2], turn[3]), Vector(*place))
 
 
 def toTf(f: Frame) -> tuple[tuple[float, float, float], tuple[float, float, float, float]]:
-    """Translation and quaternion of a frame, as ``sendTransform`` takes them."""
+    """Return translation and quaternion of a frame, as arguments of ``sendTransform``."""
     return f.p.tuple, f.M.GetQuaternion()
 
 
 def fromMsg(p: Any) -> Frame:
-    """The frame of a ``Pose``."""
+    """Return the frame of a ``Pose``."""
     turn, place = p.orientation, p.position
     return Frame(
         Rotation.Quaternion(turn.x, turn.y, turn.z, turn.w), Vector(place.x, place.y, place.z)
@@ -48,7 +48,7 @@ def fromMsg(p: Any) -> Frame:
 
 
 def toMsg(f: Frame) -> Any:
-    """The ``Pose`` of a frame."""
+    """Return the ``Pose`` of a frame."""
     pose: Any = load_message("geometry_msgs/Pose")()
     turn, place = pose.orientation, pose.position
     turn.x, turn.y, turn.z, turn.w = f.M.GetQuaternion()
@@ -57,18 +57,18 @@ def toMsg(f: Frame) -> Any:
 
 
 def fromMatrix(m: ArrayLike) -> Frame:
-    """The frame of a 4x4 or 3x4 matrix."""
+    """Return the frame of a 4x4 or 3x4 matrix."""
     values = np.asarray(m, dtype=float)
     return Frame(Rotation(*values[:3, :3].ravel().tolist()), Vector(*values[:3, 3].tolist()))
 
 
 def toMatrix(f: Frame) -> NDArray[np.float64]:
-    """The 4x4 matrix of a frame."""
+    """Return the 4x4 matrix of a frame."""
     return np.array([[f[line, column] for column in range(4)] for line in range(4)])
 
 
 def fromCameraParams(cv: Any, rvec: ArrayLike, tvec: ArrayLike) -> Frame:
-    """The frame of a camera as OpenCV gives it: axis times angle, and translation.
+    """Return the frame of a camera as OpenCV gives it: axis times angle, and translation.
 
     Args:
         cv: Accepted, and not needed.
