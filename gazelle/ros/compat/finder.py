@@ -12,7 +12,7 @@ import importlib
 import importlib.abc
 import importlib.util
 import sys
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Sequence
 from functools import cache
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
@@ -20,8 +20,14 @@ from types import ModuleType
 
 from gazelle.ros.compat import namesakes, workspace_code
 from gazelle.ros.compat.cfg_modules import CfgLoader, has_cfg
-from gazelle.ros.compat.message_modules import MessageLoader, PackageLoader, has_definitions
 from gazelle.ros.messages.library import bundled_packages
+from gazelle.ros.messages.modules import (
+    KINDS,
+    MessageLoader,
+    PackageLoader,
+    has_definitions,
+    importing,
+)
 
 HOME = "gazelle.ros.compat"
 UPSTAIRS = ("gazelle.compat", "gazelle.bridges.moveit.modules")
@@ -30,7 +36,6 @@ _NOT_OFFERED = frozenset({"shared"})
 """Beside them, for their own use."""
 _COMPILED = frozenset({"moveit_ros_planning_interface"})
 """Of C++ where they are installed, for a Python that is not this one: ours come first."""
-_KINDS = ("msg", "srv")
 
 
 @cache
@@ -42,7 +47,6 @@ def own_modules() -> frozenset[str]:
         "commands",
         "finder",
         "import_errors",
-        "message_modules",
         "module_hints",
         "cfg_modules",
         "python2",
@@ -94,9 +98,9 @@ class AliasLoader(importlib.abc.Loader):
         """
         name = module.__spec__.name if module.__spec__ is not None else ""
         module.__spec__ = self._spec
-        kinds = {kind for kind in _KINDS if has_definitions(name, kind)}
+        kinds = {kind for kind in KINDS if has_definitions(name, kind)}
         if kinds and not hasattr(module, "__getattr__"):
-            module.__dict__["__getattr__"] = _importing(name, kinds)
+            module.__dict__["__getattr__"] = importing(name, kinds)
 
 
 class CopyLoader(importlib.abc.Loader):
@@ -115,17 +119,6 @@ class CopyLoader(importlib.abc.Loader):
         module.__dict__.update({name: value for name, value in names if name[:2] != "__"})
 
 
-def _importing(package: str, kinds: Collection[str]) -> Callable[[str], ModuleType]:
-    """Return a package's ``__getattr__``, as its definitions are no files beside it."""
-
-    def find(name: str) -> ModuleType:
-        if name not in kinds:
-            raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        return importlib.import_module(f"{package}.{name}")
-
-    return find
-
-
 class RosFinder(importlib.abc.MetaPathFinder):
     """Finds the modules of ROS."""
 
@@ -139,7 +132,7 @@ class RosFinder(importlib.abc.MetaPathFinder):
         del target
         package, _, rest = fullname.partition(".")
         kind, _, member = rest.partition(".")
-        if kind in _KINDS and has_definitions(package, kind):
+        if kind in KINDS and has_definitions(package, kind):
             return ModuleSpec(fullname, MessageLoader(), is_package=not member)
         if kind == "cfg" and has_cfg(package):
             return ModuleSpec(fullname, CfgLoader(), is_package=not member)
@@ -202,7 +195,7 @@ def _below_a_substitute(package: str, fullname: str) -> ModuleSpec | None:
 
 
 def _known(package: str) -> bool:
-    return any(has_definitions(package, kind) for kind in _KINDS) or has_cfg(package)
+    return any(has_definitions(package, kind) for kind in KINDS) or has_cfg(package)
 
 
 LOADERS = (AliasLoader, CopyLoader, MessageLoader, CfgLoader, PackageLoader)

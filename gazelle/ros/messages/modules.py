@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.abc
+from collections.abc import Callable, Collection
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
-from gazelle.ros.messages import UnknownTypeError, load_message, load_service
-from gazelle.ros.messages.registry import package_names
+from gazelle.ros.messages.errors import UnknownTypeError
+from gazelle.ros.messages.registry import load_message, load_service, package_names
 
+KINDS = ("msg", "srv")
+"""Names of the modules of a package that hold its messages and its services."""
 _HALVES = ("Request", "Response")
 
 
@@ -51,7 +55,7 @@ class DefinitionsModule(ModuleType):
     """A module whose classes are made when they are first asked for."""
 
     def __getattr__(self, name: str) -> Any:
-        package, kind, *_ = self.__name__.split(".")
+        package, kind = self.__name__.split(".")[-2:]
         if name == "__all__":
             return _class_names(package, kind)
         if name.startswith("_"):
@@ -61,20 +65,27 @@ class DefinitionsModule(ModuleType):
         return found
 
     def __dir__(self) -> list[str]:
-        package, kind, *_ = self.__name__.split(".")
+        package, kind = self.__name__.split(".")[-2:]
         return sorted({*super().__dir__(), *_class_names(package, kind)})
 
 
 class MessageLoader(importlib.abc.Loader):
-    """Loads ``PACKAGE.msg``, ``PACKAGE.srv``, and the module of one class in them."""
+    """Loader of ``PACKAGE.msg``, ``PACKAGE.srv``, and the module of one class in them.
+
+    Args:
+        prefix: Package that they are below, with a full stop; empty at the top level.
+    """
+
+    def __init__(self, prefix: str = "") -> None:
+        self._prefix = prefix
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
-        """Return an empty module, or one for a class.
+        """Create an empty module, or one for a class.
 
         Raises:
             ModuleNotFoundError: There is no such class.
         """
-        package, kind, *member = spec.name.split(".")
+        package, kind, *member = spec.name.removeprefix(self._prefix).split(".")
         if not member:
             return DefinitionsModule(spec.name, f"The {kind} definitions of {package}.")
         name = member[0].removeprefix("_")
@@ -91,15 +102,29 @@ class MessageLoader(importlib.abc.Loader):
             setattr(module, each, _load(package, kind, each))
 
     def exec_module(self, module: ModuleType) -> None:
-        """Do nothing: classes are made on demand."""
+        """Leave the module as it is: its classes are made on first use."""
 
 
 class PackageLoader(importlib.abc.Loader):
-    """Loads a package that has definitions and no Python code."""
+    """Loader of a package that has definitions and no Python code."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
-        """Return an empty package."""
-        return ModuleType(spec.name, f"The ROS package {spec.name}.")
+        """Create an empty package."""
+        return ModuleType(spec.name, f"The ROS package {spec.name.rpartition('.')[2]}.")
 
     def exec_module(self, module: ModuleType) -> None:
-        """Do nothing: the package is empty."""
+        """Import ``msg`` and ``srv`` on access."""
+        package = module.__name__.rpartition(".")[2]
+        kinds = {kind for kind in KINDS if has_definitions(package, kind)}
+        module.__dict__["__getattr__"] = importing(module.__name__, kinds)
+
+
+def importing(package: str, kinds: Collection[str]) -> Callable[[str], ModuleType]:
+    """Return the ``__getattr__`` of a package whose definitions are no files beside it."""
+
+    def find(name: str) -> ModuleType:
+        if name not in kinds:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        return importlib.import_module(f"{package}.{name}")
+
+    return find
