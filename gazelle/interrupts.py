@@ -137,7 +137,7 @@ def interruptible(*, ends_process: bool = False) -> Iterator[None]:
 
 @contextlib.contextmanager
 def holding() -> Iterator[None]:
-    """Put interrupts off until the block has ended, as while a process is being started.
+    """Defer interrupts until the block has ended, as while a process is being started.
 
     Raises:
         Interrupted: The process was asked to end meanwhile.

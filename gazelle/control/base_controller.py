@@ -156,7 +156,7 @@ class BaseController(Controller):
         self._brake(np.arange(self.nworld))
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
-        """Measure, drive, publish; nothing where no wheel could be measured."""
+        """Update odometry and command; does nothing if a wheel cannot be measured."""
         self.period = period
         self._law.act(self.now_ns, period)
         if self.memory.lost.all():

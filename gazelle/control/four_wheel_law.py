@@ -149,7 +149,7 @@ class FourWheelLaw(BaseLaw):
     @cython.nogil
     @cython.exceptval(check=False)
     def mean_angle(self, world: cython.Py_ssize_t, axle: cython.Py_ssize_t) -> cython.double:
-        """The angle of a wheel in the middle of an axle, that of two about the same point [rad]."""
+        """Return the angle in the middle of an axle, from two wheels about one point [rad]."""
         left: cython.double = self.position[world, self.steers[2 * axle]]
         right: cython.double = self.position[world, self.steers[2 * axle + 1]]
         if fabs(left) <= _SLOW and fabs(right) <= _SLOW:

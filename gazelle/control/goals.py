@@ -72,7 +72,7 @@ class Goal(Generic[G]):
         return bool((self.states > GoalState.ACTIVE).all())
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait, on the wall's clock, until another thread's steps bring it to its end.
+        """Wait in wall time until another thread's steps bring the goal to its end.
 
         Args:
             timeout: At most [s].

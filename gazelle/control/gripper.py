@@ -147,7 +147,7 @@ class GripperActionController(Controller):
             self._joint.set_command(0.0, None, rows)
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  the clock is exact
-        """Move, and see whether it is there or stalls."""
+        """Move the gripper, and check whether it has arrived or stalled."""
         error = self._position - self._opening()
         self._check_goals(error, self._speed())
         if self._law is not None:

@@ -156,7 +156,7 @@ class JointTrajectoryController(Controller):
         self._followed = False
 
     def update(self, time: float, period: float) -> None:  # noqa: ARG002  it counts its own time
-        """Follow."""
+        """Follow the trajectories."""
         self._law.act(self.now_ns, period)
         self._followed = True
         heard = tuple(self._goals.values())
@@ -276,7 +276,7 @@ class JointTrajectoryController(Controller):
         self._preempt(rows, "another trajectory took its place")
 
     def _take(self, given: JointTrajectory, rows: Worlds, goal: int) -> None:
-        """Follow from the next update on.
+        """Follow a trajectory from the next update on.
 
         Raises:
             TrajectoryRefusedError: It cannot be followed; what is followed goes on.

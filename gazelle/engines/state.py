@@ -49,7 +49,7 @@ class LinkRow(LinkRows, Protocol):
         *,
         ignore_own: bool = False,
     ) -> Hits:
-        """Follow rays that move with the link to the nearest collision shape.
+        """Cast rays that move with the link to the nearest collision shape.
 
         Args:
             origins: In the link frame [m], shape (rays, 3).

@@ -43,7 +43,7 @@ class Tracer(Protocol):
         """Set the poses of links in the world, by scoped name."""
 
     def trace(self, origins: Floats, directions: Floats) -> RayHits:
-        """Follow rays in the world frame, shapes (rays, 3), directions of unit length."""
+        """Cast rays in the world frame, shapes (rays, 3), directions of unit length."""
 
 
 def make_tracer(world: World) -> Tracer:

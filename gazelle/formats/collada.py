@@ -28,7 +28,7 @@ MAX_DEPTH = 64
 
 
 def parse(data: bytes) -> list[Piece]:
-    """Name, vertices (n, 3), faces (m, 3) and look of each geometry where the scene puts it.
+    """Parse name, vertices (n, 3), faces (m, 3) and look of each geometry in the scene.
 
     Raises:
         FormatError: The file is no valid COLLADA, or holds no scene.

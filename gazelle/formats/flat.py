@@ -208,7 +208,10 @@ class Polygons:
         return np.argsort(noise * area / np.maximum(seam, 1e-300), kind="stable")
 
     def _take_out(self, pairs: _Pairs, uneven: Bools, tolerance: float, depth: float) -> Indices:
-        """Join pairs of polygons that may be; no polygon is there twice. Those that grew."""
+        """Join pairs of polygons that may be joined, each at most once; returns those that grew.
+
+        Those that grew.
+        """
         low, high = self._heights(pairs)
         near = high - low <= tolerance
         pairs, uneven, low, high = pairs.only(near), uneven[near], low[near], high[near]

@@ -18,7 +18,7 @@ Piece = tuple[str, NDArray[np.float64], NDArray[np.int32]]
 
 
 def parse(data: bytes) -> list[Piece]:
-    """Name, vertices (n, 3) and faces (m, 3) of each object; polygons become fans.
+    """Parse name, vertices (n, 3) and faces (m, 3) of each object; polygons become fans.
 
     Negative indices count back from the last vertex above their line, as the format has it;
     positive ones may name a vertex below.

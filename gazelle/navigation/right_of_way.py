@@ -212,7 +212,7 @@ class RightOfWay:
     # Who waits for whom -------------------------------------------------------------------
 
     def _meet(self, time: float, free: Sequence[Traveller], everyone: Sequence[Traveller]) -> None:
-        """Let the first robot of a group that blocks itself continue."""
+        """Resume the first robot of a group that blocks itself."""
         standing = [each for each in free if self._stands(time, each)]
         ways = {each.name: self._way(each) for each in standing}
         groups = [{each.name} for each in standing]

@@ -299,7 +299,7 @@ class RobotNavigation(ModelPlugin):
         self._scan = unit.reading(unit.current())
 
     def _fall_asleep(self) -> None:
-        """Put the laser to sleep while there is no goal."""
+        """Disable the laser while there is no goal."""
         if self._sleep is not None:
             self._sleep()
             self._sleep = None

@@ -128,7 +128,7 @@ class WorldPilot:
     # Making way; see `RightOfWay` --------------------------------------------------------------
 
     def stand(self) -> None:
-        """Wait, with the goal put off."""
+        """Wait, with the goal deferred."""
         self._put_off, self._refuge, self.aside = self.goal, None, False
         self._stack.move_base.cancel()
 

@@ -129,7 +129,7 @@ class GoalStates:
     def _alone(
         self, goal: ConstraintSet, link: str, links: Sequence[str]
     ) -> list[tuple[Indices, Floats]]:
-        """Positions of the joints that move one of several links alone, with their columns."""
+        """Return positions of the joints that move only one of several links, by column."""
         moving = {each: self._moving(each) for each in links}
         shared = sorted(moving[link] & {*itertools.chain(*(moving[o] for o in links if o != link))})
         if shared:

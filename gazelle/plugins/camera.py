@@ -211,7 +211,7 @@ class ThermalCameraPlugin(CameraPlugin):
         PublishedCamera(self._sensor, replace(camera, format="L8"), settings, self._warmth).open()
 
     def _warmth(self) -> CameraImage:
-        """White where the picture is (255, 0, 0), an eighth of the sum of its colours elsewhere."""
+        """Return a thermal picture: white where it is (255, 0, 0), else an eighth of the sum."""
         seen = self.look()
         grey = (seen.color.sum(axis=-1) // 8).astype(np.uint8)
         grey[(seen.color == (255, 0, 0)).all(axis=-1)] = 255

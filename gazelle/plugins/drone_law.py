@@ -91,7 +91,9 @@ class DroneLaw:
     def wrench(
         self, now: DroneMoment, orders: DroneOrders, gravity: Floats
     ) -> tuple[Floats, Floats]:
-        """Thrust along the drone's z axis [N], shape (nworld,), and torque in its frame [N m], (nworld, 3).
+        """Return thrust along z [N], (nworld,), and torque in the drone's frame [N m].
+
+        The torque has shape (nworld, 3).
 
         Args:
             now: What is known.

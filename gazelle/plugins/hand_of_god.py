@@ -78,7 +78,7 @@ class HandOfGod(ModelPlugin):
         return Transforms(self._simulation.clock.now_ns, (actual,))
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Follow nothing."""
+        """Stop following."""
         self._frames.forget(worlds)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:

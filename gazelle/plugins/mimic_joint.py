@@ -57,7 +57,7 @@ class MimicJoint(ModelPlugin):
         self._mimic.set_properties(motor_effort=0.0)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
-        """Follow."""
+        """Follow the other joint."""
         name = self._mimic.name
         lower = self._engine.parameter("joint_lower", name)
         upper = self._engine.parameter("joint_upper", name)

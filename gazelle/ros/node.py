@@ -162,7 +162,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         self.parameters.delete(name)
 
     def search_param(self, name: str) -> str | None:
-        """Name of the nearest parameter of that name."""
+        """Return the name of the nearest parameter of that name."""
         return self.parameters.search(name)
 
     def param_names(self) -> list[str]:

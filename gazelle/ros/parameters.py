@@ -106,7 +106,7 @@ class NodeParameters:
         self._apply(key, {})
 
     def search(self, name: str) -> str | None:
-        """Name of the nearest parameter of that name, from the node's namespace upwards."""
+        """Return the name of the nearest parameter of that name, upwards from the namespace."""
         key = self._node.resolve(name) if names.is_private(name) else name
         try:
             return self._node.master.search_param(key) or None

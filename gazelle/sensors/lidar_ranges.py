@@ -153,7 +153,7 @@ class LidarSystem(System):
         return np.asarray(self.measured)[:, :count]
 
     def latest(self) -> tuple[Floats, NDArray[np.int64]]:
-        """The last measurement [m], shape (nworld * rows, samples), and when of each [ns]."""
+        """Return the last measurements [m], (nworld * rows, samples), and their times [ns]."""
         return np.asarray(self.measured)[:, : self.ranges.shape[1]], np.asarray(self.stamp)
 
     def update(self, first: int, last: int, time: int) -> None:

@@ -15,7 +15,7 @@ _LIBRARY = str(Path(__file__).parents[1])
 def warn_of_fault(
     plugin: object, name: str, when: str, error: Exception, source: FilePlace | None = None
 ) -> None:
-    """Name a plugin that failed, and the line where it did.
+    """Warn of a plugin that failed, with the line where it did.
 
     Args:
         plugin: What failed.

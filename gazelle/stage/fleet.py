@@ -66,7 +66,7 @@ class StageFleet(Senses):
     # -- what there is -----------------------------------------------------------------
 
     def refresh(self) -> None:
-        """Follow models that came or went."""
+        """Update the robots after models changed."""
         if self._revision != self.engine.revision:
             before = self._robots, self._rangers, self._motion, self._devices, self._things
             self._bind()

@@ -70,7 +70,7 @@ def sweep(
     ray: str | None = None,
     **options: Any,
 ) -> SweepResult:
-    """Search, or go on with a search of the same task in the same folder.
+    """Start a search, or resume one of the same task in the same folder.
 
     Args:
         task: A task's id or name, as `train` takes it.

@@ -197,7 +197,7 @@ class BagTopView(FilmSource):
     # Drawing --------------------------------------------------------------------------------
 
     def _paper(self) -> Bytes:
-        """The map in its colours, or nothing, shape (height, width, 3) of the large picture."""
+        """Return the map in its colours, or white, for the large picture."""
         grid = self._shown.grid
         if grid is None:
             return np.tile(np.array(PAPER, np.uint8), (*self._frame.shape, 1))

@@ -69,7 +69,7 @@ def draw_failures(found: Evaluation, size: int = 800) -> Picture:
 
 
 def _points(record: EpisodeRecord) -> dict[str, Point]:
-    """Start, position at the end and goal of an episode, as far as they are told [m]."""
+    """Return start, end and goal of an episode, as far as known [m]."""
     told = {name: record.info[name] for name in ("position", "goal") if name in record.info}
     points: dict[str, Point] = {
         name: (values[0], values[1]) for name, values in told.items() if len(values) >= 2

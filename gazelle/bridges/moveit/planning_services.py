@@ -195,7 +195,7 @@ class PlanningServices:
         base: Pose,
         held: ConstraintSet,
     ) -> None:
-        """Follow straight ways, holding the plans' scene."""
+        """Follow straight paths, holding the plans' scene."""
         context = self._context
         if request.waypoints and not request.max_step > 0.0:
             raise NoPlanError("max_step must be above zero", PlanOutcome.FAILURE)

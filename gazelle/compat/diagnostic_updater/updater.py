@@ -145,7 +145,7 @@ class Updater(DiagnosticTaskVector):
         self.hwid = hwid
 
     def update(self) -> None:
-        """Publish, if it is time to."""
+        """Publish the status, if it is due."""
         now = rospy.get_rostime()
         if now >= self._looked + rospy.Duration(_LOOK_S):
             self.period, self._looked = rospy.get_param_cached("~diagnostic_period", 1), now

@@ -82,7 +82,7 @@ class GazeboConnection:
             raise
 
     def init_values(self) -> None:
-        """Reset, and set the physics if that was asked for."""
+        """Reset the simulation, and set the physics on request."""
         self.resetSim()
         if self.start_init_physics_parameters:
             rospy.logdebug("the physics of openai_ros is set")

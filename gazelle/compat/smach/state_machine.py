@@ -197,7 +197,7 @@ class StateMachine(Container):
                 self._pass_on_preempt(self._states[self._label])
 
     def _pass_on_preempt(self, state: State) -> None:
-        """Ask a state to end early if the machine is asked, and no state has done so since."""
+        """Request a state to end early if the machine is requested, unless one has ended since."""
         if not self._preempt_requested:
             return
         if self._asked is not None and not self._asked.preempt_requested():

@@ -89,7 +89,7 @@ def cast_from(
     *,
     ignore_own: bool,
 ) -> Hits:
-    """Follow rays of a link to the nearest collision shape.
+    """Cast rays of a link to the nearest collision shape.
 
     Args:
         run: Worlds that run.

@@ -50,7 +50,7 @@ class Hooks:
         self._numbers[8] = first_of_run(self._dofs)
 
     def show(self, state: StateViews, targets: Floats) -> None:
-        """Give systems access to the velocities of motors and the mocap bodies of a state."""
+        """Share the velocities of motors and the mocap bodies of a state with systems."""
         position, quaternion = state.mocap_pos, state.mocap_quat
         self._numbers[12:] = (
             state.qpos.strides[0],

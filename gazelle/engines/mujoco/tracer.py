@@ -80,7 +80,7 @@ class MujocoTracer:
                 self._batch.mocap_quat[0, row] = wxyz_from_xyzw(quaternion)
 
     def trace(self, origins: Floats, directions: Floats) -> RayHits:
-        """Follow rays in the world frame, shapes (rays, 3), directions of unit length."""
+        """Cast rays in the world frame, shapes (rays, 3), directions of unit length."""
         start = origins + BESIDE if self._batch.model.nmesh else origins
         distance, geom, normal = self._batch.ray(start, directions, normal=True)
         missed = geom[0] < 0

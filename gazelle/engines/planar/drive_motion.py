@@ -101,7 +101,7 @@ def go(w: Bodies, b: int, vx: float, vy: float, turn: float, dt: float) -> None:
 
 
 def propose(w: Bodies, first: int, last: int, dt: float) -> float:
-    """Propose moves of the bodies first to last; returns the longest distance of one [m].
+    """Return propose moves of the bodies first to last; returns the longest distance of one [m].
 
     They are counted through all worlds. A state becomes STILL, MOVING, or BLOCKED if the command
     is no number.

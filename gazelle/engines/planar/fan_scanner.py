@@ -156,7 +156,7 @@ class FanScanner(System):
         self.beams.report(m, self.missing, self.signed, self.ranges, self.names)
 
     def scan_crowded(self, owners: NDArray[np.int64], first: int, last: int) -> None:
-        """Follow beams where many statics are in view, so that hidden ones are not looked at."""
+        """Cast beams where many statics are in view, without a look at hidden ones."""
         for m in range(first, last):
             self.at.aim(self.mounts, m, owners[m])
             self.beams.clear()
@@ -171,7 +171,7 @@ class FanScanner(System):
             self.beams.report(m, self.missing, self.signed, self.ranges, self.names)
 
     def scan_singly(self, owners: NDArray[np.int64], first: int, last: int) -> None:
-        """Follow the beams of many sensors side by side, as fans of few have them."""
+        """Cast the beams of many sensors side by side, as fans of few have them."""
         count, begin = self.beams.count, first
         while begin < last:
             end = end_of(owners, begin, last, MOST_LANES // count)

@@ -63,7 +63,7 @@ Includer = Callable[[Parameters, Version, Reading], ModelFrames | None]
 
 
 def add_model(scope: Scope, draft: ModelFrames) -> None:
-    """Name a model in the scope around it."""
+    """Add the name of a model to the scope around it."""
     scope.add(
         draft.name, NamedFrame(draft.node, draft.placed, draft.relative_to, scope=draft.scope)
     )

@@ -244,7 +244,7 @@ def _power(given: Properties) -> StagePower:
 
 
 def _old_words(given: Properties) -> None:
-    """Remark on words that Stage 4 ignores, or that only matter inside of Stage."""
+    """Warn of words that Stage 4 ignores, or that only matter inside of Stage."""
     for name in ("debug", "event_queue"):
         given.get(name)
     given.note("laser_return", "'laser_return' is of Stage 3, and ignored", "say 'ranger_return'")

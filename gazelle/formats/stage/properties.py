@@ -173,13 +173,13 @@ class Properties:
         return found or (1.0, 0.0, 0.0, 1.0)
 
     def note(self, name: str, message: str, hint: str | None = None) -> None:
-        """Remark on a property if it is present."""
+        """Warn of a property if it is present."""
         given = self.get(name)
         if given is not None:
             self.reading.remark(message, given.source, hint)
 
     def report_unknown(self) -> None:
-        """Remark on each property that was never read."""
+        """Warn of each property that was never read."""
         for name, given in self._all.items():
             if name not in self._known:
                 self.reading.remark(

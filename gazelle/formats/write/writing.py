@@ -41,7 +41,7 @@ class Writing:
         return self.name(path)
 
     def name(self, path: Path) -> str:
-        """A file by its way from the folder if it is below it, else by its absolute path."""
+        """Return a file's path relative to the folder if it is below, else the absolute path."""
         if self.folder is not None and path.is_relative_to(self.folder):
             return path.relative_to(self.folder).as_posix()
         # not as_uri(): neither libsdformat nor Gazebo turns %20 into a blank

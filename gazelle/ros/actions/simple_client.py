@@ -136,7 +136,7 @@ class SimpleActionClient:
             self.gh.cancel()
 
     def stop_tracking_goal(self) -> None:
-        """Follow the goal no more; it goes on."""
+        """Stop tracking the goal, which continues."""
         self.gh = None
 
     def _is_done(self) -> bool:

@@ -107,7 +107,7 @@ class Player:
         self._files.close()
 
     def toggle(self) -> None:
-        """Pause, or go on."""
+        """Pause or resume."""
         if self._running.is_set():
             self._running.clear()
         else:

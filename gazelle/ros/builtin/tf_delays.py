@@ -39,7 +39,7 @@ class Delays:
         ]
 
     def close(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         for each in self._subscribers:
             each.unregister()
 

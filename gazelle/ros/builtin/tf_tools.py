@@ -73,7 +73,7 @@ def monitor(arguments: Sequence[str]) -> int:
 
 
 def frames(arguments: Sequence[str]) -> int:
-    """Listen for a while and draw the tree as frames.gv and frames.pdf; returns the exit code.
+    """Draw the tree of frames as frames.gv and frames.pdf; returns the exit code.
 
     Raises:
         RosError: The command line is wrong, or graphviz fails.

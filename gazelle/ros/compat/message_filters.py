@@ -53,7 +53,7 @@ class Subscriber(SimpleFilter):
         return str(self.topic)
 
     def unregister(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self.sub.unregister()
 
     def __getattr__(self, key: str) -> Any:

@@ -88,7 +88,7 @@ def msgevalgen(pattern: str) -> Evaluator | None:
 
 
 def get_topic_list(master: Any = None) -> tuple[list[Any], list[Any]]:
-    """Name, type and nodes of what is published, and of what is subscribed to.
+    """Return name, type and nodes of published and of subscribed topics.
 
     Raises:
         ConnectionRefusedError: There is no master.

@@ -82,7 +82,7 @@ class _SetupReader:
         self._names: dict[str, Any] = {}
 
     def execute(self, statements: list[ast.stmt]) -> None:
-        """Follow statements; the branches of ``if`` and ``try`` one after the other."""
+        """Execute statements; the branches of ``if`` and ``try`` one after the other."""
         for statement in statements:
             match statement:
                 case ast.Assign(targets=targets, value=value):

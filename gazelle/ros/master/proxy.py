@@ -171,7 +171,7 @@ class MasterProxy:
         self.call("deleteParam", key)
 
     def search_param(self, key: str) -> str:
-        """Name of the nearest parameter of that name."""
+        """Return the name of the nearest parameter of that name."""
         return str(self.call("searchParam", key))
 
     def param_names(self) -> list[str]:

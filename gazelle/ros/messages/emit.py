@@ -45,14 +45,14 @@ class GeneratedCode:
         return f"{kind}{self._variables}"
 
     def struct(self, codes: str, method: str) -> str:
-        """Name of a method of the struct with these codes, little endian."""
+        """Return the name of a method of the struct with these codes, little endian."""
         name = f"_{method}_{codes.replace('?', 'o')}"  # no struct code is an o
         if name not in self.names:
             self.names[name] = getattr(struct.Struct("<" + codes), method)
         return name
 
     def message_class(self, full_name: str, known: dict[str, type[Message]]) -> str:
-        """Name of the class of a message type."""
+        """Return the name of the class of a message type."""
         name = "_class_" + full_name.replace("/", "__")
         self.names.setdefault(name, known[full_name])
         return name

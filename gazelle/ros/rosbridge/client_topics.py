@@ -147,7 +147,7 @@ class ClientTopics:
     def subscribe(
         self, topic: str, kind: str | None, identifier: Any, settings: DeliverySettings
     ) -> None:
-        """Subscribe, or once more.
+        """Subscribe the client, once more if need be.
 
         Raises:
             RosError: The type is not known, or another.

@@ -229,7 +229,7 @@ class FrameTree:
             return list(self._caches)
 
     def known(self) -> list[tuple[str, str, FrameCache]]:
-        """Name, authority and placements of each frame that was ever placed."""
+        """Return name, authority and placements of each known frame."""
         with self._lock:
             return [
                 (name, self._authorities.get(name, "no recorded authority"), cache)
@@ -311,7 +311,7 @@ class FrameTree:
     def _climb(
         self, start: str, stamp: int, *goals: str
     ) -> tuple[list[ParentTransform], str, str | None]:
-        """Placements from a frame towards the root, the frame reached, and why not further."""
+        """Return placements from a frame towards the root, the last frame, and why not further."""
         path: list[ParentTransform] = []
         frame = start
         caches = self._caches

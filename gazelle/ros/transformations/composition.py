@@ -62,7 +62,7 @@ def compose_matrix(
 def decompose_matrix(
     matrix: npt.ArrayLike,
 ) -> tuple[Floats, list[float], list[float], Floats, Floats]:
-    """Scale, shear, angles, translation and perspective; see `compose_matrix`.
+    """Return scale, shear, angles, translation and perspective; see `compose_matrix`.
 
     Raises:
         ValueError: The matrix is of another kind, or degenerate.

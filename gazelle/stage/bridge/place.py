@@ -38,7 +38,7 @@ class GraphRobot:
     def subscribe(
         self, name: str, kind: Any, told: Callable[[Any], None], which: int = 0, count: int = 1
     ) -> Subscriber:
-        """Listen to a topic; its name is found as ``advertise`` finds it."""
+        """Subscribe to a topic; its name is found as ``advertise`` finds it."""
         return self.node.subscribe(self._topic(name, which, count), kind, told, _QUEUE)
 
     def frame(self, name: str, which: int = 0, count: int = 1) -> str:

@@ -273,6 +273,6 @@ class RobotInputs:
             self._placed()
 
     def close(self) -> None:
-        """Listen no longer."""
+        """Unsubscribe."""
         for subscriber in self._subscribers:
             subscriber.close()

@@ -58,7 +58,7 @@ class MaskedRolloutBuffer(RolloutBuffer):  # type: ignore[misc]  # untyped base
     rng: np.random.Generator
 
     def transitions(self, policy: Any) -> Transitions:
-        """The valid transitions, with observations as the networks of this policy take them."""
+        """Return the valid transitions, with observations in the form of the policy's networks."""
         valid = torch.as_tensor(self.valid.reshape(-1))
         observations = self._flat(self.observations)[valid]
         actions = self._flat(self.actions)[valid]

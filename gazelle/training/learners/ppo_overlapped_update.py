@@ -48,7 +48,10 @@ class UpdateAhead:
             raise error
 
     def hand_over(self) -> list[float]:
-        """Wait, and give the policy its new weights; what the curves show of the update."""
+        """Wait, and copy the new weights to the policy.
+
+        Returns what the curves show of the update.
+        """
         self.wait()
         self._update.finish()
         return self._told

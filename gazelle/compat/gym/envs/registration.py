@@ -73,7 +73,7 @@ class EnvRegistry:
         self.env_specs: dict[str, EnvSpec] = {}
 
     def register(self, id: str, **options: Any) -> None:  # noqa: A002  # gym's name for it
-        """Enter an environment, or enter it anew.
+        """Register an environment, in place of one of its name.
 
         Args:
             id: Its name.

@@ -56,7 +56,10 @@ def add_couplings(spec: mujoco.MjSpec, bodies: Iterable[TreeLink], time_step: fl
 
 
 def _tie_screw(spec: mujoco.MjSpec, name: str, joint: Joint, time_step: float) -> Any:
-    """Couple translation and rotation of a screw. SDF's pitch is in rad/m and left-handed."""
+    """Return couple translation and rotation of a screw.
+
+    SDF's pitch is in rad/m and left-handed.
+    """
     pitch = joint.thread_pitch
     if pitch == 0.0:
         raise EngineError(

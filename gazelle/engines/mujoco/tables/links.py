@@ -101,7 +101,7 @@ class MujocoLinkRow(MujocoLinkRows):
         *,
         ignore_own: bool = False,
     ) -> Hits:
-        """Follow rays that move with the link to the nearest collision shape."""
+        """Cast rays that move with the link to the nearest collision shape."""
         place, rays = self.placement(worlds), (origins, directions)
         return cast_from(self._run, self._name, place, rays, worlds, ignore_own=ignore_own)
 

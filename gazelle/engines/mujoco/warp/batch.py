@@ -77,7 +77,7 @@ class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
         ids: Any = None,
         normal: bool = False,
     ) -> tuple[Any, ...]:
-        """Follow rays on the device: distances, geoms and normals; see MuJoCo's."""
+        """Cast rays on the device: distances, geoms and normals; see MuJoCo's."""
         self._share()
         shape = np.broadcast_shapes(np.shape(pnt), np.shape(vec))
         start, along = np.zeros((2, self.nsim, *shape[1:]))

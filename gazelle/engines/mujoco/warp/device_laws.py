@@ -106,7 +106,7 @@ class DeviceLaws:
         self._laws.body_gravcomp = model.body_gravcomp
 
     def __call__(self, model: Any, data: Any) -> None:
-        """Follow the laws, the state being known and its constraints set up."""
+        """Apply the laws, the state being known and its constraints set up."""
         if self._swinging:
             self._take_bias_midway(model, data)
         if self._tumbling.shape[0]:

@@ -89,7 +89,7 @@ class PlanarLinkRow:
         *,
         ignore_own: bool = False,
     ) -> Hits:
-        """Follow level rays to the nearest collision shape of another model."""
+        """Cast level rays to the nearest collision shape of another model."""
         del ignore_own  # rays never meet their own model
         return Hits(*self._caster(self._name, origins, directions).cast(worlds))
 

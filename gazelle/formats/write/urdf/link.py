@@ -88,7 +88,7 @@ def surfaces(link: Link) -> list[list[Collision]]:
 
 
 def surface_link(link: Link, group: int) -> str:
-    """Name of the link for the collisions of a further surface.
+    """Return the name of the link for the collisions of a further surface.
 
     It does not begin as the link does: by that libsdformat knows what is lumped.
     """

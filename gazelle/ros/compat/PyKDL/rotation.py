@@ -100,7 +100,7 @@ class Rotation:
         return rotations.quaternion(self.matrix)
 
     def GetRPY(self) -> tuple[float, float, float]:
-        """Roll, pitch and yaw [rad]; where pitch is a right angle, roll is 0."""
+        """Return roll, pitch and yaw [rad]; where pitch is a right angle, roll is 0."""
         (a, b, _), (d, e, _), (g, h, i) = self.matrix
         pitch = math.atan2(-g, math.hypot(a, d))
         if abs(pitch) > math.pi / 2 - _POLE:

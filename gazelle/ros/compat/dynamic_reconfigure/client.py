@@ -116,7 +116,7 @@ class Client:
         return self.update_configuration({"groups": tree})
 
     def close(self) -> None:
-        """Follow the node no more."""
+        """Stop following the node."""
         for subscriber in self._subscribers:
             subscriber.unregister()
 

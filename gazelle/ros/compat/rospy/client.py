@@ -237,7 +237,7 @@ def myargv(argv: Iterable[str] | None = None) -> list[str]:
 
 
 def get_published_topics(namespace: str = "/") -> list[list[str]]:
-    """Name and type of each topic that has a publisher.
+    """Return name and type of each topic that has a publisher.
 
     Raises:
         ROSException: The master refuses.

@@ -62,7 +62,7 @@ class MasterProxy:
         return iter(params.get_param_names())
 
     def search_param(self, key: str) -> str | None:
-        """Name of the nearest parameter of this name."""
+        """Return the name of the nearest parameter of this name."""
         return params.search_param(key)
 
     def get_param_cached(self, key: str) -> Any:

@@ -83,7 +83,7 @@ def set_param(param_name: str, param_value: Any) -> None:
 
 
 def search_param(param_name: str) -> str | None:
-    """Name of the nearest parameter of this name, from the node's namespace upwards."""
+    """Return the name of the nearest parameter of this name, from the node's namespace upwards."""
     proxy = MasterProxy(user().master_uri, get_caller_id())
     try:
         code, _, found = proxy.call_raw("searchParam", param_name)

@@ -128,7 +128,7 @@ def create_cloud_xyz32(header: Any, points: Any) -> Any:
 def _parts(
     fields: Sequence[Any], *, big_endian: bool, names: Sequence[str] | None = None
 ) -> list[tuple[str, int, str]]:
-    """Name, offset and numpy type of every single value of a point, by offset."""
+    """Return name, offset and numpy type of every single value of a point, by offset."""
     found = []
     for field in sorted(fields, key=lambda each: each.offset):
         if names is not None and field.name not in names:

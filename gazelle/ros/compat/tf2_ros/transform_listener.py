@@ -41,7 +41,7 @@ class TransformListener:
         )
 
     def unregister(self) -> None:
-        """Listen no more."""
+        """Unsubscribe."""
         self.tf_sub.unregister()
         self.tf_static_sub.unregister()
 

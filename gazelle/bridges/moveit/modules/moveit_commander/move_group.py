@@ -51,7 +51,7 @@ class MoveGroupCommander(GroupSettings):
         return self.move() if wait else self.async_move()
 
     def plan(self, joints: Any = None) -> tuple[bool, Any, float, Any]:
-        """Plan, as for `go`.
+        """Return a plan to the targets, as for `go`.
 
         Returns:
             Whether there is a plan, a ``RobotTrajectory``, the time that it took [s], and the
