@@ -18,7 +18,7 @@ import numpy as np
 
 from gazelle.description import Pose
 from gazelle.formats import load_model
-from gazelle.planning import InverseKinematics, JointModelGroup, RobotModel
+from gazelle.kinematics import InverseKinematics, JointModelGroup, RobotModel
 
 ARMS = {
     "fetch": ("torso_lift_link", "gripper_link", (92.5, 99.99)),

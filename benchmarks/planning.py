@@ -19,13 +19,12 @@ from gazelle import assets
 from gazelle.array_types import Floats
 from gazelle.description import Box, Cylinder, Pose
 from gazelle.formats import load_model, load_srdf
+from gazelle.kinematics import JointModelGroup, RobotModel
 from gazelle.planning import (
-    JointModelGroup,
     MotionPlanner,
     NoPlanError,
     PlanningScene,
     PlanOptions,
-    RobotModel,
     ompl_planners,
 )
 from gazelle.planning.state_validity import StateValidity

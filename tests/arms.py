@@ -4,7 +4,7 @@ from functools import cache
 from pathlib import Path
 
 from gazelle.formats import load_model, load_model_string, load_srdf, load_srdf_string
-from gazelle.planning import RobotModel
+from gazelle.kinematics import RobotModel
 
 DATA = Path(__file__).parent / "data"
 ARMS = ("fetch", "panda", "iiwa", "ur5")

@@ -21,6 +21,7 @@ ORDER = (
     "native",
     "geometry",
     "description",
+    "kinematics",
     "formats",
     "engines",
     "rendering",
@@ -44,6 +45,7 @@ ORDER = (
 """Rooms; each may import those before it. Data and paths (assets) are at the bottom."""
 
 SIMULATION = {
+    "kinematics",
     "engines",
     "rendering",
     "sensors",

@@ -15,7 +15,8 @@ from itertools import combinations
 import numpy as np
 
 from gazelle.formats import load_model
-from gazelle.planning import AllowedCollisionMatrix, PlanningScene, RobotModel
+from gazelle.kinematics import RobotModel
+from gazelle.planning import AllowedCollisionMatrix, PlanningScene
 from gazelle.planning.robot_bodies import shapes_of
 
 ALWAYS = 0.95

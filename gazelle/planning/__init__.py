@@ -1,4 +1,4 @@
-"""Arms: groups of joints, kinematics, planning scenes, plans and trajectories, without ROS.
+"""Arms: planning scenes, plans and trajectories, without ROS.
 
 ``Group`` plans for a robot in a running simulation; all below it works on descriptions alone.
 """
@@ -30,8 +30,6 @@ from gazelle.planning.grasps import (
 )
 from gazelle.planning.gripper import GripperReport, RobotGripper
 from gazelle.planning.group import Group, GroupPlan
-from gazelle.planning.inverse import IkSolutions, InverseKinematics
-from gazelle.planning.joint_group import JointModelGroup
 from gazelle.planning.manipulation import Manipulation
 from gazelle.planning.manipulation_plan import (
     ContactRules,
@@ -42,12 +40,9 @@ from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptio
 from gazelle.planning.octomaps import OCTOMAP, octree_object
 from gazelle.planning.outcomes import NoPlanError, PlanOutcome
 from gazelle.planning.pick_place import PickPlacePlanner
-from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene import PlanningScene, SceneContact
 from gazelle.planning.scene_objects import AttachedObject, SceneObject, voxel_boxes
 from gazelle.planning.time_parameterization import PathLimits, TimedPath, parameterize
-from gazelle.planning.tree_builder import LinkFrame
-from gazelle.planning.variables import JointBounds, Variable
 
 __all__ = [
     "OCTOMAP",
@@ -63,13 +58,8 @@ __all__ = [
     "GripperTranslation",
     "Group",
     "GroupPlan",
-    "IkSolutions",
-    "InverseKinematics",
-    "JointBounds",
     "JointConstraint",
-    "JointModelGroup",
     "JumpLimits",
-    "LinkFrame",
     "Manipulation",
     "ManipulationPlan",
     "ManipulationStage",
@@ -86,11 +76,9 @@ __all__ = [
     "PlanningScene",
     "PositionConstraint",
     "RobotGripper",
-    "RobotModel",
     "SceneContact",
     "SceneObject",
     "TimedPath",
-    "Variable",
     "box_grasps",
     "goal_of_pose",
     "octree_object",

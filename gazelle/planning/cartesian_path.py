@@ -15,8 +15,8 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
+from gazelle.kinematics.inverse import InverseKinematics
 from gazelle.planning.constraints import rotation_vector
-from gazelle.planning.inverse import InverseKinematics
 from gazelle.planning.limits import checked_poses, checked_steps
 
 DEVIATION = 0.001

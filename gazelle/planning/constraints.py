@@ -13,7 +13,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Box, Cylinder, Pose, Sphere, Vector3
 from gazelle.errors import PlanningError
-from gazelle.planning.robot_model import RobotModel
+from gazelle.kinematics.robot_model import RobotModel
 
 Region = Box | Sphere | Cylinder
 

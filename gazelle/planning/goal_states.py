@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats, Indices
 from gazelle.description import Box, Pose, Sphere
 from gazelle.errors import PlanningError
+from gazelle.kinematics.inverse import Aim, InverseKinematics
 from gazelle.planning.constraints import (
     ConstraintSet,
     OrientationConstraint,
     PositionConstraint,
 )
-from gazelle.planning.inverse import Aim, InverseKinematics
 from gazelle.planning.outcomes import NoPlanError, PlanOutcome
 from gazelle.planning.state_validity import StateValidity
 

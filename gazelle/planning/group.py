@@ -13,21 +13,21 @@ from gazelle.array_types import Floats
 from gazelle.description import Plane, Pose, Semantics
 from gazelle.errors import PlanningError, did_you_mean
 from gazelle.formats import Resolver, load_srdf
+from gazelle.kinematics.joint_group import JointModelGroup
+from gazelle.kinematics.robot_model import RobotModel
+from gazelle.kinematics.variables import JointBounds
 from gazelle.planning.cartesian_path import JumpLimits
 from gazelle.planning.constraints import ConstraintSet
 from gazelle.planning.execution import Execution, ExecutionReport, begin_execution
 from gazelle.planning.goal_states import Goal
 from gazelle.planning.grasps import Grasp, PlaceLocation
 from gazelle.planning.gripper import RobotGripper
-from gazelle.planning.joint_group import JointModelGroup
 from gazelle.planning.manipulation import Manipulation
 from gazelle.planning.manipulation_plan import ContactRules
 from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptions
 from gazelle.planning.pick_place import PickPlacePlanner
-from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene import PlanningScene
 from gazelle.planning.scene_objects import SceneObject
-from gazelle.planning.variables import JointBounds
 from gazelle.simulation.inputs import one_world
 from gazelle.simulation.joint_motion import JointMotion
 from gazelle.simulation.robot import Robot

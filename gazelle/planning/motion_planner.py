@@ -13,12 +13,12 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
+from gazelle.kinematics.inverse import InverseKinematics
+from gazelle.kinematics.joint_group import JointModelGroup
 from gazelle.planning import ompl_planners
 from gazelle.planning.cartesian_path import CartesianPath, CartesianPlanner, JumpLimits
 from gazelle.planning.constraints import ConstraintSet, nearest_on
 from gazelle.planning.goal_states import Goal, GoalStates
-from gazelle.planning.inverse import InverseKinematics
-from gazelle.planning.joint_group import JointModelGroup
 from gazelle.planning.outcomes import NoPlanError, PlanOutcome
 from gazelle.planning.planner_names import planner_of
 from gazelle.planning.rrt_connect import rrt_connect

@@ -16,10 +16,10 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.errors import PlanningError, did_you_mean
+from gazelle.kinematics.inverse import InverseKinematics
+from gazelle.kinematics.joint_group import JointModelGroup
 from gazelle.planning.constraints import ConstraintSet
 from gazelle.planning.grasps import Grasp, GripperTranslation, PlaceLocation
-from gazelle.planning.inverse import InverseKinematics
-from gazelle.planning.joint_group import JointModelGroup
 from gazelle.planning.manipulation_plan import (
     ContactRules,
     ManipulationPlan,

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from gazelle.description import Collision, Link, Pose
 from gazelle.engines.collision import CollisionBody
-from gazelle.planning.robot_model import RobotModel
+from gazelle.kinematics.robot_model import RobotModel
 from gazelle.planning.scene_objects import AttachedObject, scaled
 
 _LINK = re.compile(r"link\[@name='([^']+)'\]")

@@ -12,10 +12,10 @@ from gazelle.array_types import Floats
 from gazelle.description import Pose, Vector3
 from gazelle.engines.collision import CollisionBody, CollisionModel, Shape, collision_model
 from gazelle.errors import PlanningError, did_you_mean
+from gazelle.kinematics.joint_group import JointModelGroup
+from gazelle.kinematics.robot_model import RobotModel
 from gazelle.planning.allowed_collisions import AllowedCollisionMatrix
-from gazelle.planning.joint_group import JointModelGroup
 from gazelle.planning.robot_bodies import robot_bodies
-from gazelle.planning.robot_model import RobotModel
 from gazelle.planning.scene_objects import AttachedObject, SceneObject, object_of
 
 

@@ -9,8 +9,8 @@ from itertools import pairwise
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.kinematics.joint_group import SAMPLED_SPAN, JointModelGroup
 from gazelle.planning.constraints import ConstraintSet
-from gazelle.planning.joint_group import SAMPLED_SPAN, JointModelGroup
 from gazelle.planning.scene import PlanningScene
 
 LONGEST_SEGMENT = 0.005

@@ -15,7 +15,7 @@ from gazelle import assets, formats
 from gazelle.control import GoalState
 from gazelle.control.values import GripperGoal, JointTrajectory, TrajectoryGoal, TrajectoryPoint
 from gazelle.errors import FormatWarning
-from gazelle.planning import RobotModel
+from gazelle.kinematics import RobotModel
 
 URDF = assets.root() / "fetch_description" / "robots" / "fetch.urdf"
 CONTROLLERS = assets.root() / "fetch_gazebo" / "config" / "default_controllers.yaml"

@@ -75,7 +75,7 @@ def description(path: Path) -> None:
 
 def robot(path: Path) -> None:
     """As `description`, and planning."""
-    from gazelle.planning import RobotModel
+    from gazelle.kinematics import RobotModel
 
     description(path)
     model = formats.load_model(path)
@@ -142,7 +142,7 @@ def model_folder(path: Path) -> None:
 
 def semantics(path: Path) -> None:
     """An SRDF, with the robot that it is for."""
-    from gazelle.planning import RobotModel
+    from gazelle.kinematics import RobotModel
 
     formats.check(path, urdf=ARM)
     RobotModel(formats.load_model(ARM), formats.load_srdf(path))

@@ -11,14 +11,13 @@ import pytest
 import gazelle
 from gazelle.description import Box, Joint, Pose
 from gazelle.formats import load_mesh, load_model, load_srdf
+from gazelle.kinematics import InverseKinematics, RobotModel
 from gazelle.planning import (
     AllowedCollisionMatrix,
     Group,
-    InverseKinematics,
     MotionPlanner,
     PlanningScene,
     PlanOptions,
-    RobotModel,
 )
 from gazelle.planning.robot_bodies import shapes_of
 from gazelle.planning.state_validity import StateValidity

@@ -7,6 +7,7 @@ import pytest
 
 from gazelle.description import Pose, Sphere
 from gazelle.formats import load_model_string, load_srdf_string
+from gazelle.kinematics import RobotModel
 from gazelle.planning import (
     ConstraintSet,
     JointConstraint,
@@ -15,7 +16,6 @@ from gazelle.planning import (
     PlanningScene,
     PlanOptions,
     PlanOutcome,
-    RobotModel,
     goal_of_pose,
 )
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from gazelle.errors import FormatError, PlanningError
-from gazelle.planning import JointBounds, RobotModel
+from gazelle.kinematics import JointBounds, RobotModel
 
 GROUPS = """
   <group name="chain"><chain base_link="base" tip_link="tool"/></group>

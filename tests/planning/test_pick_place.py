@@ -13,6 +13,7 @@ from gazelle import assets
 from gazelle.description import Box, Pose
 from gazelle.errors import PlanningError
 from gazelle.formats import load_model, load_srdf
+from gazelle.kinematics import RobotModel
 from gazelle.planning import (
     ContactRules,
     Grasp,
@@ -24,7 +25,6 @@ from gazelle.planning import (
     PlanOptions,
     PlanOutcome,
     RobotGripper,
-    RobotModel,
     box_grasps,
 )
 from gazelle.planning.state_validity import StateValidity

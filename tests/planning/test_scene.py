@@ -18,11 +18,11 @@ from gazelle.description import (
 )
 from gazelle.errors import PlanningError
 from gazelle.formats import MeshData, Octree, load_model_string
+from gazelle.kinematics import RobotModel
 from gazelle.planning import (
     OCTOMAP,
     AllowedCollisionMatrix,
     PlanningScene,
-    RobotModel,
     octree_object,
     voxel_boxes,
 )

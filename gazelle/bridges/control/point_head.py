@@ -17,8 +17,8 @@ from gazelle.array_types import Floats
 from gazelle.bridges.control.description import find_model
 from gazelle.bridges.conversions import point
 from gazelle.errors import ControlError, Error
-from gazelle.planning import RobotModel
-from gazelle.planning.pointing import Pointing
+from gazelle.kinematics import RobotModel
+from gazelle.kinematics.pointing import Pointing
 from gazelle.ros.actions import SimpleActionServer
 from gazelle.ros.builtin.arguments import parse_arguments, spin
 from gazelle.ros.messages import load_message

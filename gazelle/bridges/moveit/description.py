@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.formats import load_model_string, load_srdf_string
-from gazelle.planning import JointBounds, RobotModel
+from gazelle.kinematics import JointBounds, RobotModel
 from gazelle.real_numbers import real
 from gazelle.ros.node import Node
 

@@ -10,10 +10,10 @@ from gazelle.bridges.moveit.planning_context import PlanningContext
 from gazelle.bridges.moveit.trajectory_messages import trajectory_message
 from gazelle.description import Vector3
 from gazelle.errors import PlanningError
+from gazelle.kinematics import JointModelGroup
 from gazelle.planning import (
     Grasp,
     GripperTranslation,
-    JointModelGroup,
     ManipulationStage,
     NoPlanError,
     PlaceLocation,

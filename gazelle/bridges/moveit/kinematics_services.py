@@ -13,10 +13,9 @@ from gazelle.bridges.moveit.frames import stamped_message
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.robot_states import state_message
 from gazelle.errors import PlanningError
+from gazelle.kinematics import InverseKinematics, JointModelGroup
 from gazelle.planning import (
     ConstraintSet,
-    InverseKinematics,
-    JointModelGroup,
     NoPlanError,
     PlanningScene,
     PlanOutcome,

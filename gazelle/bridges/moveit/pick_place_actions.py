@@ -14,9 +14,9 @@ from gazelle.bridges.moveit.robot_states import state_message
 from gazelle.bridges.moveit.scene_services import SceneServices
 from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
 from gazelle.errors import PlanningError
+from gazelle.kinematics import JointModelGroup
 from gazelle.planning import (
     ContactRules,
-    JointModelGroup,
     ManipulationPlan,
     ManipulationStage,
     NoPlanError,

@@ -8,15 +8,14 @@ from dataclasses import replace
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.kinematics import JointModelGroup, RobotModel
 from gazelle.planning import (
     ConstraintSet,
-    JointModelGroup,
     MotionPlan,
     MotionPlanner,
     NoPlanError,
     PlanningScene,
     PlanOptions,
-    RobotModel,
 )
 
 _STRAIGHT = 2

@@ -15,14 +15,8 @@ from gazelle.bridges.moveit.frames import PlanningFrames
 from gazelle.bridges.moveit.held_objects import scene_in_state
 from gazelle.bridges.moveit.robot_states import JointStateMonitor, state_of_message
 from gazelle.errors import Error, PlanningError
-from gazelle.planning import (
-    ConstraintSet,
-    JointModelGroup,
-    NoPlanError,
-    PlanningScene,
-    PlanOutcome,
-    RobotModel,
-)
+from gazelle.kinematics import JointModelGroup, RobotModel
+from gazelle.planning import ConstraintSet, NoPlanError, PlanningScene, PlanOutcome
 from gazelle.ros.node import Node
 
 LOG = logging.getLogger("gazelle.planning")

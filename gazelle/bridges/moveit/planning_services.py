@@ -15,9 +15,9 @@ from gazelle.bridges.moveit.robot_states import state_message
 from gazelle.bridges.moveit.trajectory_messages import trajectory_message
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
+from gazelle.kinematics import JointModelGroup
 from gazelle.planning import (
     ConstraintSet,
-    JointModelGroup,
     JumpLimits,
     MotionPlan,
     MotionPlanner,

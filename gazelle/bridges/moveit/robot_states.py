@@ -8,7 +8,8 @@ import time
 from typing import Any
 
 from gazelle.array_types import Floats
-from gazelle.planning import NoPlanError, PlanOutcome, RobotModel
+from gazelle.kinematics import RobotModel
+from gazelle.planning import NoPlanError, PlanOutcome
 from gazelle.ros.messages import load_message
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time

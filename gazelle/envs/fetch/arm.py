@@ -11,7 +11,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Joint, Model, Pose
 from gazelle.envs.fetch.gripper import DOWN, FINGERS, GRIP, TIP, CarriedGripper, driven, fetch_model
 from gazelle.errors import TaskError
-from gazelle.planning import InverseKinematics, RobotModel
+from gazelle.kinematics import InverseKinematics, RobotModel
 from gazelle.simulation import Simulation
 
 ARM = (

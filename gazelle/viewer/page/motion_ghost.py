@@ -12,7 +12,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Link, Material, Model, Pose, World
 from gazelle.errors import PlanningError
-from gazelle.planning import RobotModel
+from gazelle.kinematics import RobotModel
 from gazelle.rotations import conjugate, from_matrices, multiply, rotate
 from gazelle.simulation.joint_motion import JointMotion
 from gazelle.viewer.page.restyled import restyled

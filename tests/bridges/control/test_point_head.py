@@ -9,8 +9,8 @@ from ros.graph import until
 
 from gazelle import formats
 from gazelle.bridges.control.point_head import HeadPointer
-from gazelle.planning import RobotModel
-from gazelle.planning.pointing import Pointing
+from gazelle.kinematics import RobotModel
+from gazelle.kinematics.pointing import Pointing
 from gazelle.ros import Master, Node
 from gazelle.ros.actions import SimpleActionClient
 from gazelle.ros.actions.states import GoalStatus

@@ -10,7 +10,8 @@ from bridges.moveit.moveit_graph import message, moveit_graph
 from gazelle.bridges.moveit.frames import pose_message, pose_of_message, stamped_message
 from gazelle.description import Box, Pose
 from gazelle.errors import PlanningError, PlanningWarning
-from gazelle.planning import InverseKinematics, PlanOutcome
+from gazelle.kinematics import InverseKinematics
+from gazelle.planning import PlanOutcome
 from gazelle.ros import Master, Node, load_message, load_service
 from gazelle.ros.builtin.registry import main_of
 from gazelle.ros.time import Duration

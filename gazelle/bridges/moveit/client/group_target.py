@@ -12,7 +12,7 @@ from gazelle.bridges.moveit.client.robot_access import RobotAccess
 from gazelle.bridges.moveit.client.session import LOG
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
-from gazelle.planning import InverseKinematics
+from gazelle.kinematics import InverseKinematics
 from gazelle.ros.messages import load_message
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from gazelle.array_types import Floats
 from gazelle.bridges.moveit.frames import pose_message
 from gazelle.description import Box, Cylinder, Mesh, Sphere
-from gazelle.planning import RobotModel
+from gazelle.kinematics import RobotModel
 from gazelle.ros.messages import load_message
 from gazelle.ros.time import Time
 

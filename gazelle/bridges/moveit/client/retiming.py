@@ -10,7 +10,8 @@ import numpy as np
 from gazelle.bridges.moveit.client.session import LOG
 from gazelle.bridges.moveit.trajectory_messages import points_of
 from gazelle.errors import PlanningError
-from gazelle.planning import PathLimits, RobotModel, parameterize
+from gazelle.kinematics import RobotModel
+from gazelle.planning import PathLimits, parameterize
 from gazelle.planning.time_parameterization import TimeAlgorithm
 from gazelle.ros.messages import load_message
 

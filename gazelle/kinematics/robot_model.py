@@ -16,9 +16,9 @@ from gazelle.description import (
     Semantics,
 )
 from gazelle.errors import PlanningError, did_you_mean
-from gazelle.planning.joint_group import JointModelGroup, ends_of
-from gazelle.planning.tree_builder import LinkFrame, TreeBuilder, flat
-from gazelle.planning.variables import JointBounds
+from gazelle.kinematics.joint_group import JointModelGroup, ends_of
+from gazelle.kinematics.tree_builder import LinkFrame, TreeBuilder, flat
+from gazelle.kinematics.variables import JointBounds
 
 
 class RobotModel:

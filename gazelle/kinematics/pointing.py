@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats
 from gazelle.errors import PlanningError
-from gazelle.planning.robot_model import RobotModel
+from gazelle.kinematics.robot_model import RobotModel
 
 _STEPS = 60
 _DIFFERENCE = 1e-6  # of a joint, for derivatives [rad]

@@ -9,8 +9,8 @@ import numpy as np
 
 from gazelle.description import Joint, Model, Pose, VirtualJoint
 from gazelle.errors import PlanningError
-from gazelle.planning.joint_tree import JointTree
-from gazelle.planning.variables import JointBounds, Variable, bounds_of
+from gazelle.kinematics.joint_tree import JointTree
+from gazelle.kinematics.variables import JointBounds, Variable, bounds_of
 
 WORLD = "world"
 """Parent of joints that hold a robot to the world."""

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Bools, Floats, Indices
 from gazelle.description import EndEffector
 from gazelle.errors import PlanningError, did_you_mean
-from gazelle.planning.variables import Variable
+from gazelle.kinematics.variables import Variable
 
 SAMPLED_SPAN = math.pi
 """Range about zero in which variables without limits are sampled [m or rad]."""

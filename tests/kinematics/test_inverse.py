@@ -6,7 +6,7 @@ import pytest
 
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
-from gazelle.planning import InverseKinematics
+from gazelle.kinematics import InverseKinematics
 
 
 def reachable(robot, group, count, seed=0):

@@ -14,10 +14,10 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Bools, Floats, Ints64
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
-from gazelle.planning.chain_solver import ChainSolver
-from gazelle.planning.joint_group import JointModelGroup
-from gazelle.planning.robot_model import RobotModel
-from gazelle.planning.tree_builder import flat
+from gazelle.kinematics.chain_solver import ChainSolver
+from gazelle.kinematics.joint_group import JointModelGroup
+from gazelle.kinematics.robot_model import RobotModel
+from gazelle.kinematics.tree_builder import flat
 
 Aim = Literal["pose", "position", "orientation"]
 

@@ -10,8 +10,8 @@ What does not get better is given up, and begun anew elsewhere.
 
 import cython
 import numpy as np
+from cython.cimports.gazelle.kinematics.joint_tree import JointTree, compose
 from cython.cimports.gazelle.native.elementary import atan2
-from cython.cimports.gazelle.planning.joint_tree import JointTree, compose
 from cython.cimports.libc.math import fabs, sqrt
 
 from gazelle.array_types import Floats, Indices

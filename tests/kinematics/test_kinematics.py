@@ -9,7 +9,7 @@ from gazelle.description import Pose, World
 from gazelle.engines.mujoco import to_mjcf
 from gazelle.errors import Error, PlanningError
 from gazelle.formats import load_model_string
-from gazelle.planning import RobotModel
+from gazelle.kinematics import RobotModel
 
 
 def states(robot, count=20, seed=0):
