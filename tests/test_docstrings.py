@@ -23,6 +23,8 @@ KINDS = {
     ast.FunctionDef: "function",
     ast.AsyncFunctionDef: "function",
 }
+VERBS = (Path(__file__).parent / "docstring_verbs.txt").read_text(encoding="utf-8").split()
+"""Imperatives that begin a function's docstring: a new one is added there."""
 
 
 def is_text(node):
@@ -31,9 +33,15 @@ def is_text(node):
     return isinstance(value, ast.Constant) and isinstance(value.value, str)
 
 
+def is_property(node):
+    """Return whether a statement defines a property, whose docstring is a noun phrase."""
+    names = [ast.unparse(each) for each in getattr(node, "decorator_list", [])]
+    return any(name.split(".")[-1] in {"property", "cached_property"} for name in names)
+
+
 def docstrings_below(node):
     """Yield the kind, line and text of each docstring in a statement; expressions have none."""
-    kind = KINDS.get(type(node))
+    kind = "property" if is_property(node) else KINDS.get(type(node))
     text = ast.get_docstring(node) if kind else None
     if text:
         yield kind, node.body[0].lineno, text
@@ -61,6 +69,11 @@ def all_docstrings(folder):
     ]
 
 
+def begins_with_verb(text):
+    """Return whether the first word of a docstring is a known imperative."""
+    return re.match(r"[\w-]*", text)[0] in VERBS
+
+
 def first_sentence(text):
     """Return the first sentence of a docstring, or its first paragraph without a full stop."""
     paragraph = text.strip().split("\n\n")[0]
@@ -86,6 +99,14 @@ class Thing:
 
     def rest(self):
         """Wait for the end."""
+
+    @property
+    def width(self):
+        """Width of the thing."""
+
+    @functools.cached_property
+    def depth(self):
+        """Depth of the thing."""
 '''
 
 
@@ -98,6 +119,8 @@ def test_docstrings_of_all_kinds_are_found():
         ("function", "Wait for the end."),
         ("function", "Whether it acts. This is more."),
         ("module", "How it is."),
+        ("property", "Depth of the thing."),
+        ("property", "Width of the thing."),
     ]
     assert sum(bool(QUESTION.match(text)) for _, text in found) == 4
 
@@ -113,6 +136,38 @@ def test_docstrings_of_all_kinds_are_found():
 )
 def test_the_first_sentence_is_found(text, first):
     assert first_sentence(text) == first
+
+
+@pytest.mark.parametrize(
+    ("text", "fits"),
+    [
+        ("Return the pose of a link.", True),
+        ("Wait.", True),
+        ("Flood-fill from a bin.", True),
+        ("The pose of a link.", False),
+        ("A map from a file.", False),
+        ("Of two poses, the distance.", False),
+        ("It happened.", False),
+        ("Joints of a robot.", False),
+        ("Two poses.", False),
+        ("``size``.", False),
+        ("Let it go.", False),
+        ("Forget it.", False),
+    ],
+)
+def test_imperatives_are_told_from_other_words(text, fits):
+    assert begins_with_verb(text) == fits
+
+
+def test_the_list_of_imperatives_is_sorted():
+    assert sorted(set(VERBS)) == VERBS
+
+
+@pytest.mark.long
+def test_docstrings_of_functions_begin_with_a_verb():
+    functions = [each for each in all_docstrings(PACKAGE) if each[1] == "function"]
+    assert len(functions) > 8_000
+    assert [each for each in functions if not begins_with_verb(each[3])] == []
 
 
 @pytest.mark.long

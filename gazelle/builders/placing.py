@@ -189,7 +189,7 @@ def _footprint(pose: Pose, shape: Geometry) -> Rectangle:
 
 
 def _bounds(shape: Geometry) -> tuple[Vector3, Vector3]:
-    """Lower and upper corner of the box around a shape, in its frame [m]."""
+    """Return lower and upper corner of the box around a shape, in its frame [m]."""
     if isinstance(shape, Polyline):
         points = [point for outline in shape.outlines for point in outline] or [(0.0, 0.0)]
         xs, ys = [x for x, _ in points], [y for _, y in points]

@@ -61,7 +61,7 @@ class FourWheelSteeringController(BaseController):
     def _read_sizes(
         self, given: ControllerParameters, names: Mapping[str, tuple[str, ...]]
     ) -> Floats:
-        """Track between steering joints, wheel base, radius, and how far wheels are outside [m]."""
+        """Return track between steering joints, wheel base, radius, and wheel offset [m]."""
         front, rear = names["front_wheel"], names["rear_wheel"]
         steering = names["front_steering"]
         offset = given.number("wheel_steering_y_offset", 0.0)

@@ -237,7 +237,7 @@ class RobotModel:
         return np.clip(np.zeros(len(self.variables)), lower, upper)
 
     def limits(self) -> tuple[Floats, Floats]:
-        """Lower and upper limits of the variables [m or rad], shape (variables,) each."""
+        """Return lower and upper limits of the variables [m or rad], shape (variables,) each."""
         lower = np.array([variable.bounds.lower for variable in self.variables])
         upper = np.array([variable.bounds.upper for variable in self.variables])
         return lower, upper

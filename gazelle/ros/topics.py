@@ -93,7 +93,7 @@ class TopicNode(NodeBase):
         tcp_nodelay: bool = False,
         raw: bool = False,
     ) -> Subscriber:
-        """Get the messages of a topic, one after another, on a worker thread.
+        """Subscribe to a topic; messages are handled one by one on a worker thread.
 
         Args:
             topic: Any name; it is resolved for the node.

@@ -206,7 +206,7 @@ def told_by(env: VectorEnv[Any, Any, Any], name: str) -> Any:
 
 
 def step_limit(env: VectorEnv[Any, Any, Any]) -> int | None:
-    """Control steps after which an episode is cut off; None if the environment does not tell.
+    """Return the control steps after which an episode is truncated; None if unknown.
 
     Read from ``task.max_episode_steps`` of Gazelle's environments, else from the specification of the copies.
     """

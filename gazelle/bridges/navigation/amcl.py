@@ -96,7 +96,7 @@ class AmclNode:
     # The life of it -----------------------------------------------------------------------
 
     def run(self, stop: threading.Event) -> None:
-        """Get a map, then take scans until told to end."""
+        """Receive a map, then process scans until shutdown."""
         if self._maps is None:
             grid = map_of_service(self._node, stop.is_set)
             if grid is not None:

@@ -182,7 +182,7 @@ class AGVFleetTask(BatchedTask):
         self._next_goals(worlds)
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Start (x, y, heading) and first goal (x, y) of each AGV."""
+        """Return start (x, y, heading) and first goal (x, y) of each AGV."""
         return np.hstack((self._start[worlds], self.goals[worlds]))
 
     def _free_places(self, worlds: Worlds) -> Worlds:

@@ -89,7 +89,7 @@ class KobukiTask(SimulationTask):
             self._boxes.begin(worlds, shares[:, 6:])
 
     def scenario(self, worlds: Worlds) -> Floats:
-        """Start (x, y, heading), first goal (x, y) and number of the way, shape (n, 6)."""
+        """Return start (x, y, heading), first goal (x, y) and number of the path, shape (n, 6)."""
         memory = self.memory
         return np.column_stack([memory[name][worlds] for name in ("start", "goal", "way")])
 

@@ -150,7 +150,7 @@ class TurtleBot3Task(BatchedTask):
             return None
 
     def scenario(self, worlds: Worlds) -> NDArray[np.float64]:
-        """Start (x, y, heading), first goal (x, y), and how long ago scripts began, if varied."""
+        """Return start (x, y, heading), first goal (x, y), and times since scripts began."""
         count = len(worlds)
         start: Any = (*self.rules.start, 0.0)
         phases = np.zeros((count, 0))

@@ -107,7 +107,7 @@ class ClientSubscription:
         return not self._requests
 
     def close(self) -> None:
-        """Get no more messages."""
+        """Unsubscribe."""
         if self._subscriber is not None:
             self._subscriber.close()
         self._outbox.forget(self._queue)

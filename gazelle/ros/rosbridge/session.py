@@ -288,7 +288,7 @@ def _positive(message: OperationFields, name: str) -> int | None:
 
 
 def _publishing(message: OperationFields) -> tuple[int, bool]:
-    """Queue size and latching of a publisher."""
+    """Return queue size and latching of a publisher."""
     size = message.integer("queue_size", 100)
     if size < 1:
         raise RosError(f"queue_size is {size}; it wants an int above zero")

@@ -10,7 +10,7 @@ _SHORTEST = 0.0001
 
 
 def _rate(cache: FrameCache) -> tuple[float, float, float, float]:
-    """Average rate [Hz], latest and oldest time [s], and the time between them [s]."""
+    """Return average rate [Hz], latest and oldest time [s], and the time between them [s]."""
     count, oldest, latest = cache.span()
     length = (latest - oldest) * _SECOND
     return count / max(length, _SHORTEST), latest * _SECOND, oldest * _SECOND, length
