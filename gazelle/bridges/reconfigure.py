@@ -24,11 +24,11 @@ class TunedValue(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the value."""
 
     @property
     def default(self) -> Any:
-        """Its type is that of all values: bool, int, str or float."""
+        """Default value: its type, bool, int, str or float, is that of all values."""
 
     @property
     def least(self) -> Any:
@@ -40,7 +40,7 @@ class TunedValue(Protocol):
 
     @property
     def description(self) -> str:
-        """For people."""
+        """Description for people."""
 
 
 class Tuned(Protocol):

@@ -90,7 +90,7 @@ class PhysicsCalls:
 
     @property
     def time_step(self) -> float:
-        """Between two steps of the physics [s]."""
+        """Time between two steps of the physics [s]."""
         return self.physics.time_step
 
     @time_step.setter

@@ -58,12 +58,12 @@ class Goal(Generic[G]):
 
     @property
     def state(self) -> GoalState:
-        """In the first of its worlds."""
+        """State in the first of its worlds."""
         return GoalState(int(self.states[0]))
 
     @property
     def result(self) -> Any:
-        """In the first of its worlds; None while there is none."""
+        """Result in the first of its worlds; None while there is none."""
         return self.results[0]
 
     @property

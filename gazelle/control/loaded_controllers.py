@@ -28,7 +28,7 @@ class LoadedControllers(dict[str, LoadedController]):
 
     @property
     def running(self) -> list[LoadedController]:
-        """Those that run."""
+        """Running controllers."""
         return [each for each in self.values() if each.controller.running]
 
     def control(self, now_ns: int, period: float, restart: Worlds | None) -> None:

@@ -86,7 +86,7 @@ class Pid:
 
     @property
     def gains(self) -> tuple[PidGains, ...]:
-        """Of each loop."""
+        """Gains of each loop."""
         return self._gains
 
     def set_gains(self, gains: Sequence[PidGains]) -> None:

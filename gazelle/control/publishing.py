@@ -47,7 +47,7 @@ class PublishingSchedule:
 
     @property
     def next_ns(self) -> float:
-        """From when on it is due [ns]; at once if it never was."""
+        """Next due time [ns]; at once if it never was due."""
         if not self._period_ns:
             return math.inf
         return 0.0 if self._last_ns is None else self._last_ns + self._period_ns + 1

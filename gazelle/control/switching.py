@@ -31,7 +31,7 @@ class LoadedController:
 
     @property
     def info(self) -> ControllerInfo:
-        """As the robot's side sees it."""
+        """Information in the form of the robot's side."""
         own = self.controller
         return ControllerInfo(own.name, own.type, dict(own.claimed))
 

@@ -245,7 +245,7 @@ class StageModel:
 
     @property
     def _begin(self) -> StagePose:
-        """Its pose; of an actuator that where it starts."""
+        """Pose of the model; of an actuator that of its start."""
         device = self.device_of(StageActuator)
         return self.pose if device is None else self.pose.then(StagePose(*device.offset))
 
@@ -289,7 +289,7 @@ class PlacedStageModel:
 
     @property
     def body_pose(self) -> StagePose:
-        """Of its body, in the world."""
+        """Pose of the body, in the world."""
         return self.pose.then(self.model.origin)
 
 

@@ -181,7 +181,7 @@ class StageActuator:
 
     @property
     def offset(self) -> Quartet:
-        """Of where it starts from its pose, in the frame of that."""
+        """Offset of the start from the pose, in the frame of the pose."""
         if self.type == "rotational":
             return (0.0, 0.0, 0.0, self.start)
         length = math.hypot(*self.axis)

@@ -85,7 +85,7 @@ class StageRobot:
 
     @property
     def position(self) -> StagePosition:
-        """Its drive and localization."""
+        """Position model: drive and localization."""
         return self.model.position or StagePosition()
 
 

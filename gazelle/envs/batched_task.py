@@ -151,7 +151,7 @@ class BatchedTask(ABC):
 
     @property
     def row_space(self) -> gym.spaces.Box:
-        """Of what `Transition.observation` holds of one world."""
+        """Space of one world's row in `Transition.observation`."""
         return self.observation_space
 
     @property

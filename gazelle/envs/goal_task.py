@@ -121,7 +121,7 @@ class GoalSimulationTask(SimulationTask):
 
     @property
     def row_space(self) -> gym.spaces.Box:
-        """Of observation and goals in a row."""
+        """Space of observation and goals in a row."""
         return self.rows.row_space
 
     @property

@@ -70,17 +70,17 @@ class TaskWrapper(BatchedTask):
 
     @property
     def scenario_names(self) -> tuple[str, ...]:  # type: ignore[override]  # the other task's
-        """As the other task's."""
+        """Names of the wrapped task's numbers."""
         return self.task.scenario_names
 
     @property
     def goal_places(self) -> Floats | None:
-        """As the other task's."""
+        """Goals of the wrapped task."""
         return self.task.goal_places
 
     @property
     def floor_plan(self) -> FloorPlan | None:  # type: ignore[override]  # the other task's
-        """As the other task's."""
+        """Floor plan of the wrapped task."""
         return self.task.floor_plan
 
     def render(self, world: int) -> NDArray[np.uint8]:

@@ -25,7 +25,7 @@ class WavefrontPiece(Protocol):
 
     @property
     def name(self) -> str:
-        """Of the object."""
+        """Name of the object."""
 
     @property
     def vertices(self) -> Floats:

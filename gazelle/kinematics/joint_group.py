@@ -48,7 +48,7 @@ class JointModelGroup:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the variables."""
+        """Names of the variables."""
         return tuple(variable.name for variable in self.variables)
 
     @property

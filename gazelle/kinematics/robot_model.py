@@ -73,7 +73,7 @@ class RobotModel:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the variables."""
+        """Names of the variables."""
         return tuple(variable.name for variable in self.variables)
 
     def column(self, name: str) -> int:

@@ -79,7 +79,7 @@ class BoxTree:
 
     @property
     def depth(self) -> Ints32:
-        """Return the number of nodes above each, shape (2 n - 1,)."""
+        """Number of nodes above each, shape (2 n - 1,)."""
         return np.asarray(self._depth)
 
     @cython.cfunc

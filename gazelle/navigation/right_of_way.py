@@ -76,11 +76,11 @@ class Traveller(Protocol):
 
     @property
     def goal(self) -> Pose2 | None:
-        """Its own, even while it makes way; None if it has none."""
+        """Goal of its own, even while it makes way; None without one."""
 
     @property
     def grid(self) -> OccupancyMap | None:
-        """Its map; None before the first scan of one that is made."""
+        """Map of the robot; None before the first scan of one that is made."""
 
     @property
     def body(self) -> RobotDisc | None:

@@ -37,7 +37,7 @@ class PathPieces:
 
     @property
     def length(self) -> float:
-        """Of the whole path."""
+        """Length of the whole path."""
         return float(self.begins[-1])
 
     def at(self, places: Floats) -> tuple[Floats, Floats, Floats]:

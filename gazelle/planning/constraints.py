@@ -181,7 +181,7 @@ class ConstraintSet:
 
     @property
     def all(self) -> tuple[JointConstraint | PositionConstraint | OrientationConstraint, ...]:
-        """Of joints, then of points, then of links."""
+        """Constraints of joints, then of points, then of links."""
         return (*self.joints, *self.positions, *self.orientations)
 
     def violations(self, robot: RobotModel, state: Floats) -> list[str]:

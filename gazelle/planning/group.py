@@ -136,7 +136,7 @@ class Group:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the joints."""
+        """Names of the joints."""
         return self.model.names
 
     @property

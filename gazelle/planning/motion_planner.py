@@ -89,12 +89,12 @@ class MotionPlan:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the joints, columns of the trajectory."""
+        """Names of the joints, columns of the trajectory."""
         return self.group.names
 
     @property
     def end(self) -> Floats:
-        """Of all variables, where it ends, shape (variables,)."""
+        """End state of all variables, shape (variables,)."""
         state = self.start.copy()
         state[self.group.columns] = self.points[-1]
         return state

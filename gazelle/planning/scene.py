@@ -208,7 +208,7 @@ class PlanningScene:
 
     @property
     def padding(self) -> Mapping[str, float]:
-        """By link [m]."""
+        """Padding by link [m]."""
         return dict(self._padding)
 
     def set_padding(self, padding: Mapping[str, float]) -> None:
@@ -227,7 +227,7 @@ class PlanningScene:
 
     @property
     def scale(self) -> Mapping[str, float]:
-        """By link."""
+        """Scale by link."""
         return dict(self._scale)
 
     def set_scale(self, scale: Mapping[str, float]) -> None:

@@ -79,7 +79,7 @@ class CommandTimeout:
 
     @property
     def since_ns(self) -> int:
-        """When the last command was seen [ns]."""
+        """Time of the last command [ns]."""
         return int(self._tables.since_ns[0])
 
     def restart(self, since_ns: int | None = None) -> None:

@@ -146,7 +146,7 @@ class DeadReckoning:
 
     @property
     def last_ns(self) -> int:
-        """When it was advanced last [ns]."""
+        """Time of the last advance [ns]."""
         return int(self.tables.last_ns[0])
 
     @last_ns.setter

@@ -71,7 +71,7 @@ class SensorErrors:
 
     @property
     def variance(self) -> Floats:
-        """Of drift and noise together, shape (axes,)."""
+        """Variance of drift and noise together, shape (axes,)."""
         return self._drift**2 + self.spread**2
 
     @property

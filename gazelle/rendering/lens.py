@@ -74,5 +74,5 @@ class PinholeLens:
 
     @property
     def row(self) -> tuple[float, float, float, float, float, float]:
-        """As the rasteriser wants it; the optical axis goes through the middle."""
+        """Row of numbers for the rasteriser; the optical axis goes through the middle."""
         return (*self.focals, self.width / 2.0, self.height / 2.0, self.near, self.far)

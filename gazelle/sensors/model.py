@@ -110,7 +110,7 @@ class FromPython:
 
     @property
     def latest(self) -> tuple[NDArray[Any], NDArray[np.int64]]:
-        """Raise an error: there is no kernel that measures.
+        """Error: there is no kernel that measures.
 
         Raises:
             TypeError: Always.

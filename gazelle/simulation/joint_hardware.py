@@ -157,7 +157,7 @@ class JointHardware(SimulatedHardware):
 
     @property
     def motors(self) -> frozenset[str]:
-        """Those that hold velocities without gains."""
+        """Joints that hold velocities without gains."""
         return frozenset(self._joints[index].name for index in self._motors)
 
     def do_switch(self, start: Sequence[ControllerInfo], stop: Sequence[ControllerInfo]) -> None:

@@ -62,7 +62,7 @@ class JointHandle:
     @property
     @between_steps
     def effort(self) -> None:
-        """Write only: effort applied until told otherwise [N or N m]."""
+        """Write-only effort that acts until the next one [N or N m]."""
         raise SimulationError(f"the effort on joint '{self.name}' is measured by a force sensor")
 
     @effort.setter

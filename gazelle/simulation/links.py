@@ -36,7 +36,7 @@ class LinkHandle:
     @property
     @between_steps
     def pose(self) -> Pose:
-        """Its pose in world 0."""
+        """Pose in world 0."""
         place = self._row.placement(np.array([0]))
         return Pose.from_quaternion(tuple(place.position[0]), tuple(place.quaternion[0]))
 

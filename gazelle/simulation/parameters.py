@@ -78,7 +78,7 @@ class Equipped(Protocol):
 
     @property
     def sensors(self) -> Mapping[str, Measured]:
-        """By name."""
+        """Sensors by name."""
 
 
 class PopulatedState(RunningState, Protocol):
@@ -86,7 +86,7 @@ class PopulatedState(RunningState, Protocol):
 
     @property
     def robots(self) -> Mapping[str, Equipped]:
-        """By name."""
+        """Robots by name."""
 
 
 class SensorNoise:

@@ -56,7 +56,7 @@ class RobotHost(RunningState, Protocol):
 
     @property
     def loop(self) -> StepMaker:
-        """Makes the steps."""
+        """Step loop."""
 
     @property
     def robots(self) -> Mapping[str, Robot]:
@@ -64,7 +64,7 @@ class RobotHost(RunningState, Protocol):
 
     @property
     def plugins(self) -> list[ScheduledPlugin]:
-        """Of the world and of all models."""
+        """Plugins of the world and of all models."""
 
     @property
     def time(self) -> float:
@@ -181,7 +181,7 @@ class Robot(Ports):
     @property
     @between_steps
     def navigation(self) -> NavigationControl:
-        """Takes a robot with a drive and a laser to goals: ``robot.navigation.go_to(2.0, 1.0)``.
+        """Navigation of a robot with drive and laser: ``robot.navigation.go_to(2.0, 1.0)``.
 
         Raises:
             SimulationError: The robot has no drive or no laser.

@@ -120,7 +120,7 @@ class Simulation(Closeable):
 
     @property
     def engine(self) -> Engine:
-        """Moves the world; to be used by threads that hold ``lock``."""
+        """Engine of the world; for threads that hold ``lock``."""
         return self._engine
 
     @property
@@ -145,7 +145,7 @@ class Simulation(Closeable):
 
     @property
     def plugins(self) -> list[ScheduledPlugin]:
-        """Of the world and of all models."""
+        """Plugins of the world and of all models."""
         return self.entities.plugins
 
     @property

@@ -14,7 +14,7 @@ class _Namespaced(Protocol):
 class _Host(Protocol):
     @property
     def ports(self) -> _Namespaced:
-        """Of the world."""
+        """Ports of the world."""
 
 
 class Spawned(Protocol):

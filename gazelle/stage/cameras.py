@@ -55,7 +55,7 @@ class MountedCamera:
 
     @property
     def lens(self) -> PinholeLens:
-        """Its pixels, fields of view and range."""
+        """Lens with pixels, fields of view and range."""
         wide, high = self.device.fov
         return PinholeLens(*self.device.resolution, wide, *self.device.range, vertical_fov=high)
 

@@ -162,7 +162,7 @@ class StageFleet(Senses):
 
     @property
     def time_step(self) -> float:
-        """Of a step [s]: the world's ``interval_sim``."""
+        """Time step [s]: the world's ``interval_sim``."""
         return self.engine.time_step
 
     @property
@@ -200,7 +200,10 @@ class StageFleet(Senses):
 
     @property
     def velocities(self) -> Floats:
-        """Of the drives in the robots' frames: x, y [m/s], yaw [rad/s]; also while stalled."""
+        """Velocities of drives in the robots' frames: x, y [m/s], yaw [rad/s].
+
+        Also while stalled.
+        """
         self.refresh()
         return self._motion.steering.velocities(self._driven)
 
@@ -261,7 +264,7 @@ class StageFleet(Senses):
 
     @property
     def noise(self) -> list[StageRangeNoise]:
-        """Of the sensors of each scanner."""
+        """Noise of the sensors of each scanner."""
         return self.rangers.noise
 
     def scan(self, scanner: int = 0) -> Floats:

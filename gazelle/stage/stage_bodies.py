@@ -30,7 +30,7 @@ class StageBodies(ABC):
     @property
     @abstractmethod
     def robots(self) -> tuple[StageRobot, ...]:
-        """In file order."""
+        """Robots in file order."""
 
     @property
     @abstractmethod
@@ -60,4 +60,4 @@ class StageBodies(ABC):
     @property
     @abstractmethod
     def time_step(self) -> float:
-        """Of a step [s]: the world's ``interval_sim``."""
+        """Time step [s]: the world's ``interval_sim``."""

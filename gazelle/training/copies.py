@@ -63,7 +63,7 @@ class TaskCopies:
 
     @property
     def observation_space(self) -> gym.spaces.Box:
-        """Of what one copy observes, the parts of a Dict in a row."""
+        """Space of one copy's observation, the parts of a Dict in a row."""
         return self._stepper.observation_space
 
     @property

@@ -65,7 +65,7 @@ class Fan:
 
     @property
     def angles(self) -> Floats:
-        """From the sensor's x axis [rad], shape (count,)."""
+        """Angles from the sensor's x axis [rad], shape (count,)."""
         angles: Floats = self.start + self.step * np.arange(self.count, dtype=np.float64)
         return angles
 

@@ -196,7 +196,7 @@ class Fleet:
 
     @property
     def time_step(self) -> float:
-        """Of a step [s]; settable."""
+        """Time step [s]; settable."""
         return float(self.bodies.dt)
 
     @time_step.setter

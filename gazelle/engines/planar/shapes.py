@@ -55,7 +55,7 @@ class PrimitiveTable:
 
     @property
     def segments(self) -> Floats:
-        """Both ends of the segments [m], shape (n, 4)."""
+        """Ends of the segments [m], shape (n, 4)."""
         found: Floats = self.rows[~self._round][:, [c.X0, c.Y0, c.X1, c.Y1]]
         return found
 

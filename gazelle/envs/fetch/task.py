@@ -98,7 +98,7 @@ class FetchTask(GoalSimulationTask):
 
     @property
     def goal_places(self) -> Floats:
-        """Return the goals of the gripper or the object [m], shape (nworld, 3)."""
+        """Goals of the gripper or the object [m], shape (nworld, 3)."""
         return self.goals
 
     def scenario(self, worlds: Worlds) -> Floats:

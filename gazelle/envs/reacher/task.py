@@ -78,7 +78,7 @@ class ReachTask(SimulationTask):
 
     @property
     def scenario_names(self) -> tuple[str, ...]:  # type: ignore[override]  # not fixed here
-        """Of the numbers that `scenario` gives."""
+        """Names of the numbers that `scenario` returns."""
         joints = tuple(f"start_{number + 1}" for number in range(len(self._joints)))
         return (*joints, "goal_x", "goal_y", "goal_z")
 
@@ -88,7 +88,7 @@ class ReachTask(SimulationTask):
 
     @property
     def goal_places(self) -> Floats:
-        """Return the goals of the tool [m], shape (nworld, 3)."""
+        """Goals of the tool [m], shape (nworld, 3)."""
         return self.memory["goal"]
 
     def start(self, worlds: Worlds) -> None:

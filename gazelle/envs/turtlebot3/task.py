@@ -136,7 +136,7 @@ class TurtleBot3Task(BatchedTask):
 
     @property
     def scenario_names(self) -> tuple[str, ...]:  # type: ignore[override]  # not fixed here
-        """Of the numbers that `scenario` gives."""
+        """Names of the numbers that `scenario` returns."""
         phases = 0 if self._starts is None else self._starts.phases.shape[1]
         names = ("start_x", "start_y", "start_heading", "goal_x", "goal_y")
         return (*names, *(f"phase_{number}" for number in range(phases)))

@@ -73,7 +73,7 @@ class Entity:
 
     @property
     def properties(self) -> Mapping[str, Property]:
-        """Its own properties and those of its macros that it does not override."""
+        """Properties of its own and those of its macros that it does not override."""
         if self.macro is None:
             return self.own
         return {**self.macro.properties, **self.own}

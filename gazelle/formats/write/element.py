@@ -156,7 +156,7 @@ class NamedElement(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """Name of the element."""
 
     @property
     def source(self) -> Source | None:

@@ -56,5 +56,5 @@ class Window:
 
     @property
     def slices(self) -> tuple[slice, slice]:
-        """To index an array with."""
+        """Index of an array's window."""
         return slice(self.y0, self.y1), slice(self.x0, self.x1)

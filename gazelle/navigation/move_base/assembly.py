@@ -31,7 +31,7 @@ class NavigationStack:
 
     @property
     def period(self) -> float:
-        """Between two cycles [s]."""
+        """Time between two cycles [s]."""
         return 1.0 / self.settings.controller_frequency
 
 

@@ -73,7 +73,7 @@ class NodeProcess:
 
     @property
     def pid(self) -> int:
-        """Its number; -1 before it was started."""
+        """Number of the process; -1 before it was started."""
         return -1 if self._process is None else self._process.pid
 
     def _opened_log(self) -> IO[bytes] | None:

@@ -48,7 +48,7 @@ class Guarded:
 
     @property
     def pid(self) -> int:
-        """Of the guard's process."""
+        """Number of the guard's process."""
         return self._process.pid
 
     def order(self, command: VelocityCommand, *, active: bool) -> None:

@@ -77,12 +77,12 @@ class PageContext:
 
     @property
     def scene(self) -> SceneApi:
-        """Of the page."""
+        """Scene of the page."""
         return self.page.scene
 
     @property
     def gui(self) -> GuiApi:
-        """Its panel."""
+        """Panel of the page."""
         return self.page.gui
 
     @property

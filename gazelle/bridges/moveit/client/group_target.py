@@ -41,7 +41,7 @@ class GroupTarget:
 
     @property
     def values(self) -> list[float]:
-        """Of the group's variables."""
+        """Values of the group's variables."""
         values: list[float] = self.state[self._robot.columns(self.variables)].tolist()
         return values
 

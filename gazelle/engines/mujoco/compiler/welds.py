@@ -35,7 +35,7 @@ class Attachment:
 
     @property
     def arguments(self) -> tuple[str | float, ...]:
-        """Of which another one is made."""
+        """Arguments that make an equal attachment."""
         ends = self.parent, self.child
         return ends if self.settling is None else (*ends, self.settling)
 

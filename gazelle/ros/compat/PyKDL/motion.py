@@ -21,7 +21,7 @@ class _Pair:
 
     @property
     def pair(self) -> tuple[Vector, Vector]:
-        """Both vectors."""
+        """Pair of both vectors."""
         return self._first, self._second
 
     @classmethod

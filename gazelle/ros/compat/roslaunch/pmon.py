@@ -36,7 +36,7 @@ class Process:
 
     @property
     def pid(self) -> int:
-        """Its number."""
+        """Number of the process."""
         return self._process.pid
 
     @property
@@ -46,7 +46,7 @@ class Process:
 
     @property
     def exit_code(self) -> int | None:
-        """Its exit code, negative for a signal; None while it runs."""
+        """Exit code, negative for a signal; None while it runs."""
         return self._process.poll()
 
     def is_alive(self) -> bool:
