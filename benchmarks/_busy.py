@@ -18,7 +18,7 @@ _GUEST = 8  # from here on, what is counted among the first ones already
 
 
 def busy_seconds() -> float | None:
-    """Time that all processors worked since the machine started [s]; None where nothing tells it."""
+    """Return the time that all processors worked since start [s]; None where it is unknown."""
     if not _STAT.exists():
         return None
     numbers = [int(word) for word in _STAT.read_text().splitlines()[0].split()[1:]][:_GUEST]
@@ -40,7 +40,7 @@ class Spent:
     """How many of the machine's other programs kept busy; None where the system does not tell."""
 
     def __str__(self) -> str:
-        """``12 s on 2 processors (others kept 0.4 busy), 11 s of processors``."""
+        """Return ``12 s on 2 processors (others kept 0.4 busy), 11 s of processors``."""
         busy = "" if self.others is None else f" (others kept {self.others:.1f} busy)"
         plural = "" if self.processors == 1 else "s"
         where = f"{self.processors} processor{plural}{busy}"
@@ -56,7 +56,7 @@ class StopWatch:
     machine: float | None = field(default_factory=busy_seconds)
 
     def read(self) -> Spent:
-        """What was spent since."""
+        """Return the time spent since the start."""
         wall, own = time.perf_counter() - self.wall, time.process_time() - self.own
         now, others = busy_seconds(), None
         if now is not None and self.machine is not None:

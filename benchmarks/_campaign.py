@@ -133,7 +133,7 @@ def seeds_since(claim: Claim, oldest: str) -> set[int]:
 
 
 def record(file: Path, claim: Claim, trial: Trial, seeds: Sequence[int], oldest: str) -> None:
-    """Enter a trial into the data file, beside other programs that do so.
+    """Add a trial to the data file, beside other programs that do so.
 
     Trials of commits before `oldest` stay until all seeds are measured again, so that a campaign
     that is broken off leaves no claim with fewer seeds than it had.
@@ -153,7 +153,7 @@ def _without_older(claim: Claim, seeds: Sequence[int], oldest: str) -> Claim:
 
 @contextlib.contextmanager
 def _alone(file: Path) -> Iterator[None]:
-    """Keep other programs from writing the file; it is replaced, so its folder is locked."""
+    """Lock the file's folder against other programs; the file is replaced."""
     import fcntl  # not on Windows, where nobody measures
 
     folder = os.open(file.parent, os.O_RDONLY)
@@ -165,7 +165,7 @@ def _alone(file: Path) -> Iterator[None]:
 
 
 def take(file: Path, other: Path, oldest: str) -> list[Claim]:
-    """Enter what another checkout measured at a commit or later; return the claims that changed.
+    """Add the trials of another checkout since a commit; return the claims that changed.
 
     Where both have a seed, the other one's trial is taken. Trials of before that commit go once
     the newer ones are as many, so that no claim gets fewer seeds than it had.

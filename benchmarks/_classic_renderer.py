@@ -41,7 +41,7 @@ class ClassicRates:
 
 
 def missing() -> str | None:
-    """How to get what it lacks here, if it lacks anything."""
+    """Return a hint how to install missing parts; empty if there are none."""
     if importlib.util.find_spec("OpenGL") is None:
         return "pip install PyOpenGL"
     return None if find_library("OSMesa") else "apt install libosmesa6"
@@ -50,7 +50,7 @@ def missing() -> str | None:
 def measured(
     triangles: int, width: int, height: int, seconds: float, *, shadows: bool
 ) -> ClassicRates:
-    """Of the room of `gazelle bench camera`, in a process of its own."""
+    """Return the rate in the room of `gazelle bench camera`, in a process of its own."""
     words = [str(each) for each in (triangles, width, height, seconds, int(shadows))]
     done = subprocess.run(
         [sys.executable, str(Path(__file__)), *words],
@@ -63,7 +63,7 @@ def measured(
 
 
 def compiled(world: World, width: int, height: int):
-    """The visuals of one-link models as MuJoCo's meshes, triangle by triangle."""
+    """Return the visuals of one-link models as MuJoCo's meshes, triangle by triangle."""
     import mujoco
 
     spec = mujoco.MjSpec()
@@ -94,7 +94,7 @@ def compiled(world: World, width: int, height: int):
 
 
 def best(renderer, seconds: float) -> float:
-    """Frames a second of the fastest.
+    """Return the frames a second of the fastest run.
 
     Raises:
         RuntimeError: The picture is empty.

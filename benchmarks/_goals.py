@@ -18,11 +18,11 @@ class Goals:
     reached: list[tuple[str, str, str, bool]] = field(default_factory=list)
 
     def least(self, what: str, value: float, bound: float) -> None:
-        """A figure that must not be lower."""
+        """Check a figure that must not be lower."""
         self.reached.append((what, shown(value), f">= {shown(bound)}", value >= bound))
 
     def most(self, what: str, value: float, bound: float) -> None:
-        """A figure that must not be higher."""
+        """Check a figure that must not be higher."""
         self.reached.append((what, shown(value), f"<= {shown(bound)}", value <= bound))
 
     def show(self) -> None:
@@ -34,5 +34,5 @@ class Goals:
 
 
 def shown(value: float) -> str:
-    """With three digits at least."""
+    """Return a value with three digits at least."""
     return f"{value:,.0f}" if value >= 100 else f"{value:.3g}"

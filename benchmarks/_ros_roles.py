@@ -47,7 +47,7 @@ def tell(**figures: float) -> None:
 
 
 def spread(seconds: list[float], unit: float) -> dict[str, float]:
-    """Median and 99th percentile in units of a second's fraction."""
+    """Return median and 99th percentile in units of a second's fraction."""
     ordered = sorted(seconds)
     count = len(ordered)
     return {"median": unit * ordered[count // 2], "p99": unit * ordered[int(count * 0.99)]}
@@ -166,7 +166,7 @@ def sink(kind: str) -> None:
 
 
 def server() -> None:
-    """Offer a service."""
+    """Serve a service."""
     rospy.init_node("server")
     rospy.Service("/flip", SetBool, lambda _request: SetBoolResponse(True, "ok"))
     rospy.spin()
@@ -195,7 +195,7 @@ def _calls(persistent: bool, seconds: float) -> dict[str, float]:  # noqa: FBT00
 
 
 def crowd_out(count: str, hertz: str, seconds: str) -> None:
-    """Many publishers at a steady rate: what of a processor they take."""
+    """Publish with many publishers at a steady rate, and print the processor time."""
     rospy.init_node("crowd_out")
     publishers = [rospy.Publisher(f"/crowd{i}", String, queue_size=2) for i in range(int(count))]
     for publisher in publishers:
@@ -214,7 +214,7 @@ def crowd_out(count: str, hertz: str, seconds: str) -> None:
 
 
 def crowd_in(count: str, seconds: str) -> None:
-    """The subscribers of all of them."""
+    """Subscribe to all of them."""
     rospy.init_node("crowd_in")
     got = [0]
 
@@ -233,7 +233,7 @@ def crowd_in(count: str, seconds: str) -> None:
 
 
 def fleet_in(count: str, seconds: str, pid: str) -> None:
-    """A subscriber to the scans of each robot of a fleet, which the process ``pid`` runs."""
+    """Subscribe to the scans of each robot of a fleet, which the process ``pid`` runs."""
     rospy.init_node("fleet_in")
     got = [0] * int(count)
 
@@ -255,7 +255,7 @@ def fleet_in(count: str, seconds: str, pid: str) -> None:
 
 
 def _processor(pid: str) -> float:
-    """Processor time that a process has taken [s]."""
+    """Return processor time that a process has taken [s]."""
     fields = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
@@ -266,7 +266,7 @@ def _threads() -> int:
 
 
 def start() -> None:
-    """How long a node takes to import, to begin, and to hear its first message."""
+    """Measure the import of a node, its start and its first message."""
     imports = _IMPORTED - _BEGIN
     begin = time.perf_counter()
     rospy.init_node("start", anonymous=True)
@@ -279,7 +279,7 @@ def start() -> None:
 
 
 def within(kind: str, seconds: str) -> None:
-    """Publisher and subscriber in one process."""
+    """Measure publisher and subscriber in one process."""
     rospy.init_node("within")
     there = threading.Semaphore(0)
     message = KINDS[kind]()
@@ -306,7 +306,7 @@ def within(kind: str, seconds: str) -> None:
 
 
 def within_calls(persistent: str, seconds: str) -> None:
-    """Service and client in one process."""
+    """Measure service and client in one process."""
     rospy.init_node("within_calls")
     rospy.Service("/flip", SetBool, lambda _request: SetBoolResponse(True, "ok"))
     tell(**_calls(persistent == "1", float(seconds)))

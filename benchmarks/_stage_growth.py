@@ -36,7 +36,7 @@ def growth(sensors: dict[str, Fan | None], largest: int, threads: int, goals: Go
 
 
 def cost(halls: int, fan: Fan | None, threads: int) -> float:
-    """Processor time of a robot's step and scan [ns], the least of two."""
+    """Return processor time of a robot's step and scan [ns], the least of two."""
     times = []
     for window in range(2):
         worlds = [
@@ -53,7 +53,7 @@ def cost(halls: int, fan: Fan | None, threads: int) -> float:
 
 
 def world(halls: int, fan: Fan | None, threads: int, seed: int) -> Roaming:
-    """Robots that have begun to roam."""
+    """Return robots that have started to roam."""
     across, side = math.ceil(math.sqrt(halls)), math.isqrt(CROWD)
     corners = [(PITCH * (hall % across), PITCH * (hall // across)) for hall in range(halls)]
     own = places(CROWD, side, 2.0 * ROOM / side)

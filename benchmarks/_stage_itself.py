@@ -85,7 +85,7 @@ class Stage:
         return process.returncode, Spent(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
 
     def environment(self, log: Path | None) -> dict[str, str]:
-        """Variables with which the program finds what belongs to it."""
+        """Return variables with which the program finds what belongs to it."""
         prefix = self.program.parent.parent
         own = {
             "STAGEPATH": [self.plugins, prefix / "share" / "stage"],
@@ -101,7 +101,7 @@ class Stage:
 
 
 def find(given: Path | None) -> Stage | None:
-    """The Stage at a path, or the one on PATH; None if there is none.
+    """Find the Stage at a path, or the one on PATH; None without one.
 
     Raises:
         StageError: What was given is no Stage.
@@ -156,7 +156,7 @@ def _kill_idle(pid: int, ended: threading.Event) -> None:
 
 
 def _processor_time(pid: int) -> float:
-    """Of a process [s]; on systems without /proc nothing is known, and it is ended in time."""
+    """Return the time of a process [s]; without /proc it is unknown, and its end is timed."""
     try:
         text = Path(f"/proc/{pid}/stat").read_text(encoding="ascii", errors="replace")
     except OSError:

@@ -14,7 +14,7 @@ STEPS = 5  # that robots have made when they are handed out
 
 
 def office(side: float, room: float = ROOM, x: float = 0.0, y: float = 0.0) -> list[PlanarPart]:
-    """Walls 0.1 m thick around rooms, each with a door of 1.2 m to the next one.
+    """Return walls 0.1 m thick around rooms, each with a door of 1.2 m to the next one.
 
     Args:
         side: Of the office [m], in whole rooms.
@@ -38,7 +38,7 @@ def office(side: float, room: float = ROOM, x: float = 0.0, y: float = 0.0) -> l
 
 
 def places(count: int, across: int, pitch: float) -> list[tuple[float, float]]:
-    """So many places in rows [m]."""
+    """Return so many places in rows [m]."""
     return [(pitch * (i % across + 0.5), pitch * (i // across + 0.45)) for i in range(count)]
 
 
@@ -49,7 +49,7 @@ def roamers(
     threads: int,
     seed: int,
 ) -> Roaming:
-    """Robots of 0.26 m that have begun to roam."""
+    """Return robots of 0.26 m that have started to roam."""
     rng, shape, drive = np.random.default_rng(seed), (PlanarPart.box(0.2552, 0.2552),), Drive()
     bodies = [Body(shape, (x, y, rng.uniform(-3.0, 3.0)), drive=drive) for x, y in spots]
     fleet = Fleet(bodies, walls, euler=True, threads=threads)

@@ -87,7 +87,7 @@ def rival(stage: Stage, largest: int, threads: int, goals: Goals) -> None:
 
 
 def box_errors(stage: Stage) -> tuple[float, float]:
-    """Mean error of 20 scans of 361 rays in a 10 m box of both [mm]."""
+    """Return mean error of 20 scans of 361 rays in a 10 m box of both [mm]."""
     rng = np.random.default_rng(1)
     poses = rng.uniform((-4.9, -4.9, -180.0), (4.9, 4.9, 180.0), (20, 3))
     sensor = "ranger ( sensor ( range [0 20] fov 360 samples 361 ) )"
@@ -119,7 +119,7 @@ def box_errors(stage: Stage) -> tuple[float, float]:
 
 
 def write(home: Path, count: int, side: float, sensor: str) -> Path:
-    """An office whose robots are driven by Stage's ``wander``, or blindly without a sensor."""
+    """Return an office whose robots Stage's ``wander`` drives, or blindly without a sensor."""
     file = worlds.write_office(home, count, side, sensor)
     control = "wander" if sensor else "stage_probe roam"
     text = file.read_text(encoding="utf-8").replace(
@@ -142,7 +142,7 @@ def of_stage(stage: Stage, file: Path, seconds: float, count: int) -> Run:
 
 
 def until(file: Path, seconds: float) -> Path:
-    """The same world that ends after some simulated seconds."""
+    """Return the same world that ends after some simulated seconds."""
     ending = file.with_name(f"until_{seconds:g}_{file.name}")
     text = file.read_text(encoding="utf-8")
     ending.write_text(f"quit_time {seconds:g}\nthreads 1\n{text}", encoding="utf-8")
@@ -160,12 +160,12 @@ class Roam(FleetController):
         self._law.choose(self._sim.steps)
 
     def systems(self) -> list[System]:
-        """The same, as native code does it."""
+        """Return its systems, for native code."""
         return [self._law]
 
 
 def of_simulation(file: Path, threads: int) -> tuple[float, float]:
-    """Of StageSimulation, with the controllers of the file: times real time, and load [s]."""
+    """Return the real-time factor of StageSimulation with the file's controllers, and load [s]."""
     register_controller("stage_probe", lambda sim, _: [Roam(sim)])
     began = time.process_time()
     with StageSimulation(file, threads=threads, euler=True) as sim:
@@ -175,7 +175,7 @@ def of_simulation(file: Path, threads: int) -> tuple[float, float]:
 
 
 def of_fleet(file: Path, threads: int) -> float:
-    """Of a fleet of the same robots and walls that roams by itself, in times real time."""
+    """Return the real-time factor of a fleet of the same robots and walls that roams by itself."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         world = formats.load(file)
@@ -189,7 +189,7 @@ def of_fleet(file: Path, threads: int) -> float:
 
 
 def seconds_each(work: Callable[[int], object]) -> float:
-    """Processor time of a step [s], the best of three windows that are long enough."""
+    """Return processor time of a step [s], the best of three windows that are long enough."""
     count, times = 4, []
     while len(times) < WINDOWS:
         began = time.process_time()

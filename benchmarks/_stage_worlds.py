@@ -82,7 +82,7 @@ def worlds(threads: int, folder: Path | None, goals: Goals) -> None:
 
 
 def cases(home: Path, folder: Path | None) -> Iterator[Case]:
-    """All files that there are."""
+    """Yield all files that there are."""
     corpus = Path(os.environ.get("GAZELLE_CORPUS") or HERE.parent.parent / "shared" / "corpus")
     for root, table in ((corpus, CORPUS), (folder, OWN)):
         for path, beams, stage in table if root is not None else ():
@@ -96,7 +96,7 @@ def cases(home: Path, folder: Path | None) -> Iterator[Case]:
 
 
 def write_office(home: Path, count: int, side: float, sensor: str) -> Path:
-    """Robots spread over rooms of 8 m, drawn as a bitmap with pixels of 5 cm."""
+    """Return robots spread over rooms of 8 m, drawn as a bitmap with pixels of 5 cm."""
     cells = round(side / 0.05)
     plan = np.full((cells, cells), 255, np.uint8)
     for at in range(0, cells + 1, 160):
@@ -151,7 +151,7 @@ def measure(case: Case, threads: int, goals: Goals) -> None:
 
 
 def seconds_a_step(sim: StageSimulation, seen: list[int]) -> float:
-    """Processor time of a step and the scans that are due, while robots wander about."""
+    """Return processor time of a step and its due scans, while robots wander."""
     count, rng = len(sim.robots), np.random.default_rng(0)
     every = max(1, round(0.1 / sim.time_step))  # Stage's sensors look every 100 ms
     back, turn = np.zeros(count, np.int64), rng.uniform(-0.6, 0.6, count)
@@ -178,7 +178,7 @@ def seconds_a_step(sim: StageSimulation, seen: list[int]) -> float:
 
 
 def bytes_each(file: Path) -> float:
-    """Memory of a robot and what the file says of it, without what all share: its bitmap."""
+    """Return memory of a robot and its description, without the shared bitmap."""
     gc.collect()
     tracemalloc.start()
     sim = StageSimulation(file, threads=1, controllers=False)

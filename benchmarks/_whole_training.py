@@ -17,7 +17,7 @@ _TASK = "TurtleBot3Stage4"
 
 
 def recipe_of(worlds: int, steps: int) -> Recipe:
-    """The task's own with so many worlds; rollouts have as many transitions as there."""
+    """Return the task's own recipe with so many worlds; rollouts have as many transitions."""
     own = recipe_for(_TASK)
     settings = own.settings
     if not isinstance(settings, PPOSettings):
@@ -35,7 +35,7 @@ def warm_up() -> None:
 
 
 def ours(recipe: Recipe) -> tuple[int, Spent]:
-    """What `gazelle.training.train` takes, curves and checkpoints included."""
+    """Return the time of `gazelle.training.train`, curves and checkpoints included."""
     with tempfile.TemporaryDirectory() as folder:
         watch = StopWatch()
         result = train(_TASK, recipe=recipe, out=folder)
@@ -43,7 +43,7 @@ def ours(recipe: Recipe) -> tuple[int, Spent]:
 
 
 def bare(recipe: Recipe) -> tuple[int, Spent]:
-    """What Stable-Baselines3's PPO takes with the same settings, without curves."""
+    """Return the time of Stable-Baselines3's PPO with the same settings, without curves."""
     from stable_baselines3 import PPO
 
     settings = recipe.settings
@@ -75,7 +75,7 @@ def bare(recipe: Recipe) -> tuple[int, Spent]:
 
 
 def compare(worlds: int, steps: int, repeat: int) -> str:
-    """A line: both in turns, the fastest of each."""
+    """Return a line: both in turns, the fastest of each."""
     recipe = recipe_of(worlds, steps)
     pairs = [(_figures(ours, recipe), _figures(bare, recipe)) for _ in range(repeat)]
     (mine, cost, busy), (other, price, _) = (max(column) for column in zip(*pairs, strict=True))
@@ -92,6 +92,6 @@ HEADER = (
 def _figures(
     run: Callable[[Recipe], tuple[int, Spent]], recipe: Recipe
 ) -> tuple[float, float, float]:
-    """Steps a second, processor time of a step [us], and processors that others kept busy."""
+    """Return steps a second, processor time of a step [us], and processors busy with others."""
     steps, spent = run(recipe)
     return steps / spent.wall, 1e6 * spent.processor / steps, spent.others or 0.0

@@ -41,7 +41,7 @@ STAGE = ((10, 80, 60), (10, 320, 240), (72, 80, 60), (72, 320, 240))
 
 
 def room(triangles: int) -> World:
-    """A floor, walls, and as many things as have so many triangles, the same every time."""
+    """Return a floor, walls, and as many things as have so many triangles, the same every time."""
     random = np.random.default_rng(0)
     shapes = [Plane(size=(12.0, 12.0))]
     poses = [Pose()]
@@ -65,7 +65,7 @@ def room(triangles: int) -> World:
 
 
 def best(work, seconds: float) -> float:
-    """Processor time of the fastest of some calls [s]."""
+    """Return processor time of the fastest of some calls [s]."""
     times, end = [], time.thread_time() + seconds
     while not times or time.thread_time() < end:
         begin = time.thread_time()
@@ -77,7 +77,7 @@ def best(work, seconds: float) -> float:
 def ours(
     world: World, pose: Pose, width: int, height: int, seconds: float, *, shadows: bool = False
 ) -> float:
-    """Frames a core-second."""
+    """Return frames a core-second."""
     renderer, count = Renderer(world, threads=1, shadows=shadows), 8
     place, turn = np.tile(pose.position, (count, 1)), np.tile(pose.quaternion, (count, 1))
     lens, worlds = PinholeLens(width, height, 1.2), np.zeros(count, np.intp)
@@ -85,7 +85,7 @@ def ours(
 
 
 def rays(world: World, pose: Pose, width: int, height: int, seconds: float) -> float:
-    """Frames a core-second of distances and normals by MuJoCo's rays."""
+    """Return frames a core-second of distances and normals by MuJoCo's rays."""
     tracer = make_tracer(world)
     ways = directions_of_view(View(pose, width, height, 1.2, samples=1), 1)
     eye = np.broadcast_to(np.asarray(pose.position), ways.shape)
@@ -124,7 +124,7 @@ def batch(worlds: int, steps: int, threads: int) -> float:
 
 
 def hall(robots: int, width: int, height: int) -> str:
-    """A Stage world of four walls and robots in a grid, each with a ranger and a camera."""
+    """Return a Stage world of four walls and robots in a grid, each with a ranger and a camera."""
     text = "".join(
         f'model ( size [{x} {y} 1] pose [{at} 0 0] color "{color}" )\n'
         for x, y, at, color in (
@@ -149,7 +149,7 @@ def hall(robots: int, width: int, height: int) -> str:
 
 
 def stage(robots: int, width: int, height: int, seconds: float) -> float:
-    """Frames a core-second of Stage's cameras: colour with a fourth byte, and depth."""
+    """Return frames a core-second of Stage's cameras: colour with a fourth byte, and depth."""
     from gazelle.stage import StageSimulation
 
     with TemporaryDirectory() as folder:

@@ -66,7 +66,7 @@ def main() -> None:
 
 
 def arm_text(*, controlled: bool = True) -> str:
-    """The URDF of an arm of seven joints that hangs down, commanded by efforts if at all."""
+    """Return the URDF of a hanging arm of seven joints, commanded by efforts if at all."""
     fastest = 2.2 if controlled else 1e16
     parts = ['<robot name="arm"><link name="world"/>']
     parent = "world"
@@ -92,7 +92,7 @@ def arm_text(*, controlled: bool = True) -> str:
 def arms(
     nworld: int, count: int = 1, *, controlled: bool = True
 ) -> tuple[gazelle.Simulation, list[gazelle.Robot]]:
-    """Arms side by side at the targets, with nothing loaded."""
+    """Return arms side by side at the targets, with nothing loaded."""
     sim = gazelle.Simulation(World("lab"), nworld=nworld, time_step=STEP, threads=1)
     model = formats.load_model_string(arm_text(controlled=controlled))
     side = 10
@@ -105,7 +105,7 @@ def arms(
 
 
 def driven(nworld: int, kind: str, **more: object) -> gazelle.Simulation:
-    """An arm under a controller that holds it."""
+    """Return an arm under a controller that holds it."""
     sim, (robot,) = arms(nworld)
     robot.controllers.load("arm", {"type": kind, "joints": list(JOINTS), **more})
     robot.controllers.start("arm")
@@ -115,13 +115,13 @@ def driven(nworld: int, kind: str, **more: object) -> gazelle.Simulation:
 
 
 def held() -> gazelle.Simulation:
-    """An arm in one world under a PID for each joint."""
+    """Return an arm in one world under a PID for each joint."""
     return driven(1, GROUP, **{name: {"pid": GAINS} for name in JOINTS})
 
 
 @cache
 def holding() -> Mapping[str, float]:
-    """With which efforts a controller holds an arm at the targets, by joint [N m]."""
+    """Return the efforts with which a controller holds an arm at the targets, by joint [N m]."""
     sim = held()
     sim.run(20.0)
     loop = next(each.plugin for each in sim.plugins if isinstance(each.plugin, ControlLoop))
@@ -130,7 +130,7 @@ def holding() -> Mapping[str, float]:
 
 
 def bare(nworld: int, count: int = 1) -> gazelle.Simulation:
-    """Arms that constant efforts hold, and that nothing controls."""
+    """Return arms held by constant efforts, without controllers."""
     sim, robots = arms(nworld, count, controlled=False)
     for robot in robots:
         for name, effort in holding().items():
@@ -149,7 +149,7 @@ def stepping(sim: gazelle.Simulation, count: int = 200) -> Callable[[], int]:
 
 
 def in_turns(work: list[Callable[[], int]], seconds: float) -> list[tuple[float, float]]:
-    """Processor time of a step of pairs without and with control: its median, and that of what control adds [us]."""
+    """Return processor times of a step without and with control [us]."""
     taken: list[list[float]] = [[] for _ in work]
     for each in work:
         each()
@@ -173,7 +173,7 @@ def row(what: str, free: float, more: float, goal: float | None) -> None:
 
 
 def one_arm(nworld: int, goal: float, seconds: float) -> None:
-    """A PID for each of seven joints."""
+    """Measure a PID for each of seven joints."""
     nested = {name: {"pid": GAINS} for name in JOINTS}
     sims = [bare(nworld), driven(nworld, GROUP, **nested)]
     ((free, more),) = in_turns([stepping(sim) for sim in sims], seconds)
@@ -181,7 +181,7 @@ def one_arm(nworld: int, goal: float, seconds: float) -> None:
 
 
 def own_class(seconds: float) -> None:
-    """A user's own class in Python: it is called in every step."""
+    """Measure a user's own class in Python, called in every step."""
     for nworld in GOALS:
         sims = [bare(nworld), driven(nworld, "bench/SpringDamper")]
         ((free, more),) = in_turns([stepping(sim) for sim in sims], seconds)
@@ -189,7 +189,7 @@ def own_class(seconds: float) -> None:
 
 
 def many_arms(seconds: float) -> None:
-    """100 arms that follow trajectories, in one process."""
+    """Measure 100 arms that follow trajectories, in one process."""
     sim, robots = arms(1, 100)
     gains = dict.fromkeys(JOINTS, GAINS)
     points = [
@@ -222,7 +222,7 @@ def say(what: str, found: tuple[float, float], goal: str = "") -> None:
 
 
 def base_text(*, controlled: bool) -> str:
-    """The URDF of a base on two wheels and a caster, whose wheels may be under control."""
+    """Return the URDF of a base on two wheels and a caster, whose wheels may be under control."""
     body = (
         '<inertial><origin xyz="-0.05 0 0.1"/><mass value="5"/>'
         '<inertia ixx="0.1" iyy="0.1" izz="0.15" ixy="0" ixz="0" iyz="0"/></inertial>'
@@ -247,7 +247,7 @@ def base_text(*, controlled: bool) -> str:
 
 
 def bases(count: int, *, controlled: bool) -> gazelle.Simulation:
-    """Bases that drive circles, by controllers or by motors alone."""
+    """Return bases that drive circles, by controllers or by motors alone."""
     model = formats.load_model_string(base_text(controlled=controlled))
     places = [gazelle.Pose(x=2.0 * (i % 10), y=2.0 * (i // 10)) for i in range(count)]
     many = [replace(model, name=f"base_{i}", pose=at) for i, at in enumerate(places)]
@@ -269,7 +269,7 @@ def bases(count: int, *, controlled: bool) -> gazelle.Simulation:
 
 
 def many_bases(seconds: float) -> None:
-    """100 bases that drive circles, in one process."""
+    """Measure 100 bases that drive circles, in one process."""
     sims = [bases(100, controlled=controlled) for controlled in (False, True)]
     (found,) = in_turns([stepping(sim, 20) for sim in sims], seconds)
     say("100 bases with a diff_drive_controller each", found)

@@ -101,7 +101,10 @@ def measure(
 
 
 def best(step: Callable[[], None], worlds: int, args: argparse.Namespace) -> tuple[float, float]:
-    """The highest rate of several windows [1/s], and the least processor time a control step [s]."""
+    """Return the highest rate of several windows [1/s].
+
+    Also return the least processor time a control step [s].
+    """
     step()
     rates, costs = zip(
         *(window(step, worlds, args.seconds) for _ in range(args.windows)), strict=True
@@ -120,7 +123,7 @@ def window(step: Callable[[], None], worlds: int, seconds: float) -> tuple[float
 
 
 def gazelle_stepper(rays: int, worlds: int, engine: str) -> Callable[[], None]:
-    """One step of Gazelle's environment: single for one world, vectorised for more."""
+    """Return one step of Gazelle's environment: single for one world, vectorised for more."""
     generator = np.random.default_rng(0)
     if worlds == 1:
         single = gymnasium.make(ENVIRONMENT, lidar_samples=rays, engine=engine)
@@ -144,7 +147,7 @@ def gazelle_stepper(rays: int, worlds: int, engine: str) -> Callable[[], None]:
 
 
 def user_stepper(worlds: int, engine: str) -> Callable[[], None]:
-    """One step of a task and a drive that are a user's: ``user_task.py`` beside this file."""
+    """Return one step of a user's task and drive: ``user_task.py`` beside this file."""
     import user_task
 
     env, generator = user_task.make(worlds, engine), np.random.default_rng(0)
@@ -153,7 +156,10 @@ def user_stepper(worlds: int, engine: str) -> Callable[[], None]:
 
 
 def irsim_stepper(rays: int) -> Callable[[], None] | None:
-    """One step of the same robot, room and beams in IR-SIM; None when it is not installed."""
+    """Return one step of the same robot, room and beams in IR-SIM.
+
+    None when it is not installed.
+    """
     os.environ.setdefault("MPLBACKEND", "Agg")
     try:
         with contextlib.redirect_stdout(io.StringIO()):  # it tries windows, and says which it lacks
@@ -177,7 +183,7 @@ def irsim_stepper(rays: int) -> Callable[[], None] | None:
 
 
 def irsim_world(rays: int) -> str:
-    """Stage 4 in IR-SIM's language."""
+    """Return Stage 4 in IR-SIM's language."""
     lines = [
         "world: {height: 6, width: 6, offset: [-3, -3], step_time: 0.2, sample_time: 0.2,",
         "  control_mode: auto, collision_mode: stop}",

@@ -89,7 +89,7 @@ def rate(task: str, control: str, args: argparse.Namespace) -> float:
 
 
 def peer_rate(task: str, args: argparse.Namespace) -> float | None:
-    """The same of Gymnasium-Robotics; None where it is not installed."""
+    """Return the rate of Gymnasium-Robotics; None where it is not installed."""
     command = [args.peer or sys.executable, "-c", PEER, task, str(args.seconds), str(args.windows)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:

@@ -71,12 +71,12 @@ def main() -> None:
 
 
 def has_rospy() -> bool:
-    """Whether Debian's rospy is here."""
+    """Return whether Debian's rospy is installed."""
     return Path("/usr/lib/python3/dist-packages/rospy").is_dir()
 
 
 def first_scan(runs: int) -> float:
-    """Median seconds from the command to a scan that a waiting node hears."""
+    """Return the median seconds from the command to a scan at a waiting node."""
     times = []
     command = [sys.executable, "-m", "gazelle", "run", "turtlebot3_world", "--ros"]
     with Master(port=0, rosout=False) as master:
@@ -102,7 +102,7 @@ def first_scan(runs: int) -> float:
 
 @contextmanager
 def world() -> Iterator[gazelle.Simulation]:
-    """The world with its robot."""
+    """Yield the world with its robot."""
     with gazelle.Simulation("turtlebot3_world") as sim:
         place = gazelle.Pose(x=-2.0, y=-0.5)  # between the pillars, where the launch file puts it
         sim.spawn("turtlebot3_burger", name="burger", pose=place, namespace="/")
@@ -111,7 +111,10 @@ def world() -> Iterator[gazelle.Simulation]:
 
 
 def costs(uri: str, seconds: float) -> tuple[float, float]:
-    """Real-time factors of one world without a door and with one, in turns; the best of each."""
+    """Return real-time factors of one world without bridge and with one, in turns.
+
+    The best of each.
+    """
     bare, served = [], []
     with world() as sim:
         for _ in range(TURNS):
@@ -122,7 +125,7 @@ def costs(uri: str, seconds: float) -> tuple[float, float]:
 
 
 def pace(sim: gazelle.Simulation, seconds: float) -> float:
-    """Simulated seconds a wall second."""
+    """Return the real-time factor."""
     start, began = time.perf_counter(), sim.time
     while time.perf_counter() - start < seconds:
         sim.run(seconds=0.25)
@@ -130,7 +133,7 @@ def pace(sim: gazelle.Simulation, seconds: float) -> float:
 
 
 def listened(uri: str, seconds: float) -> float:
-    """Real-time factor with a rospy node that has a subscriber on each topic."""
+    """Return the real-time factor with a rospy subscriber on each topic."""
     with world() as sim, serve_ros(sim, uri) as door, listeners(uri):
         deadline = time.monotonic() + 60.0
         while not heard_everywhere(door.node) and time.monotonic() < deadline:
@@ -140,14 +143,14 @@ def listened(uri: str, seconds: float) -> float:
 
 
 def heard_everywhere(node: Node) -> bool:
-    """Whether each topic has a subscriber."""
+    """Return whether each topic has a subscriber."""
     _, subscribers, _ = node.master.system_state()
     return set(TOPICS) <= set(subscribers)
 
 
 @contextmanager
 def listeners(uri: str) -> Iterator[None]:
-    """A program with a subscriber on each topic."""
+    """Run a program with a subscriber on each topic."""
     with tempfile.TemporaryDirectory() as folder:
         script = Path(folder) / "listener.py"
         script.write_text(LISTENER, encoding="utf-8")
@@ -168,7 +171,7 @@ def listeners(uri: str) -> Iterator[None]:
 
 
 def state_calls(uri: str, seconds: float, *, paused: bool) -> float:
-    """Persistent calls of ``set_model_state`` a second, from one client."""
+    """Return persistent calls of ``set_model_state`` a second, from one client."""
     service = load_service("gazebo_msgs/SetModelState")
     request = service._request_class()
     request.model_state.model_name = "burger"

@@ -30,7 +30,7 @@ ARMS = {
 
 
 def measure(robot: RobotModel, group: JointModelGroup, count: int, limit: float) -> list[float]:
-    """Seconds of processor time of each pose, infinite where nothing was found in time."""
+    """Return seconds of processor time of each pose, infinite without a solution in time."""
     full = np.tile(robot.zero(), (count, 1))
     full[:, group.columns] = group.sample(np.random.default_rng(0), count)
     poses = robot.forward(full, group.tip)

@@ -52,7 +52,7 @@ class FreeEnv(VectorEnv):
 
 
 def ours(steps: int) -> float:
-    """Steps/s of `gazelle.training.train`, curves and checkpoints included."""
+    """Return steps/s of `gazelle.training.train`, curves and checkpoints included."""
     recipe = dataclasses.replace(Recipe(), steps=steps)
     with tempfile.TemporaryDirectory() as folder:
         result = train("benchmark/Free-v0", recipe=recipe, out=folder)
@@ -60,7 +60,7 @@ def ours(steps: int) -> float:
 
 
 def peers(steps: int) -> float:
-    """Steps/s of Stable-Baselines3's PPO with the same settings, without curves."""
+    """Return steps/s of Stable-Baselines3's PPO with the same settings, without curves."""
     from stable_baselines3 import PPO
 
     learner = PPO(

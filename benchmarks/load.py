@@ -53,7 +53,7 @@ def main() -> None:
 
 
 def chosen(files: list[Path]) -> list[tuple[Path, list[Path]]]:
-    """The worlds to load, each with its folders of models."""
+    """Return the worlds to load, each with its folders of models."""
     if files:
         return [(file, [file.parent]) for file in files]
     if not CORPUS.is_dir():
@@ -78,7 +78,7 @@ def show(file: Path, models: list[Path], runs: int) -> None:
 
 
 def best(call: Callable[[], object], runs: int) -> float:
-    """The shortest time of several runs [s]."""
+    """Return the shortest time of several runs [s]."""
     times = []
     for _ in range(runs):
         start = time.perf_counter()

@@ -113,7 +113,7 @@ class Roller(ModelPlugin):
     system, update_rate = Rollers, 50.0
 
     def load(self, robot: gazelle.Robot, parameters: Parameters) -> None:  # noqa: ARG002
-        """Put motors on the wheels, open ``cmd_vel``."""
+        """Add motors to the wheels, and open ``cmd_vel``."""
         self.command = robot.inputs["cmd_vel"] = TwistInput(robot.simulation.nworld, "cmd_vel")
         self.wheels = [robot.joints[f"{name}_joint"] for name in CORNERS[:2]]
         for wheel in self.wheels:
@@ -198,7 +198,7 @@ def main() -> None:
 
 
 def running(count: int, case: Case, how: str) -> gazelle.Simulation:
-    """Robots that move, whose sensors are awake, and whose plugins are listened to.
+    """Return robots that move, with awake sensors and subscribers of their plugins.
 
     Args:
         count: How many.
@@ -231,7 +231,7 @@ def running(count: int, case: Case, how: str) -> gazelle.Simulation:
 
 
 def set_off(robot: gazelle.Robot, case: Case) -> None:
-    """Let them move, whether a drive is told or the motors are."""
+    """Start robots, by a drive or by their motors."""
     for port in robot.inputs.values():
         if isinstance(port, TwistInput):
             port.send(0.3)
@@ -242,7 +242,7 @@ def set_off(robot: gazelle.Robot, case: Case) -> None:
 
 
 def world(count: int, case: Case, *, bare: bool) -> str:
-    """The world as text."""
+    """Return the world as text."""
     physics = f"<physics name='p' type='ode'><max_step_size>{STEP}</max_step_size></physics>"
     wheels = "".join(
         WHEEL.format(name, 0.12 if "left" in name else -0.12) for name in CORNERS[: case.wheels]
@@ -257,7 +257,7 @@ def world(count: int, case: Case, *, bare: bool) -> str:
 
 
 def least(sims: list[gazelle.Simulation]) -> list[float]:
-    """Processor time of a simulated second of each [ms], the least of windows in turns."""
+    """Return processor time of a simulated second of each [ms], the least of windows in turns."""
     best = [float("inf")] * len(sims)
     for _ in range(WINDOWS):
         for index, sim in enumerate(sims):

@@ -36,7 +36,7 @@ BURGER = footprint_of([[-0.105, -0.105], [-0.105, 0.105], [0.041, 0.105], [0.041
 
 
 def best(work, seconds: float = 1.0) -> float:
-    """Processor time of the fastest of some calls [s]."""
+    """Return processor time of the fastest of some calls [s]."""
     times, end = [], time.thread_time() + seconds
     while not times or time.thread_time() < end:
         begin = time.thread_time()
@@ -46,7 +46,7 @@ def best(work, seconds: float = 1.0) -> float:
 
 
 def house(side: int = 384) -> OccupancyMap:
-    """Rooms with doors, the same every time."""
+    """Return rooms with doors, the same every time."""
     random = np.random.default_rng(0)
     grid = np.zeros((side, side), np.int8)
     grid[[0, -1]] = grid[:, [0, -1]] = 100
@@ -59,19 +59,19 @@ def house(side: int = 384) -> OccupancyMap:
 
 
 def show(what: str, value: float, goal: float) -> None:
-    """A line of the table."""
+    """Print a line of the table."""
     print(f"{what:<62}{value:>10.2f} ms   goal {goal:g} ms")
 
 
 def scan(grid: OccupancyMap, x: float, y: float) -> PlanarScan:
-    """What a laser of 180 beams sees at a place."""
+    """Return the scan of a laser of 180 beams at a place."""
     model = BeamModel((grid.data != 0).view(np.uint8), (0.0, 0.0), 0.05, np.ones(4), 0.2, 0.1)
     ranges = np.array([model.range_at(x, y, angle, 3.5) for angle in ANGLES])
     return PlanarScan(np.where(ranges >= 3.5, np.inf, ranges), ANGLES, 3.5, 0.12, (0.0, 0.0, 0.0))
 
 
 def measure_amcl(grid: OccupancyMap) -> None:
-    """3,000 particles by 180 beams: motion, weighing, resampling, clusters."""
+    """Measure 3,000 particles by 180 beams: motion, weighing, resampling, clusters."""
     settings = AmclSettings(
         min_particles=3000, max_particles=3000, resample_interval=1, laser_max_beams=180
     )
@@ -88,7 +88,7 @@ def measure_amcl(grid: OccupancyMap) -> None:
 
 
 def measure_dwa() -> None:
-    """800 commands for 1.5 s with a footprint of four corners."""
+    """Measure 800 commands for 1.5 s with a footprint of four corners."""
     costs = np.zeros((60, 60), np.uint8)
     costs[40:45, 30:40] = 254
     path = grid_distances(costs, np.array([[59, 30], [50, 30]]))
@@ -107,7 +107,7 @@ def measure_dwa() -> None:
 
 
 def measure_plans(grid: OccupancyMap) -> None:
-    """From corner to corner, and across one room."""
+    """Measure plans from corner to corner, and across one room."""
     from gazelle.navigation.costmap import StaticLayer
 
     static = StaticLayer()
@@ -125,7 +125,7 @@ def measure_plans(grid: OccupancyMap) -> None:
 
 
 def measure_costmap(grid: OccupancyMap) -> None:
-    """A rolling costmap of 60 x 60 cells that sees 180 beams."""
+    """Measure a rolling costmap of 60 x 60 cells with 180 beams."""
     source = ObservationSource(clearing=True, obstacle_range=3.0, raytrace_range=3.5)
     layer = ObstacleLayer("obstacle_layer", {"scan": source})
     costmap = Costmap(
@@ -146,7 +146,7 @@ def measure_costmap(grid: OccupancyMap) -> None:
 
 
 def measure_stack(robots: int) -> None:
-    """The whole stack in turtlebot3_world, with amcl; many robots, each with its own."""
+    """Measure the stack in turtlebot3_world, with amcl; many robots, each with its own."""
     places = [
         (-2.0, -0.5),
         (-2.0, 0.5),
@@ -174,7 +174,7 @@ def measure_stack(robots: int) -> None:
 
 
 def measure_fleet(robots: int) -> None:
-    """The whole stack in the Stage world ``fleet``, with amcl, for some of its AGVs."""
+    """Measure the stack in the Stage world ``fleet``, with amcl, for some of its AGVs."""
     config = assets.root() / "fleet_stage" / "config"
     read = {
         name: yaml.safe_load((config / f"{name}.yaml").read_text())
@@ -227,7 +227,7 @@ def measure_stages(goals: int) -> None:
 
 
 def is_free(grid: OccupancyMap, x: float, y: float) -> bool:
-    """Whether there is room for a burger."""
+    """Return whether there is room for a burger."""
     column = int((x - grid.origin.x) / grid.resolution)
     row = int((y - grid.origin.y) / grid.resolution)
     return not grid.data[max(row - 5, 0) : row + 6, max(column - 5, 0) : column + 6].any()

@@ -66,7 +66,7 @@ def main() -> None:
 def rates(
     work: list[Callable[[], float]], seconds: float, clock: Callable[[], float]
 ) -> list[float]:
-    """The highest rate of each, window after window in turns; ``work`` returns how much it did."""
+    """Return the highest rate of each, by windows in turns; ``work`` returns its count."""
     best = [0.0] * len(work)
     for each in work:
         each()
@@ -80,26 +80,26 @@ def rates(
 
 
 def on_one_core(work: list[Callable[[], float]], seconds: float) -> list[float]:
-    """Rates by processor time, which other programs on the machine do not take away."""
+    """Return rates by processor time, which other programs do not take away."""
     return rates(work, seconds, time.process_time)
 
 
 def burger(nworld: int, threads: int | None) -> gazelle.Simulation:
-    """The burger driving in turtlebot3_world, its wheels turning."""
+    """Return the burger driving in turtlebot3_world, its wheels turning."""
     sim = gazelle.Simulation("turtlebot3_world", nworld=nworld, threads=threads, time_step=STEP)
     add_burger(sim, -2.0, -0.5)
     return sim
 
 
 def add_burger(sim: gazelle.Simulation, x: float, y: float) -> gazelle.Robot:
-    """A burger that drives in a circle."""
+    """Return a burger that drives in a circle."""
     robot = sim.spawn("turtlebot3_burger", name="burger", pose=gazelle.Pose(x=x, y=y))
     robot.inputs["cmd_vel"].send(linear=0.1, angular=0.4)
     return robot
 
 
 def listen(robot: gazelle.Robot) -> None:
-    """Want all that a burger says: its 360-ray lidar at 5 Hz, odometry and joints at 30 Hz."""
+    """Subscribe to a burger's 360-ray lidar at 5 Hz, and odometry and joints at 30 Hz."""
     robot.sensors["lds_lfcd_sensor"].subscribe(lambda _: None)
     robot.outputs["odom"].subscribe(lambda _: None)
     robot.outputs["joint_states"].subscribe(lambda _: None)
@@ -116,7 +116,7 @@ def running(sim: gazelle.Simulation) -> Callable[[], float]:
 
 
 def one_burger(seconds: float) -> None:
-    """One burger with its lidar, odometry and joint states, on one core."""
+    """Measure one burger with its lidar, odometry and joint states, on one core."""
     sim = burger(1, 1)
     listen(sim.robots["burger"])
     (rate,) = on_one_core([running(sim)], seconds)
@@ -124,7 +124,7 @@ def one_burger(seconds: float) -> None:
 
 
 def many_worlds(seconds: float) -> None:
-    """256 worlds on one and on two threads."""
+    """Measure 256 worlds on one and on two threads."""
     work = []
     for threads in (1, 2):
         sim = burger(256, threads)
@@ -142,7 +142,7 @@ def many_worlds(seconds: float) -> None:
 
 
 def beside_mujoco(seconds: float) -> None:
-    """``Simulation.step`` beside ``mj_step``, on the compiled model and on one made by hand."""
+    """Compare ``Simulation.step`` with ``mj_step``, on the compiled and a hand-made model."""
     sim = burger(1, 1)
     sim.run(seconds=0.5)
     ours = sim.engine.running.batch.model
@@ -170,7 +170,7 @@ def beside_mujoco(seconds: float) -> None:
 
 
 def big_worlds(seconds: float) -> None:
-    """A burger with all its sensors in the small warehouse and in the house."""
+    """Measure a burger with all its sensors in the small warehouse and in the house."""
     for name, path in SCENES.items():
         if not (CORPUS / path).exists():
             print(f"{name}: not here (set GAZELLE_CORPUS)")
@@ -187,7 +187,7 @@ def big_worlds(seconds: float) -> None:
 
 
 def boxes(seconds: float) -> None:
-    """Boxes that slide, boxes that sleep, and what one more of them costs."""
+    """Measure boxes that slide, boxes that sleep, and the cost of one more."""
     print(f"{'boxes':>8}{'sliding: us/step':>18}{'asleep: us/step':>18}")
     table = []
     for count in COUNTS:
@@ -204,7 +204,7 @@ def boxes(seconds: float) -> None:
 
 
 def asleep_in_mujoco(seconds: float) -> None:
-    """What a sleeping box costs in bare MuJoCo, and in which of its parts."""
+    """Measure a sleeping box in bare MuJoCo, part by part."""
     count = COUNTS[-1]
     model = compile_world(CompilerInput(grid(count, moving=False), STEP)).model
     data = mujoco.MjData(model)
@@ -231,7 +231,7 @@ def asleep_in_mujoco(seconds: float) -> None:
 
 
 def friction_models(seconds: float) -> None:
-    """A cone beside a pyramid: for a burger, and for boxes that stand on the ground."""
+    """Compare a cone with a pyramid: for a burger, and for boxes on the ground."""
     models = ("pyramid_model", "cone_model")
     driving, standing = [], []
     for model in models:
@@ -265,7 +265,7 @@ def stepping(count: int, *, moving: bool) -> Callable[[], float]:
 
 
 def grid(count: int, *, moving: bool) -> gazelle.World:
-    """Boxes in rows on the ground, apart from each other; on ice if they move."""
+    """Return boxes in rows on the ground, apart from each other; on ice if they move."""
     surface = Surface(Friction(0.0, 0.0) if moving else Friction())
     floor = Collision("c", Plane(), surface=surface)
     ground = Model("ground", static=True, links=(Link("l", collisions=(floor,)),))

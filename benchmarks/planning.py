@@ -31,7 +31,7 @@ from gazelle.planning.state_validity import StateValidity
 
 
 def kitchen() -> tuple[PlanningScene, JointModelGroup]:
-    """The scene, and the arm."""
+    """Return the scene, and the arm."""
     root = assets.root()
     robot = RobotModel(
         load_model(root / "fetch_description" / "robots" / "fetch.urdf"),
@@ -48,7 +48,7 @@ def kitchen() -> tuple[PlanningScene, JointModelGroup]:
 def queries(
     scene: PlanningScene, group: JointModelGroup, count: int
 ) -> list[tuple[Floats, Floats]]:
-    """Pairs of positions that are free."""
+    """Return pairs of positions that are free."""
     valid, random = StateValidity(scene, group, scene.state), np.random.default_rng(0)
     found: list[Floats] = []
     while len(found) < 2 * count:
@@ -59,7 +59,7 @@ def queries(
 
 
 def measure(count: int, *, use_ompl: bool) -> str:
-    """One line of the table."""
+    """Return one line of the table."""
     scene, group = kitchen()
     spent, bad, late = [], 0, 0
     for number, (first, second) in enumerate(queries(scene, group, count)):

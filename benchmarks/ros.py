@@ -78,32 +78,32 @@ class Bench:
 
 
 def ping_pong(bench: Bench, who: str, nodelay: int) -> Figures:
-    """Two processes, a String there and back."""
+    """Measure two processes, a String there and back."""
     with bench.beside(who, "echo", nodelay):
         return bench.figures(bench.start(who, "ping", nodelay, bench.trips))
 
 
 def paced(bench: Bench, who: str) -> Figures:
-    """One way at 100 Hz."""
+    """Measure one way at 100 Hz."""
     count = round(100 * bench.seconds)
     with bench.beside(who, "paced", 100, count):
         return bench.figures(bench.start(who, "clocked", count))
 
 
 def flood(bench: Bench, who: str, kind: str) -> Figures:
-    """As many messages as go through, none lost."""
+    """Measure the highest rate of messages without losses."""
     with bench.beside(who, "source", kind, bench.seconds):
         return bench.figures(bench.start(who, "sink", kind))
 
 
 def calls(bench: Bench, who: str, persistent: int) -> Figures:
-    """As many service calls as go through."""
+    """Measure the highest rate of service calls."""
     with bench.beside(who, "server"):
         return bench.figures(bench.start(who, "caller", persistent, bench.seconds))
 
 
 def crowd(bench: Bench, who: str) -> Figures:
-    """72 publishers of one node at 10 Hz, all heard by another node."""
+    """Measure 72 publishers of one node at 10 Hz, with subscribers in another node."""
     seconds = max(3.0, bench.seconds)
     sink = bench.start(who, "crowd_in", 72, seconds)
     source = bench.figures(bench.start(who, "crowd_out", 72, 10, seconds))
@@ -116,24 +116,24 @@ def crowd(bench: Bench, who: str) -> Figures:
 
 
 def start(bench: Bench, who: str) -> Figures:
-    """A short program."""
+    """Measure the start of a short program."""
     begin = time.perf_counter()
     figures = bench.figures(bench.start(who, "start"))
     return {**figures, "whole": 1e3 * (time.perf_counter() - begin)}
 
 
 def within(bench: Bench, who: str, kind: str) -> Figures:
-    """Topics inside one process."""
+    """Measure topics inside one process."""
     return bench.figures(bench.start(who, "within", kind, bench.seconds))
 
 
 def within_calls(bench: Bench, who: str, persistent: int) -> Figures:
-    """Services inside one process."""
+    """Measure services inside one process."""
     return bench.figures(bench.start(who, "within_calls", persistent, bench.seconds))
 
 
 def master(bench: Bench, who: str) -> Figures:
-    """Until a master answers."""
+    """Measure the time until a master answers."""
     port = free_port()
     if who == OURS:
         code = "import sys; from gazelle.cli.main import main; sys.exit(main())"
@@ -287,13 +287,13 @@ def show(
 
 
 def digits(value: float) -> int:
-    """Decimals that are worth showing."""
+    """Return the significant decimals."""
     return 0 if value >= 100 or value == int(value) else 1
 
 
 @contextlib.contextmanager
 def running(python: str, args: argparse.Namespace) -> Iterator[Bench]:
-    """A bench with a master of its own."""
+    """Run a bench with a master of its own."""
     port = free_port()
     with tempfile.TemporaryDirectory() as home:
         env = {
@@ -316,7 +316,7 @@ def running(python: str, args: argparse.Namespace) -> Iterator[Bench]:
 
 
 def has_rospy(python: str) -> bool:
-    """Whether an interpreter finds the real one, and what the programs need."""
+    """Return whether an interpreter finds the real rospy, and the programs' modules."""
     if shutil.which(python) is None:
         return False
     code = "import rospy, sensor_msgs.msg, std_srvs.srv"
@@ -336,7 +336,7 @@ def wait_for_master(port: int) -> None:
 
 
 def free_port() -> int:
-    """A port nobody uses."""
+    """Return a port nobody uses."""
     with socket.socket() as sock:
         sock.bind(("127.0.0.1", 0))
         number: int = sock.getsockname()[1]

@@ -76,7 +76,7 @@ def show(name: str, fill: Callable[[Callable[[str], Any]], Any], options: Any) -
 def measure(
     functions: dict[str, Callable[[], Any]], rounds: int, seconds: float
 ) -> dict[str, float]:
-    """Best seconds a call of each function, in turns."""
+    """Return best seconds a call of each function, in turns."""
     best = dict.fromkeys(functions, float("inf"))
     counts = {}
     for who, function in functions.items():
@@ -95,14 +95,14 @@ def measure(
 
 
 def dumps(message: Any) -> bytes:
-    """The bytes of a message of Gazelle's or genpy's."""
+    """Return the bytes of a message of Gazelle's or genpy's."""
     buffer = io.BytesIO()
     message.serialize(buffer)
     return buffer.getvalue()
 
 
 def genpy_message(fill: Callable[[Callable[[str], Any]], Any]) -> Any:
-    """The same message of genpy's classes; None where they are not installed."""
+    """Return the same message of genpy's classes; None where they are not installed."""
     if _DEBIAN.is_dir() and str(_DEBIAN) not in sys.path:
         sys.path.append(str(_DEBIAN))
 
@@ -118,7 +118,7 @@ def genpy_message(fill: Callable[[Callable[[str], Any]], Any]) -> Any:
 
 
 def rosbags_store(type_: str) -> Any:
-    """rosbags' type store with this type in it; None where rosbags is not installed."""
+    """Return rosbags' type store with this type in it; None where rosbags is not installed."""
     try:
         from rosbags.typesys import Stores, get_types_from_msg, get_typestore
     except ImportError:

@@ -76,7 +76,7 @@ def main() -> None:
 
 
 def rival(args: argparse.Namespace, goals: Goals) -> None:
-    """Stage itself, if it is there."""
+    """Measure Stage itself, if it is installed."""
     import _stage_itself
     import _stage_rival
 
@@ -92,7 +92,7 @@ def rival(args: argparse.Namespace, goals: Goals) -> None:
 
 
 def fleets(args: argparse.Namespace, goals: Goals) -> None:
-    """Robots in an office."""
+    """Measure robots in an office."""
     print(
         f"\n{'robots':>8}  {'sensor':<17}{'updates/s':>12}{'Mrays/s':>9}{'Stage 4.3':>11}{'times':>7}"
     )
@@ -125,7 +125,7 @@ def fleets(args: argparse.Namespace, goals: Goals) -> None:
 
 
 def roam(count: int, side: float, fan: Fan | None, threads: int) -> Roaming:
-    """Robots spread over an office, roaming about."""
+    """Return robots spread over an office, roaming."""
     from _stage_office import office, places, roamers
 
     across = math.ceil(math.sqrt(count))
@@ -133,12 +133,12 @@ def roam(count: int, side: float, fan: Fan | None, threads: int) -> Roaming:
 
 
 def memory(fleet: Fleet) -> int:
-    """Bytes of all arrays of a fleet."""
+    """Return bytes of all arrays of a fleet."""
     return sum(v.nbytes for v in vars(fleet).values() if isinstance(v, np.ndarray))
 
 
 def batches(args: argparse.Namespace, goals: Goals) -> None:
-    """Many worlds of one robot among 12 walls and 4 pillars, step and scan."""
+    """Measure many worlds of one robot among 12 walls and 4 pillars, step and scan."""
     print(
         f"\n{'worlds':>8}{'beams':>7}{'robot steps/s':>15}{'ns a step':>11}{'ns a scan':>11}{'worst beam':>14}"
     )
@@ -176,7 +176,7 @@ def batches(args: argparse.Namespace, goals: Goals) -> None:
 
 
 def clutter(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """12 walls, (x0, y0, x1, y1), the first 4 around the rest, and 4 pillars, (x, y, radius)."""
+    """Return 12 walls (x0, y0, x1, y1), 4 around the others, and 4 pillars (x, y, radius)."""
     corners = np.array([(-2.2, -2.2), (2.2, -2.2), (2.2, 2.2), (-2.2, 2.2)])
     room = np.hstack((corners, np.roll(corners, -1, axis=0)))
     start, angle = rng.uniform(-1.8, 1.8, (8, 2)), rng.uniform(0, 6.28, 8)
@@ -187,7 +187,7 @@ def clutter(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
 
 
 def exact(fleet: Fleet, fan: Fan, walls: np.ndarray, pillars: np.ndarray) -> np.ndarray:
-    """Every beam against every wall and pillar in closed form, shape (nworld, beams)."""
+    """Return every beam against every wall and pillar in closed form, shape (nworld, beams)."""
     pose = fleet.pose[:, 0]
     angles = pose[:, 2:] + fan.angles
     dx, dy = np.cos(angles), np.sin(angles)
@@ -209,7 +209,7 @@ def exact(fleet: Fleet, fan: Fan, walls: np.ndarray, pillars: np.ndarray) -> np.
 
 
 def best(work: Callable[[], object], windows: int) -> float:
-    """Least processor time of some calls [s]."""
+    """Return least processor time of some calls [s]."""
     work()
     times = []
     for _ in range(windows):

@@ -103,5 +103,5 @@ class Cruise(BatchedTask):
 
 
 def make(num_envs, engine="planar"):
-    """The task as a Gymnasium vector environment."""
+    """Return the task as a Gymnasium vector environment."""
     return TaskVectorEnv(Cruise(num_envs, engine))

@@ -33,7 +33,7 @@ GOALS = {"planar": 1_000_000, "mujoco": None}
 
 
 def policy(inputs: int, actions: int) -> Actor:
-    """Two layers of 64, as recipes have them."""
+    """Return two layers of 64, as recipes have them."""
     rng = np.random.default_rng(0)
     sizes = (inputs, 64, 64, actions)
     weights = tuple(
@@ -59,7 +59,7 @@ def measured(team: Team, copies: int, windows: int) -> tuple[float, dict[int, ob
 
 
 def updated(task: str, copies: int) -> float:
-    """Seconds that a learner takes for one iteration's rollouts, with the task's own recipe."""
+    """Return the seconds of one iteration's rollouts, with the task's own recipe."""
     recipe = dataclasses.replace(recipe_for(task), num_envs=copies)
     env = VectorEnvAdapter(make_task(task, copies, **recipe.training_options))
     learner = build_learner(recipe, env, 0)
@@ -110,7 +110,7 @@ def main() -> None:
 
 
 def compared(engine: str, *, ray: bool, windows: int) -> tuple[float, float, float]:
-    """One worker and two; steps a second of two processes, megabytes, seconds to pack and unpack."""
+    """Compare one worker and two: steps a second, megabytes, seconds to pack and unpack."""
     task, copies = TASKS[engine]
     blueprint = Blueprint(task=task, sizes=divided(copies), options={"engine": engine})
     print(f"{task}, {engine}, {copies} worlds, rollouts of {STEPS} steps, best of {windows}")
@@ -142,7 +142,7 @@ def compared(engine: str, *, ray: bool, windows: int) -> tuple[float, float, flo
 
 
 def carried(value: object) -> tuple[float, float]:
-    """Megabytes, and seconds to pack and to unpack."""
+    """Return megabytes, and seconds to pack and to unpack."""
     start = time.process_time()
     data = pickle.dumps(value, protocol=pickle.HIGHEST_PROTOCOL)
     pickle.loads(data)

@@ -40,7 +40,7 @@ PLAN = """
 
 
 def small_office(seed: int) -> gazelle.World:
-    """Two rooms from a drawing; the letters say where furniture goes."""
+    """Return two rooms from a drawing; the letters are the places of furniture."""
     return (
         WorldBuilder("small_office", seed=seed)
         .ground()
@@ -53,7 +53,7 @@ def small_office(seed: int) -> gazelle.World:
 
 
 def one_room(seed: int) -> gazelle.World:
-    """A room with a door and a window, a shelf at its wall, and boxes to drive around."""
+    """Return a room with a door and a window, a shelf at its wall, and boxes to drive around."""
     builder = WorldBuilder("one_room", seed=seed).ground().sun()
     builder.room(6.0, 4.0, openings=[door(0, 2.0), window(2, 3.0)])
     builder.place(shelf, -2.8, 0.0).place(desk, 2.2, 1.0)

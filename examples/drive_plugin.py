@@ -31,5 +31,5 @@ class VelocityDrive(ModelPlugin):
             self._pose.publish()
 
     def reset(self, worlds: object) -> None:  # noqa: ARG002  all worlds alike
-        """Begin anew."""
+        """Reset the command."""
         self._next = 0.0

@@ -59,7 +59,7 @@ CART = """<?xml version="1.0"?>
 
 
 def equip(text: str) -> str:
-    """The robot's text with what a simulation needs; its own text stays as it is."""
+    """Return the robot's text with what a simulation needs; its own text stays as it is."""
     scanner = lidar("scanner", pose=Pose(z=0.12), samples=180, noise=0.01, range_max=20.0)
     eye = camera("eye", pose=Pose(x=0.05), horizontal_fov=math.radians(80.0))
     text = add_sensor(text, "mast", scanner)

@@ -47,7 +47,7 @@ class OfficeRobot:
             time.sleep(0.01)
 
     def send(self, x: float, y: float) -> None:
-        """Tell it where to go; its heading there does not matter."""
+        """Send it to a place; its heading there does not matter."""
         goal: Any = self._message()
         goal.header.frame_id = "map"
         goal.pose.position.x, goal.pose.position.y = x, y
@@ -67,7 +67,7 @@ class OfficeRobot:
         return self.time - began
 
     def distance(self, x: float, y: float) -> float:
-        """From where it is now [m]."""
+        """Return the distance from its present place [m]."""
         return math.inf if self.position is None else math.dist(self.position, (x, y))
 
     def _hear_odometry(self, message: Any) -> None:
@@ -79,7 +79,7 @@ class OfficeRobot:
 
 
 def length(way: list[tuple[float, float]]) -> float:
-    """Of a way [m]."""
+    """Return the length of a path [m]."""
     return sum(math.dist(a, b) for a, b in pairwise(way))
 
 

@@ -16,12 +16,12 @@ OUT = Path(__file__).parent.parent / "gazelle" / "formats" / "sdf" / "schema.jso
 
 
 def version_key(folder: Path) -> tuple[int, ...]:
-    """Version folders in the order of their numbers."""
+    """Return the numbers of a version folder, for sorting."""
     return tuple(int(part) for part in folder.name.split("."))
 
 
 def read(file: Path) -> ET.Element:
-    """The root element of a schema file."""
+    """Read the root element of a schema file."""
     return ET.parse(file).getroot()  # the schema comes from its own project
 
 

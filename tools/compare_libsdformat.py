@@ -56,14 +56,14 @@ def main() -> None:
 
 
 def files(folder: Path) -> list[Path]:
-    """The description files below a folder."""
+    """Return the description files below a folder."""
     import corpus_table
 
     return corpus_table.files(folder, "sdf", "world", "urdf", "xacro")
 
 
 def judged(path: Path, folder: Path, roots: list[str]) -> Outcome:
-    """What the two make of a file; xacro is expanded by Gazelle for both."""
+    """Return both results for a file; Gazelle expands xacro for both."""
     import test_oracle
 
     from gazelle import Error
@@ -87,7 +87,7 @@ def judged(path: Path, folder: Path, roots: list[str]) -> Outcome:
 def compared(
     file: Path, paths: list[Path] | list[str], theirs: str | None, *, robot: bool
 ) -> Outcome:
-    """Whether Gazelle writes the same as libsdformat."""
+    """Return whether Gazelle writes the same as libsdformat."""
     import test_oracle
 
     if theirs is None or ("<link" if robot else "<") not in theirs:
@@ -112,7 +112,7 @@ def compared(
 
 
 def written(file: Path, paths: list[Path] | list[str], *, is_world: bool) -> str | Outcome:
-    """The file as Gazelle writes it."""
+    """Return the file as Gazelle writes it."""
     from gazelle import Error, formats
 
     with warnings.catch_warnings(record=True) as notes:

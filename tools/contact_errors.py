@@ -47,7 +47,7 @@ def main() -> None:
 def engine_of(
     *models: Model, step: float, slope: float = 0.0, contacts: str | None = None
 ) -> Engine:
-    """An engine on level ground, or on a slope down x."""
+    """Return an engine on level ground, or on a slope down x."""
     gravity = (G * math.sin(slope), 0.0, -G * math.cos(slope))
     world: World = scenes.world(scenes.ground(), *models, step=step, gravity=gravity)
     world = with_profile(world, replace(world.profile, contacts=contacts))
@@ -63,7 +63,7 @@ def timed(engine: Engine, seconds: float) -> float:
 
 
 def sliding(step: float) -> Result:
-    """A box thrown at 4 m/s, mu 0.5: its way, beside Euler's half step, and its hop."""
+    """Return a box thrown at 4 m/s, mu 0.5: its distance, with Euler's half step, and its hop."""
     engine = engine_of(scenes.box("box", (0.2, 0.2, 0.1), mu=0.5, pose=Pose(z=0.05)), step=step)
     engine.step(round(0.3 / step))
     start = engine.models["box"].placement().position[0].copy()
@@ -78,7 +78,7 @@ def sliding(step: float) -> Result:
 
 
 def rolling(step: float) -> Result:
-    """A ball down a slope of 0.2 for 2 s: 5/7 g sin a t²/2."""
+    """Return a ball down a slope of 0.2 for 2 s: 5/7 g sin a t²/2."""
     engine = engine_of(scenes.ball(pose=Pose(z=0.1)), step=step, slope=0.2)
     cost = timed(engine, 2.0)
     far = 5.0 / 7.0 * G * math.sin(0.2) * 2.0
@@ -86,7 +86,7 @@ def rolling(step: float) -> Result:
 
 
 def gripping(step: float, contacts: str | None = None) -> Result:
-    """Half a kilogram between two fingers, mu 0.8, held with a margin of two."""
+    """Return half a kilogram between two fingers, mu 0.8, held with a margin of two."""
     thing = scenes.box("thing", (0.05, 0.05, 0.05), mass=0.5, mu=0.8, pose=Pose(z=0.5))
     engine = engine_of(gripper(), thing, step=step, contacts=contacts)
     for side in ("left", "right"):
@@ -95,7 +95,7 @@ def gripping(step: float, contacts: str | None = None) -> Result:
 
 
 def parking(step: float, contacts: str | None = None) -> Result:
-    """A burger on a slope of 0.05, its motors holding."""
+    """Return a burger on a slope of 0.05, its motors holding."""
     robot = load(assets.robot("turtlebot3_burger")).models[0]
     engine = engine_of(robot, step=step, slope=0.05, contacts=contacts)
     for side in ("left", "right"):
@@ -104,7 +104,7 @@ def parking(step: float, contacts: str | None = None) -> Result:
 
 
 def stacking(step: float) -> Result:
-    """Ten boxes on each other, put 5 mm aside by turns."""
+    """Return ten boxes on each other, put 5 mm aside by turns."""
     names = [f"b{index}" for index in range(10)]
     boxes = [
         scenes.box(name, (0.2, 0.2, 0.1), mu=0.6, pose=Pose(x=0.005 * (-1) ** i, z=0.05 + 0.1 * i))
@@ -114,7 +114,7 @@ def stacking(step: float) -> Result:
 
 
 def creep(engine: Engine, names: list[str]) -> Result:
-    """How far the worst of some models moves in a minute, by what it does in 10 s."""
+    """Return how far the worst of some models moves in a minute, from 10 s."""
     engine.step(round(2.0 / engine.time_step))
     before = [engine.models[name].placement().position[0].copy() for name in names]
     cost = timed(engine, 10.0)
@@ -126,7 +126,7 @@ def creep(engine: Engine, names: list[str]) -> Result:
 def driving(
     linear: float, angular: float, contacts: str | None = None
 ) -> Callable[[float], Result]:
-    """A burger's wheels turning as 10 m, or ten turns, ask for; the ramp is left out."""
+    """Return errors of a burger with wheels turning for 10 m, or ten turns, without the ramp."""
 
     def drive(step: float) -> Result:
         robot = load(assets.robot("turtlebot3_burger")).models[0]
@@ -158,13 +158,13 @@ def driving(
 
 
 def yaw(quaternion: np.ndarray) -> float:
-    """The heading of a rotation (x, y, z, w)."""
+    """Return the heading of a rotation (x, y, z, w)."""
     x, y, z, w = quaternion.tolist()
     return math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
 
 
 def percent(ratio: float) -> str:
-    """How far a ratio is from one."""
+    """Return the deviation of a ratio from one."""
     return f"{100.0 * (ratio - 1.0):+.3f} %"
 
 

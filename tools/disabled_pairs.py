@@ -23,7 +23,7 @@ ALWAYS = 0.95
 
 
 def touching(scene: PlanningScene, state: np.ndarray) -> set[tuple[str, str]]:
-    """Pairs that touch, names in alphabetic order."""
+    """Return pairs that touch, names in alphabetic order."""
     found = scene.contacts(state)
     return {(min(e.first, e.second), max(e.first, e.second)) for e in found}
 

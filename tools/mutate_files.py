@@ -165,7 +165,7 @@ def _memory(pid: int | str, field_name: str = "VmRSS") -> int:
 
 
 def _work(pipe: Connection, folders: list[Path], stacks: str) -> None:
-    """Take up one file after the other."""
+    """Process one file after the other."""
     file = Path(stacks).open("w", encoding="utf-8")  # noqa: SIM115  # open to the end
     faulthandler.enable(file)
     faulthandler.register(10, file, all_threads=False)
@@ -248,7 +248,7 @@ class Survey:
 
 
 def laid_out(seed: Seed, folder: Path) -> Path:
-    """Put a seed's file into a folder, with copies of what is beside and below it."""
+    """Write a seed's file into a folder, with copies of what is beside and below it."""
     home = folder / seed.file.parent.name
     home.mkdir(parents=True)
     if seed.reader in ("run", "checkpoint"):  # what writes there, too

@@ -70,7 +70,7 @@ def main() -> int:
 
 
 def found(folder: Path, only: list[str]) -> list[Path]:
-    """The launch files that start training scripts."""
+    """Return the launch files that start training scripts."""
     files = sorted(folder.glob("*/launch/*.launch"))
     files = [each for each in files if not any(word in each.stem for word in _NO_TRAINING)]
     files = [each for each in files if _SCRIPT.search(each.read_text(encoding="utf-8"))]
@@ -78,7 +78,7 @@ def found(folder: Path, only: list[str]) -> list[Path]:
 
 
 def is_among(launch: Path, only: list[str]) -> bool:
-    """Whether a launch file is asked for, by its package or with its name."""
+    """Return whether a launch file is selected, by its package or its name."""
     package = launch.parents[1].name
     return package in only or f"{package}/{launch.name}" in only
 
@@ -140,7 +140,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 
 def task_of(node: ros.Node, text: str) -> str:
-    """The task, if a parameter names it."""
+    """Return the task, if a parameter names it."""
     try:
         names = [each for each in node.param_names() if "task_and_robot_environment" in each]
     except RosError:
@@ -152,19 +152,19 @@ def task_of(node: ros.Node, text: str) -> str:
 
 
 def script_of(launch: Path) -> str:
-    """The script that a launch file starts."""
+    """Return the script that a launch file starts."""
     match = _SCRIPT.search(launch.read_text(encoding="utf-8"))
     return match.group(1) if match else launch.name
 
 
 def last_words(text: str) -> str:
-    """The last error in what was said."""
+    """Return the last error in a text."""
     errors = [each for each in _ERROR.findall(text) if "Interrupt" not in each]
     return errors[-1].strip()[:200] if errors else ""
 
 
 def row(outcome: Outcome, *, markdown: bool) -> str:
-    """A line of the table."""
+    """Return a line of the table."""
     result = f"{outcome.episodes} episodes" if outcome.episodes else outcome.said or "no episode"
     cells = (outcome.script, outcome.task, result, f"{outcome.seconds:.0f} s")
     return f"| {' | '.join(cells)} |" if markdown else "  ".join(cells)

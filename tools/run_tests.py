@@ -25,7 +25,7 @@ CACHE = Path(".pytest_cache/v/cache/lastfailed")
 
 
 def failed() -> list[str]:
-    """The tests that failed in the last run, by their names."""
+    """Return the failed tests of the last run, by their names."""
     return sorted(json.loads(CACHE.read_text())) if CACHE.exists() else []
 
 

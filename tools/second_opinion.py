@@ -31,7 +31,7 @@ def main() -> None:
 
 
 def rounded(figure: float) -> str:
-    """Two digits; nothing below a millionth."""
+    """Return a figure with two digits; nothing below a millionth."""
     if figure < 1e-6:
         return "< 1e-6"
     return f"{figure:.0f}" if figure >= 10.0 else f"{figure:.2g}"

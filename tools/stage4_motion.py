@@ -54,7 +54,7 @@ OBSTACLE_2 = ((-2.0, -2.0), (
 
 
 def key_frames(start: tuple[float, float], legs: tuple[Leg, ...]) -> list[tuple[float, ...]]:
-    """Rows of (time [s], x [m], y [m]), the first and the last at the start."""
+    """Return rows of (time [s], x [m], y [m]), the first and the last at the start."""
     x, y = start
     ticks = 0
     rows = [(0.0, x, y)]
@@ -73,7 +73,7 @@ def key_frames(start: tuple[float, float], legs: tuple[Leg, ...]) -> list[tuple[
 
 
 def as_sdf(rows: list[tuple[float, ...]]) -> str:
-    """The rows as the children of a motion plugin."""
+    """Return the rows as the children of a motion plugin."""
     lines = ["<loop>true</loop>"]
     for time, x, y in rows:
         pose = f"{x:.4f} {y:.4f} {HEIGHT} 0 0 0"

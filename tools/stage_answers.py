@@ -68,7 +68,7 @@ def main() -> None:
 
 
 def scenes() -> Iterator[tuple[str, list[Any], str]]:
-    """Name, robots, and what else there is."""
+    """Yield name, robots, and other contents."""
     from stage_scenes import BASES, SIDES, Robot, anywhere, crowd
 
     for kind, bases in BASES.items():

@@ -82,7 +82,7 @@ def both(stage: Stage, folder: Path, robots: list[Robot], more: str = "") -> Hea
 
 
 def apart(theirs: Floats, ours: Floats) -> Floats:
-    """Differences of steps of both, shape (steps, 7)."""
+    """Return differences of steps of both, shape (steps, 7)."""
     count = min(len(theirs), len(ours))
     difference: Floats = theirs[:count] - ours[:count]
     turns = difference[:, (2, 6)]
@@ -93,19 +93,19 @@ def apart(theirs: Floats, ours: Floats) -> Floats:
 def row(
     scene: str, compared: str, values: list[float] | Floats, unit: str = "m", why: str = ""
 ) -> Row:
-    """A line about lengths or angles."""
+    """Return a line about lengths or angles."""
     all_values = np.asarray(values)
     mean, most = (f"{rounded(v)} {unit}" for v in (all_values.mean(), all_values.max()))
     return Row(scene, compared, f"{all_values.size:,}", mean, most, why)
 
 
 def rounded(value: float) -> str:
-    """Two digits; nothing below what is written to nine places."""
+    """Return a figure with two digits; nothing below what is written to nine places."""
     return "< 1e-9" if value < 1e-9 else f"{value:.2g}"
 
 
 def share(scene: str, compared: str, differ: int, total: int, why: str = "") -> Row:
-    """A line about how many of some things differ."""
+    """Return a line about the share of things that differ."""
     return Row(scene, compared, f"{total:,}", f"{differ} ({100 * differ / total:.1f} %)", "", why)
 
 
@@ -133,7 +133,7 @@ BASES = {
 
 
 def drives(stage: Stage, folder: Path) -> Iterator[Row]:
-    """Bases of each kind, also beyond their bounds, and what odometry without error says."""
+    """Yield bases of each kind, also beyond their bounds, and odometry without error."""
     for kind, bases in BASES.items():
         exact = ' localization "odom" odom_error [0 0 0 0]'
         robots = [
@@ -150,7 +150,7 @@ def drives(stage: Stage, folder: Path) -> Iterator[Row]:
 
 
 def walls(stage: Stage, folder: Path) -> Iterator[Row]:
-    """Robots that run into walls at all angles, or turn beside one until they touch it."""
+    """Yield robots that run into walls at all angles, or turn beside one until they touch it."""
     rng = np.random.default_rng(2)
     robots, more = [], []
     for i in range(24):
@@ -190,7 +190,7 @@ model ( size [.1 10 1] pose [5 0 0 0] )  model ( size [.1 10 1] pose [-5 0 0 0] 
 
 
 def rangers(stage: Stage, folder: Path) -> Iterator[Row]:
-    """Beams among boxes, other polygons and what a bitmap draws, from random places."""
+    """Yield beams among boxes, other polygons and what a bitmap draws, from random places."""
     yield from beams(stage, folder, SOLIDS, "among polygons")
     rng = np.random.default_rng(4)
     plan = np.full((220, 260), 255, np.uint8)
@@ -230,7 +230,7 @@ def beams(stage: Stage, folder: Path, world: str, scene: str) -> Iterator[Row]:
 
 
 def crowd(seed: int) -> str:
-    """Boxes that fiducial finders and blob finders may see, each in a square of its own."""
+    """Return boxes for fiducial finders and blob finders, each in a square of its own."""
     rng = np.random.default_rng(seed)
     colors = ("red", "green", "blue", "yellow")
     lines = []
@@ -246,13 +246,13 @@ def crowd(seed: int) -> str:
 
 
 def anywhere(rng: np.random.Generator, device: str) -> Robot:
-    """A robot in the crowd, at the corner of four squares."""
+    """Return a robot in the crowd, at the corner of four squares."""
     x, y = 1.5 * rng.integers(-4, 5, 2)
     return Robot(f"size [.1 .1 .5] {device}", (float(x), float(y), float(rng.uniform(-180, 180))))
 
 
 def fiducials(stage: Stage, folder: Path) -> Iterator[Row]:
-    """Fiducial finders of several kinds in a crowd: which marks, and where."""
+    """Yield fiducial finders of several kinds in a crowd: their marks and places."""
     kinds = ("", "range_max 4 range_max_id 2", "fov 60", "range_min 3", "ignore_zloc 1")
     rng = np.random.default_rng(5)
     gaps: list[float] = []
@@ -275,7 +275,7 @@ def fiducials(stage: Stage, folder: Path) -> Iterator[Row]:
 
 
 def blobs(stage: Stage, folder: Path) -> Iterator[Row]:
-    """Blob finders in a crowd: the colour in every column, and distances."""
+    """Yield blob finders in a crowd: the colour in every column, and distances."""
     kinds = ("", 'colors_count 2 colors ["red" "blue"]', "fov 120 image [200 60]", "pan 60 range 4")
     rng = np.random.default_rng(6)
     total, lost, other, gaps = 0, 0, 0, []
@@ -307,7 +307,7 @@ def blobs(stage: Stage, folder: Path) -> Iterator[Row]:
 
 
 def columns(seen: list[Blob], width: int) -> list[tuple[float, ...] | None]:
-    """The colour of each column."""
+    """Return the colour of each column."""
     found: list[tuple[float, ...] | None] = [None] * width
     for blob in seen:
         found[blob.left : blob.right + 1] = [blob.color] * (blob.right - blob.left + 1)
@@ -315,7 +315,7 @@ def columns(seen: list[Blob], width: int) -> list[tuple[float, ...] | None]:
 
 
 def bumpers(stage: Stage, folder: Path) -> Iterator[Row]:
-    """Strips of bumpers beside walls: which touch something."""
+    """Yield strips of bumpers beside walls: those with contacts."""
     rng = np.random.default_rng(7)
     strips = " ".join(f"bpose[{i}] [{x} {y} 0 {90 * i}]" for i, (x, y) in enumerate(SIDES))
     device = f"bumper ( bcount 4 blength .3 {strips} )"
@@ -336,7 +336,7 @@ def bumpers(stage: Stage, folder: Path) -> Iterator[Row]:
 
 
 def noise(stage: Stage, folder: Path) -> Iterator[Row]:
-    """Deviations of ranges to a wall across the axis, with each kind of noise."""
+    """Yield deviations of ranges to a wall across the axis, with each kind of noise."""
     wall = "model ( size [1 20 1] pose [4.5 0 0 0] )"
     for words in ("0.01 0", "0 0.1", "0.0004 0.02"):
         sensor = f"sensor ( range [0 8] fov 20 samples 4001 noise [{words} 0] )"

@@ -68,7 +68,7 @@ def main() -> None:
 
 
 def files(folder: Path) -> list[Path]:
-    """The description files below a folder, Stage's worlds among them."""
+    """Return the description files below a folder, Stage's worlds among them."""
     import corpus_table
 
     described = set(corpus_table.files(folder, "sdf", "urdf", "xacro"))
@@ -78,7 +78,7 @@ def files(folder: Path) -> list[Path]:
 def judged(
     paths: list[Path], folder: Path, seconds: float, limit: float
 ) -> Iterator[tuple[Path, Outcome]]:
-    """What becomes of files, in a process that is started anew whenever one of them ends it."""
+    """Yield results of files, from a process that is started again whenever one ends it."""
     context = multiprocessing.get_context("spawn")
     worker: SpawnProcess | None = None
     ours: Connection | None = None
@@ -103,7 +103,7 @@ def judged(
 
 
 def work(pipe: Connection, folder: str, seconds: float) -> None:
-    """Take up one file after the other."""
+    """Process one file after the other."""
     roots = sorted({str(config.parent.parent) for config in Path(folder).rglob("model.config")})
     os.environ["GAZEBO_MODEL_PATH"] = os.pathsep.join(roots)
     os.environ["ROS_PACKAGE_PATH"] = folder

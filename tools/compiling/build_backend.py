@@ -27,12 +27,12 @@ __all__ = [
 
 
 def get_requires_for_build_wheel(config_settings: dict[str, Any] | None = None) -> list[str]:
-    """What setuptools needs, and perhaps a compiler."""
+    """Return setuptools, and perhaps a compiler."""
     return [*build_meta.get_requires_for_build_wheel(config_settings), *_compiler()]
 
 
 def get_requires_for_build_editable(config_settings: dict[str, Any] | None = None) -> list[str]:
-    """The same."""
+    """Return the same as for a wheel."""
     return [*build_meta.get_requires_for_build_editable(config_settings), *_compiler()]
 
 

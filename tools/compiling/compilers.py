@@ -17,7 +17,7 @@ OLDEST_GLIBC = "2.17"  # as manylinux2014 has it
 
 
 def system_compiler() -> str | None:
-    """The command of a C compiler of this system that makes what is wanted; None without one."""
+    """Return the command of a suitable C compiler of this system; None without one."""
     if "GAZELLE_TARGET" in os.environ:
         return None  # for another machine only Zig's will do
     if sys.platform == "win32":
@@ -30,7 +30,7 @@ def system_compiler() -> str | None:
 
 
 def _works(command: list[str]) -> bool:
-    """Whether it makes a shared library."""
+    """Return whether it makes a shared library."""
     if shutil.which(command[0]) is None:
         return False
     with tempfile.TemporaryDirectory() as folder:
@@ -43,7 +43,7 @@ def _works(command: list[str]) -> bool:
 
 
 def zig_target() -> str:
-    """This machine, or the one that ``GAZELLE_TARGET`` names, as Zig calls it."""
+    """Return this machine, or that of ``GAZELLE_TARGET``, by Zig's name."""
     named = os.environ.get("GAZELLE_TARGET")
     if named:
         return named
@@ -58,17 +58,17 @@ def zig_target() -> str:
 
 
 def zig() -> list[str]:
-    """The command of Zig's C compiler, for ``zig_target``."""
+    """Return the command of Zig's C compiler, for ``zig_target``."""
     return [sys.executable, "-m", "ziglang", "cc", "-target", zig_target()]
 
 
 def is_x86() -> bool:
-    """Whether what is built is for 64-bit x86."""
+    """Return whether the target is 64-bit x86."""
     return zig_target().startswith("x86_64")
 
 
 def is_macos() -> bool:
-    """Whether what is built is for macOS."""
+    """Return whether the target is macOS."""
     return "macos" in zig_target()
 
 

@@ -58,20 +58,20 @@ VISUAL_STUDIO = {"baseline": ["/O2", "/fp:precise"], "avx2": ["/O2", "/fp:precis
 
 
 def processors() -> int:
-    """How many of them may be used."""
+    """Return the number of processors that may be used."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def builds() -> list[str]:
-    """Which builds to make: those that users have, or the ones that ``GAZELLE_BUILD`` names."""
+    """Return the builds to make: those for users, or those of ``GAZELLE_BUILD``."""
     named = os.environ.get("GAZELLE_BUILD", "").split()
     return named or (["baseline", "avx2"] if compilers.is_x86() else ["baseline"])
 
 
 def sources() -> list[Path]:
-    """Files of the package that say ``import cython``."""
+    """Return the files of the package with ``import cython``."""
     says = re.compile(r"^import cython$", re.MULTILINE)
     files = sorted((ROOT / "gazelle").rglob("*.py"))
     return [
@@ -80,7 +80,7 @@ def sources() -> list[Path]:
 
 
 def extensions() -> list[Extension]:
-    """Every module in every build; C files are made where they are older than their sources."""
+    """Return every module in every build; C files are made where they are outdated."""
     found = []
     for checks in (False, True):
         chosen = [name for name in builds() if (name in ("checked", "sanitize")) == checks]
@@ -96,7 +96,7 @@ def extensions() -> list[Extension]:
 
 
 def _translated(kind: str, checks: dict[str, bool]) -> list[Extension]:
-    """C of every module, under ``build/cython``."""
+    """Translate every module to C, under ``build/cython``."""
     folder = f"build/cython/{kind}"
     names = [".".join(path.with_suffix("").parts) for path in sources()]
     modules = [Extension(name, [str(path)]) for name, path in zip(names, sources(), strict=True)]
@@ -113,7 +113,7 @@ def _translated(kind: str, checks: dict[str, bool]) -> list[Extension]:
 
 
 def _built(module: Extension, build: str) -> Extension:
-    """A module in a folder of its own beside its source, under the name of its source."""
+    """Return a module in a folder beside its source, under the name of its source."""
     package, _, name = module.name.rpartition(".")
     home = Path(*package.split("."))
     return Extension(
@@ -131,7 +131,7 @@ class BuildSources(build_py):
     """Copy what is not compiled; what is left of an earlier build and is gone since goes."""
 
     def run(self) -> None:
-        """Keep compiled modules that are still wanted: they are not made again if up to date."""
+        """Keep compiled modules that are still needed: they are not made again if up to date."""
         ext = self.get_finalized_command("build_ext")
         wanted = {Path(ext.get_ext_fullpath(each.name)).resolve() for each in ext.extensions or ()}
         for path in Path(self.build_lib, "gazelle").rglob("*"):
@@ -193,7 +193,7 @@ class BuildModules(build_ext):
         ingredients.write_text(now)
 
     def _ingredients(self, ext: Extension) -> str:
-        """A digest of everything that decides what is compiled."""
+        """Return a digest of everything that determines the compiled code."""
         words = [self._version, sys.version, ext.name, *ext.extra_compile_args]
         words += [*ext.extra_link_args, *self._command, str(ext.define_macros)]
         digest = hashlib.sha256("\0".join(words).encode())
@@ -230,12 +230,12 @@ class BuildModules(build_ext):
             each.extra_objects.append(str(library))
 
     def get_ext_filename(self, fullname: str) -> str:
-        """Name a module as the system that it is for does."""
+        """Return a module's file name on the target system."""
         name = super().get_ext_filename(fullname)
         return re.sub(r"(\.abi3)?\.so$", ".pyd", name) if compilers.is_windows() else name
 
     def copy_extensions_to_source(self) -> None:
-        """Put them beside their sources, for an editable installation.
+        """Copy modules beside their sources, for an editable installation.
 
         Modules of an earlier build under other names go: Python would prefer some of them.
         """

@@ -53,7 +53,7 @@ def check(wheel: Path, folders: Iterable[str]) -> None:
 
 
 def check_modules(wheel: Path, folders: Iterable[str]) -> None:
-    """Refuse compiled modules of other systems, and those that name a folder."""
+    """Raise an error for compiled modules of other systems, or with a folder's name inside."""
     tags, platform = wheel.stem.split("-")[-3:-1], wheel.stem.split("-")[-1]
     if tags != ["cp311", "abi3"]:
         raise SystemExit(f"{wheel.name} is not for cp311-abi3")
@@ -85,7 +85,7 @@ def _is_for(platform: str, module: bytes) -> bool:
 
 
 def check_manylinux(wheel: Path) -> None:
-    """Refuse a wheel that needs more of the system than its name says."""
+    """Raise an error for a wheel that needs more of the system than its name says."""
     show = [sys.executable, "-m", "auditwheel", "show", str(wheel)]
     done = subprocess.run(show, check=True, capture_output=True, text=True)
     fits = re.search(r'platform tag:\s*"manylinux_2_(\d+)_', done.stdout)

@@ -58,7 +58,7 @@ def main() -> None:
 
 
 def _share_what_is_compiled(tree: Path) -> None:
-    """C is made once for all platforms, and what is up to date is not compiled again."""
+    """Share C files between platforms, and skip modules that are up to date."""
     (tree / "build").mkdir(exist_ok=True)
     for name in ("cython", "compiled"):
         kept = ROOT / "build" / name

@@ -36,7 +36,7 @@ class Client:
 
 
 def clients_of(package: Path, files: Container[str]) -> Iterator[Client]:
-    """What a package's ``CMakeLists.txt`` declares for some test files, as clients of other nodes."""
+    """Yield the declarations for some test files in a package's ``CMakeLists.txt``."""
     text = (package / "CMakeLists.txt").read_text(encoding="utf-8")
     words = [(kind, body.split()) for kind, body in _TARGET.findall(text)]
     defines = {

@@ -56,7 +56,7 @@ _CAR = {
 
 
 def _car(name: str) -> str:
-    """Each test file of ackermann_steering_controller lies in a folder of its own."""
+    """Return the folder of a test file: in ackermann_steering_controller each has its own."""
     stem = f"ackermann_steering_controller{name}"
     return f"test/{stem}_test/{stem}.test"
 

@@ -44,7 +44,7 @@ def _has_own_definitions(package: Path) -> bool:
 
 
 def _actions(package: Path, target: Path) -> list[Path]:
-    """The folder with the seven messages of each action, if there is any."""
+    """Return the folder with the seven messages of each action, if there is any."""
     actions = sorted(package.glob("action/*.action"))
     folder = target / ".actions" / package.name
     for action in actions:

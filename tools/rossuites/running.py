@@ -71,7 +71,7 @@ def _output(command: list[str], environment: dict[str, str]) -> str:
 
 
 def _summed(log: str) -> tuple[int, int, list[str]]:
-    """What the summaries say; a script may have several, and only one report."""
+    """Return the sums of the summaries; a script may have several, and only one report."""
 
     def figure(word: str) -> int:
         return sum(map(int, re.findall(rf"^ \* {word}: (\d+)", log, re.MULTILINE)))

@@ -65,7 +65,7 @@ def _apt_options(folder: Path) -> list[str]:
 
 
 def packages(folder: Path) -> dict[str, Path]:
-    """The folders of the ROS packages below a folder, by the names that their manifests give them."""
+    """Return the folders of ROS packages below a folder, by the names in their manifests."""
     found: dict[str, Path] = {}
     for place, folders, files in os.walk(folder, followlinks=True):
         if "package.xml" in files:
@@ -100,7 +100,7 @@ def overlay(found: dict[str, Path], names: Iterable[str], folder: Path, python: 
 
 @contextmanager
 def hiding(folder: Path, names: Iterable[str]) -> Iterator[None]:
-    """Have folders below a folder not be there for a while."""
+    """Hide folders below a folder for a while."""
     with ExitStack() as stack:
         for name in names:
             place = folder / name

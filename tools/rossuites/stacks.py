@@ -105,7 +105,7 @@ def lay_out(stack: Stack, folder: Path) -> dict[str, str]:
 
 
 def put_robots(robots: Mapping[str, str], package: Path) -> None:
-    """Put programs in a package that start stand-ins of its robots, with Gazelle's Python."""
+    """Add programs to a package that start stand-ins of its robots, with Gazelle's Python."""
     for name, command in robots.items():
         _script(package / name, f'exec "{sys.executable}" "{_ROBOTS}/"{command} "$@"')
 
@@ -120,7 +120,7 @@ exec "{GAZELLE}" master --no-rosout --port "$port\""""
 
 
 def _python(folder: Path, *, ours: bool) -> None:
-    """The interpreter: Gazelle's for files of the suites, Debian's for all others."""
+    """Write the interpreter: Gazelle's for files of the suites, Debian's for all others."""
     text = 'exec /usr/bin/python3 "$@"'
     if ours:
         text = f"""case "$1" in

@@ -52,7 +52,7 @@ class Kinematic(RobotHardware):
             joints.position[:, count:] = self.steering.command()
 
     def serve(self, node: Node) -> None:
-        """Offer ``start`` and ``stop``."""
+        """Serve ``start`` and ``stop``."""
         empty = load_service("std_srvs/Empty")
 
         def switch(*, running: bool) -> Any:
@@ -87,7 +87,7 @@ def run(name: str, hardware: RobotHardware, *, makes_time: bool, offer: Any = No
 
 
 def _keep_time(node: Node, loop: HardwareLoop) -> int:
-    """Periods as long as they are said to be; late ones are made up for.
+    """Keep periods at their length; late ones are made up for.
 
     The originals' robots lose them, and with them time, on a machine that is busy with other things.
     """

@@ -61,7 +61,7 @@ class RRBot(RobotHardware):
                     self.active[JOINTS.index(name)] = interface
 
     def listen(self, node):
-        """Take what topics say, and tell that it was taken."""
+        """Subscribe to the topics, and confirm each message."""
         empty = load_message("std_msgs/Empty")
         told = node.advertise("parameter_updated", empty, 1)
 

@@ -31,7 +31,7 @@ class Wrapping(RobotHardware):
         joints.position[:] = (turned + np.pi) % (2.0 * np.pi) - np.pi
 
     def listen(self, node):
-        """Take how much of a command is followed."""
+        """Subscribe to the share of a command that is followed."""
         node.subscribe(
             "smoothing",
             load_message("std_msgs/Float64"),

@@ -26,7 +26,7 @@ class Pushed(RobotHardware):
         joints.velocity += PERIOD_S * joints.effort
 
     def write(self, time, period):
-        """Push."""
+        """Apply the command."""
         self.joints.effort[:] = np.clip(self.pushing.command(), -MOST, MOST)
 
 

@@ -44,7 +44,7 @@ class Master:
             self._process.wait()
 
     def ok(self) -> bool:
-        """Whether it runs."""
+        """Return whether it runs."""
         return self._process is not None and self._process.poll() is None
 
 
