@@ -10,7 +10,8 @@ import functools
 import inspect
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import fields, is_dataclass
 from numbers import Integral, Real
 from pathlib import Path
 from typing import Any, TypeVar
@@ -26,19 +27,23 @@ MOST = 1e15
 """Greatest magnitude of a float: its square and cube are numbers, too."""
 MOST_INT = 2**53
 _DEEPEST = 4
+_CHECKED: set[type] = set()
+"""Classes whose instances were checked when they were made."""
 _TRUSTED = {"restore"}
 """Methods that get what their own class made, such as a state with infinite costs."""
 _ARRAY = re.compile(r"\b(ArrayLike|Floats|Bools|Indices|Ints\d*)\b")
-_LENGTHS = {"Vector3": 3, "Vector": 3, "tuple[float, float]": 2, "tuple[int, int]": 2, "Range": 2}
+_LENGTHS = {"Vector3": 3, "Vector": 3, "Range": 2, "Color": 4, "Quaternion": 4}
 """Numbers in a value of these annotations."""
+_ROWS = re.compile(r"(?:Sequence|Iterable|list|tuple)\[(tuple\[.*?\])(?:, \.\.\.)?\]")
+_ROW = re.compile(r"tuple\[((?:float|int)(?:, (?:float|int))*)\]")
 
 
 def checked(error: type[Error], *, most: float = MOST) -> Callable[[Decorated], Decorated]:
     """Return a decorator of a function, or of what a class has in public, that refuses arguments.
 
-    Floats, also those in tuples, lists, mappings and arrays, must be finite and not huge, unless the
-    default is infinite; ints less than 2^53 in magnitude; texts without nulls and surrogates;
-    vectors of as many numbers as their annotation says.
+    Floats, also those in tuples, lists, mappings, arrays, poses and dataclasses, must be finite and
+    not huge, unless the default is infinite; ints less than 2^53 in magnitude; texts without nulls
+    and surrogates; vectors of as many numbers as their annotation says.
 
     Args:
         error: Raised for such an argument, and for arrays of shapes that do not fit.
@@ -48,12 +53,17 @@ def checked(error: type[Error], *, most: float = MOST) -> Callable[[Decorated], 
     def decorate(decorated: Decorated) -> Decorated:
         if isinstance(decorated, type):
             for name, member in list(vars(decorated).items()):
-                public = name == "__init__" or (name[0] != "_" and name not in _TRUSTED)
-                if inspect.isfunction(member) and public:
+                if name != "__init__" and (name[0] == "_" or name in _TRUSTED):
+                    continue
+                if inspect.isfunction(member):
                     setattr(decorated, name, _checking(member, error, most))
+                elif isinstance(member, classmethod | staticmethod):
+                    made = _checking(member.__func__, error, most)
+                    setattr(decorated, name, type(member)(made))
+            _CHECKED.add(decorated)
             return decorated
-        made: Decorated = _checking(decorated, error, most)
-        return made
+        checking: Decorated = _checking(decorated, error, most)
+        return checking
 
     return decorate
 
@@ -61,36 +71,42 @@ def checked(error: type[Error], *, most: float = MOST) -> Callable[[Decorated], 
 def _checking(function: Any, error: type[Error], most: float) -> Any:
     parameters = inspect.signature(function).parameters
     order = [name for name, each in parameters.items() if each.kind != each.KEYWORD_ONLY]
-    limits = dict.fromkeys(parameters, most) | {
-        name: math.inf for name, each in parameters.items() if _is_endless(each.default)
+    rules = {
+        name: (
+            math.inf if _is_endless(each.default) else most,
+            _kind_of(str(each.annotation).removesuffix(" | None")),
+        )
+        for name, each in parameters.items()
     }
-    kinds = {
-        name: str(each.annotation).removesuffix(" | None") for name, each in parameters.items()
-    }
+    rest = (most, "")  # of a keyword that goes into ``**options``
+    arrays = any(_ARRAY.search(str(each.annotation)) for each in parameters.values())
 
     @functools.wraps(function)
     def call(*positional: Any, **named: Any) -> Any:
         for name, value in (*zip(order, positional, strict=False), *named.items()):
-            if name == "seed":  # any int, also one of 128 bits
+            if value is None or name == "seed":  # any int, also one of 128 bits
                 continue
-            fault = _fault(value, limits.get(name, most)) or _fault_of(kinds.get(name, ""), value)
+            limit, kind = rules.get(name, rest)
+            fault = _fault(value, limit) or (_fault_of(kind, value) if kind else None)
             if fault is not None:
                 raise error(f"'{name}' must be {fault}, not {value!r:.60}")
-        return function(*positional, **named)
-
-    if not any(map(_ARRAY.search, kinds.values())):
-        return call
-
-    @functools.wraps(function)
-    def call_with_arrays(*positional: Any, **named: Any) -> Any:
+        if not arrays:
+            return function(*positional, **named)
         try:
-            return call(*positional, **named)
+            return function(*positional, **named)
         except Error:
             raise
         except (IndexError, TypeError, ValueError) as fault:  # what NumPy says of shapes
             raise error(f"{function.__name__} cannot take these arrays: {fault}") from fault
 
-    return call_with_arrays
+    return call
+
+
+def _kind_of(annotation: str) -> str:
+    """Return an annotation, if it says more of a value than that it is finite; else nothing."""
+    rows = _ROWS.fullmatch(annotation)
+    more = _length(rows[1] if rows else annotation) is not None or "ArrayLike" in annotation
+    return annotation if more else ""
 
 
 def _is_endless(default: Any) -> bool:
@@ -100,34 +116,84 @@ def _is_endless(default: Any) -> bool:
 
 def _fault(value: Any, most: float, depth: int = 0) -> str | None:
     """Return what a value would have to be; None for one that can be."""
-    if value is None or isinstance(value, bool):
+    kind = type(value)
+    if kind is np.ndarray:
+        return None if _is_within(value, most) else _limited(most, many=True)
+    if value is None or kind is bool or kind in _CHECKED:
         return None
     if isinstance(value, Integral):
         return None if abs(int(value)) <= MOST_INT else "less than 2^53"
     if isinstance(value, Real):
         number = float(value)
-        return None if abs(number) <= most else f"a finite number up to {most:g}"
+        return None if abs(number) <= most else _limited(most, many=depth > 0)
     if isinstance(value, str | Path):
         return None if can_be_written(str(value)) else "text of characters"
     if isinstance(value, np.ndarray):
-        good = value.dtype.kind != "f" or not value.size or bool(np.abs(value).max() <= most)
-        return None if good else f"finite numbers up to {most:g}"
-    if isinstance(value, tuple | list | Mapping) and depth < _DEEPEST:
-        inner = value.values() if isinstance(value, Mapping) else value
+        return None if _is_within(value, most) else _limited(most, many=True)
+    if depth < _DEEPEST:
+        inner = _inside(value)
         return next((f for each in inner if (f := _fault(each, most, depth + 1))), None)
     return None
 
 
+def _is_within(array: Any, most: float) -> bool:
+    if array.dtype.kind != "f" or not array.size:
+        return True
+    if array.dtype == np.float64 and np.vdot(array, array) <= most * most:
+        return True  # one pass, as most arrays are
+    return bool(np.abs(array).max() <= most)
+
+
+def _limited(most: float, *, many: bool) -> str:
+    what = "numbers" if many else "a number"
+    return what if math.isinf(most) else f"{what} up to {most:g} in magnitude"
+
+
+def _inside(value: Any) -> Iterable[Any]:
+    """Return what a value consists of, as far as it has to be checked."""
+    if isinstance(value, tuple | list):
+        return value
+    if isinstance(value, Mapping):
+        return value.values()
+    kind: Any = type(value)
+    return [getattr(value, name) for name in _number_fields(kind)]
+
+
+@functools.cache
+def _number_fields(kind: type) -> tuple[str, ...]:
+    """Return the attributes of a class that may not hold infinite numbers: of a pose, of a dataclass."""
+    if isinstance(getattr(kind, "numbers", None), property):
+        return ("numbers",)
+    if not is_dataclass(kind):
+        return ()
+    return tuple(each.name for each in fields(kind) if not _is_endless(each.default))
+
+
 def _fault_of(kind: str, value: Any) -> str | None:
     """Return what a value of an annotation would have to be, besides."""
-    if value is None:
+    if value is None:  # in a sequence
         return None
-    if kind in _LENGTHS:
-        good = isinstance(value, tuple | list | np.ndarray) and len(value) == _LENGTHS[kind]
-        return None if good and _is_floats(value) else f"{_LENGTHS[kind]} numbers"
-    if "ArrayLike" in kind and not _is_floats(value):
+    rows = _ROWS.fullmatch(kind)
+    if rows and isinstance(value, tuple | list):
+        fault = next((f for each in value if (f := _fault_of(rows[1], each))), None)
+        return fault and f"rows of {fault}"
+    length = _length(kind)
+    if length is not None:
+        good = isinstance(value, tuple | list | np.ndarray) and len(value) == length
+        return None if good and _is_floats(value) else f"{length} numbers"
+    named = ("Mapping" in kind and isinstance(value, Mapping)) or (
+        "str" in kind and isinstance(value, str)
+    )
+    if "ArrayLike" in kind and not named and not _is_floats(value):
         return "an array of numbers"
     return None
+
+
+@functools.cache
+def _length(kind: str) -> int | None:
+    """Return the numbers in a value of an annotation; None where it is no vector."""
+    row = _ROW.fullmatch(kind)
+    return _LENGTHS.get(kind) if row is None else len(row[1].split(","))
 
 
 def _is_floats(value: Any) -> bool:

@@ -9,19 +9,20 @@ import importlib
 import inspect
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import is_dataclass
 from pathlib import Path
 from typing import Any
 
 import arms
 import numpy as np
 import scenes
-import wrong_values
+import wrong_calls
 
 import gazelle
 import gazelle.builders
 from gazelle import Simulation, planning
 from gazelle.description import Box, Pose
+from gazelle.formats import Octree
+from gazelle.geometry import triangles
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
 
@@ -29,13 +30,10 @@ ROOMS = {
     name: f"gazelle.{name}"
     for name in (
         *("builders", "clients", "control", "description", "engines", "envs", "formats"),
-        *("navigation", "planning", "rendering", "sensors", "simulation"),
+        *("kinematics", "navigation", "planning", "rendering", "sensors", "simulation"),
         *("training", "viewer"),
     )
 } | {"gazelle": "gazelle"}
-
-BROKEN = 24
-"""Wrong values at most of a parameter that takes a dataclass."""
 
 
 def public(room: str) -> Iterator[tuple[str, Any]]:
@@ -58,7 +56,7 @@ def classes() -> dict[str, type]:
 
 
 class Samples:
-    """Good values; the call is what ``wrong_values.calls`` takes."""
+    """Good values; the call is what ``wrong_calls.calls`` takes."""
 
     def __init__(self) -> None:
         self.stack = contextlib.ExitStack()
@@ -68,6 +66,8 @@ class Samples:
         if name in BY_NAME and ("str" in annotation or not annotation):
             return BY_NAME[name](self)
         plain = annotation.replace("'", "")
+        if re.search(r"(Iterable|Sequence|tuple)\[tuple\[(Shape|Geometry)", plain):
+            return ((Box((1.0, 1.0, 1.0)), Pose()),)
         listed = re.match(r"(Sequence|Iterable|list|tuple)\[\(?(\w+)", plain)
         if listed and (listed[2] in TABLE or listed[2] in classes()):
             return (self(name, listed[2]),)
@@ -98,7 +98,7 @@ class Samples:
                     each.VAR_KEYWORD,
                     each.VAR_POSITIONAL,
                 ):
-                    value = self(each.name, wrong_values.annotation_of(each))
+                    value = self(each.name, wrong_calls.annotation_of(each))
                     if each.kind is each.KEYWORD_ONLY:
                         named[each.name] = value
                     else:
@@ -143,6 +143,8 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Serializer": lambda s: lambda call, *a: call(*a),
     "Generator": lambda s: np.random.default_rng(0),
     "Floats": lambda s: np.zeros(3),
+    "Bools": lambda s: np.ones(3, bool),
+    "Indices": lambda s: np.arange(3),
     "Paint": lambda s: "grey",
     "Zone": lambda s: gazelle.builders.Disc(),
     "RobotT": lambda s: scenes.burger(),
@@ -150,7 +152,8 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Terrain": lambda s: gazelle.builders.terrain(np.eye(3)),
     "Point": lambda s: (0.0, 1.0),
     "Node": lambda s: s.node,
-    "Octree": lambda s: None,
+    "Octree": lambda s: Octree(0.1, b""),
+    "TriangleMesh": lambda s: triangles.box((1.0, 1.0, 1.0)),
     "PlanningScene": lambda s: planning.PlanningScene(arms.arm("fetch")),
     "Group": lambda s: planning.Group(s.arm, "arm"),
     "MotionPlan": lambda s: s.group_plan.plan,
@@ -167,6 +170,11 @@ BY_NAME: dict[str, Callable[[Samples], Any]] = {
 }
 BY_WORD = {
     "Vector3": (0.0, 0.0, 1.0),
+    "Color": (0.0, 0.0, 0.0, 1.0),
+    "Quaternion": (0.0, 0.0, 0.0, 1.0),
+    "tuple[float, float, float]": (0.0, 0.0, 1.0),
+    "tuple[float, float]": (0.0, 1.0),
+    "tuple[int, int]": (4, 4),
     "ArrayLike": 1.0,
     "Sequence": [],
     "Mapping": {},
@@ -175,11 +183,3 @@ BY_WORD = {
     "float": 1.0,
     "bool": True,
 }
-
-
-def wrong_parts(sample: Any) -> list[Any]:
-    """Return copies of a dataclass that are wrong somewhere."""
-    if not is_dataclass(sample) or isinstance(sample, type):
-        return []
-    found = [value for _, value in wrong_values.broken_parts(sample, depth=2)]
-    return found[:: max(1, len(found) // BROKEN)]

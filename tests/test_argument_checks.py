@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from numpy.typing import ArrayLike
 
 from gazelle.argument_checks import checked
-from gazelle.description import Vector3
+from gazelle.description import JointAxis, Pose, Vector3
 from gazelle.errors import PlanningError
 
 
@@ -40,6 +41,31 @@ class Span:
     def scaled(self, factor: float) -> float:
         return factor * (self.high - self.low)
 
+    @classmethod
+    def about(cls, middle: float) -> Span:
+        return cls(middle - 1.0, middle + 1.0)
+
+
+@dataclass(frozen=True)
+class Plain:
+    """A dataclass that checks nothing itself."""
+
+    width: float = 1.0
+    reach: float = math.inf
+
+
+@checked(PlanningError)
+def place(
+    pose: Pose | None = None,
+    *,
+    poses: Sequence[Pose] = (),
+    line: Sequence[tuple[float, float]] = (),
+    color: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    plain: Plain | JointAxis | None = None,
+):
+    """Return a count."""
+    return len(poses) + len(line)
+
 
 @pytest.mark.parametrize(
     "wrong",
@@ -56,6 +82,26 @@ def test_an_argument_that_cannot_be_is_named(wrong):
         measure(**wrong)
 
 
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        *({"pose": pose} for pose in (Pose(math.nan), Pose(0.0, -math.inf), Pose(yaw=math.nan))),
+        *({"poses": [Pose(), pose]} for pose in (Pose(z=math.nan), Pose(1e308))),
+        *({"line": value} for value in ([()], [(0.0,)], [(0.0, 1.0), (0.0, 1.0, 2.0)])),
+        *({"color": value} for value in ((1.0, 1.0), (1.0,) * 4, 0.5)),
+        *({"plain": Plain(math.nan)}, {"plain": JointAxis(xyz=(math.nan, 0.0, 0.0))}),
+    ],
+)
+def test_what_is_inside_of_an_argument_is_checked(wrong):
+    with pytest.raises(PlanningError, match=f"'{next(iter(wrong))}' must be "):
+        place(**wrong)
+
+
+def test_numbers_that_are_infinite_by_default_may_be():
+    assert place(Pose(1.0), plain=Plain()) == 0
+    assert place(poses=[Pose()], line=[(0.0, 1.0)], plain=JointAxis()) == 2
+
+
 def test_arrays_of_shapes_that_do_not_fit_are_refused():
     with pytest.raises(PlanningError, match="measure cannot take these arrays"):
         measure(points=[1.0, 2.0, 3.0])
@@ -68,8 +114,11 @@ def test_what_can_be_is_taken_as_it_is():
 
 def test_classes_check_what_they_are_made_of_and_their_methods_arguments():
     for make in (lambda: Span(math.nan), lambda: Span(0.0, high=math.inf)):
-        with pytest.raises(PlanningError, match="finite"):
+        with pytest.raises(PlanningError, match="must be a number up to"):
             make()
     with pytest.raises(PlanningError, match="'factor' must be"):
         Span(0.0).scaled(math.nan)
+    with pytest.raises(PlanningError, match="'middle' must be"):
+        Span.about(math.nan)
+    assert Span.about(1.0) == Span(0.0, 2.0)
     assert Span(0.0).scaled(3.0) == 3.0

@@ -1,15 +1,14 @@
-"""Wrong values for all that is public of a simulation are errors of Gazelle's, see ``wrong_values``."""
+"""Wrong values for all that is public of a simulation are errors of Gazelle's, see ``wrong_calls``."""
 
 from __future__ import annotations
 
-import inspect
-
 import public_handles
-import public_samples
+import public_sweep
 import pytest
 import scenes
-import wrong_values
-from wrong_values import Findings
+import wrong_calls
+from wrong_calls import Findings
+from wrong_values import shown
 
 from gazelle import Simulation
 from gazelle.description import Pose
@@ -80,11 +79,11 @@ def kinds(sim):
 @pytest.mark.parametrize("engine", ["mujoco", "planar"])
 def test_handles_refuse_wrong_values(engine, nworld):
     findings = Findings()
-    with wrong_values.limits():
+    with wrong_calls.limits():
         sim = Simulation(world(), engine, nworld=nworld, threads=1)
         for path in kinds(sim):
             handle = dict(public_handles.handles(sim))[path]
-            wrong_values.try_members(path, handle, good_values(sim), findings, skipped)
+            wrong_calls.try_members(path, handle, good_values(sim), findings, skipped)
             if path != "sim":
                 findings.attempt(f"a step after {path}", sim.step)
             if path == "sim" or not {"burger", "box"} <= set(sim.robots):
@@ -105,38 +104,28 @@ def test_a_simulation_refuses_wrong_values(engine):
         with Simulation(*positional, **{"engine": engine, **named}) as sim:
             sim.step()
 
-    with wrong_values.limits():
-        for name, value, positional, named in wrong_values.calls(Simulation, lambda *_: world()):
-            what = f"Simulation({name}={wrong_values.shown(value)})"
+    with wrong_calls.limits():
+        for name, value, positional, named in wrong_calls.calls(Simulation, lambda *_: world()):
+            what = f"Simulation({name}={shown(value)})"
             findings.attempt(what, lambda p=positional, n=named: make(p, n))
     assert not findings.foreign
     assert findings.count > 90
 
 
-ROOMS = ["builders", "navigation"]
-NOT_LOADED = {"GoToGoal"}
-"""Plugins, whose methods a simulation calls after ``load``."""
-
-
-def of_owners(_handle, name):
-    return name in {"close", "restore"}
+ROOMS = {
+    "builders": 3000,
+    "kinematics": 500,
+    "navigation": 800,
+    "planning": 2500,
+    "rendering": 500,
+}
+"""With the calls that are made at least."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("room", ROOMS)
 def test_what_a_room_exports_refuses_wrong_values(room):
-    findings = Findings()
-    with wrong_values.limits():
-        good = public_samples.Samples()
-        for name, call in public_samples.public(room):
-            said = inspect.getdoc(call) or ""
-            for parameter, value, positional, named in wrong_values.calls(call, good):
-                what = f"{name}({parameter}={wrong_values.shown(value)})"
-                findings.attempt(what, lambda c=call, p=positional, n=named: c(*p, **n), said)
-            made = good.instance(call) if isinstance(call, type) else None
-            if made is not None and name not in NOT_LOADED:
-                wrong_values.try_members(name, made, good, findings, of_owners)
-        good.stack.close()
+    findings = public_sweep.sweep(room)
     assert not findings.foreign
     assert not findings.late
-    assert findings.count > 400
+    assert findings.count > ROOMS[room]

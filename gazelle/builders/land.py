@@ -36,10 +36,18 @@ class Terrain:
         heights: [m], shape (rows, columns): row 0 is the southern edge (least y), column 0
             the western (least x).
         cell: Distance of neighbours [m].
+
+    Raises:
+        BuildError: There are fewer than two rows or columns, or the distance is not positive.
     """
 
     heights: Floats
     cell: float
+
+    def __post_init__(self) -> None:
+        if self.heights.ndim != 2 or min(self.heights.shape) < 2:
+            raise BuildError(f"a terrain has rows and columns, not the shape {self.heights.shape}")
+        positive(self.cell, "the distance of heights")
 
     @property
     def size(self) -> tuple[float, float]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from gazelle.argument_checks import checked
-from gazelle.builders.errors import BuildError, finite, positive
+from gazelle.builders.errors import BuildError, positive
 from gazelle.builders.inertia import solid_inertial
 from gazelle.builders.limits import MAX_PARTS
 from gazelle.builders.paint import Paint, material
@@ -120,7 +120,6 @@ def assemble(
     twice, count = next(iter(Counter(part.name for part in parts).most_common(1)), ("", 0))
     if count > 1:
         raise BuildError(f"two parts of '{name}' are called '{twice}'")
-    finite((*pose.position, *pose.quaternion), f"the pose of '{name}'")
     solid = [part for part in parts if part.collides]
     if mass is not None and not solid:
         raise BuildError(f"nothing of '{name}' collides: it would fall for ever")

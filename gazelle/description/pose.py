@@ -95,6 +95,11 @@ class Pose:
         return self._quaternion
 
     @property
+    def numbers(self) -> tuple[float, ...]:
+        """The seven numbers of position and quaternion."""
+        return (*self._position, *self._quaternion)
+
+    @property
     def x(self) -> float:
         """Position along x [m]."""
         return self._position[0]

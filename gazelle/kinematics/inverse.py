@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats, Ints64
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
@@ -18,6 +19,7 @@ from gazelle.kinematics.chain_solver import ChainSolver
 from gazelle.kinematics.joint_group import JointModelGroup
 from gazelle.kinematics.robot_model import RobotModel
 from gazelle.kinematics.tree_builder import flat
+from gazelle.streams import seed_of
 
 Aim = Literal["pose", "position", "orientation"]
 
@@ -43,6 +45,7 @@ class IkSolutions:
     attempts: Ints64
 
 
+@checked(PlanningError)
 class InverseKinematics:
     """Brings one link of a group to poses.
 
@@ -91,7 +94,7 @@ class InverseKinematics:
             group.lower,
             group.upper,
         )
-        self._starts = group.sample(np.random.default_rng(seed), attempts)
+        self._starts = group.sample(np.random.default_rng(seed_of(seed) % 2**64), attempts)
 
     def solve(
         self,

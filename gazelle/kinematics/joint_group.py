@@ -9,15 +9,18 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats, Indices
 from gazelle.description import EndEffector
 from gazelle.errors import PlanningError, did_you_mean
+from gazelle.kinematics.limits import MAX_SAMPLES
 from gazelle.kinematics.variables import Variable
 
 SAMPLED_SPAN = math.pi
 """Range about zero in which variables without limits are sampled [m or rad]."""
 
 
+@checked(PlanningError, most=math.inf)
 @dataclass(frozen=True, slots=True)
 class JointModelGroup:
     """Variables that are planned for together: those that a motor moves, and that mimic no other.
@@ -33,6 +36,9 @@ class JointModelGroup:
         base: Where its one chain begins; empty where there is none or several.
         effectors: End effectors that are mounted on it.
         states: Named postures, values by name of variable.
+
+    Raises:
+        PlanningError: There are more or fewer columns or limits than variables.
     """
 
     name: str
@@ -45,6 +51,16 @@ class JointModelGroup:
     base: str
     effectors: tuple[EndEffector, ...]
     states: Mapping[str, Mapping[str, float]]
+
+    def __post_init__(self) -> None:
+        shape = (len(self.variables),)
+        for name in ("columns", "lower", "upper"):
+            found = getattr(self, name).shape
+            if found != shape:
+                raise PlanningError(
+                    f"the group '{self.name}' has {len(self.variables)} variables, and its {name} "
+                    f"the shape {found}"
+                )
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -97,6 +113,8 @@ class JointModelGroup:
 
     def sample(self, random: np.random.Generator, count: int) -> Floats:
         """Return positions sampled uniformly between the limits, shape (count, n)."""
+        if not 0 <= count <= MAX_SAMPLES:
+            raise PlanningError(f"draw 0 to {MAX_SAMPLES} positions at once, not {count}")
         low = np.where(np.isfinite(self.lower), self.lower, -SAMPLED_SPAN)
         high = np.where(np.isfinite(self.upper), self.upper, SAMPLED_SPAN)
         return random.uniform(low, high, (count, len(low)))

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import PlanningError
 from gazelle.kinematics.robot_model import RobotModel
@@ -19,6 +20,7 @@ _SHARP = 1e-9  # of the direction
 _LEAP = 0.5  # of a joint in one step, at most [rad]
 
 
+@checked(PlanningError)
 class Pointing:
     """Finds where joints have to be for an axis of a link to go through a place.
 
@@ -41,9 +43,11 @@ class Pointing:
     def __init__(
         self, robot: RobotModel, joints: Sequence[str], link: str, axis: Sequence[float] = (1, 0, 0)
     ) -> None:
-        length = math.hypot(*axis)
+        length = math.hypot(*axis) if len(axis) == 3 and joints else 0.0
         if not length > 0.0:
-            raise PlanningError("the axis that is to point somewhere has no length")
+            raise PlanningError(
+                "pointing needs a joint or more, and an axis of three numbers with a length"
+            )
         self._robot, self._link = robot, robot.link(link).name
         self._axis = np.asarray(axis, float) / length
         self._columns = robot.columns(joints)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
 from gazelle.description import (
     EndEffector,
@@ -21,6 +22,7 @@ from gazelle.kinematics.tree_builder import LinkFrame, TreeBuilder, flat
 from gazelle.kinematics.variables import JointBounds
 
 
+@checked(PlanningError)
 class RobotModel:
     """Kinematics and semantics of one robot.
 
@@ -244,6 +246,8 @@ class RobotModel:
 
     def leader(self, column: int) -> tuple[int, float, float]:
         """Return a variable's source: a column, a factor and an offset; itself, 1 and 0 without one."""
+        if not 0 <= column < len(self._sources):
+            raise PlanningError(f"there are columns 0 to {len(self._sources) - 1}, not {column}")
         return self._sources[column]
 
     def complete(self, state: ArrayLike) -> Floats:
@@ -252,10 +256,19 @@ class RobotModel:
         Args:
             state: Shape (..., variables).
         """
-        made = np.array(state, np.float64)
-        for column, source, factor, offset in self._followers:
-            made[..., column] = factor * made[..., source] + offset
-        return made
+        return self.completion()(state)
+
+    def completion(self) -> Callable[[ArrayLike], Floats]:
+        """Return ``complete`` for many states in a row, which checks none of them."""
+        followers = self._followers
+
+        def complete(state: ArrayLike) -> Floats:
+            made = np.array(state, np.float64)
+            for column, source, factor, offset in followers:
+                made[..., column] = factor * made[..., source] + offset
+            return made
+
+        return complete
 
     def forward(self, state: ArrayLike, links: str | Sequence[str]) -> Floats:
         """Return poses of links in the robot's frame.

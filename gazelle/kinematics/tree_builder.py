@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.description import Joint, Model, Pose, VirtualJoint
 from gazelle.errors import PlanningError
 from gazelle.kinematics.joint_tree import JointTree
@@ -18,6 +19,7 @@ WORLD = "world"
 _SINGLE = ("revolute", "continuous", "prismatic")
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class LinkFrame:
     """Frame of a link.

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.description import Joint
 from gazelle.errors import PlanningError, did_you_mean
 from gazelle.real_numbers import real
@@ -35,6 +36,7 @@ _PARAMETERS = (
 """Of a joint in ``joint_limits.yaml``; soft, effort and jerk limits have no part in planning."""
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class JointBounds:
     """Limits of one variable.
@@ -86,6 +88,7 @@ class JointBounds:
         return made
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class Variable:
     """One position of a robot.

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Self
 
+from gazelle.argument_checks import checked
 from gazelle.description import Model, Semantics
+from gazelle.errors import PlanningError
 
 Pair = tuple[str, str]
 
 
+@checked(PlanningError)
 class AllowedCollisionMatrix:
     """Pairs that may touch, and names that may touch anything.
 

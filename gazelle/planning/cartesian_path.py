@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
@@ -28,6 +29,7 @@ _HALVINGS = 5
 _FLOOR = 1e-5
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class CartesianPath:
     """As much of a straight way as an arm can follow.
@@ -43,6 +45,7 @@ class CartesianPath:
     reason: str
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class JumpLimits:
     """Limits of joint motion between two steps; infinite for no limit.

@@ -10,6 +10,7 @@ from typing import Literal
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Box, Cylinder, Pose, Sphere, Vector3
 from gazelle.errors import PlanningError
@@ -18,6 +19,7 @@ from gazelle.kinematics.robot_model import RobotModel
 Region = Box | Sphere | Cylinder
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class JointConstraint:
     """A joint near a position.
@@ -60,6 +62,7 @@ class JointConstraint:
         return position, way
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class PositionConstraint:
     """A point of a link inside of a region.
@@ -105,6 +108,7 @@ class PositionConstraint:
         return f"link '{self.link}' is {away:.4f} m outside of its region"
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class OrientationConstraint:
     """A link turned as wanted, within angles about three axes.
@@ -146,6 +150,7 @@ class OrientationConstraint:
         return _euler(turn) if self.measure == "euler" else rotation_vector(turn)
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class ConstraintSet:
     """Constraints that all hold together.
@@ -233,6 +238,7 @@ def rotation_vector(r: Floats) -> tuple[float, float, float]:
     return (angle * x, angle * y, angle * z)
 
 
+@checked(PlanningError)
 def goal_of_pose(
     link: str, pose: Pose, distance: float = 1e-4, angle: float = 1e-3
 ) -> ConstraintSet:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.control import Goal as ControlGoal
 from gazelle.control import GoalState
 from gazelle.control.values import (
@@ -27,6 +28,7 @@ _ACTION = "follow_joint_trajectory"
 _STEP = 0.01
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class ExecutionReport:
     """Result of executing a trajectory.
@@ -45,6 +47,7 @@ class ExecutionReport:
         return self.outcome is PlanOutcome.SUCCESS
 
 
+@checked(PlanningError)
 class Execution:
     """A trajectory that controllers follow.
 

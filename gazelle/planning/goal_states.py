@@ -20,6 +20,7 @@ from gazelle.planning.constraints import (
 )
 from gazelle.planning.outcomes import NoPlanError, PlanOutcome
 from gazelle.planning.state_validity import StateValidity
+from gazelle.streams import seed_of
 
 Goal = Pose | str | Mapping[str, float] | ConstraintSet | ArrayLike
 
@@ -102,7 +103,7 @@ class GoalStates:
 
     def _poses(self, goal: ConstraintSet) -> tuple[list[Pose], Aim]:
         """Return poses that fulfil constraints of one link, and the constrained parts."""
-        random = np.random.default_rng(self._seed)
+        random = np.random.default_rng(seed_of(self._seed) % 2**64)
         poses = [_drawn(goal, random, first=number == 0) for number in range(_DRAWN)]
         if goal.positions and goal.orientations:
             return poses, "pose"

@@ -6,10 +6,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from gazelle.argument_checks import checked
 from gazelle.description import Pose, Vector3
 from gazelle.errors import PlanningError
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class GripperTranslation:
     """A straight way of the hand.
@@ -47,6 +49,7 @@ class GripperTranslation:
         return (x / length, y / length, z / length)
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class Grasp:
     """A way to take a thing.
@@ -76,6 +79,7 @@ class Grasp:
     name: str = ""
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class PlaceLocation:
     """Somewhere to put a thing that is held.
@@ -103,6 +107,7 @@ class PlaceLocation:
     name: str = ""
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class ParallelHand:
     """Two fingers that close along the y axis of a link whose x axis points ahead of them.
@@ -124,6 +129,7 @@ class ParallelHand:
     effort: float = 0.0
 
 
+@checked(PlanningError)
 def box_grasps(
     hand: ParallelHand, pose: Pose, size: Vector3, *, approach: float = 0.1, lift: float = 0.1
 ) -> tuple[Grasp, ...]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.control import GoalState
 from gazelle.control.values import GripperGoal, GripperResult
 from gazelle.errors import PlanningError, did_you_mean
@@ -18,6 +19,7 @@ _STEP = 0.01
 _PATIENCE = 10.0
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class GripperReport:
     """Result of a gripper motion.
@@ -40,6 +42,7 @@ class GripperReport:
         return self.reached
 
 
+@checked(PlanningError)
 class RobotGripper:
     """A gripper that a controller of the robot's moves (``GripperActionController`` and its kin).
 

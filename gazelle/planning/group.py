@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Plane, Pose, Semantics
 from gazelle.errors import PlanningError, did_you_mean
@@ -36,6 +37,7 @@ START_TOLERANCE = 0.01
 """Tolerance of joints about the start of a plan [m or rad] (MoveIt's allowed_start_tolerance)."""
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class GroupPlan:
     """A plan for a robot in a simulation.
@@ -76,6 +78,7 @@ class GroupPlan:
         return self.start().run()
 
 
+@checked(PlanningError)
 class Group:
     """A group of joints of a robot in a running simulation.
 
@@ -328,13 +331,19 @@ class Group:
             )
 
     def tell(self, plan: MotionPlan) -> None:
-        """Show a plan to who looks at the simulation (``simulation.events.planned``)."""
+        """Publish a plan to listeners of ``simulation.events.planned``.
+
+        Raises:
+            PlanningError: The plan is of another robot.
+        """
         try:
             tip = self.tip
         except PlanningError:  # it has several ends
             tip = ""
-        start = dict(zip(self.scene.robot.names, plan.start.tolist(), strict=True))
-        path = plan.trajectory
+        path, names = plan.trajectory, self.scene.robot.names
+        if plan.start.shape != (len(names),) or path.positions.shape[1:] != (len(plan.names),):
+            raise PlanningError(f"the plan for '{plan.group.name}' is of another robot")
+        start = dict(zip(names, plan.start.tolist(), strict=True))
         motion = JointMotion(plan.names, path.times, path.positions, start, tip)
         self.robot.simulation.events.planned.tell(self.robot, self.world, motion)
 

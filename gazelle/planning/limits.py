@@ -16,7 +16,7 @@ def checked_poses(poses: object) -> list[Pose]:
     """Return the poses of a path.
 
     Raises:
-        PlanningError: There are none, or one is no pose or not finite.
+        PlanningError: There are none, or one is no pose.
     """
     given = list(poses) if isinstance(poses, Sequence) else []
     if not given:
@@ -24,8 +24,6 @@ def checked_poses(poses: object) -> list[Pose]:
     for number, pose in enumerate(given):
         if not isinstance(pose, Pose):
             raise PlanningError(f"pose {number} of a path is no gazelle.Pose: {pose!r}")
-        if not all(map(math.isfinite, (*pose.position, *pose.quaternion))):
-            raise PlanningError(f"pose {number} of a path must be finite, not {pose!r}")
     return given
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
+from gazelle.errors import PlanningError
 from gazelle.planning.execution import ExecutionReport, begin_execution
 from gazelle.planning.gripper import GripperReport, RobotGripper
 from gazelle.planning.manipulation_plan import ManipulationPlan, ManipulationStage
@@ -32,6 +34,7 @@ class MovingGroup(Protocol):
         """Show a plan to who looks."""
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class Manipulation:
     """A plan to take a thing, or to put it down, for a robot in a simulation."""

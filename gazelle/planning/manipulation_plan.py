@@ -8,11 +8,14 @@ from typing import Literal
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
+from gazelle.errors import PlanningError
 from gazelle.planning.motion_planner import MotionPlan
 from gazelle.planning.time_parameterization import TimedPath
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class ManipulationStage:
     """A part of a plan: the arm moves, or the gripper.
@@ -32,6 +35,7 @@ class ManipulationStage:
     then: Literal["", "attach", "detach"] = ""
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class ManipulationPlan:
     """A plan to take a thing, or to put it down.
@@ -53,6 +57,7 @@ class ManipulationPlan:
     seconds: float
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class ContactRules:
     """Contacts that are allowed while objects are taken and put down.

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
@@ -31,6 +32,7 @@ from gazelle.planning.time_parameterization import (
     TimedPath,
     parameterize,
 )
+from gazelle.streams import seed_of
 
 _TOLERANCES = (0.1, 0.03, 0.01, 0.003, 0.001)
 """Tolerances of rounded corners, tried until the result is collision-free."""
@@ -42,6 +44,7 @@ start_state_max_bounds_error).
 """
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class PlanOptions:
     """Options for planning.
@@ -69,6 +72,7 @@ class PlanOptions:
     use_ompl: bool | None = None
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class MotionPlan:
     """A trajectory of a group.
@@ -100,6 +104,7 @@ class MotionPlan:
         return state
 
 
+@checked(PlanningError)
 class MotionPlanner:
     """Plans motions of a group in a scene.
 
@@ -256,7 +261,7 @@ class MotionPlanner:
             NoPlanError: None was found in time.
         """
         seed = self.options.seed + 7919 * attempt
-        random = np.random.default_rng(seed)
+        random = np.random.default_rng(seed_of(seed) % 2**64)
         found = next((goal for goal in goals if validity.way(here, goal)), None)
         if found is not None:
             return np.array([here, found])
@@ -283,7 +288,7 @@ class MotionPlanner:
         project = None
         if validity.constraints.orientations:
             project = functools.partial(self._project, validity)
-        random = np.random.default_rng(seed)
+        random = np.random.default_rng(seed_of(seed) % 2**64)
         return rrt_connect(
             here, goals, validity, random, until=until, project=project, edge=options.edge
         )

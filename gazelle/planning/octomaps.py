@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.description import Box, Pose
 from gazelle.errors import PlanningError
 from gazelle.formats import Octree
@@ -18,6 +19,7 @@ _MOST_BOXES: Final = 50_000
 """All of them are looked at for each state, so more would make plans slow."""
 
 
+@checked(PlanningError)
 def octree_object(octree: Octree, pose: Pose | None = None, name: str = OCTOMAP) -> SceneObject:
     """Return the occupied space of an octree, as boxes.
 

@@ -13,6 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.errors import PlanningError, did_you_mean
@@ -38,6 +39,7 @@ _TRIES = 12
 """Postures of the arm that are tried for one grasp."""
 
 
+@checked(PlanningError)
 class PickPlacePlanner:
     """Plans for a group with a gripper at its end.
 

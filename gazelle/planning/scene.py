@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Pose, Vector3
 from gazelle.engines.collision import CollisionBody, CollisionModel, Shape, collision_model
@@ -19,6 +20,7 @@ from gazelle.planning.robot_bodies import robot_bodies
 from gazelle.planning.scene_objects import AttachedObject, SceneObject, object_of
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class SceneContact:
     """Two things that touch and may not.
@@ -41,6 +43,7 @@ class SceneContact:
         return f"'{self.first}' and '{self.second}' collide, {self.depth * 1e3:.1f} mm deep"
 
 
+@checked(PlanningError)
 class PlanningScene:
     """Scene of a robot that must not touch itself, obstacles, or objects that it holds.
 
@@ -319,7 +322,7 @@ class PlanningScene:
 
     def collision_check(self, group: JointModelGroup | None = None) -> Callable[[Floats], bool]:
         """Return ``in_collision`` for many states of the scene as it is now."""
-        touches, complete = self._model(group).touches, self.robot.complete
+        touches, complete = self._model(group).touches, self.robot.completion()
         return lambda state: touches(complete(state))
 
     def why_invalid(

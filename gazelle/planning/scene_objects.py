@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.description import (
     Box,
     Capsule,
@@ -24,6 +25,7 @@ from gazelle.errors import PlanningError
 from gazelle.formats import MeshData, Octree
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class SceneObject:
     """A thing of one or more shapes.
@@ -45,6 +47,7 @@ class SceneObject:
     octree: Octree | None = None
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class AttachedObject:
     """A thing that moves with a link.
@@ -77,6 +80,7 @@ def object_of(name: str, shapes: Shape | Iterable[tuple[Shape, Pose]], pose: Pos
     return SceneObject(name, parts, pose)
 
 
+@checked(PlanningError)
 def voxel_boxes(
     centres: ArrayLike, sizes: ArrayLike, pose: Pose | None = None
 ) -> tuple[tuple[Shape, Pose], ...]:

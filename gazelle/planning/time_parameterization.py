@@ -8,6 +8,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.errors import PlanningError
 from gazelle.planning.blended_path import PathPieces, blended
@@ -31,6 +32,7 @@ _JUMP = 0.02
 """Changes of acceleration, as a part of the greatest one, that get a point of their own."""
 
 
+@checked(PlanningError, most=math.inf)
 @dataclass(frozen=True, slots=True)
 class PathLimits:
     """Limits of joints for timing a path.
@@ -57,6 +59,7 @@ class PathLimits:
         return PathLimits(known * velocity, bounded * acceleration)
 
 
+@checked(PlanningError)
 @dataclass(frozen=True, slots=True)
 class TimedPath:
     """A trajectory of joints.
@@ -88,6 +91,7 @@ class TimedPath:
         )
 
 
+@checked(PlanningError)
 def parameterize(
     points: Floats,
     limits: PathLimits,

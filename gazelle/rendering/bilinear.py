@@ -6,9 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Bytes, Floats, Indices
+from gazelle.errors import EngineError
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class PixelMeans:
     """Four pixels that each output pixel is a mean of, and their weights.
@@ -35,7 +38,12 @@ class PixelMeans:
             inside: What is none of these pixels is black, shape (rows, columns).
             size: Rows and columns of a picture that they are taken from.
             first: The number of its first pixel, if it is one of several.
+
+        Raises:
+            EngineError: The shapes do not fit.
         """
+        if places.shape != (*inside.shape, 2) or inside.ndim != 2:
+            raise EngineError(f"places of shape {places.shape} do not fit a mask of {inside.shape}")
         height, width = size
         spot = np.clip(np.where(inside[..., None], places, 0.0), 0.0, [width - 1.0, height - 1.0])
         low = np.minimum(np.floor(spot).astype(np.intp), [max(width - 2, 0), max(height - 2, 0)])

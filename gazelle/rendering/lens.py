@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from gazelle.argument_checks import checked
 from gazelle.errors import EngineError
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 MAX_PIXELS = 64 * 2**20
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class PinholeLens:
     """A pinhole: straight lines stay straight.

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model
 from gazelle.engines import Engine
+from gazelle.errors import EngineError
 from gazelle.rendering.lens import PinholeLens
 from gazelle.rendering.renderer import Frames, Renderer
 
 
+@checked(EngineError)
 class LiveScene:
     """Draws an engine's worlds, and keeps what it needs while the models stay the same.
 

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.description import Color, Empty, Material, Pose, Scene, Visual, World
+from gazelle.errors import EngineError
 from gazelle.geometry.triangles import TriangleMesh
 from gazelle.rendering.surface_looks import SurfaceLook
 from gazelle.rendering.visible import GatheredShapes, VisiblePart, VisibleWorld, rows_of
@@ -15,6 +17,7 @@ from gazelle.rendering.visible import GatheredShapes, VisiblePart, VisibleWorld,
 _BLACK = (0.0, 0.0, 0.0)
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class PaintedPart:
     """Triangles of one colour.
@@ -30,6 +33,7 @@ class PaintedPart:
     color: tuple[float, float, float]
 
 
+@checked(EngineError)
 def painted_world(links: Sequence[str], parts: Iterable[PaintedPart]) -> VisibleWorld:
     """Return the visible world of links that are all at the origin at first.
 
@@ -40,6 +44,8 @@ def painted_world(links: Sequence[str], parts: Iterable[PaintedPart]) -> Visible
     gathered, numbers = GatheredShapes(), dict[int, int]()
     found, held = [], []
     for label, part in enumerate(parts):
+        if not 0 <= part.link < len(links):
+            raise EngineError(f"part {label} is on link {part.link}, and there are {len(links)}")
         key = id(part.mesh)
         if key not in numbers:
             numbers[key] = gathered.add_mesh(part.mesh)
@@ -53,6 +59,7 @@ def painted_world(links: Sequence[str], parts: Iterable[PaintedPart]) -> Visible
     return VisibleWorld(tuple(links), tuple(found), gathered.drawn(), rest)
 
 
+@checked(EngineError)
 def plain_surroundings(background: Color) -> World:
     """Return an empty world with a background of one colour."""
     return World(scene=Scene(ambient=(*_BLACK, 1.0), background=background))

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes, Floats, Floats32, Ints32, Ints64, Worlds
 from gazelle.description import World
-from gazelle.errors import EngineError
+from gazelle.engines.limits import MAX_WORLDS, whole_number
+from gazelle.errors import EngineError, did_you_mean
 from gazelle.native.worker_pool import WorkerPool
 from gazelle.rendering import columns as c
 from gazelle.rendering.lamps import SUN, lighting_of, table_of
@@ -40,6 +42,7 @@ class Frames:
     labels: Ints32
 
 
+@checked(EngineError)
 class Renderer:
     """Draws the visuals of a world's copies, whose links can be anywhere.
 
@@ -72,6 +75,7 @@ class Renderer:
         shadows: bool = False,
         seen: VisibleWorld | None = None,
     ) -> None:
+        whole_number("nworld", nworld, most=MAX_WORLDS)
         self.shadows = shadows
         seen = visible_world(world) if seen is None else seen
         self.links: tuple[str, ...] = seen.links
@@ -115,6 +119,10 @@ class Renderer:
             quaternions: x, y, z, w, shape (nworlds, links, 4).
             worlds: Where; all if None.
         """
+        unknown = next((link for link in links if link not in self._numbers), None)
+        if unknown is not None:
+            hint = did_you_mean(unknown, self._numbers)
+            raise EngineError(f"no link '{unknown}' has a visual", hint=hint)
         numbers = [self._numbers[link] for link in links]
         rows = rows_of(positions, quaternions)
         if worlds is None:

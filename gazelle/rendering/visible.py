@@ -7,8 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Ints64
 from gazelle.description import Geometry, Pose, Visual, World
+from gazelle.errors import EngineError
 from gazelle.geometry.triangles import TriangleMesh, joined
 from gazelle.rendering import columns as c
 from gazelle.rendering.rasterizer import DrawnShapes
@@ -17,6 +19,7 @@ from gazelle.rendering.surface_looks import SurfaceLook, surface_look
 from gazelle.rendering.textures import TextureTable
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class VisiblePart:
     """A visual on a link.

@@ -18,8 +18,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats
-from gazelle.errors import EngineError, SimulationWarning, located
+from gazelle.errors import EngineError, SimulationWarning, did_you_mean, located
 from gazelle.rendering.lens import MAX_PIXELS
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ _FUNCTIONS = {
 }
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class LensMapping:
     """Radius at which light of an angle falls: ``c1 f fun(theta / c2 + c3)``.
@@ -51,6 +53,9 @@ class LensMapping:
         c3: Added to it.
         f: Focal length [half of the picture's width].
         fun: ``sin``, ``tan`` or ``id``.
+
+    Raises:
+        EngineError: There is no such function, or a factor is not above zero.
     """
 
     c1: float = 2.0
@@ -58,6 +63,17 @@ class LensMapping:
     c3: float = 0.0
     f: float = 1.0
     fun: str = "tan"
+
+    def __post_init__(self) -> None:
+        """Check what a file gave."""
+        if self.fun not in _FUNCTIONS:
+            hint = did_you_mean(self.fun, _FUNCTIONS)
+            raise EngineError(f"a lens maps angles by sin, tan or id, not '{self.fun}'", hint=hint)
+        if not (self.c1 * self.f > 0.0 and self.c2 > 0.0):
+            raise EngineError(
+                "the mapping of a lens has c1, c2 and f above zero, not "
+                f"{self.c1:g}, {self.c2:g} and {self.f:g}"
+            )
 
     def radius(self, angle: float) -> float:
         """Return the radius at which light of an angle [rad] falls [half of the picture's width]."""
@@ -70,6 +86,7 @@ class LensMapping:
         return (bare - self.c3) * self.c2
 
 
+@checked(EngineError)
 @dataclass(frozen=True, slots=True)
 class WideLens:
     """A picture through such a lens.
@@ -103,12 +120,6 @@ class WideLens:
             )
         if not 1 <= self.face <= MAX_FACE:
             raise EngineError(f"<env_texture_size> is between 1 and {MAX_FACE}, not {self.face}")
-        mapping = self.mapping
-        if not (mapping.c1 * mapping.f > 0.0 and mapping.c2 > 0.0):
-            raise EngineError(
-                "the mapping of a lens has c1, c2 and f above zero, not "
-                f"{mapping.c1:g}, {mapping.c2:g} and {mapping.f:g}"
-            )
 
     @classmethod
     def of_camera(cls, camera: Camera) -> WideLens:

@@ -9,7 +9,9 @@ import math
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Bytes, Floats, Worlds
+from gazelle.errors import EngineError
 from gazelle.rendering.bilinear import PixelMeans
 from gazelle.rendering.lens import PinholeLens
 from gazelle.rendering.live_scene import LiveScene
@@ -33,6 +35,7 @@ _BORDER = 1  # pixels around a face that its neighbours show too, so that there 
 _DARK = 0.2  # of the light beyond the cutoff, as in Gazebo's shader
 
 
+@checked(EngineError)
 class WideView:
     """Draws what cameras with one wide lens see.
 

@@ -1,0 +1,47 @@
+"""Calls of all that rooms export with wrong values.
+
+``python tests/public_sweep.py [ROOM ...]`` prints what ends in another error than Gazelle's, and
+what takes NaN for a number.
+"""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from typing import Any
+
+import public_samples
+import wrong_calls
+from wrong_calls import Findings
+from wrong_values import shown
+
+NOT_LOADED = {"GoToGoal"}
+"""Plugins, whose methods a simulation calls after ``load``."""
+
+
+def sweep(room: str) -> Findings:
+    """Call what a room exports, and the methods of what its classes make."""
+    findings = Findings()
+    with wrong_calls.limits():
+        good = public_samples.Samples()
+        for name, call in public_samples.public(room):
+            said = inspect.getdoc(call) or ""
+            for parameter, value, positional, named in wrong_calls.calls(call, good):
+                what = f"{name}({parameter}={shown(value)})"
+                attempt = lambda c=call, p=positional, n=named: c(*p, **n)  # noqa: E731
+                findings.attempt(what, attempt, said, value)
+            made = good.instance(call) if isinstance(call, type) else None
+            if made is not None and name not in NOT_LOADED:
+                wrong_calls.try_members(name, made, good, findings, _of_owners)
+        good.stack.close()
+    return findings
+
+
+def _of_owners(_handle: Any, name: str) -> bool:
+    return name in {"close", "restore"}
+
+
+if __name__ == "__main__":
+    for room in sys.argv[1:] or public_samples.ROOMS:
+        print(f"== {room}", flush=True)
+        sweep(room).show()
