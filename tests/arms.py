@@ -43,14 +43,14 @@ ODD = """<robot name="odd">
 
 @cache
 def arm(name):
-    """A robot of ``tests/data``."""
+    """Return a robot of ``tests/data``."""
     srdf = DATA / f"{name}_arm.srdf"
     semantics = load_srdf(srdf) if srdf.exists() else None
     return RobotModel(load_model(DATA / f"{name}_arm.urdf"), semantics)
 
 
 def arm_group(name):
-    """The robot and the group of its arm."""
+    """Return the robot and the group of its arm."""
     robot = arm(name)
     if name == "fetch":
         return robot, robot.group("arm")
@@ -58,6 +58,6 @@ def arm_group(name):
 
 
 def odd(srdf=""):
-    """A robot with a slide, an endless joint, one that mimics, a branch and soft limits."""
+    """Return a robot with a slide, a continuous joint, a mimic, a branch and soft limits."""
     semantics = load_srdf_string(f'<robot name="odd">{srdf}</robot>')
     return RobotModel(load_model_string(ODD), semantics)

@@ -28,7 +28,7 @@ gc.disable()
 
 
 def pytest_collection_finish() -> None:
-    """Leave out of every later search for garbage what is there before the first test."""
+    """Freeze present objects, so that later garbage collections skip them."""
     gc.collect()
     gc.freeze()
     gc.enable()
@@ -43,7 +43,7 @@ settings.load_profile(os.environ.get("GAZELLE_EXAMPLES", "repeatable"))
 
 @pytest.fixture(scope="session", autouse=True)
 def _folders_of_others(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Stable-Baselines3 and PyTorch make folders beside pytest's and leave them; ROS has one at home."""
+    """Yield after setting the folders of Stable-Baselines3, PyTorch and ROS to temporary ones."""
     with pytest.MonkeyPatch.context() as patch:
         for name in ("SB3_LOGDIR", "TORCHINDUCTOR_CACHE_DIR", "ROS_HOME"):
             patch.setenv(name, str(tmp_path_factory.mktemp(name)))
@@ -54,24 +54,24 @@ _skipped: dict[str, str] = {}
 
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
-    """Note which tests were skipped."""
+    """Record which tests were skipped."""
     if report.skipped and not hasattr(report, "wasxfail"):
         _note_skipped(report)
 
 
 def pytest_collectreport(report: pytest.CollectReport) -> None:
-    """Note which whole files were skipped."""
+    """Record which whole files were skipped."""
     if report.skipped:
         _note_skipped(report)
 
 
 def _note_skipped(report: pytest.TestReport | pytest.CollectReport) -> None:
-    """Note the reason, which pytest puts behind the place and the word `Skipped`."""
+    """Record the reason, which pytest puts behind the place and the word `Skipped`."""
     _skipped[report.nodeid] = str(report.longrepr[-1]).removeprefix("Skipped: ")
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Keep what was skipped in pytest's cache."""
+    """Store the skipped tests in pytest's cache."""
     if hasattr(session.config, "workerinput"):
         return  # one of several processes: the first hears of all
     if session.config.getoption("lf", default=False):
@@ -83,7 +83,7 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 @pytest.fixture(scope="session")
 def corpus() -> Path:
-    """The folder of public robot files, or a skipped test where it is not there."""
+    """Return the folder of public robot files; skip the test without it."""
     beside = Path(__file__).parents[2] / "shared" / "corpus"
     folder = Path(os.environ.get("GAZELLE_CORPUS", beside))
     if not folder.is_dir():

@@ -29,13 +29,13 @@ CUBE, TOP = 0.06, 0.7
 
 
 def controllers():
-    """Their parameters by name, as the package's file has them."""
+    """Return parameters of controllers by name, from the package's file."""
     file = assets.root() / "fetch_gazebo" / "config" / "default_controllers.yaml"
     return yaml.safe_load(file.read_text(encoding="utf-8"))
 
 
 def start_controllers(robot):
-    """Those that run at first."""
+    """Start the default controllers."""
     for name, parameters in controllers().items():
         robot.controllers.load(name, parameters)
         if name != "arm_with_torso_controller":
@@ -44,7 +44,7 @@ def start_controllers(robot):
 
 @contextlib.contextmanager
 def kitchen(x=0.65, y=-0.2, yaw=0.3):
-    """The robot with its arm ready, and the cube somewhere on the table."""
+    """Yield the robot with its arm ready, and the cube somewhere on the table."""
     with gazelle.Simulation("pick_and_place") as sim:
         robot = sim.spawn("fetch")
         start_controllers(robot)
@@ -59,7 +59,7 @@ def kitchen(x=0.65, y=-0.2, yaw=0.3):
 
 
 def carry(robot, cube, there, seed=0):
-    """Take the cube and put it somewhere else on the table; how high it was, and how far it is off [m]."""
+    """Move the cube elsewhere on the table; return its height on the way, and its error [m]."""
     arm = Group(robot, "arm", options=PlanOptions(seed=seed))
     arm.see()
     (thing,) = (name for name in arm.scene.objects if name.startswith("demo_cube"))
@@ -79,7 +79,7 @@ def carry(robot, cube, there, seed=0):
 
 
 def errand(seed):
-    """Where the cube stands (x, y, yaw), and where it shall stand."""
+    """Return the cube's place (x, y, yaw), and its target."""
     random = np.random.default_rng(seed)
     ways = [(*random.uniform((0.6, -0.35), (0.75, 0.35)), random.uniform(-3, 3)) for _ in range(2)]
     return tuple(map(float, ways[0])), tuple(map(float, ways[1]))

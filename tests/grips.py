@@ -29,7 +29,7 @@ MARGIN_OF_TWO = MASS * G / MU  # [N] of each finger
 
 
 def gripper():
-    """Two fingers on slides, that close along y."""
+    """Return two fingers on slides, that close along y."""
 
     def finger(name, y):
         shape = Collision("c", Box((0.06, 0.02, 0.06)), surface=scenes.rubber(MU))
@@ -46,7 +46,7 @@ def gripper():
 
 
 def creep(engine, model, seconds):
-    """How far a model moves in a minute [mm], by what it does in some seconds."""
+    """Return how far a model moves in a minute [mm], from some seconds."""
     start = engine.models[model].placement().position[0].copy()
     engine.step(round(seconds / engine.time_step))
     way = engine.models[model].placement().position[0] - start

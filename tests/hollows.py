@@ -63,7 +63,7 @@ def arc(x: float, y: float, radius: float, start: float, end: float, count: int)
 
 
 def car() -> trimesh.Trimesh:
-    """A body with two wheel arches of 0.36 m."""
+    """Return a body with two wheel arches of 0.36 m."""
     arches = [arc(x, 0.0, 0.36, math.pi, 0.0, 33) for x in (-1.4, 1.4)]
     top = np.array([[2.3, 0.0], [2.3, 0.6], [1.9, 0.9], [-1.9, 0.9], [-2.3, 0.6], [-2.3, 0.0]])
     return extruded(np.concatenate([*arches, top]), 1.9)
@@ -75,19 +75,19 @@ def revolved(rim: list[tuple[float, float]] | Floats, sections: int = 48) -> tri
 
 
 def bowl() -> trimesh.Trimesh:
-    """Half a ball of radius 1.05 less one of radius 1."""
+    """Return half a ball of radius 1.05 less one of radius 1."""
     angle = np.linspace(0.0, np.pi / 2.0, 13)
     way = np.stack([np.sin(angle), -np.cos(angle)], axis=1)
     return revolved(np.concatenate([1.05 * way, way[::-1]]))
 
 
 def mug() -> trimesh.Trimesh:
-    """A vessel with a thick bottom."""
+    """Return a vessel with a thick bottom."""
     return revolved([(0, 0), (0.5, 0), (0.5, 1.2), (0.45, 1.2), (0.45, 0.1), (0, 0.1)])
 
 
 def gear(teeth: int = 16) -> trimesh.Trimesh:
-    """A wheel with rounded teeth, which two of the same mesh with."""
+    """Return a wheel with rounded teeth, which two of the same mesh with."""
     angle = np.linspace(0.0, 2.0 * np.pi, 12 * teeth, endpoint=False)
     radius = 1.0 + 0.08 * np.sin(teeth * angle)
     return extruded(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1), 0.25)

@@ -20,7 +20,7 @@ WORLD = [(-1.5, -0.5), (-0.55, -1.75), (0.55, -1.75), (1.7, -0.5), (0.55, 0.55),
 
 
 def drive(world, start, goals, take):
-    """Go to goals one after another; `take` gets each scan with odometry and the truth."""
+    """Drive to goals one after another; `take` gets each scan with odometry and the truth."""
     with gazelle.Simulation(world, engine="planar", seed=0) as sim:
         robot = sim.spawn("turtlebot3_burger", pose=gazelle.Pose(*start))
         sensor, stamp = robot.sensors["lds_lfcd_sensor"], -1

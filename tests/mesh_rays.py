@@ -4,7 +4,7 @@ import numpy as np
 
 
 def first_hits(mesh, origins, directions):
-    """Distance along each ray to a mesh, by signed volumes; infinite for none."""
+    """Return distances along each ray to a mesh, by signed volumes; infinite for none."""
     a, b, c = (mesh.triangles[None, :, i] for i in range(3))
     p, q = origins[:, None], (origins + 1e3 * directions)[:, None]
 
@@ -22,7 +22,7 @@ def first_hits(mesh, origins, directions):
 
 
 def rays_at(mesh, count, seed):
-    """Rays from around a mesh to points near to it."""
+    """Return rays from around a mesh to points near to it."""
     chance = np.random.default_rng(seed)
     size = float(np.linalg.norm(mesh.extents))
     start = chance.normal(size=(count, 3))

@@ -7,7 +7,7 @@ _held: list[socket.socket] = []
 
 
 def free_port() -> int:
-    """A port of this machine at which nobody listens; no other process gets it by chance.
+    """Return a free port of this machine, reserved against other processes.
 
     A port that is only looked up and closed again may be given to another process before it is
     used. So a socket keeps it until this process ends: as it does not listen, connections are

@@ -97,7 +97,7 @@ def kind_of(handle):
 
 
 def handles(sim):
-    """All handles of a simulation, by path."""
+    """Yield all handles of a simulation, by path."""
     yield "sim", sim
     yield "sim.physics", sim.physics
     yield "sim.parameters", sim.parameters
@@ -146,7 +146,7 @@ class Everything:
                 yield Reading(f"{path}[{key}]", handle, "__getitem__", (key,))
 
     def _arguments(self, kind, name, member):
-        """Ways to call a member; a method that needs arguments must be known here."""
+        """Return ways to call a member; a method that needs arguments must be known here."""
         known = {
             (Simulation, "render"): [(View(look_at((2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), 4, 4),)],
             (Simulation, "extension"): [(StageFleet,)],
@@ -212,7 +212,7 @@ class Everything:
 
 
 def arrays_in(value, depth=4):
-    """All arrays in a value."""
+    """Yield all arrays in a value."""
     if isinstance(value, np.ndarray):
         yield value
     elif depth and isinstance(value, dict):

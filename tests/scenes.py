@@ -35,7 +35,7 @@ def rubber(mu=1.0):
 
 
 def with_surface(model, surface):
-    """A model of one link with another surface."""
+    """Return a model of one link with another surface."""
     link = model.links[0]
     collisions = tuple(replace(c, surface=surface) for c in link.collisions)
     return replace(model, links=(replace(link, collisions=collisions),))
@@ -50,7 +50,7 @@ def ground(mu=100.0):
 
 
 def solid(name, shape, *, mass=1.0, moments=(0.01, 0.01, 0.01), pose=None, mu=1.0, static=False):
-    """A free body of one shape."""
+    """Return a free body of one shape."""
     inertia = Inertia(*moments)
     link = Link(
         "link",
@@ -108,7 +108,7 @@ def lidar(samples=24, stddev=0.0, **options):
 
 
 def burger(name="burger", pose=None, samples=24, stddev=0.0, **drive):
-    """The TurtleBot3 burger's figures, its fixed links lumped into the base."""
+    """Return the TurtleBot3 burger's figures, its fixed links lumped into the base."""
     wheel_inertial = Inertial(0.02849894, inertia=Inertia(1.1175580e-5, 1.1192413e-5, 2.0712558e-5))
     surface = rubber(0.1)
     tilt = -1.57
@@ -156,7 +156,7 @@ CART_TRACK, CART_RADIUS = 0.5, 0.1
 
 
 def cart(width, mu=1.0, roll=-1.57, drag=0.3, caster=None, name="cart"):
-    """Two driven wheels, so wide and on axles turned so, and a caster behind."""
+    """Return two driven wheels, so wide and on axles turned so, and a caster behind."""
     caster = caster or Collision("caster", Sphere(0.02), Pose(-0.3, 0.0, 0.02))
     rubbing = replace(caster, surface=rubber(drag))
     base = Link(
@@ -186,7 +186,7 @@ def wall(name, x, y, yaw, length=4.0, thickness=0.15):
 
 
 def square(half=1.925):
-    """Four walls around the origin, as in stage 1."""
+    """Return four walls around the origin, as in stage 1."""
     quarter = math.pi / 2
     return (
         wall("north", 0.0, half, 0.0),

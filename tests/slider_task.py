@@ -78,7 +78,7 @@ class SliderVectorEnv(TaskGoalVectorEnv):
 
 
 def register():
-    """Tell Gymnasium of it, and of a twin that has no vector version of its own."""
+    """Register it with Gymnasium, and a twin without a vector version of its own."""
     if "test/Slider-v0" in gym.registry:
         return
     gym.register("test/Slider-v0", SliderEnv, vector_entry_point=SliderVectorEnv)

@@ -39,7 +39,7 @@ def main() -> None:
 
 
 def every_module_imports() -> None:
-    """Of what is not there, only packages of extras are missed."""
+    """Import every module: only packages of extras may be missing."""
     import gazelle
 
     names = [each.name for each in pkgutil.walk_packages(gazelle.__path__, "gazelle.", _missed)]
@@ -54,7 +54,7 @@ def every_module_imports() -> None:
 
 
 def _missed(name: str) -> None:
-    """A package whose modules cannot be listed is imported above, where its error is judged."""
+    """Check a package whose modules cannot be listed; its error is judged above."""
 
 
 def _excuse(module: str, error: Exception) -> None:
@@ -71,7 +71,7 @@ def _excuse(module: str, error: Exception) -> None:
 
 
 def a_simulation_runs() -> None:
-    """A robot drives, and its lidar sees."""
+    """Run a simulation: a robot drives, and its lidar sees."""
     import gazelle
 
     with gazelle.Simulation("turtlebot3_stage_4", seed=0) as sim:
@@ -85,7 +85,7 @@ def a_simulation_runs() -> None:
 
 
 def commands_run() -> None:
-    """Commands do their work, or name the extra that they need."""
+    """Run commands: they do their work, or name the extra that they need."""
     for line in ("run turtlebot3_world --for 1", "check turtlebot3_burger", "tasks", "--version"):
         done = subprocess.run(
             [BIN / "gazelle", *line.split()], check=False, capture_output=True, text=True
@@ -98,7 +98,7 @@ def commands_run() -> None:
 
 
 def a_launch_file_runs() -> None:
-    """robot_state_publisher and joint_state_publisher place the hand of an arm."""
+    """Run a launch file: the robot's publishers place the hand of an arm."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "arm.urdf").write_text(ROBOT)
         Path(folder, "arm.launch").write_text(LAUNCH)
@@ -117,7 +117,7 @@ def a_launch_file_runs() -> None:
 
 
 def _until(command: list[object], environment: dict[str, str], word: str) -> str:
-    """What a command prints, tried again until a word is in it, for 30 s."""
+    """Return the output of a command, repeated until a word is in it, for 30 s."""
     heard, end = "", time.monotonic() + 30.0
     while word not in heard and time.monotonic() < end:
         done = subprocess.run(

@@ -66,7 +66,7 @@ class Outcome:
 
 
 def scenes(corpus: Path) -> Iterator[Path]:
-    """Files of worlds and of robots, sorted."""
+    """Yield files of worlds and of robots, sorted."""
     for path in sorted(corpus.rglob("*")):
         name = str(path.relative_to(corpus))
         wanted = path.suffix in (".world", ".sdf", ".urdf") or name.endswith(".urdf.xacro")
@@ -75,7 +75,7 @@ def scenes(corpus: Path) -> Iterator[Path]:
 
 
 def load(path: Path) -> World:
-    """A world; a robot stands on a plane."""
+    """Load a world; a robot stands on a plane."""
     world = formats.load(path)
     if path.suffix == ".world" or any(model.static for model in world.models):
         return world
@@ -91,7 +91,7 @@ def load(path: Path) -> World:
 
 
 def stand(path: Path, corpus: Path, *, long: float = LONG, budget: float = 1e9) -> Outcome:
-    """Let one scene stand.
+    """Run one scene at rest.
 
     Args:
         path: The file.
@@ -201,7 +201,7 @@ class _Watch:
 
 
 def _lowest(world: World) -> float:
-    """Height of the lowest point of all collision shapes [m]."""
+    """Return the height of the lowest point of all collision shapes [m]."""
     engine = make_engine("mujoco", world, threads=1)
     model = engine.running.batch.model
     data = mujoco.MjData(model)

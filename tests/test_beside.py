@@ -15,7 +15,7 @@ OPENAI = """<package format="2"><name>openai_ros</name><version>1.0.0</version>
 
 
 def robotis(corpus, folder):
-    """ROBOTIS' own packages, whose burger has no plugins in its model."""
+    """Create ROBOTIS' own packages, whose burger has no plugins in its model."""
     theirs = [*corpus.glob("ROBOTIS-GIT__*")]
     models = corpus / "ROBOTIS-GIT__turtlebot3_simulations" / "turtlebot3_gazebo" / "models"
     return {
@@ -26,12 +26,12 @@ def robotis(corpus, folder):
 
 
 def gazebo_models(corpus, folder):
-    """The whole model database, a ``sun`` and a ``ground_plane`` among them."""
+    """Create the whole model database, with a ``sun`` and a ``ground_plane``."""
     return {"GAZEBO_MODEL_PATH": str(corpus / "osrf__gazebo_models")}
 
 
 def old_home(corpus, folder):
-    """A ``~/.gazebo`` of years ago, with models downloaded into it."""
+    """Create a ``~/.gazebo`` of years ago, with downloaded models."""
     place = folder / "home" / ".gazebo"
     place.mkdir(parents=True)
     (place / "models").symlink_to(corpus / "osrf__gazebo_models")
@@ -40,7 +40,7 @@ def old_home(corpus, folder):
 
 
 def learning_kits(corpus, folder):
-    """A workspace with openai_ros, frobs_rl, arms and navigation, built and sourced."""
+    """Create a workspace with openai_ros, frobs_rl, arms and navigation, built and sourced."""
     package = folder / "ws" / "src" / "openai_ros"
     (package / "src" / "openai_ros" / "task_envs").mkdir(parents=True)
     (package / "package.xml").write_text(OPENAI)
@@ -77,7 +77,7 @@ def run(command, environment, folder):
 
 @pytest.fixture
 def everything(corpus, tmp_path):
-    """All of it at once; search paths of a kind are joined."""
+    """Create all of it at once; search paths of a kind are joined."""
     joined = {}
     for lay in BESIDE:
         for name, value in lay(corpus, tmp_path).items():

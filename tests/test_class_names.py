@@ -50,7 +50,7 @@ SAME_PROGRAM = {"JointStatePublisher": 2}
 
 @functools.cache
 def class_names(root, *, skip=("assets",)):
-    """Of all classes under a folder, with their files."""
+    """Return names of all classes under a folder, with their files."""
     return [
         (node.name, path.relative_to(root).as_posix())
         for path in sorted(root.rglob("*.py"))
@@ -61,7 +61,7 @@ def class_names(root, *, skip=("assets",)):
 
 
 def repeated(found):
-    """Names used more often than they may be, with their files."""
+    """Return names used more often than they may be, with their files."""
     own = [(name, file) for name, file in found if not file.startswith(COMPAT)]
     files = {}
     for name, file in own:

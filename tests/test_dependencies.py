@@ -28,7 +28,7 @@ NOT_OURS = {
 
 
 def distributions(lines):
-    """The names of packages in requirements, with those of Gazelle's own extras that they name."""
+    """Return the names of packages in requirements, also those of our own extras."""
     found = set()
     for line in lines:
         name = re.split(r"[^A-Za-z0-9_.-]", line)[0]
@@ -41,13 +41,13 @@ def distributions(lines):
 
 
 def plain(name):
-    """A package's name as PyPI compares it (PEP 503)."""
+    """Return a package's name as PyPI compares it (PEP 503)."""
     return re.sub(r"[-_.]+", "-", name).lower()
 
 
 @functools.cache
 def imported(path):
-    """Libraries that a file imports anywhere, and whether it does so when it is imported."""
+    """Return libraries that a file imports anywhere, and whether on its own import."""
     return list(_imported(path))
 
 
@@ -65,7 +65,7 @@ def _imported(path):
 
 
 def strangers(paths, allowed, *, own=()):
-    """Imports of what is neither Python's, nor in the project, nor of an allowed package."""
+    """Return imports from outside of Python, the project and allowed packages."""
     owners = packages_distributions()
     found = {}
     for path in paths:

@@ -19,7 +19,7 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 
 def python_of(page):
-    """The Python blocks of a page as one program."""
+    """Return the Python blocks of a page as one program."""
     return "\n".join(
         re.findall(r"^```python\n(.*?)^```", page.read_text(), re.DOTALL | re.MULTILINE)
     )

@@ -100,7 +100,10 @@ class Import:
 
 
 def modules():
-    """Source of every module by dotted name; programs of bundled packages are data like robots."""
+    """Return source of every module by dotted name.
+
+    Programs of bundled packages are data like robots.
+    """
     programs = set(PACKAGE.glob("assets/*/scripts/*.py"))
     found = {}
     for path in sorted(set(PACKAGE.rglob("*.py")) - programs):
@@ -111,13 +114,13 @@ def modules():
 
 @functools.cache
 def parsed(text):
-    """The syntax of a file, which several tests walk."""
+    """Return the syntax of a file, which several tests walk."""
     return ast.parse(text)
 
 
 @functools.cache
 def imports_of(module, text, *, is_package=False):
-    """Imports of Gazelle's own modules, those for types too."""
+    """Return imports of Gazelle's own modules, those for types too."""
     return [
         Import(module, target, node.lineno, lazy, taken(node))
         for node, lazy in statements(parsed(text))
@@ -127,7 +130,7 @@ def imports_of(module, text, *, is_package=False):
 
 
 def statements(node, *, lazy=False):
-    """Every statement below a node, and whether it is within a function; expressions hold none."""
+    """Yield every statement below a node, and whether it is within a function."""
     for field in ("body", "orelse", "finalbody", "handlers", "cases"):
         for child in getattr(node, field, ()):
             yield child, lazy
@@ -136,12 +139,12 @@ def statements(node, *, lazy=False):
 
 
 def taken(node):
-    """The names that a ``from`` statement takes."""
+    """Return the names that a ``from`` statement takes."""
     return tuple(a.name for a in node.names) if isinstance(node, ast.ImportFrom) else ()
 
 
 def targets(node, module, *, is_package):
-    """The dotted names that one statement imports."""
+    """Return the dotted names that one statement imports."""
     if isinstance(node, ast.Import):
         return [alias.name for alias in node.names]
     if not isinstance(node, ast.ImportFrom):
@@ -158,13 +161,13 @@ def targets(node, module, *, is_package):
 
 
 def room(module):
-    """The room of a module; None for the modules at the top, which are below all rooms."""
+    """Return the room of a module; None for the modules at the top, which are below all rooms."""
     parts = module.split(".")
     return parts[1] if len(parts) > 1 and parts[1] in ORDER else None
 
 
 def faults(found):
-    """What is wrong with imports, one line each."""
+    """Return what is wrong with imports, one line each."""
     return [
         f"{each.module}:{each.line} imports {each.target}: {reason}"
         for each in found
@@ -173,7 +176,7 @@ def faults(found):
 
 
 def fault(each):
-    """Why an import is wrong, or an empty text."""
+    """Return the reason why an import is wrong, or an empty text."""
     here, there = room(each.module), room(each.target)
     if each.module in FRONT_DOORS or there is None or here == there:
         return ""
@@ -202,7 +205,7 @@ def test_no_import_points_up():
 
 
 def graph(found, known):
-    """What each module imports when it is loaded or its types are checked, packages' heads apart.
+    """Return the imports of each module, including types, with packages' heads apart.
 
     A package's ``__init__`` that only passes on names is no partner of a circle: where one imports
     ``from gazelle.formats import units`` the module is meant, not the package.
@@ -219,7 +222,7 @@ def graph(found, known):
 
 
 def circles(edges):
-    """Sets of modules that import each other, by Tarjan's algorithm (1972)."""
+    """Return sets of modules that import each other, by Tarjan's algorithm (1972)."""
     order, low, stack, found = {}, {}, [], []
 
     def visit(module):
@@ -284,7 +287,7 @@ def test_a_circle_is_caught(texts, expected):
 
 
 def strangers_of(module, text):
-    """Libraries that a module imports, and that are another package's."""
+    """Return libraries of other packages that a module imports."""
     names = {
         name.split(".")[0]
         for node, _ in statements(parsed(text))

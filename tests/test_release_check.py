@@ -42,7 +42,7 @@ def step(release, name, code, **changes):
 
 
 def counting(release, name, file, code=0):
-    """A step that leaves a mark each time it runs."""
+    """Return a step that leaves a mark each time it runs."""
     return step(
         release,
         name,
@@ -129,7 +129,7 @@ def test_most_seeds_below_the_published_interval_fail(release):
 
 
 def claims(reached):
-    """A claim of three good seeds, and the same with other results."""
+    """Return a claim of three good seeds, and the same with other results."""
     (own,) = published_claims().of("KobukiEmpty")
 
     def of(counts):

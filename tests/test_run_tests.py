@@ -11,7 +11,7 @@ import run_tests
 
 
 def skipped():
-    """The program of CI that tells what was skipped."""
+    """Return the program of CI that lists skipped tests."""
     path = Path(__file__).parents[1] / ".ci" / "skipped.py"
     spec = importlib.util.spec_from_file_location("skipped", path)
     module = importlib.util.module_from_spec(spec)

@@ -20,7 +20,7 @@ LINUX, ARM = "manylinux_2_17_x86_64", "manylinux_2_17_aarch64"
 
 
 def module(platform, content=b""):
-    """First bytes of a compiled module of a platform."""
+    """Return first bytes of a compiled module of a platform."""
     machine = checks.ELF_MACHINES.get(platform, 0).to_bytes(2, "little")
     return checks.MAGIC[platform].ljust(18, b"\0") + machine + content
 

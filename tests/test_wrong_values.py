@@ -65,7 +65,7 @@ def good_values(sim):
 
 
 def kinds(sim):
-    """A path for each kind of handle, and for each port and sensor."""
+    """Return a path for each kind of handle, and for each port and sensor."""
     found = {}
     for path, handle in public_handles.handles(sim):
         kind = public_handles.kind_of(handle).__name__

@@ -33,7 +33,7 @@ class Touches:
         return len(self.met)
 
     def look(self):
-        """See what is touched now; what was not touched for a while counts."""
+        """Check present contacts; one that is gone for a while counts."""
         robot = self._simulation.robots[self._model]
         own = [
             f"{robot.name}::{link.name}::{collision.name}"

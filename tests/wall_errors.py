@@ -8,7 +8,7 @@ from gazelle.navigation.localization.scan_likelihood import BeamModel
 
 
 def distances(walls, grid):
-    """From walls [m], shape (n, 2), to what is occupied in a grid [cells]."""
+    """Return distances from walls [m], shape (n, 2), to occupied cells of a grid [cells]."""
     near = np.sqrt(squared_distances((grid.data == 100).view(np.uint8)))
     cells = np.floor((walls - [grid.origin.x, grid.origin.y]) / 0.05 + 1e-9).astype(int)
     inside = ((cells >= 0) & (cells < grid.data.shape[::-1])).all(axis=1)
@@ -16,25 +16,25 @@ def distances(walls, grid):
 
 
 def middles(found, grid):
-    """Middles of some cells of a grid, shape (n, 2) [m]."""
+    """Return middles of some cells of a grid, shape (n, 2) [m]."""
     rows, columns = np.nonzero(found)
     return np.stack((columns, rows), 1) * 0.05 + 0.025 + [grid.origin.x, grid.origin.y]
 
 
 def seen_walls(true, ideal):
-    """Middles of wall cells that were seen, shape (n, 2) [m]."""
+    """Return middles of wall cells that were seen, shape (n, 2) [m]."""
     faces = (true.data == 100) & (squared_distances((true.data == 0).view(np.uint8)) <= 1)
     walls = middles(faces, true)
     return walls[distances(walls, ideal) <= 1.0]
 
 
 def drawn_walls(found):
-    """Middles of the wall cells of a map, shape (n, 2) [m]."""
+    """Return middles of the wall cells of a map, shape (n, 2) [m]."""
     return middles(found.data == 100, found)
 
 
 def lit(true, places, reach=3.0):
-    """A map of what of the walls a laser sees from some places."""
+    """Return a map of a laser's view of the walls from some places."""
     model = BeamModel(
         (true.data == 100).view(np.uint8),
         (true.origin.x, true.origin.y),

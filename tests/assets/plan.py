@@ -25,7 +25,7 @@ class Shape:
     static: bool
 
     def distance(self, x, y, angle):
-        """Along a ray from (x, y) [m], or infinity; 0 from inside."""
+        """Return the distance along a ray from (x, y) [m], or infinity; 0 from inside."""
         cos, sin = math.cos(self.yaw), math.sin(self.yaw)
         px, py = x - self.x, y - self.y
         start = (cos * px + sin * py, cos * py - sin * px)
@@ -61,7 +61,7 @@ def root(path):
 
 
 def models(world):
-    """Each model of a world as (name, pose, element), includes followed, in file order."""
+    """Return each model of a world as (name, pose, element), includes followed, in file order."""
     found = []
     for child in root(assets.world(world)).find("world"):
         if child.tag == "model":
@@ -77,7 +77,7 @@ def models(world):
 
 @functools.cache
 def shapes(world):
-    """Every box and cylinder that a robot can run into."""
+    """Return every box and cylinder that a robot can collide with."""
     return [
         shape(where, pose(link), collision, static=model.findtext("static") == "true")
         for _, where, model in models(world)
@@ -109,7 +109,7 @@ def shape(*parts, static):
 
 
 def range_at(world, angle, *, x=0.0, y=0.0, height=0.182, only_static=True):
-    """What an ideal lidar at a height measures [m]; infinity when nothing is in the way."""
+    """Return the range of an ideal lidar at a height [m]; infinity without a hit."""
     return min(
         (
             each.distance(x, y, angle)

@@ -64,7 +64,7 @@ def tree():
 
 
 def joints_of(tree):
-    """Figures of the joints, as ``JOINTS`` has them."""
+    """Return the figures of the joints, in the form of ``JOINTS``."""
 
     def triple(element, key="xyz"):
         text = "0 0 0" if element is None else element.get(key, "0 0 0")
@@ -126,7 +126,7 @@ def test_shapes_are_primitive_and_links_are_there_for_frames(tree):
 
 @pytest.fixture(scope="module")
 def published():
-    """The original's ``fetch.urdf``, of a checkout of fetch_ros in the folder ``GAZELLE_ROBOTS``."""
+    """Return the original's ``fetch.urdf``, of a checkout of fetch_ros in ``GAZELLE_ROBOTS``."""
     file = (
         Path(os.environ.get("GAZELLE_ROBOTS", "")) / "fetch_ros/fetch_description/robots/fetch.urdf"
     )
@@ -182,7 +182,7 @@ def test_links_are_where_the_originals_are(published):
 
 @pytest.fixture
 def fetch():
-    """The robot in an empty world, with its controllers at work."""
+    """Yield the robot in an empty world, with its controllers running."""
     with gazelle.Simulation("empty") as sim:
         robot = sim.spawn("fetch")
         for name, parameters in yaml.safe_load(CONTROLLERS.read_text(encoding="utf-8")).items():

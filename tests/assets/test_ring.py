@@ -16,13 +16,13 @@ PUBLISHED = "ROBOTIS-GIT__turtlebot3_simulations/turtlebot3_gazebo/worlds/turtle
 
 
 def loose(world):
-    """A world whose ring no plugin moves."""
+    """Return a world whose ring no plugin moves."""
     models = tuple(dataclasses.replace(model, plugins=()) for model in world.models)
     return dataclasses.replace(world, models=models)
 
 
 def pushed(world, tick, seconds=20.0):
-    """The mean rate of a ring [rad/s] that a node pushes every tick [s], as the published one."""
+    """Return the mean rate of a ring [rad/s] that a node pushes every tick [s]."""
     with Simulation(loose(world), time_step=0.001) as simulation:
         ring = simulation.robots["obstacle"]
         simulation.run(0.5)
@@ -39,7 +39,7 @@ def pushed(world, tick, seconds=20.0):
 
 
 def scripted():
-    """The rate of the bundled ring in the planar engine [rad/s]."""
+    """Return the rate of the bundled ring in the planar engine [rad/s]."""
     with Simulation(OWN, engine="planar", time_step=0.02) as simulation:
         simulation.run(10.0)
         return float(simulation.robots["obstacle"].yaw[0]) / 10.0

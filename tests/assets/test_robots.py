@@ -318,7 +318,7 @@ def test_what_is_seen_is_about_as_large_as_the_robot(robot, name):
 
 
 def skeleton(robot):
-    """What a robot is, but for its looks: links, joints and shapes that collide."""
+    """Return links, joints and colliding shapes of a robot."""
     links = {}
     for link in robot.findall("link"):
         collision = link.find("collision")

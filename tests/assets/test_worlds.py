@@ -39,7 +39,7 @@ WALKERS = {
 
 
 def walk(name):
-    """Positions of a walker at every tick of one round, from the published rule."""
+    """Return positions of a walker at every tick of one round, from the published rule."""
     place, table = WALKERS[name]
     legs = [[float(word) for word in row.split()] for row in table.split("|")]
     position, state, track = np.array(place, float), 0, [np.array(place, float)]
@@ -226,7 +226,7 @@ def test_hexagon_is_where_the_published_mesh_is(corpus):
 
 
 def meet(lines, angle):
-    """Where a ray from the origin first meets segments of shape (n, 2, 2) [m]."""
+    """Return the first hit of a ray from the origin with segments of shape (n, 2, 2) [m]."""
     way = np.array([math.cos(angle), math.sin(angle)])
     along = lines @ way
     aside = lines @ np.array([-way[1], way[0]])
@@ -280,7 +280,7 @@ def test_furniture_does_not_stand_in_furniture():
 
 
 def overlap(one, other):
-    """Whether two plan shapes share ground, by samples of the one's outline [1 mm apart]."""
+    """Return whether two plan shapes overlap, by samples of the one's outline [1 mm apart]."""
     reach = [max(s.radius, math.hypot(*s.half)) for s in (one, other)]
     if math.hypot(one.x - other.x, one.y - other.y) > sum(reach):
         return False

@@ -105,7 +105,7 @@ DRIVES["set_initial_pose_delayed"] = replace(
 
 
 def hall():
-    """The map, True where a wall is, shape (600, 600), the first row lowest.
+    """Return the map, True in walls, shape (600, 600), the first row lowest.
 
     Blocks of all sizes stand where no drive comes near.
     """
@@ -124,7 +124,7 @@ def hall():
 
 
 def _points(drive):
-    """Places along a drive, a tenth of a metre apart, shape (n, 2)."""
+    """Return places along a drive, a tenth of a metre apart, shape (n, 2)."""
     stops = [drive.start[:2], *drive.via, drive.end[:2]]
     pieces = [
         np.linspace(a, b, max(int(math.dist(a, b) / 0.1), 1)) for a, b in itertools.pairwise(stops)
@@ -133,7 +133,7 @@ def _points(drive):
 
 
 def seen_hall():
-    """The map as a laser makes one: surfaces of walls are 100, what is inside them -1, shape (600, 600)."""
+    """Return a laser's map: surfaces of walls are 100, inside is -1, shape (600, 600)."""
     walls = hall()
     ring = np.pad(walls, 1, constant_values=True)
     inside = walls & ring[:-2, 1:-1] & ring[2:, 1:-1] & ring[1:-1, :-2] & ring[1:-1, 2:]

@@ -15,7 +15,7 @@ from gazelle.ros import Master
 
 @pytest.fixture
 def graph():
-    """A burger named r1 in stage 1, stepped by the test itself."""
+    """Yield a burger named r1 in stage 1, stepped by the test itself."""
     with Master(port=0, rosout=False) as master, gazelle.Simulation("turtlebot3_stage_1") as sim:
         sim.spawn("turtlebot3_burger", name="r1", namespace="/")
         with serve_ros(sim, master.uri) as door:
@@ -26,7 +26,7 @@ def graph():
 
 @pytest.fixture
 def running(graph):
-    """The same, running in the background as fast as it can."""
+    """Yield the same world, running in the background as fast as it can."""
     graph.sim.physics.update_rate = 0.0
     thread = threading.Thread(target=graph.door.run)
     thread.start()

@@ -26,7 +26,7 @@ class Client:
         return self._clients[full].call(service._request_class(**fields), timeout=60.0)
 
     def listen(self, topic, kind):
-        """The messages of a topic from now on, in a list."""
+        """Return the list of a topic's messages from now on."""
         heard = []
         self.node.subscribe(topic, load_message(kind), heard.append)
         return heard

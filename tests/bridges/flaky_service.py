@@ -51,7 +51,7 @@ class FlakyService:
 
 
 def _forward(source, target):
-    """One length and what it counts; False at the end."""
+    """Forward one length and its bytes; return False at the end."""
     head = _take(source, 4)
     if len(head) < 4:
         return False

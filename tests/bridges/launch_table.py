@@ -7,19 +7,19 @@ _MESHES = "package://turtlebot3_description/meshes/bases/burger_base.stl"
 
 
 def _under(names, topics):
-    """The same topics of several robots."""
+    """Return the same topics of several robots."""
     return " ".join(f"/{name}{topic}" for name in names for topic in topics.split())
 
 
 def _tuned(topic, *names):
-    """The topics of dynamic_reconfigure servers below a topic."""
+    """Return the topics of dynamic_reconfigure servers below a topic."""
     return " ".join(
         f"{topic}/{name}/parameter_{what}" for name in names for what in ("descriptions", "updates")
     )
 
 
 def _links(prefix, text):
-    """``parent>child`` with a prefix before both."""
+    """Return ``parent>child`` with a prefix before both."""
     return " ".join(
         ">".join(f"{prefix}{frame}" for frame in pair.split(">")) for pair in text.split()
     )

@@ -85,7 +85,7 @@ class Launched:
         return self._log.read_text(encoding="utf-8")
 
     def look(self):
-        """What there is now."""
+        """Return the present models, topics and frames."""
         published, subscribed, _ = self.node.master.system_state()
         own = {self.node.name}
         graph = {**published, **subscribed}
@@ -96,7 +96,7 @@ class Launched:
         return self.found
 
     def wait_for(self, models, topics, frames):
-        """Until at least these are there; a launch that ends before is a failure."""
+        """Wait until at least these are present; a launch that ends before is a failure."""
         deadline = time.monotonic() + _PATIENCE_S
         while True:
             found = self.look()
@@ -111,7 +111,7 @@ class Launched:
             time.sleep(0.1)
 
     def close(self):
-        """Ctrl-C, and the end of everything that was started."""
+        """Send Ctrl-C, and wait for the end of everything that was started."""
         self.node.close()
         self._process.send_signal(signal.SIGINT)
         try:
@@ -137,7 +137,7 @@ class Launched:
 
 
 def environment(uri, corpus, folder):
-    """Where packages are found, and which TurtleBot3 there is."""
+    """Return the environment with the search path, and the model of TurtleBot3."""
     kept = {
         key: value
         for key, value in os.environ.items()
@@ -153,7 +153,7 @@ def environment(uri, corpus, folder):
 
 
 def stub_packages(folder, files):
-    """A folder with packages of empty xacro files, by name.
+    """Return a folder with packages of empty xacro files, by name.
 
     Args:
         folder: A new folder is made in it.

@@ -97,7 +97,7 @@ ODD = [
 
 
 def kind_of(service):
-    """The type of a service of Gazebo's, without its package."""
+    """Return the type of a service of Gazebo's, without its package."""
     if service.startswith("spawn"):
         return "SpawnModel"
     return "".join(part.title() for part in service.split("_"))

@@ -17,7 +17,7 @@ from gazelle.ros import Master, load_message
 
 @contextlib.contextmanager
 def running(*models, parameters=()):
-    """A simulation of some models on a graph, run in the background.
+    """Run a simulation of some models on a graph, in the background.
 
     Args:
         models: SDF.

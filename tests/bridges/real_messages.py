@@ -7,7 +7,7 @@ from rossuites.generating import generate
 
 
 def generate_real_classes(packages, folder):
-    """What goes on PYTHONPATH of a real client."""
+    """Return the entry of PYTHONPATH for a real client."""
     source, target = folder / "source", folder / "classes"
     definitions.write(packages, source)
     generate(source, target)

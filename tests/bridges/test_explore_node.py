@@ -53,7 +53,7 @@ class Graph:
         self.maps.publish(grid_message(OccupancyMap(cells, 0.1, Pose()), "map", 1))
 
     def accept(self):
-        """The goal that has come: x and y; ``sent`` is when that was, in the graph's time [s]."""
+        """Accept the goal; return x and y; ``sent`` is its time on the graph [s]."""
         until(self.server.is_new_goal_available)
         goal = self.server.accept_new_goal().target_pose
         self.sent = goal.header.stamp.to_sec()
@@ -89,7 +89,7 @@ def room():
 
 
 def cycles(graph, explore, done):
-    """Look again and again, a second of the graph's time each."""
+    """Run cycles, a second of the graph's time each, until something holds."""
 
     def step():
         graph.clock.set(graph.clock.now() + 1_000_000_000)

@@ -43,7 +43,7 @@ def test_a_path_is_written():
 
 @pytest.fixture(params=["mujoco", "planar"])
 def office(request):
-    """A courier in an office that runs as fast as it can, and a node beside it."""
+    """Run a courier in an office as fast as it can, and a node beside it."""
     with Master(port=0, rosout=False) as master, gazelle.Simulation("office", request.param) as sim:
         robot = sim.spawn("courier", namespace="/")
         sim.physics.update_rate = 0.0

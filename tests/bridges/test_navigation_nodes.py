@@ -80,7 +80,7 @@ class Room:
         return kind(Node(name, master_uri=self.uri, clock=self.clock))
 
     def tick(self, *, located=True):
-        """A tenth of a second."""
+        """Advance by a tenth of a second."""
         self.now += 100_000_000
         self.clock.set(self.now)
         forward, turn = self.speed

@@ -86,7 +86,7 @@ class Traveller:
         return at.x, at.y
 
     def begin(self, x, y):
-        """Tell amcl where the robot is, and wait for move_base."""
+        """Publish the robot's pose to amcl, and wait for move_base."""
         until(lambda: self._states and self.located, PATIENCE)
         message = load_message("geometry_msgs/PoseWithCovarianceStamped")()
         message.header.frame_id = "map"
@@ -102,7 +102,7 @@ class Traveller:
         assert self._client.wait_for_server(PATIENCE)
 
     def go(self, x, y, yaw=0.0):
-        """Go there; returns how it went."""
+        """Send a goal; return its outcome."""
         goal = load_message("move_base_msgs/MoveBaseGoal")()
         goal.target_pose.header.frame_id = "map"
         place = goal.target_pose.pose
@@ -122,7 +122,7 @@ class Traveller:
         )
 
     def tour(self, count, seed=7):
-        """Go to so many places drawn at random, one after another; yields how each went."""
+        """Drive to so many random places, one after another; yields the outcomes."""
         chosen = random.Random(seed)
         for _ in range(count):
             place = chosen.choice([each for each in FREE if math.dist(each, self.place) > 0.3])
@@ -131,7 +131,7 @@ class Traveller:
 
 @contextmanager
 def navigating(corpus, folder, model, whole):
-    """A `Traveller` in turtlebot3_world, with turtlebot3_navigation's launch files and a map."""
+    """Run a `Traveller` in turtlebot3_world, with turtlebot3_navigation's launch and map."""
     for name in ("world", "stack"):
         (folder / name).mkdir()
     save_map(whole, folder / "map")
@@ -156,7 +156,7 @@ def navigating(corpus, folder, model, whole):
 
 
 def table(model, trips):
-    """What a tour was like, as lines."""
+    """Return the outcomes of a tour, as lines."""
     reached = sum(trip.reached for trip in trips)
     touches, recoveries = (
         sum(each) for each in zip(*((t.touches, t.recoveries) for t in trips), strict=True)

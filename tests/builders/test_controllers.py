@@ -20,7 +20,7 @@ TARGETS = (0.4, -0.3)
 
 
 def bare_text():
-    """The two-link arm as nobody prepared it."""
+    """Return the two-link arm without any preparation."""
     text = re.sub(r"<transmission.*?</transmission>", "", arm_text(), flags=re.DOTALL)
     return re.sub(r"<gazebo>.*?</gazebo>", "", text, flags=re.DOTALL)
 

@@ -12,7 +12,7 @@ from gazelle.engines.tracer import make_tracer
 
 
 def seen_from_above(model, points):
-    """Heights [m] at points that rays from above meet."""
+    """Return heights [m] at points, by rays from above."""
     tracer = make_tracer(World(models=(model,)))
     origins = np.array([(x, y, 50.0) for x, y in points])
     down = np.tile((0.0, 0.0, -1.0), (len(points), 1))

@@ -29,7 +29,7 @@ def corners(zone):
 
 
 def reach(model):
-    """How far a model's collisions reach from its place on the ground."""
+    """Return the extent of a model's collisions from its place on the ground."""
     return max(
         math.dist((model.pose.x, model.pose.y), corner)
         for zone in footprints(model)

@@ -25,7 +25,7 @@ NEEDED = {
 
 
 def built(name):
-    """The piece, and where it can be pushed, one that can."""
+    """Yield the piece at a place where it can be pushed, if it is movable."""
     build = getattr(builders, name)
     yield build(**NEEDED.get(name, {}))
     if "movable" in inspect.signature(build).parameters:

@@ -15,7 +15,7 @@ def boxes(model):
 
 
 def inside(model, point):
-    """Whether a point lies in a wall."""
+    """Return whether a point lies in a wall."""
     for pose, size in boxes(model):
         local = (model.pose * pose).inverse().apply(point)
         if all(abs(value) <= length / 2 + 1e-9 for value, length in zip(local, size, strict=True)):

@@ -7,7 +7,7 @@ from gazelle.cli.main import main
 
 @pytest.fixture
 def cli(capsys):
-    """Runs the command line; gives the exit code, what it said, and what it complained."""
+    """Return a runner of the command line, which returns exit code, output and errors."""
 
     def run(*arguments):
         code = main([str(argument) for argument in arguments])

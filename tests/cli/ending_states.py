@@ -179,13 +179,13 @@ def environment(process):
 
 
 def spent_by_session(leader):
-    """Processor's time of all processes of a session [s]."""
+    """Return processor time of all processes of a session [s]."""
     found = [spent(each) for each in Path("/proc").glob("[0-9]*")]
     return sum(seconds for session, seconds in found if session == leader)
 
 
 def spent(process):
-    """Session and processor's time [s] of a process."""
+    """Return session and processor time [s] of a process."""
     try:
         stat = (process / "stat").read_text().rpartition(")")[2].split()
     except OSError:

@@ -103,7 +103,7 @@ class Running:
             os.killpg(self.process.pid, self.number)
 
     def check(self):
-        """Its end."""
+        """Check its end."""
         until(lambda: self.ended, self)
         ending = self.processor - self.spent
         code = self.process.wait()

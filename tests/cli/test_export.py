@@ -9,7 +9,7 @@ import pytest
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    """The folder of a short run."""
+    """Return the folder of a short run."""
     from gazelle.training import PPOSettings, Recipe, train
 
     recipe = Recipe(steps=256, num_envs=4, settings=PPOSettings(n_steps=16, batch_size=32))

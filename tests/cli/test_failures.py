@@ -20,7 +20,7 @@ RED, INK = (206, 62, 52), (60, 60, 66)
 
 @pytest.fixture(scope="module")
 def found():
-    """What comes of driving straight on."""
+    """Return the failures of driving straight on."""
     bias = np.array([0.0, 0.0, 1.0, 0.0, 0.0], np.float32)
     straight = Actor((np.zeros((26, 5), np.float32),), (bias,), "tanh", "categorical")
     return evaluate(straight, task="TurtleBot3Stage1", engine="planar", episodes=60)

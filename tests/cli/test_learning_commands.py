@@ -17,7 +17,7 @@ SHORT = ("--steps", "2048", "--num-envs", "8")
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    """The folder of a short run."""
+    """Return the folder of a short run."""
     from gazelle.cli.main import main
 
     out = tmp_path_factory.mktemp("runs")

@@ -17,7 +17,7 @@ from gazelle.errors import EngineError, FormatError, GazelleWarning
 
 @pytest.fixture
 def fake(monkeypatch):
-    """A sub-command that does what the test says."""
+    """Return a sub-command that does what the test defines."""
 
     def make(action):
         module = types.SimpleNamespace(

@@ -56,7 +56,7 @@ SHORT = ("--steps", "2048", "--num-envs", "8")
 
 
 def gazelle(folder, *arguments, path=""):
-    """What a user types in a folder; without anything of this test's on the path."""
+    """Run a user's command in a folder, without anything of this test's on the path."""
     environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
     if path:
         environment["PYTHONPATH"] = str(path)

@@ -65,7 +65,7 @@ def complaint(parser, words):
 
 
 def parsers(parser):
-    """A parser and those of its sub-commands."""
+    """Yield a parser and those of its sub-commands."""
     yield parser
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):

@@ -17,7 +17,7 @@ from gazelle.viewer.plots import read_table
 
 @pytest.fixture
 def bag(tmp_path):
-    """A robot that drives a quarter of a circle of 2 m over a map."""
+    """Return a robot that drives a quarter of a circle of 2 m over a map."""
     path = tmp_path / "drive.bag"
     with Bag(str(path), "w") as out:
         grid = load_message("nav_msgs/OccupancyGrid")()

@@ -54,7 +54,7 @@ def test_run_refuses_what_makes_no_sense(cli, arguments):
 
 
 def behind_a_script():
-    """A shell lets what a script runs with & ignore Ctrl-C."""
+    """Ignore Ctrl-C, as a shell does for what a script runs with &."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 

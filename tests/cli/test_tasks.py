@@ -23,7 +23,7 @@ def shown(capsys, *arguments):
 
 @pytest.fixture
 def claims(monkeypatch):
-    """Have other success rates published."""
+    """Return a setter of other published success rates."""
 
     def publish(*published, **unverified):
         found = Claims(published, unverified)

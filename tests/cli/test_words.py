@@ -155,7 +155,7 @@ def test_an_interactive_shell_reads_the_users_settings_and_completes(tmp_path):
 
 
 def completed(script, *words):
-    """What bash makes of the tab key after these words."""
+    """Return bash's completion after these words."""
     line = " ".join(f"'{word}'" for word in words)
     text = f"{script}\nCOMP_WORDS=({line}); COMP_CWORD={len(words) - 1}\n_gazelle_complete\n"
     text += 'printf "%s\\n" "${COMPREPLY[@]}"'

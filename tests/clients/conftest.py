@@ -15,7 +15,7 @@ from gazelle.ros import Master
 
 @pytest.fixture
 def graph():
-    """Stage 1 with a burger, in real time."""
+    """Run stage 1 with a burger, in real time."""
     with Master(port=0, rosout=False) as master, gazelle.Simulation("turtlebot3_stage_1") as sim:
         sim.spawn("turtlebot3_burger", name="r1", namespace="/")
         with serve_ros(sim, master.uri) as door:

@@ -28,7 +28,7 @@ SERVICE = "---\nfloat64 x\nfloat64 y\nfloat64 angle\n"
 
 @pytest.fixture
 def running(tmp_path):
-    """A Stage world that runs twenty times as fast as time, and a node beside it."""
+    """Run a Stage world twenty times as fast as time, and a node beside it."""
     register("sim_agv", "AgvPose", SERVICE)
     file = tmp_path / "agv.world"
     file.write_text(WORLD)

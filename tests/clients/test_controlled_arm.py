@@ -43,7 +43,7 @@ NOT_RUNNING = {"initialized", "stopped"}
 
 @pytest.fixture(scope="module")
 def arm():
-    """An arm commanded by position, that runs; its controllers' parameters are there."""
+    """Run an arm commanded by position; its controllers' parameters are set."""
     with (
         robot_graph(arm_text("Position"), parameters=PARAMETERS) as graph,
         Controllers(graph.node, "/arm", timeout=60.0) as controllers,
@@ -54,7 +54,7 @@ def arm():
 
 @pytest.fixture
 def controllers(arm):
-    """The manager, with nothing loaded but what tells the joints' states."""
+    """Return the manager, with only the joint state controller loaded."""
     arm.controllers.kill([name for name in arm.controllers.states() if name != "states"])
     return arm.controllers
 

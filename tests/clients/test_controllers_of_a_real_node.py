@@ -91,7 +91,7 @@ ACTION = "control_msgs/FollowJointTrajectoryAction"
 
 
 def texts():
-    """Definitions in full, and the check sums of services."""
+    """Return definitions in full, and the check sums of services."""
     found = {ACTION: load_message(ACTION)._full_text}
     for name in (*KINDS, "SwitchController"):
         service = load_service(f"controller_manager_msgs/{name}")

@@ -148,7 +148,7 @@ def test_waiting_for_a_model_ends(graph):
 
 @pytest.fixture
 def flaky(graph):
-    """Makes a service lose its first answers."""
+    """Yield a function that drops a service's first answers."""
     with contextlib.ExitStack() as stack:
 
         def begin(name, lost=1):

@@ -36,7 +36,7 @@ ARM = """<?xml version="1.0"?><!-- an arm --><robot name="arm">
 
 @pytest.fixture
 def spawn(graph, monkeypatch):
-    """The program on the graph; a paused world stands still."""
+    """Return the program on the graph, with the world paused."""
     monkeypatch.setenv("ROS_MASTER_URI", graph.master.uri)
     graph.gazebo.pause()
     return lambda *arguments: main(list(arguments))

@@ -18,7 +18,7 @@ from gazelle.description import World
 
 @contextlib.contextmanager
 def cart_graph(space="/cartpole_v0"):
-    """``sim``, ``node`` (another one than rospy's), ``rospy``."""
+    """Yield ``sim``, ``node`` (another one than rospy's), ``rospy``."""
     from gazelle.ros.compat.rospy import client
 
     with (

@@ -6,17 +6,17 @@ import numpy as np
 
 
 def near(x, y, goal, epsilon):
-    """Its ``is_in_desired_position``."""
+    """Return the result of ``is_in_desired_position``."""
     return all(g - epsilon < here <= g + epsilon for here, g in ((x, goal[0]), (y, goal[1])))
 
 
 def far(place, goal):
-    """Its ``get_distance_from_point``."""
+    """Return the result of ``get_distance_from_point``."""
     return np.linalg.norm(np.array(place, float) - np.array(goal, float))
 
 
 def scan(ranges, mod, low, high, convert, least):
-    """Its ``discretize_observation``: what is seen, and whether that ends the episode."""
+    """Return the result of ``discretize_observation``: the observation, and whether it ends."""
     seen, done = [], False
     for i, item in enumerate(ranges):
         if i % mod == 0:
@@ -36,12 +36,12 @@ def clamped(item, low=0.3, high=6.0):
 
 
 def reward_at(done, at_goal, end, step):
-    """Both branches of ``_compute_reward`` of tasks with a goal."""
+    """Return the reward of ``_compute_reward`` of tasks with a goal, in both branches."""
     return (end if at_goal else -end) if done else step
 
 
 def drive(name, ranges, mod, x, y, action, closer, acceleration):
-    """A step of a driving task: the scan as observed, whether the episode is over, the reward."""
+    """Return a step of a driving task: the scan as observed, whether it is over, the reward."""
     way = 5 if action == 0 else 1
     if name == "maze":
         seen, done = scan(ranges, mod, 0.1, 6.0, lambda item: round(item, 1), 0.5)

@@ -26,7 +26,7 @@ CONTROLLERS = [
 
 @pytest.fixture(scope="module")
 def cart():
-    """openai_ros' cart and pole on a graph, running, and rospy's node in this process."""
+    """Run openai_ros' cart and pole on a graph, and rospy's node in this process."""
     with cart_graph() as graph:
         with Controllers(graph.node, "/cartpole_v0", timeout=60.0) as controllers:
             controllers.spawn(CONTROLLERS)
@@ -35,7 +35,7 @@ def cart():
 
 @pytest.fixture(scope="module")
 def env(cart):
-    """The task by its name, as scripts make it."""
+    """Return the task by its name, as scripts make it."""
     rewards = []
     info = ros.load_message("openai_ros/RLExperimentInfo")
     cart.node.subscribe("/openai/reward", info, rewards.append)
@@ -197,7 +197,7 @@ def test_a_silent_topic_is_named(env, monkeypatch):
 
 
 def recording(base):
-    """A robot environment of a user's own that notes what is called."""
+    """Return a user's robot environment that records its calls."""
 
     class Noted(base):
         def __init__(self, **options):

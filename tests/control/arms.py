@@ -12,7 +12,7 @@ DATA = Path(__file__).parents[1] / "data"
 
 
 def arm_text(interface="Effort", **changes):
-    """The URDF of the two-link arm, commanded through an interface."""
+    """Return the URDF of the two-link arm, commanded through an interface."""
     text = (DATA / "two_link_arm.urdf").read_text(encoding="utf-8")
     for old, new in changes.pop("replace", {}).items():
         assert old in text
@@ -21,7 +21,7 @@ def arm_text(interface="Effort", **changes):
 
 
 def arm(interface="Effort", nworld=1, replace=None, **options):
-    """A simulation with it, and the robot."""
+    """Return a simulation with it, and the robot."""
     model = formats.load_model_string(arm_text(interface, replace=replace or {}))
     sim = gazelle.Simulation(World("w"), nworld=nworld, **options)
     return sim, sim.spawn(model)

@@ -12,7 +12,7 @@ ROUND = '<cylinder radius="0.11" length="0.05"/>'
 
 
 def urdf(*parts):
-    """A robot of a body and some links on joints: (joint, type, place, shape, limit)."""
+    """Return a robot of a body and some links on joints: (joint, type, place, shape, limit)."""
     text = LINK.format(name="base", shape='<box size="1 1 0.1"/>')
     for name, kind, at, shape, limit in parts:
         text += LINK.format(name=f"{name}_link", shape=shape)
@@ -23,7 +23,7 @@ def urdf(*parts):
 
 
 def wheels(**places):
-    """A base with round wheels of 0.11 m."""
+    """Return a base with round wheels of 0.11 m."""
     return urdf(*((name, "continuous", at, ROUND, "") for name, at in places.items()))
 
 

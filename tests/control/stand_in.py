@@ -39,7 +39,7 @@ class Frictionless(RobotHardware):
 
 
 def spin(manager, count=1, period=0.01):
-    """Some control periods."""
+    """Run some control periods."""
     hardware = manager.hardware
     for _ in range(count):
         now = manager.now_ns + round(period * 1e9)

@@ -25,7 +25,7 @@ KINDS = ("SimpleTransmission", "DifferentialTransmission", "FourBarLinkageTransm
 
 
 def text_of(kind, actuators, joints=(1.0, 1.0), offsets=(0.0, 0.0), roles=(1, 2)):
-    """A transmission of two joints, as URDF has it; ``roles`` is the order in the file."""
+    """Return a transmission of two joints, as URDF has it; ``roles`` is the order in the file."""
     parts = [f'<transmission name="both"><type>transmission_interface/{kind}</type>']
     parts += [
         f'<joint name="{JOINTS[number - 1]}"><role>joint{number}</role><offset>{offsets[number - 1]}</offset>'
@@ -42,7 +42,7 @@ def text_of(kind, actuators, joints=(1.0, 1.0), offsets=(0.0, 0.0), roles=(1, 2)
 
 
 def with_transmissions(text, nworld=2, use=True):
-    """The two-link arm, with these transmissions in place of its own."""
+    """Return the two-link arm, with these transmissions in place of its own."""
     whole = arm_text("Effort")
     begin, end = whole.index("<transmission"), whole.index("<gazebo>")
     model = formats.load_model_string(whole[:begin] + text + whole[end:])
@@ -54,7 +54,7 @@ def with_transmissions(text, nworld=2, use=True):
 
 
 def expected(kind, a, j, offsets, position, velocity, effort):
-    """What transmission_interface's pages say of actuators, from joints."""
+    """Return actuators from joints, by the pages of transmission_interface."""
     p, v = np.subtract(position, offsets), np.asarray(velocity)
     if kind == "DifferentialTransmission":
 

@@ -19,7 +19,7 @@ CUBE = """<sdf version="1.6"><model name="cube"><pose>0 0 1.37 0 0 0</pose><link
 
 
 def arm6(nworld=1):
-    """The arm in an empty world, with its controllers at work."""
+    """Return the arm in an empty world, with its controllers running."""
     sim = gazelle.Simulation("empty", nworld=nworld)
     robot = sim.spawn("arm6")
     file = assets.root() / "arm6_control" / "config" / "arm6_control.yaml"

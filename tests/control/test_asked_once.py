@@ -33,7 +33,7 @@ TRAJECTORY = {
 
 @pytest.fixture
 def asked(monkeypatch):
-    """Counts how often robots are asked who carries them."""
+    """Return the count of questions to robots, who runs them in steps."""
     counts = []
     before = ControlLoop.in_step
 

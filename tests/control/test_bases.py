@@ -43,7 +43,7 @@ def send(controller, forward, turning, sideways=0.0, worlds=None):
 
 
 def drive(manager, controller, seconds, forward, turning, sideways=0.0):
-    """Say it again and again, as a teleoperation does."""
+    """Send the command repeatedly, as a teleoperation does."""
     for _ in range(round(seconds / 0.1)):
         send(controller, forward, turning, sideways)
         spin(manager, 10)
@@ -324,7 +324,7 @@ def four(**changes):
 
 
 def rolling(manager, forward, sideways, turning):
-    """By how much each wheel fails to roll along the motion of a rigid body."""
+    """Return each wheel's deviation from rolling along the motion of a rigid body."""
     joints, missed = manager.hardware.joints, []
     for name in NAMES:
         x, y, _ = map(float, PLACES[name].split())

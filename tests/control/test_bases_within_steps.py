@@ -62,7 +62,7 @@ BASES = {
 
 
 def based(kind, nworld=3, **more):
-    """A base that hangs in the air, and its controller."""
+    """Return a base in the air, and its controller."""
     model, given = BASES[kind]
     sim = gazelle.Simulation(World("w", gravity=(0.0, 0.0, 0.0)), nworld=nworld)
     drives = [
@@ -87,7 +87,7 @@ def based(kind, nworld=3, **more):
 
 
 def run(sim, controller):
-    """Some commands, some of which get too old; what came of it."""
+    """Run some commands, some of which get too old; return the results."""
     port = controller.inputs["cmd_vel"]
     for k in range(4):
         port.send(BaseTwist((0.4 * (k - 1), 0.1 * k, 0.0), (0.0, 0.0, 0.3 * (2 - k))), [k % 3])

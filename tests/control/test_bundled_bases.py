@@ -15,7 +15,7 @@ from gazelle.formats import load_model
 
 
 def base(name, nworld=1, **arguments):
-    """A base in an empty world, with the controllers of its package at work."""
+    """Return a base in an empty world, with the controllers of its package running."""
     sim = gazelle.Simulation("empty", nworld=nworld)
     robot = sim.spawn(load_model(assets.robot(name), xacro_args=arguments))
     file = assets.root() / f"{name}_control" / "config" / f"{name}_control.yaml"
@@ -31,7 +31,7 @@ def courier(nworld=1):
 
 
 def drive(sim, robot, seconds, forward, turning):
-    """Say it again and again, as a teleoperation does."""
+    """Send the command repeatedly, as a teleoperation does."""
     for _ in range(round(seconds / 0.2)):
         twist = BaseTwist((forward, 0.0, 0.0), (0.0, 0.0, turning))
         robot.controllers["drive_controller"].inputs["cmd_vel"].send(twist)
@@ -39,7 +39,7 @@ def drive(sim, robot, seconds, forward, turning):
 
 
 def odometry(robot):
-    """The last: x and y [m], heading, speed ahead [m/s] and turning [rad/s], of the first world."""
+    """Return the last odometry: x and y [m], heading, speed [m/s] and turning [rad/s]."""
     said = robot.controllers["drive_controller"].outputs["odom"].last
     qz, qw = said.quaternion[0, 2:]
     heading = 2.0 * math.atan2(qz, qw)
@@ -47,7 +47,7 @@ def odometry(robot):
 
 
 def compare(sim, robot, start):
-    """Odometry and truth agree as in the suites of ros_controllers: 0.01 m, 0.03 rad."""
+    """Check that odometry and truth agree as in ros_controllers: 0.01 m, 0.03 rad."""
     (x, y, heading), *_ = odometry(robot)
     true_x, true_y, true_heading = sim.engine.models[robot.name].planar_pose()[0] - start
     assert (x, y) == pytest.approx((true_x, true_y), abs=0.01)

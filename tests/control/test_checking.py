@@ -18,7 +18,7 @@ JOINT_BY_PID = "effort_controllers/JointPositionController"
 
 @pytest.fixture
 def judge(tmp_path):
-    """Judges the text of a file beside the two-link arm."""
+    """Return a function that checks the text of a file beside the two-link arm."""
 
     def run(text, **options):
         robot, file = tmp_path / "arm.urdf", tmp_path / "arm.yaml"

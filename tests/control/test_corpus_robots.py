@@ -42,7 +42,7 @@ SMALL = {EFFORT: 1.0, POSITION: 0.05, VELOCITY: 0.5}
 
 
 def brought_up(path, without):
-    """A simulation with the robot of a file, but for a plugin."""
+    """Return a simulation with the robot of a file, without one plugin."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what else its file holds is not the matter here
         model = formats.load_model(path)

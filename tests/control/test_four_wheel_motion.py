@@ -20,7 +20,7 @@ VARIANCE = [0.001] * 6
 
 
 def base_text():
-    """A box on four wheels, each on a steering link of its own."""
+    """Return a box on four wheels, each on a steering link of its own."""
     box = '<collision><geometry><box size="0.9 0.5 0.2"/></geometry></collision>'
     text = f'<link name="base_link">{INERTIAL.format(20, 1.5)}{box}</link>'
     for name, x, y in SIDES:
@@ -43,7 +43,7 @@ def base_text():
 
 @pytest.fixture(scope="module")
 def rover():
-    """A simulation of it, its controller at work."""
+    """Return a simulation of it, its controller running."""
     sim = gazelle.Simulation("empty")
     robot = sim.spawn(formats.load_model_string(base_text()), pose=gazelle.Pose(z=0.31))
     gains = {"p": 400.0, "i": 0.0, "d": 8.0}
@@ -66,7 +66,7 @@ def rover():
 
 
 def circle(sim, robot, seconds):
-    """Radius [m] and turning rate [rad/s] while it drives: by the chord, and the angle, of a path."""
+    """Return radius [m] and turning rate [rad/s] of the drive: by chord and angle of the path."""
     sim.run(0.8)
     x, y, heading = sim.engine.models[robot.name].planar_pose()[0]
     turned, before = 0.0, heading
@@ -84,7 +84,7 @@ TWISTS = [(0.4, -0.5), (0.5, 0.3), (-0.4, 0.3)]
 
 
 def first_quick(cases):
-    """The first at every run, the others among the slow ones."""
+    """Mark all cases but the first as slow."""
     return [cases[0], *(pytest.param(*case, marks=SLOW) for case in cases[1:])]
 
 

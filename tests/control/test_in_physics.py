@@ -213,7 +213,7 @@ ARM_GAINS = (
 
 
 def six_axis_text():
-    """An arm with the axes of most industrial ones: z, y, y, x, y, x."""
+    """Return an arm with the axes of most industrial ones: z, y, y, x, y, x."""
     parts = ['<robot name="six_axis"><link name="world"/>']
     parent, reach = "world", (0.4, 0.1, 0.45, 0.2, 0.25, 0.1)
     for number, (name, axis) in enumerate(

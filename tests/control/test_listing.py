@@ -11,7 +11,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "control.md"
 
 
 def own_types():
-    """Those of the package itself: other tests register theirs in the same process."""
+    """Return the package's own types: other tests register theirs in the same process."""
     return [n for n in types() if registry._find(n).__module__.startswith("gazelle.")]
 
 

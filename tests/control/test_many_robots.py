@@ -23,7 +23,7 @@ EFFORTS = {"type": "effort_controllers/JointGroupEffortController", "joints": li
 
 
 def arm_model(*, soft=False):
-    """Six joints, more than a processor takes at once: the second slides, the last turns for ever."""
+    """Return six joints, too many for one vector: the second slides, the last is continuous."""
     parts, parent = ['<robot name="arm"><link name="world"/>'], "world"
     safety = '<safety_controller k_velocity="20" k_position="15" soft_lower_limit="-2" soft_upper_limit="2"/>'
     for number, name in enumerate(JOINTS):

@@ -26,7 +26,7 @@ JOINTS = ("joint1", "joint2")
 
 
 def rrbot(stiff=False, physics_step=PERIOD):
-    """RRBot in an empty world, with the controllers of its package at work.
+    """Return RRBot in an empty world, with the controllers of its package running.
 
     Args:
         stiff: The second joint is welded.
@@ -52,7 +52,7 @@ def rrbot(stiff=False, physics_step=PERIOD):
 
 
 def answer(sim, robot, targets, seconds):
-    """Times after the step and positions of the joints, one row a period."""
+    """Return times after the step and positions of the joints, one row a period."""
     for name, target in targets.items():
         command = robot.controllers[f"{name}_position_controller"].inputs["command"]
         command.send(JointTarget(target))
@@ -65,7 +65,7 @@ def answer(sim, robot, targets, seconds):
 
 
 def features(time, position, final):
-    """Time from a tenth to nine tenths of the final value, and the overshoot as a part of it."""
+    """Return the time from 10 % to 90 % of the final value, and the relative overshoot."""
     part = position / final
     rising = slice(0, part.argmax())
     low, high = (np.interp(level, part[rising], time[rising]) for level in (0.1, 0.9))
@@ -94,7 +94,7 @@ def test_with_the_elbow_stiff_a_step_is_that_of_the_closed_form():
 
 
 def mass_matrix(q):
-    """Of two beams, in joint angles."""
+    """Return the mass matrix of two beams, in joint angles."""
     coupling = MASS * NEXT * CENTRE * math.cos(q[1])
     own = MOMENT + MASS * CENTRE**2
     return np.array(
@@ -103,7 +103,7 @@ def mass_matrix(q):
 
 
 def rates(_time, state, torque):
-    """Of angles and speeds: an upside-down double pendulum (Lagrange)."""
+    """Return rates of angles and speeds of an upside-down double pendulum (Lagrange)."""
     q, v = state[:2], state[2:]
     swirl = MASS * NEXT * CENTRE * math.sin(q[1])
     outer = MASS * GRAVITY * CENTRE * math.sin(q[0] + q[1])
@@ -113,7 +113,7 @@ def rates(_time, state, torque):
 
 
 def sampled(targets, seconds):
-    """Angles after every period, under PD laws that look every millisecond and hold what they say."""
+    """Return angles after every period, under PD laws with a period of a millisecond."""
     state, before, found = np.zeros(4), np.zeros(2), []
     for _ in range(round(seconds / PERIOD)):
         error = targets - state[:2]

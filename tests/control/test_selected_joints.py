@@ -19,7 +19,7 @@ PLUGIN = """<plugin name="{space}" filename="libgazebo_ros_control_select_joints
 
 
 def text(*plugins):
-    """The arm with one of these plugins for each (namespace, joints) in its own's place."""
+    """Return the arm with one of these plugins for each (namespace, joints)."""
     whole = arm_text("Position")
     begin = whole.index("<plugin")
     end = whole.index("</plugin>") + len("</plugin>")

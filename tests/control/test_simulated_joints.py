@@ -21,7 +21,7 @@ LIMIT = '<limit lower="-3" upper="3" effort="60" velocity="4"/>'
 
 
 def group(robot, kind, name="group"):
-    """All joints under a controller that hands commands on; returns what commands them."""
+    """Run a forwarding controller of all joints; return its command."""
     of = f"{kind.lower()}_controllers/JointGroup{kind}Controller"
     robot.controllers.load(name, {"type": of, "joints": JOINTS})
     robot.controllers.start(name)

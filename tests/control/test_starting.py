@@ -56,7 +56,7 @@ THERE = np.array([[0.5, -0.8], [-0.7, 1.1]])
 
 
 def armed(case):
-    """Two worlds with the arm, controllers loaded and not started."""
+    """Return two worlds with the arm, controllers loaded and not started."""
     interface, gains, controllers = CASES[case]
     sim = gazelle.Simulation(FREE, nworld=2)
     robot = sim.spawn(formats.load_model_string(arm_text(interface)))
@@ -72,7 +72,7 @@ def where(robot):
 
 
 def holds(sim, robot, there, steps=40):
-    """Whether the joints stay there, from the first step on."""
+    """Check that the joints stay there, from the first step on."""
     for count in (1, 1, steps):
         sim.step(count)
         assert where(robot) == pytest.approx(there, abs=1e-6)

@@ -38,7 +38,7 @@ def loaded(kind="position", nworld=1, interface=None, joints=NAMES, **parameters
 
 
 def path(*points, names=NAMES, stamp=0):
-    """A trajectory: (time, positions, velocities)."""
+    """Return a trajectory: (time, positions, velocities)."""
     made = [TrajectoryPoint(p[0], tuple(p[1]), tuple(p[2]) if len(p) > 2 else ()) for p in points]
     return JointTrajectory(names, tuple(made), stamp)
 

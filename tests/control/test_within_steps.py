@@ -36,7 +36,7 @@ WITH_IMU = {
 
 @pytest.fixture
 def carried(monkeypatch):
-    """Counts the physics steps that were made with controllers in them."""
+    """Return the count of physics steps with controllers in them."""
     counts = []
     before = WorldSteps.make
 
@@ -89,7 +89,7 @@ def command(robot, law, number, worlds=None):
 
 
 def story(kind, law, *, native, nworld=3, replace=None, threads=2, listen=False, gains=None):
-    """A run with much in it; returns states of the worlds, and of the goals."""
+    """Run many events; return states of the worlds, and of the goals."""
     sim, robot = arm(kind, nworld=nworld, replace=replace, threads=threads)
     if not native:
         sim.controls_in_step = False

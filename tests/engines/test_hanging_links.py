@@ -34,7 +34,7 @@ WORLDS = np.array([0, 2])
 
 
 def arm(kind, axes, parent="base", **limits):
-    """A base, an arm on the joint, a tip fixed to it, and a hand on a hinge at the tip."""
+    """Return a base, an arm on the joint, a tip fixed to it, and a hand on a hinge at the tip."""
     drawn = tuple(JointAxis(axis, **limits) for axis in axes)
     joints = (
         Joint("joint", kind, parent, "arm", FRAME, axes=drawn, thread_pitch=5.0),

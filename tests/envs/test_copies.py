@@ -25,7 +25,7 @@ def vector(task, **options):
 
 
 def same(one, other):
-    """Whether two results of a step or a reset are the same, infos and all."""
+    """Return whether two results of a step or a reset are the same, infos and all."""
     if isinstance(one, dict):
         return one.keys() == other.keys() and all(same(one[name], other[name]) for name in one)
     if isinstance(one, tuple) or (isinstance(one, np.ndarray) and one.dtype == object):
@@ -34,7 +34,7 @@ def same(one, other):
 
 
 def future(env, actions):
-    """What an environment gives from now on, over the ends of episodes."""
+    """Return the next results of an environment, over the ends of episodes."""
     made = []
     for action in actions:
         result = env.step(action)

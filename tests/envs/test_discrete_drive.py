@@ -75,7 +75,7 @@ def test_the_rays_that_are_cast_are_those_that_the_published_loop_picks(name):
 
 
 def published_wall(rules, ranges, place, before, forward):
-    """The published loop of TurtleBot2Wall for one step, as its code reads."""
+    """Return the published loop of TurtleBot2Wall for one step, as its code reads."""
     done = any(rules.crash_range > item > 0 for item in ranges)
     x, y = place
     gx, gy = rules.goal

@@ -23,7 +23,7 @@ def space(segments, discs=(), start=(0.0, 0.0)):
 
 
 def distance_to_segments(points, segments):
-    """Of each point from the nearest of all [m]."""
+    """Return the distance of each point from the nearest of all [m]."""
     best = np.full(len(points), np.inf)
     for x0, y0, x1, y1 in segments:
         along, rel = np.array([x1 - x0, y1 - y0]), points - [x0, y0]

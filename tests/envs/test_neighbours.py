@@ -23,7 +23,7 @@ WORLD = (
 
 
 def crowd(folder):
-    """Models and packages called as Gazelle's own, and unlike them."""
+    """Create models and packages with Gazelle's own names, and unlike them."""
     for name in ("turtlebot3_burger", "turtlebot3_square", "sun", "ground_plane", "empty"):
         place = folder / "sim" / "models" / name
         place.mkdir(parents=True)
@@ -43,7 +43,7 @@ def crowd(folder):
 
 @pytest.fixture(params=["packages", "models", "both"])
 def crowded(tmp_path, monkeypatch, request):
-    """A full workspace on the search paths, and as the working folder."""
+    """Return a full workspace on the search paths, and as the working folder."""
     folder = crowd(tmp_path)
     if request.param != "models":
         monkeypatch.setenv("ROS_PACKAGE_PATH", f"{folder}:{folder / 'sim'}")

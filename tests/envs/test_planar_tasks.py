@@ -26,7 +26,7 @@ def names(forced):
 
 
 def makers(name, **options):
-    """Ways to make the single and the vector environment."""
+    """Yield ways to make the single and the vector environment."""
     task = f"gazelle/{name}-v0"
     vector = {"vectorization_mode": "vector_entry_point"}
     yield lambda: gym.make(task, **options)

@@ -24,7 +24,7 @@ MOST_REASONS = 4
 
 
 def files(corpus, *kinds):
-    """The description files, without SDF's own schema and the worlds of Stage."""
+    """Return the description files, without SDF's own schema and the worlds of Stage."""
     schema = corpus / "gazebosim__sdformat" / "sdf"
     found = [f for kind in kinds or KINDS for f in corpus.rglob(f"*.{kind}")]
     return sorted(f for f in found if schema not in f.parents and not _is_stage(f))
@@ -35,7 +35,7 @@ def _is_stage(path):
 
 
 def outcome(path, corpus):
-    """What became of the file, as in the table, and the seconds of loading it."""
+    """Return the outcome of the file, as in the table, and the seconds of loading it."""
     hidden = {*MODEL_VARIABLES, PACKAGE_VARIABLE}
     environ = {name: text for name, text in os.environ.items() if name not in hidden}
     reading = Reading(Resolver(environ=environ))
@@ -61,18 +61,18 @@ def _plain(text, corpus):
 
 
 def _general(text):
-    """A remark without the names in it."""
+    """Return a remark without the names in it."""
     return re.sub(r"'[^']*'", "'...'", text)[:90].replace("\n", " ")
 
 
 def sweep(corpus, *kinds):
-    """Outcome and seconds by file."""
+    """Return outcome and seconds by file."""
     paths = files(corpus, *kinds)
     return {str(path.relative_to(corpus)): outcome(path, corpus) for path in paths}
 
 
 def as_text(outcomes):
-    """The table: files under what became of them; those that simply loaded are counted."""
+    """Return the table: files by outcome; those that simply loaded are counted."""
     groups = collections.defaultdict(list)
     for name, (said, _) in outcomes.items():
         groups[said].append(name)

@@ -42,7 +42,7 @@ FUNCTIONS = {"-p": "cmdPrint", "-k": "cmdCheck"}
 
 
 def library():
-    """The file of libsdformat, or None without it."""
+    """Return the file of libsdformat, or None without it."""
     for part in sorted(Path("/usr/lib/ruby/ignition").glob("cmdsdformat*.rb"), reverse=True):
         if named := re.search(r"^LIBRARY_NAME = '(.+)'", part.read_text(), re.MULTILINE):
             return part.parent / named[1]
@@ -57,14 +57,14 @@ def needed():
 
 @functools.cache
 def server():
-    """Runs until this process ends."""
+    """Start the server, which runs until this process ends."""
     words = [sys.executable, "-E", "-S", "-c", SERVER, str(library())]
     pipe = subprocess.PIPE
     return subprocess.Popen(words, stdin=pipe, stdout=pipe, text=True, bufsize=1)
 
 
 def ign_sdf(option, path, *, roots=None):
-    """What ``ign sdf OPTION PATH`` answers; ``roots`` are the folders of ``SDF_PATH``, the environment's without."""
+    """Return the answer of ``ign sdf OPTION PATH``; ``roots`` are the folders of ``SDF_PATH``."""
     needed()
     folders = os.environ.get("SDF_PATH", "") if roots is None else ":".join(map(str, roots))
     request = (FUNCTIONS[option], str(Path(path).resolve()), {"SDF_PATH": folders})
@@ -75,6 +75,6 @@ def ign_sdf(option, path, *, roots=None):
 
 
 def printed(path, *, roots=None):
-    """The file as libsdformat prints it; None where it refuses it."""
+    """Return the file as libsdformat prints it; None where it refuses it."""
     said = ign_sdf("-p", path, roots=roots).stdout
     return said[said.index("<sdf") :] if "<sdf" in said else None

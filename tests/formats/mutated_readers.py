@@ -74,7 +74,7 @@ def description(path: Path) -> None:
 
 
 def robot(path: Path) -> None:
-    """As `description`, and planning."""
+    """Read a robot like `description`, and plan."""
     from gazelle.kinematics import RobotModel
 
     description(path)
@@ -93,20 +93,20 @@ def stage(path: Path) -> None:
 
 
 def stage_part(path: Path) -> None:
-    """A file that a world includes."""
+    """Read a file that a world includes."""
     world = path.with_name("mutated_including.world")
     world.write_text(f'include "{path.name}"\nfloorplan model()\n')
     stage(world)
 
 
 def occupancy(path: Path) -> None:
-    """A map, and its world."""
+    """Read a map, and its world."""
     formats.load_map(path)
     simulated(formats.load(path))
 
 
 def map_picture(path: Path) -> None:
-    """The picture of a map."""
+    """Read the picture of a map."""
     about = path.with_name("mutated_about.yaml")
     about.write_text(MAPPED.format(path.name))
     occupancy(about)
@@ -119,29 +119,29 @@ def _world_around(path: Path, text: str) -> None:
 
 
 def mesh(path: Path) -> None:
-    """A body that moves and one that does not."""
+    """Read a body that moves and one that does not."""
     _world_around(path, MESHED.format(path.name))
 
 
 def texture(path: Path) -> None:
-    """A picture as elevations and as colour."""
+    """Read a picture as elevations and as colour."""
     _world_around(path, HILLS.format(path.name))
 
 
 def material(path: Path) -> None:
-    """A script of materials."""
+    """Read a script of materials."""
     found = re.search(rb"^material\s+(\w+)", path.read_bytes(), re.MULTILINE)
     name = found[1].decode("ascii", "replace") if found else "a"
     _world_around(path, PAINTED.format(path.name, name))
 
 
 def model_folder(path: Path) -> None:
-    """The manifest of a model."""
+    """Read the manifest of a model."""
     description(path.parent)
 
 
 def semantics(path: Path) -> None:
-    """An SRDF, with the robot that it is for."""
+    """Read an SRDF, with its robot."""
     from gazelle.kinematics import RobotModel
 
     formats.check(path, urdf=ARM)
@@ -149,7 +149,7 @@ def semantics(path: Path) -> None:
 
 
 def launch(path: Path) -> None:
-    """A launch file; nothing is started."""
+    """Read a launch file; nothing is started."""
     from gazelle.ros.launch import Packages, describing, load_launch
 
     packages = Packages()
@@ -163,7 +163,7 @@ def launch(path: Path) -> None:
 
 
 def manifest(path: Path) -> None:
-    """A package's manifest, as all of its readers read it."""
+    """Read a package's manifest, with all of its readers."""
     from gazelle.formats.packages import exported_model_paths
     from gazelle.package_folders import package_name
     from gazelle.ros.compat.rospkg import InvalidManifest
@@ -194,7 +194,7 @@ def rosparam(path: Path) -> None:
 
 
 def controllers(path: Path) -> None:
-    """Controllers, of a robot."""
+    """Read controllers, of a robot."""
     from gazelle.control.checking import check_controllers, is_controllers
 
     rosparam(path)
@@ -203,7 +203,7 @@ def controllers(path: Path) -> None:
 
 
 def joint_limits(path: Path) -> None:
-    """Limits of an arm's joints, and what else MoveIt keeps with them."""
+    """Read limits of an arm's joints, and MoveIt's other parameters."""
     from gazelle.bridges.moveit.description import margins_of_parameters, robot_of_parameters
     from gazelle.ros.launch.values import load_yaml
 
@@ -215,7 +215,7 @@ def joint_limits(path: Path) -> None:
 
 
 def navigation(path: Path) -> None:
-    """Parameters of navigation."""
+    """Read parameters of navigation."""
     from gazelle.navigation.move_base import navigation_stack
     from gazelle.navigation.usual_parameters import USUAL, merged
     from gazelle.ros.launch.values import load_yaml
@@ -246,7 +246,7 @@ def recording(path: Path) -> None:
 
 
 def policy(path: Path) -> None:
-    """A policy and its contract."""
+    """Read a policy and its contract."""
     from gazelle.training.actor import load_actor
     from gazelle.training.policy_files import load_policy
 
@@ -257,7 +257,7 @@ def policy(path: Path) -> None:
 
 
 def run(path: Path) -> None:
-    """The folder of a training: open, evaluate, go on."""
+    """Read the folder of a training: open, evaluate, resume."""
     from gazelle.training import evaluate, resume
     from gazelle.viewer.plots import plot_trainings
 
@@ -267,14 +267,14 @@ def run(path: Path) -> None:
 
 
 def checkpoint(path: Path) -> None:
-    """The newest checkpoint of a run."""
+    """Read the newest checkpoint of a run."""
     from gazelle.training import resume
 
     resume(path.parent.parent.parent, steps=1024)
 
 
 def sweep(path: Path) -> None:
-    """The plan of a sweep."""
+    """Read the plan of a sweep."""
     from gazelle.training.sweep_plan import SweepPlan
 
     SweepPlan.read(path)
@@ -316,7 +316,7 @@ _LARGEST = 200_000
 
 
 def seeds(folder: Path) -> Iterator[Seed]:
-    """Good files below a folder, none of them large."""
+    """Yield good files below a folder, none of them large."""
     for file in sorted(folder.rglob("*")):
         if not file.is_file() or file.is_symlink() or not 0 < file.stat().st_size <= _LARGEST:
             continue

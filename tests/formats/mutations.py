@@ -204,13 +204,13 @@ def as_bytes(content):
 
 
 def prepare(folder):
-    """Put the files there that the others name."""
+    """Write the files that the others name."""
     for name, content in BESIDE.items():
         (folder / name).write_bytes(as_bytes(content))
 
 
 def mutated(data, chance):
-    """The content broken once to four times."""
+    """Return the content with one to four faults."""
     for _ in range(chance.randint(1, 4)):
         data = chance.choice(WAYS)(data, chance)
     return data
@@ -254,7 +254,7 @@ def _number(data, chance):
 
 
 def _element(data, chance):
-    """One element takes the place of another, or none does."""
+    """Replace or remove one element."""
     places = list(re.finditer(rb"<(\w+)[^<>]*?(/>|>[^<>]*</\1>)", data))
     if not places:
         return data
@@ -279,7 +279,7 @@ WAYS = [_flip, _cut, _double, _move, _number, _number, _element, _element, _valu
 
 
 def fate(folder, name, data):
-    """None, or what is wrong with how a broken file ended."""
+    """Return None, or the fault of a broken file's outcome."""
     path = folder / name
     path.write_bytes(data)
     start = time.process_time()

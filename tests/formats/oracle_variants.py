@@ -266,7 +266,7 @@ URDF = {
 
 
 def _extended(body):
-    """Two links and one lumped into the second, with extensions."""
+    """Return two links and one lumped into the second, with extensions."""
     return robot(
         urdf_link(
             "a", inertial(2) + shape("collision", "1 0 0", BALL) + shape("visual", "1 0 0", BRICK)

@@ -27,7 +27,7 @@ MANY = {"*", "+", "-1"}
 
 @functools.cache
 def schema(name):
-    """What an element may hold: ``(type, default, defaults of attributes, children)``."""
+    """Return the schema of an element: ``(type, default, defaults of attributes, children)``."""
     if not SCHEMA.is_dir():
         pytest.skip("libsdformat's schema is not installed (Debian: libsdformat-dev)")
     return _described(ET.parse(SCHEMA / f"{name}.sdf").getroot())
@@ -54,7 +54,7 @@ def _described(node):
 
 
 def table(text):
-    """All values of an SDF text by path, but for those that are the default."""
+    """Return all values of an SDF text by path, except defaults."""
     rows = {}
     # libsdformat leaves a note to itself in plugins, whose name is no XML
     text = re.sub(r"<ignition::corrected_offsets>1</ignition::corrected_offsets>", "", text)
@@ -68,7 +68,7 @@ def _kind(tag, below):
 
 
 def _labelled(node, below):
-    """The children, each with a name that no other has; of what there is one the first counts."""
+    """Yield the children with unique names; of single ones the first counts."""
     seen = {}
     for child in node:
         if child.tag.startswith(OWN):
@@ -108,7 +108,7 @@ class Frames:
         return self.of(relative or part.get("attached_to", "")) @ matrix(pose)
 
     def body(self, name):
-        """The link that a name stands for, through frames attached to it."""
+        """Return the link of a name, through frames attached to it."""
         part = self.parts.get(name)
         if part is not None and part.tag == "frame" and part.get("attached_to"):
             return self.body(part.get("attached_to"))
@@ -116,7 +116,7 @@ class Frames:
 
 
 def matrix(pose):
-    """A ``<pose>`` as a matrix of four by four."""
+    """Return a ``<pose>`` as a matrix of four by four."""
     place = np.eye(4)
     if pose is None or not (pose.text or "").strip():
         return place
@@ -139,7 +139,7 @@ def matrix(pose):
 
 
 def _fill(rows, node, path, known, frames, link=""):
-    """Rows of an element and all below it; ``frames`` are those of the model around it."""
+    """Fill rows of an element and all below it; ``frames`` are those of the model around it."""
     _plain(rows, node, path, known)
     if frames is not None and frames.parts.get(node.get("name")) is node:
         rows[f"{path}/pose"] = frames.placed(node)
@@ -162,7 +162,7 @@ def _fill(rows, node, path, known, frames, link=""):
 
 
 def _plain(rows, node, path, known):
-    """Rows of what an element says itself."""
+    """Fill rows of an element itself."""
     kind, default, attributes, _ = known
     if path.endswith("]") or path.split("/")[-2:-1] == ["geometry"]:
         rows[path] = "there"  # which tells something though it holds no value
@@ -177,7 +177,7 @@ def _plain(rows, node, path, known):
 
 
 def _within(pose, link, frames):
-    """A pose of a part of a link, in the link's frame."""
+    """Return a pose of a part of a link, in the link's frame."""
     relative = "" if pose is None else pose.get("relative_to", "")
     if not relative:
         return matrix(pose)
@@ -185,7 +185,7 @@ def _within(pose, link, frames):
 
 
 def _direction(xyz, joint, frames):
-    """An axis in the joint's own frame, of length one."""
+    """Return an axis in the joint's own frame, of length one."""
     direction = np.array([float(word) for word in xyz.text.split()])
     if xyz.get("expressed_in"):
         direction = joint[:3, :3].T @ frames.of(xyz.get("expressed_in"))[:3, :3] @ direction
@@ -193,7 +193,7 @@ def _direction(xyz, joint, frames):
 
 
 def _inertial(rows, node, path):
-    """Mass, centre, and the inertia about it in the axes of the link."""
+    """Fill mass, centre, and the inertia about it in the axes of the link."""
     moments = dict.fromkeys(("ixy", "ixz", "iyz"), 0.0) | dict.fromkeys(("ixx", "iyy", "izz"), 1.0)
     moments |= {child.tag: float(child.text) for child in node.findall("inertia/*")}
     xx, yy, zz, xy, xz, yz = (moments[n] for n in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))
@@ -205,7 +205,7 @@ def _inertial(rows, node, path):
 
 
 def value(text, kind):
-    """A text as numbers or truth where it is that, with no limit as infinite."""
+    """Return a text as numbers or bools if possible, with no limit as infinite."""
     text = " ".join(text.split())
     if kind == "bool" or text.lower() in {"true", "false"}:
         return text.lower() in {"true", "1"}
@@ -221,7 +221,7 @@ def value(text, kind):
 
 
 def same(one, other, digits=1e-6):
-    """Whether two values are the same but for the digits that printing costs."""
+    """Return whether two values are the same up to the digits that printing costs."""
     if not (isinstance(one, np.ndarray) and isinstance(other, np.ndarray)):
         return type(one) is type(other) and bool(np.all(one == other))
     if one.shape != other.shape:
@@ -235,13 +235,13 @@ def same(one, other, digits=1e-6):
 
 
 def as_urdf(node):
-    """Expanded xacro as URDF text."""
+    """Return expanded xacro as URDF text."""
     attributes = "".join(f" {key}={quoteattr(value)}" for key, value in node.attributes.items())
     return f"<{node.tag}{attributes}>{escape(node.text)}{''.join(map(as_urdf, node.children))}</{node.tag}>"
 
 
 def differences(ours, theirs):
-    """What of one table is not in the other, in words."""
+    """Yield differences between two tables, as text."""
     for path in ours.keys() | theirs.keys():
         # what libsdformat moves with a lumped link it prints with six digits
         moved = "/sensor[" in path or "/projector[" in path or "Offset" in path

@@ -18,7 +18,7 @@ SOURCE = Path(__file__).with_suffix(".cpp")
 
 
 def build(folder):
-    """The program compiled, or None where libsdformat's headers are not installed."""
+    """Return the program compiled, or None where libsdformat's headers are not installed."""
     if shutil.which("g++") is None or shutil.which("pkg-config") is None:
         return None
     config = ["pkg-config", "--cflags", "--libs", "sdformat12"]
@@ -32,7 +32,7 @@ def build(folder):
 
 
 def run(program, paths, roots=()):
-    """Lines by file: kind and name to the fields; None for a file that it refuses."""
+    """Return lines by file: kind and name to the fields; None for a file that it refuses."""
     environ = {**os.environ, "SDF_PATH": ":".join(map(str, roots))}
     command = [str(program), *map(str, paths)]
     done = subprocess.run(
@@ -80,7 +80,7 @@ class _Lines(dict):
 
 
 def differences(world, lines, *, merged=False, lumped=False):
-    """What of a world is not what the oracle says, in words."""
+    """Yield differences between a world and the oracle, as text."""
     left = _Lines(lines)
     left.position = 1e-5 if merged else 1e-9
     left.sensor = 1e-5 if merged or lumped else 1e-9
@@ -100,12 +100,12 @@ def _all(world, lines):
 
 
 def _is_actor(model):
-    """Whether it was an actor, which libsdformat does not write as a model."""
+    """Return whether it was an actor, which libsdformat does not write as a model."""
     return any("scripted_motion" in plugin.filename for plugin in model.plugins)
 
 
 def _populations(world):
-    """Names of the models of the file's populations, which libsdformat does not expand."""
+    """Return names of the models of the file's populations, which libsdformat does not expand."""
     file = world.source.file if world.source else None
     root = None if file is None or not Path(file).exists() else ET.parse(file).getroot()
     found = [] if root is None else root.findall("world/population")

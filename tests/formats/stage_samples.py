@@ -9,7 +9,7 @@ SQUARE = "points 4 point[0] [0 0] point[1] [2 0] point[2] [2 1] point[3] [0 1]"
 
 
 def write(folder, text, name="test.world"):
-    """A file with this text."""
+    """Write a file with this text, and return it."""
     file = folder / name
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text)
@@ -17,12 +17,12 @@ def write(folder, text, name="test.world"):
 
 
 def read(folder, text):
-    """The world that a text says."""
+    """Return the world of a text."""
     return load_stage(write(folder, text))
 
 
 def draw(folder, rows, name="map.png"):
-    """A picture with walls where the rows have ``#``."""
+    """Write a picture with walls where the rows have ``#``."""
     pixels = [[0 if mark == "#" else 255 for mark in row] for row in rows]
     Image.fromarray(np.array(pixels, np.uint8)).save(folder / name)
     return name

@@ -206,7 +206,7 @@ def inertials(draw):
 
 
 def distinct(strategy, size=2):
-    """Some, of names of their own."""
+    """Return some values with names of their own."""
     return st.lists(strategy, max_size=size, unique_by=lambda part: part.name).map(tuple)
 
 
@@ -304,7 +304,7 @@ transmissions = st.builds(
 
 @st.composite
 def models(draw, name="model", depth=1):
-    """A model of a chain of links, with frames, and perhaps with a model in it."""
+    """Return a model of a chain of links, with frames, and perhaps a nested model."""
     count = draw(st.integers(1, 3))
     bodies = tuple(draw(links(st.just(f"link{i}"))) for i in range(count))
     nested = (draw(models("inner", depth - 1)),) if depth and draw(flags) else ()
@@ -369,7 +369,7 @@ physics = st.builds(
 
 @st.composite
 def robots(draw):
-    """What URDF can say: a tree of links whose frames are at their joints."""
+    """Return a robot in URDF's range: a tree of links whose frames are at their joints."""
     count = draw(st.integers(1, 4))
     bodies, held = [], []
     for i in range(count):
@@ -406,7 +406,7 @@ def robots(draw):
 
 
 def _of_urdf(joint):
-    """The joint without what URDF has no words for."""
+    """Return the joint without what URDF lacks."""
     usual = JointAxis()
     kept = []
     for axis in joint.axes:

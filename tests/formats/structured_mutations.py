@@ -92,7 +92,7 @@ def _copy(_document: Any, node: Any, _nodes: Any, chance: random.Random) -> None
 
 
 def _exchange(_document: Any, node: Any, nodes: Any, chance: random.Random) -> None:
-    """Put a copy of another element in the place of one, which may hold it."""
+    """Replace one element by a copy of another, which may contain it."""
     if node.parentNode.nodeType != Node.DOCUMENT_NODE:
         node.parentNode.replaceChild(chance.choice(nodes).cloneNode(deep=True), node)
 
@@ -115,7 +115,7 @@ def _retag(_document: Any, node: Any, nodes: Any, chance: random.Random) -> None
 
 
 def _attribute(_document: Any, node: Any, nodes: Any, chance: random.Random) -> None:
-    """Take an attribute away, or give one the value of another, or a number that cannot be."""
+    """Remove an attribute, or set it to the value of another, or to an invalid number."""
     given = list(node.attributes.items())
     others = [pair for each in nodes[:500] for pair in each.attributes.items()]
     if not others:
@@ -302,7 +302,7 @@ YAML_TRICKS += [
 
 
 def yaml_trick(data: bytes, chance: random.Random) -> bytes:
-    """Put something that YAML allows and nobody expects in the place of a value or of a line."""
+    """Replace a value or a line by unusual YAML."""
     rows = data.split(b"\n")
     at = chance.randrange(len(rows))
     key, colon, _ = rows[at].partition(b":")
@@ -334,7 +334,7 @@ def words(data: bytes, chance: random.Random) -> bytes:
 
 
 def integers(data: bytes, chance: random.Random) -> bytes:
-    """Overwrite lengths, counts and numbers of a binary file."""
+    """Return overwrite lengths, counts and numbers of a binary file."""
     changed = bytearray(data)
     for _ in range(chance.randint(1, 3)):
         if len(changed) < 9:

@@ -20,7 +20,7 @@ from gazelle.geometry.polygons import planar_area, planar_hull
 
 @pytest.fixture(autouse=True)
 def _own_cache(tmp_path, monkeypatch):
-    """Nothing is read from or left in the user's cache."""
+    """Isolate the user's cache."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     convex._MEMORY.clear()
     yield
@@ -38,7 +38,7 @@ def volume(piece):
 
 
 def inside(pieces, points, margin=0.0):
-    """Whether each point lies in the hull of some piece, by more than the margin."""
+    """Return whether each point lies in the hull of some piece, by more than the margin."""
     points = np.asarray(points, float)
     found = np.zeros(len(points), bool)
     for piece in pieces:
@@ -57,7 +57,7 @@ def l_shape():
 
 
 def extruded(corners, height=1.0):
-    """A prism over a polygon that the corner 0 sees wholly."""
+    """Return a prism over a polygon that the corner 0 sees wholly."""
     n = len(corners)
     low = [(x, y, 0.0) for x, y in corners]
     high = [(x, y, height) for x, y in corners]

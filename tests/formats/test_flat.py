@@ -37,7 +37,7 @@ def rough(seed, count, height):
 
 
 def check(surface, rims, tolerance):
-    """All vertices of a polygon's triangles lie in a slab; its rim is convex in its plane."""
+    """Check that a polygon's vertices lie in a slab, and that its rim is convex in its plane."""
     corners = surface.vertices[surface.faces]
     heights = np.einsum("ijk,ik->ij", corners, rims.normals[rims.owners])
     for owner in range(len(rims.sizes)):

@@ -42,7 +42,7 @@ def limit_memory():
 
 
 def fate(file):
-    """(result or error, seconds, bytes) of a load in a process of its own."""
+    """Return (result or error, seconds, bytes) of a load in a process of its own."""
     run = subprocess.run(
         [sys.executable, "-c", CHILD, str(file)],
         capture_output=True,
@@ -58,7 +58,7 @@ def fate(file):
 
 
 def deep(tag, attributes="", levels=10_000):
-    """One element inside the other."""
+    """Return elements nested in each other."""
     return "".join(f"<{tag} {attributes}>" for _ in range(levels)) + f"</{tag}>" * levels
 
 

@@ -75,7 +75,7 @@ WORLD = """<sdf version="1.7">
 
 @pytest.fixture(scope="module")
 def saved(tmp_path_factory):
-    """The world above, and what it is written as."""
+    """Return the world above, and its saved text."""
     file = tmp_path_factory.mktemp("kept") / "all.world"
     file.write_text(WORLD)
     with pytest.warns(match="walk.dae"):
@@ -84,7 +84,7 @@ def saved(tmp_path_factory):
 
 
 def leaves(node, path=""):
-    """Each value and attribute of an element with the way to it."""
+    """Yield each value and attribute of an element with its path."""
     yield from ((f"{path}/{node.tag}@{name}", value) for name, value in node.attrib.items())
     if len(node) == 0 and (node.text or "").strip():
         yield f"{path}/{node.tag}", node.text.strip()

@@ -19,7 +19,7 @@ TWO = "<link name='a'/><link name='b'/>"
 
 
 def one_warning(read, *args):
-    """What is read, and the one warning about it."""
+    """Return the result, and its single warning."""
     with pytest.warns(FormatWarning) as caught:
         found = read(*args)
     assert len(caught) == 1, [str(each.message) for each in caught]
@@ -319,7 +319,7 @@ INERTIA = (
 
 
 def physical(inertial):
-    """Whether some distribution of mass has this inertial."""
+    """Return whether some distribution of mass has this inertial."""
     moments = np.linalg.eigvalsh(inertial.inertia.matrix())
     return (
         inertial.mass > 0 and moments[0] > 0 and moments[0] + moments[1] >= moments[2] * (1 - 1e-9)

@@ -16,7 +16,7 @@ GEOMETRY = "<collision name='c'><geometry>{}</geometry></collision>"
 
 
 def refused(path):
-    """The error that reading and building a world ends with."""
+    """Return the error of reading and building a world."""
     with pytest.raises(FormatError) as caught:
         make_engine("mujoco", formats.load(path), 1)
     assert "is a pointer of Git LFS" in caught.value.message

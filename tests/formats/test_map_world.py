@@ -32,7 +32,7 @@ def write(folder, resolution=0.5, origin="[-2.0, -1.0, 0.0]", negate=0):
 
 
 def covered(world, x, y):
-    """Whether a point is in a wall."""
+    """Return whether a point is in a wall."""
     (walls,) = [model for model in world.models if model.name == "walls"]
     for collision in walls.links[0].collisions:
         assert isinstance(collision.geometry, Box)

@@ -32,7 +32,7 @@ def saved(folder, pixels, *, name="m.png", mode="trinary", negate=0, image_mode=
 
 
 def by_the_book(pixel, mode, negate, alpha=None):
-    """map_server's rule for one grey pixel, written out."""
+    """Return map_server's rule for one grey pixel, written out."""
     average = 255 - pixel if negate else pixel
     if mode == "raw":
         return average if average < 128 else average - 256

@@ -40,7 +40,7 @@ inner = st.recursive(
 
 
 def binary_of(node):
-    """As ``writeBinaryData`` says: two bits a child, then the children's own."""
+    """Encode as ``writeBinaryData`` does: two bits a child, then the children's own."""
     codes = {None: 0, False: 1, True: 2}
     word = sum(
         (3 if isinstance(child, list) else codes[child]) << (2 * i) for i, child in enumerate(node)
@@ -51,7 +51,7 @@ def binary_of(node):
 
 
 def full_of(node, kind="OcTree"):
-    """As ``writeData`` says: log-odds, a colour, a bit for each child, then the children."""
+    """Encode as ``writeData`` does: log-odds, colour, a bit for each child, the children."""
     colour = bytes(range(RECORDS[kind] - 4))
     if not isinstance(node, list):
         return struct.pack("<f", 0.85 if node else -0.4) + colour + b"\0"
@@ -63,7 +63,7 @@ def full_of(node, kind="OcTree"):
 
 
 def leaves_of(node, low=(CORNER,) * 3, edge=1 << DEPTH):
-    """Occupied leaves: lower corners and edges, in finest leaves."""
+    """Return occupied leaves: lower corners and edges, in finest leaves."""
     if not isinstance(node, list):
         return [(*low, edge)] if node else []
     half = edge // 2
@@ -74,7 +74,7 @@ def leaves_of(node, low=(CORNER,) * 3, edge=1 << DEPTH):
 
 
 def assert_same_space(octree, leaves):
-    """Cuboids hold each leaf once, and nothing else: their volumes add up to the leaves'."""
+    """Check that cuboids hold each leaf once, and nothing else: volumes add up to the leaves'."""
     middles, edges = octree.cuboids()
     low, high = (middles - edges / 2) / octree.resolution, (middles + edges / 2) / octree.resolution
     for x, y, z, edge in leaves:

@@ -78,12 +78,12 @@ def _tool():
 
 
 def oracle(path, roots=()):
-    """What libsdformat makes of a file, as it prints it; None where it refuses the file."""
+    """Return a file as libsdformat prints it; None where it rejects the file."""
     return libsdformat.printed(path, roots=roots)
 
 
 def complaints(path):
-    """What libsdformat says against a file."""
+    """Return libsdformat's complaints about a file."""
     run = libsdformat.ign_sdf("-k", path)
     said = [*run.stdout.splitlines(), *run.stderr.splitlines()]
     return [line for line in said if "rror" in line and "Library error" not in line]
@@ -99,7 +99,7 @@ def converted(path, **options):
 
 
 def expanded(path, corpus):
-    """A xacro file as URDF text."""
+    """Return a xacro file as URDF text."""
     return as_urdf(xacro.expand(path, Reading(Resolver([corpus], file=path))))
 
 
@@ -136,7 +136,7 @@ def test_gazebo_extensions_mean_what_libsdformat_makes_of_them(tmp_path, text):
 
 
 def robots(corpus):
-    """Every robot of the corpus as URDF text, by the path of its file."""
+    """Yield every robot of the corpus as URDF text, by the path of its file."""
     for path in corpus_table.files(corpus, "urdf", "xacro"):
         try:
             text = expanded(path, corpus)
@@ -200,7 +200,7 @@ def test_every_sdf_file_of_the_corpus_is_what_libsdformat_reads(corpus):
 
 
 def saved_again(path, roots, is_world):
-    """The file as Gazelle writes it; None where it is refused or misses something."""
+    """Return the file as Gazelle writes it; None where it is rejected or incomplete."""
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
         try:

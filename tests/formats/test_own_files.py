@@ -17,7 +17,7 @@ WORLD = """<sdf version='1.7'><world name='{name}'><model name='box'><static>1</
 
 @pytest.fixture
 def own(tmp_path, monkeypatch):
-    """A folder that takes the place of what comes with Gazelle."""
+    """Return a folder that replaces the bundled files."""
     folder = tmp_path / "assets"
     (folder / "worlds").mkdir(parents=True)
     monkeypatch.setattr(Resolver, "assets", folder)

@@ -100,7 +100,7 @@ LEFT = {
 
 
 def written(folder, entries):
-    """A world that includes the robot with parameters."""
+    """Return a world that includes the robot with parameters."""
     for name, model in (("robot", ROBOT), ("cam", CAMERA)):
         (folder / name).mkdir()
         (folder / name / "model.config").write_text(CONFIG)
@@ -117,7 +117,7 @@ def oracle(file):
 
 
 def unlike(file):
-    """What of the robot we write differs from what libsdformat prints."""
+    """Return the robot's differences between our text and libsdformat's."""
     libsdformat.needed()
     world = formats.load(file, paths=[file.parent])
     ours = table(formats.to_string(world, format="sdf"))

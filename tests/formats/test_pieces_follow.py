@@ -25,7 +25,7 @@ def data(mesh):
 
 
 def outside(pieces, points):
-    """How far each point is out of the nearest piece, at most [m]; negative inside."""
+    """Return the largest distance of points out of the nearest piece [m]; negative inside."""
     nearest = np.full(len(points), np.inf)
     for piece in pieces.solids:
         hull = convex_hull(piece.vertices)
@@ -46,7 +46,7 @@ def bowl(sections=32, rings=12, radius=1.0, thick=0.05):
 
 
 def walls(outline, thick, height, doors=()):
-    """A house of one mesh: boxes along an outline, with gaps, all welded together by name."""
+    """Return a house of one mesh: boxes along an outline, with gaps, all welded together."""
     parts = []
     for (x, y), (u, v) in zip(outline, outline[1:] + outline[:1], strict=True):
         length = float(np.hypot(u - x, v - y))
@@ -108,12 +108,12 @@ def test_the_whole_surface_is_covered_and_no_air_is(name, static):
 
 
 def near(mesh, points, distance):
-    """Points that are in the mesh, or nearer to it than this: the other side of a gap."""
+    """Return points in the mesh, or nearer to it than this: the other side of a gap."""
     return closest(mesh, points) < 0.999 * distance
 
 
 def closest(mesh, points):
-    """Distance to the nearest of many places on a mesh, at least the true one [m]."""
+    """Return distance to the nearest of many places on a mesh, at least the true one [m]."""
     spatial = pytest.importorskip("scipy.spatial")
     places, _ = on(mesh, 200_000, 1)
     found, _ = spatial.cKDTree(places).query(points)

@@ -65,7 +65,7 @@ def test_packages_are_called_as_their_package_xml_says(tmp_path):
 
 
 def tree(root, layout):
-    """Packages of one name at places; ``CATKIN_IGNORE`` and the like are files."""
+    """Create packages of one name at places; ``CATKIN_IGNORE`` and the like are files."""
     for place in layout:
         folder, _, last = place.rpartition("/")
         if last.isupper() or last == "rospack_nosubdirs":

@@ -106,7 +106,7 @@ DIFFERENT = {
 
 @pytest.fixture(scope="module")
 def compared(program, corpus):
-    """By file: what libsdformat says of it, and our error or the differences."""
+    """Return libsdformat's answer by file, and our error or the differences."""
     roots = sorted({str(config.parent.parent) for config in corpus.rglob("model.config")})
     paths = corpus_table.files(corpus, "sdf", "world", "urdf")
     lines = {}

@@ -106,7 +106,7 @@ ROBOT = """<model name='robot'><link name='base'><pose>0 1 0 0 0 0</pose></link>
 
 
 def arm(folder, version="1.9"):
-    """A folder of models that holds the arm."""
+    """Return a folder of models that holds the arm."""
     new = version not in {"1.4", "1.6"}
     here = folder / "arm"
     (here / "meshes").mkdir(parents=True)
@@ -198,7 +198,7 @@ def actor(body="", loop="true", start="true"):
 
 
 def moments(found):
-    """Time, x and yaw of each waypoint of an actor."""
+    """Return time, x and yaw of each waypoint of an actor."""
     return [
         (float(path.attributes["start"]) + point.get("time", 0.0), pose[0], pose[5])
         for path in found.plugins[0].parameters.find_all("trajectory")

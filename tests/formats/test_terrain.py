@@ -111,7 +111,7 @@ def test_elevations_of_64_bits_are_read(tmp_path, order):
 
 
 def double_tiff(values, order):
-    """A TIFF file of 64-bit numbers, which Pillow cannot write: one strip, eight-byte floats."""
+    """Return a TIFF file of 64-bit numbers, which Pillow cannot write, in one strip."""
     height, width = values.shape
     tags = {256: width, 257: height, 258: 64, 259: 1, 262: 1, 273: 8, 277: 1, 278: height}
     tags |= {279: values.size * 8, 339: 3}

@@ -28,7 +28,7 @@ def simulation(corpus):
 
 
 def load(path):
-    """The world; only meshes that the corpus leaves out may be reported."""
+    """Load the world; only meshes that the corpus leaves out may be reported."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         world = formats.load(path)

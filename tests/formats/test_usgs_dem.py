@@ -30,7 +30,7 @@ def head(profiles, dx, dy, unit):
 
 
 def profile(number, x, y, values, datum=0.0):
-    """The records of one profile, 146 values in the first and 170 in each further one."""
+    """Return the records of one profile, 146 values in the first and 170 in each further one."""
     text = f"{1:6d}{number:6d}{len(values):6d}{1:6d}"
     text += "".join(fortran(each) for each in (x, y, datum, min(values), max(values)))
     parts = [text + "".join(f"{value:6d}" for value in values[:146])]

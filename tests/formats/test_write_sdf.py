@@ -85,7 +85,7 @@ def test_poses_keep_their_last_bit(pose):
 
 
 def same_after_saving(path):
-    """Whether a file of the corpus is the same when it is saved beside itself and loaded."""
+    """Return whether a file of the corpus is the same after saving and loading it."""
     world = formats.load(path)
     text = formats.to_string(world, "sdf", folder=path.parent)
     reading = Reading(Resolver())
@@ -378,7 +378,7 @@ def test_unknown_formats_are_refused_with_the_known_ones(tmp_path):
 
 
 def valid(path):
-    """Whether libsdformat finds nothing wrong with a file."""
+    """Return whether libsdformat finds no fault in a file."""
     return "Valid" in libsdformat.ign_sdf("-k", path).stdout
 
 

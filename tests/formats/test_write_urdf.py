@@ -65,7 +65,7 @@ def near(pose, other, reach):
 
 
 def near_or_upright(pose, other):
-    """Nearly the same; a pitch of nearly a right angle may have become one."""
+    """Return whether poses are near; a pitch of nearly a right angle may have become one."""
     return near(pose, other, 1e6) or near(upright(pose), other, 1e6)
 
 

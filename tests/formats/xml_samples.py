@@ -4,29 +4,29 @@ from gazelle import formats
 
 
 def sdf(body, version="1.7"):
-    """SDF text with something in it."""
+    """Return SDF text with something in it."""
     return f"<?xml version='1.0'?>\n<sdf version='{version}'>\n{body}\n</sdf>"
 
 
 def model(body, version="1.7", name="m"):
-    """The model with some links, joints and so on."""
+    """Return the model with some links, joints and so on."""
     text = sdf(f"<model name='{name}'>\n{body}\n</model>", version)
     return formats.load_model_string(text, name="test.sdf")
 
 
 def world(body, version="1.7"):
-    """The world with something in it."""
+    """Return the world with something in it."""
     text = sdf(f"<world name='w'>\n{body}\n</world>", version)
     return formats.load_string(text, name="test.sdf")
 
 
 def link(model_, name):
-    """A link by name."""
+    """Return a link by name."""
     return next(link for link in model_.links if link.name == name)
 
 
 def joint(model_, name):
-    """A joint by name."""
+    """Return a joint by name."""
     return next(joint for joint in model_.joints if joint.name == name)
 
 
@@ -37,17 +37,17 @@ INERTIAL = (
 
 
 def robot(body):
-    """URDF text."""
+    """Return URDF text."""
     return f"<robot name='r'>\n{body}\n</robot>"
 
 
 def urdf_link(name, body=INERTIAL):
-    """A URDF link, which has a mass unless told otherwise."""
+    """Return a URDF link, by default with a mass."""
     return f"<link name='{name}'>{body}</link>"
 
 
 def urdf_joint(name, parent, child, kind="fixed", body=""):
-    """A URDF joint."""
+    """Return a URDF joint."""
     return (
         f"<joint name='{name}' type='{kind}'><parent link='{parent}'/>"
         f"<child link='{child}'/>{body}</joint>"
@@ -55,5 +55,5 @@ def urdf_joint(name, parent, child, kind="fixed", body=""):
 
 
 def urdf(body):
-    """The model of a URDF."""
+    """Return the model of a URDF."""
     return formats.load_model_string(robot(body), name="test.urdf")

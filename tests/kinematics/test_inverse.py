@@ -10,14 +10,14 @@ from gazelle.kinematics import InverseKinematics
 
 
 def reachable(robot, group, count, seed=0):
-    """Poses of the group's tip at positions drawn within the limits."""
+    """Return poses of the group's tip at random positions within the limits."""
     full = np.tile(robot.zero(), (count, 1))
     full[:, group.columns] = group.sample(np.random.default_rng(seed), count)
     return robot.forward(full, group.tip)
 
 
 def errors(robot, group, positions, wanted):
-    """Distances and angles between where the tip is and where it should be."""
+    """Return distances and angles between the tip and its target."""
     full = np.tile(robot.zero(), (len(positions), 1))
     full[:, group.columns] = positions
     found = robot.forward(full, group.tip)

@@ -18,7 +18,7 @@ def boxes_of(count):
 
 
 def below(tree, node):
-    """Boxes below a node."""
+    """Return boxes below a node."""
     first, second = tree.children[node]
     if first < 0:
         return [int(tree.leaf[node])]
@@ -26,7 +26,7 @@ def below(tree, node):
 
 
 def visited(tree, box, node=0):
-    """Nodes that a search for what meets a box looks at."""
+    """Return nodes that a search for hits of a box visits."""
     apart = np.abs(tree.bounds[node, :3] - box[:3]) > tree.bounds[node, 3:] + box[3:]
     if apart.any() or tree.children[node, 0] < 0:
         return 1

@@ -19,7 +19,7 @@ echo "InstalledDir: /tmp/pip-build-env-$$"
 
 @pytest.fixture
 def place(tmp_path, monkeypatch):
-    """A folder with a source, a header and a compiler, in which one builds."""
+    """Return a folder with a source, a header and a compiler."""
     monkeypatch.chdir(tmp_path)
     for name in ("cc-one", "cc-two"):
         Path(name).write_text(COMPILER)

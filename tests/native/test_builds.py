@@ -98,7 +98,7 @@ def test_no_build_multiplies_and_adds_at_once():
 
 
 def literal(text, name):
-    """What a module binds a name to at its head, also as one of many or where it is not compiled."""
+    """Return a module's value of a name, also as one of many or where it is not compiled."""
     for names, values in re.findall(
         r"^ *([A-Z_0-9, ]+?)(?:: \w+)? = ([\d., e+-]+)", text, re.MULTILINE
     ):

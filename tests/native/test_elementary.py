@@ -24,7 +24,7 @@ def one(name, first, second=0.0):
 
 
 def off(found, exact):
-    """How far a number is from an exact one, in units of the last place of that."""
+    """Return how far a number is from an exact one, in units of the last place of that."""
     return float(abs(mpmath.mpf(found) - exact) / mpmath.mpf(math.ulp(float(exact))))
 
 

@@ -15,7 +15,7 @@ from gazelle.native.fair_lock import FairLock
 
 
 def asking(lock, work):
-    """A thread that does work with the lock, once it waits for it."""
+    """Return a thread that does work with the lock, once it waits for it."""
     before = len(lock.waiting)
 
     def ask():
@@ -205,7 +205,7 @@ def test_who_lends_it_to_one_that_keeps_it_gives_up_without_it():
 
 @pytest.fixture
 def interrupts():
-    """Raises KeyboardInterrupt in the main thread, at most once each time this is armed."""
+    """Yield a function that raises KeyboardInterrupt in the main thread, at most once a call."""
     state = SimpleNamespace(armed=False)
 
     def interrupt(_signal, _frame):

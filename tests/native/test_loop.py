@@ -32,7 +32,7 @@ setup(name="mixing", ext_modules=cythonize(Extension("mixing", ["mixing.py"],
 
 
 def built(folder, macros):
-    """The kernel module beside this file, compiled where Gazelle is."""
+    """Return the kernel module beside this file, compiled as Gazelle is."""
     source = HERE / "mixing.py"
     if native.BUILD != "python":
         if not any(map(shutil.which, ("cc", "gcc", "clang", "cl"))):
@@ -72,7 +72,7 @@ PARTS = [  # rows, rate [Hz], divisible, reads its own
 
 
 def played(mixing, nworld, pool, ends, threads=0):
-    """What is left in all systems' numbers after runs to some times."""
+    """Return all systems' numbers after runs to some times."""
     arrays = [
         np.arange(nworld * rows, dtype=np.ulonglong) + 17 * i for i, (rows, *_) in enumerate(PARTS)
     ]
@@ -88,7 +88,7 @@ def played(mixing, nworld, pool, ends, threads=0):
 
 
 def expected(nworld, end):
-    """The same by Python, world after world, step after step."""
+    """Return the same by Python, world after world, step after step."""
     found = []
     for i, (rows, rate, _, own) in enumerate(PARTS):
         numbers = [row + 17 * i for row in range(nworld * rows)]

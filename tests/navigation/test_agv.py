@@ -14,7 +14,7 @@ STEP = 0.1
 
 
 def drive(motions, poses, *, seconds=90.0, delay=0):
-    """Let robots go along exact arcs until none moves; their poses."""
+    """Drive robots along exact arcs until none moves; return their poses."""
     poses = np.array(poses, np.float64)
     seen = [poses.copy()] * (delay + 1)
     time = 0.0

@@ -24,12 +24,12 @@ SIGNS = {".": FREE, "#": WALL, "?": UNKNOWN, "~": 40}
 
 
 def grid(*rows):
-    """Costs of rows of signs, the highest one first."""
+    """Return costs of rows of signs, the highest one first."""
     return np.array([[SIGNS[sign] for sign in row] for row in rows[::-1]], np.uint8)
 
 
 def cells(frontier):
-    """Columns and rows of a frontier on a grid of cells of 1 m at the origin."""
+    """Return columns and rows of a frontier on a grid of cells of 1 m at the origin."""
     return {tuple(each) for each in np.floor(frontier.points).astype(int).tolist()}
 
 
@@ -58,7 +58,7 @@ def test_a_robot_on_a_cell_that_is_not_free_begins_at_the_nearest_that_is():
 
 
 def flood(start, allowed, steps):
-    """The cells that can be reached from one by steps over allowed ones."""
+    """Return the cells that can be reached from one by steps over allowed ones."""
     found, waiting = {start}, [start]
     while waiting:
         row, column = waiting.pop()
@@ -176,7 +176,7 @@ def explored(world, model, start, *, engine="planar", seconds=600.0, settings=No
 
 
 def check(true, ideal, found, least):
-    """At most one cell of error on 95 % of wall cells, both ways."""
+    """Check for at most one cell of error on 95 % of wall cells, both ways."""
     walls = seen_walls(true, ideal)
     assert len(walls) > least
     assert np.mean(distances(walls, found) <= 1.0) >= 0.95

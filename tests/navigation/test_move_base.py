@@ -50,7 +50,7 @@ class Cycles(RecoveryBehavior):
 
 
 def ran(finds, recoveries, seconds=60.0, **settings):
-    """Runs with a base that stays in its place and has each velocity at once.
+    """Run with a base that stays in its place and has each velocity at once.
 
     Returns what was begun when, how it ended, and when a velocity was found.
     """

@@ -14,7 +14,7 @@ START, GOAL = np.array([1.0, 1.0]), np.array([3.0, 1.0])
 
 
 def walled(gap):
-    """A wall between start and goal with a gap of so many cells of 5 cm around y = 1."""
+    """Return a wall between start and goal with a gap of so many cells of 5 cm around y = 1."""
     grid = OccupancyGrid(0.05)
     grid.include([[0.0, 0.0], [4.0, 2.0]])
     column = grid.cell_of((2.0, 1.0))[0]

@@ -80,7 +80,7 @@ def test_what_turns_up_in_its_way_is_driven_around():
 
 
 def reachable(courier, count, seed):
-    """Random places that it can come to: short rays at some heights tell what is in its way."""
+    """Return random reachable places: short rays at some heights find obstacles."""
     cell = 0.025
     x, y = np.arange(-7.1, 7.1, cell), np.arange(-5.1, 5.1, cell)
     at = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
@@ -97,7 +97,7 @@ def reachable(courier, count, seed):
 
 
 def flooded(mask, start):
-    """The part of a mask that hangs together with a cell."""
+    """Return the connected part of a mask around a cell."""
     from scipy import ndimage
 
     parts, _ = ndimage.label(mask)

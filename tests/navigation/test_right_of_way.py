@@ -33,7 +33,7 @@ HALF = 0.3
 
 
 def walls(boxes):
-    """Blocks of a Stage world from their corners (x0, y0, x1, y1)."""
+    """Return blocks of a Stage world from their corners (x0, y0, x1, y1)."""
     return "\n".join(
         f"block ( size [{x1 - x0} {y1 - y0} 0.5] pose [{(x0 + x1) / 2} {(y0 + y1) / 2} 0 0] )"
         for x0, y0, x1, y1 in boxes
@@ -60,7 +60,7 @@ MEETINGS = {
 
 
 def meet(tmp_path, name, settings, seed=None):
-    """Who reached the goal in which order, what others were told, and who touched anything.
+    """Return the order of arrivals, the commands of others, and collisions.
 
     With a seed robots begin a little elsewhere, and up to 8 s apart.
     """
@@ -154,7 +154,7 @@ class Told:
 
 
 def corridor_map(bay):
-    """A corridor of 10 m by 0.6 m in cells of 5 cm, closed at both ends; with a bay or not."""
+    """Return a corridor of 10 m by 0.6 m in cells of 5 cm, closed at both ends."""
     cells = np.full((60, 204), 100, np.int8)
     cells[10:22, 2:202] = 0
     if bay:

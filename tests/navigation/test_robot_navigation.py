@@ -28,7 +28,7 @@ def world():
 
 
 def stands_free(sim, robot):
-    """Whether no corner of its outline is in a solid."""
+    """Return whether no corner of its outline is in a solid."""
     grid = true_map(sim.world, 0.1, resolution=0.02)
     x, y, heading = robot.planar_pose()[0].tolist()
     corners = placed(0.95 * outline_of(robot.description), x, y, heading)

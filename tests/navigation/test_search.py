@@ -25,7 +25,7 @@ def price_of(way, prices):
 
 
 def least_price(prices, start, goal):
-    """The plainest Dijkstra."""
+    """Compute the plainest Dijkstra."""
     best, queue = {}, [(0.0, start)]
     while queue:
         spent, cell = heapq.heappop(queue)

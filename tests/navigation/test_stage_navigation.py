@@ -40,7 +40,7 @@ SIDEWAYS = {
 
 @pytest.fixture
 def start(tmp_path):
-    """Makes a simulation of a room with robots."""
+    """Yield a function that makes a simulation of a room with robots."""
     made = []
 
     def make(robots, **options):
@@ -92,7 +92,7 @@ def test_the_map_is_that_of_the_world_without_robots(start):
 
 
 def cell_of(grid, x, y):
-    """Row and column."""
+    """Return row and column."""
     column = (x - grid.origin.x) / grid.resolution
     return int((y - grid.origin.y) / grid.resolution), int(column)
 

@@ -72,7 +72,7 @@ PREFIX = "hardware_interface/"
 
 
 def model_of(name, request):
-    """The description, and the text of the SRDF."""
+    """Return the description, and the text of the SRDF."""
     if name in OTHERS:
         arm, folder = OTHERS[name], Path(os.environ.get("GAZELLE_ROBOTS", ""))
         if not (folder / arm.urdf).is_file():
@@ -91,20 +91,20 @@ def load(name, request):
 
 
 def free_positions(scene, group, count):
-    """Positions of the group that are valid."""
+    """Return valid positions of the group."""
     valid, random = StateValidity(scene, group, scene.robot.zero()), np.random.default_rng(0)
     return [each for each in group.sample(random, 500) if valid(each)][:count]
 
 
 def held(model, root):
-    """The same robot with its root held by the world."""
+    """Return the same robot with its root held by the world."""
     if any(joint.parent == "world" for joint in model.joints):
         return model
     return replace(model, joints=(Joint("held", "fixed", "world", root), *model.joints))
 
 
 def intersect(first, second):
-    """Whether the convex hulls of points share a point: one that both are weighted means to."""
+    """Return whether the convex hulls of points share a point: a weighted mean of both."""
     linprog = pytest.importorskip("scipy.optimize").linprog
     a, b = len(first), len(second)
     rows = np.zeros((5, a + b))

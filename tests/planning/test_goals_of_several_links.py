@@ -32,13 +32,13 @@ _AXES = ("0 0 1", "0 1 0", "1 0 0", "0 1 0", "0 0 1", "1 0 0")
 
 
 def two_arms(apart=0.6, *, waist=False):
-    """Two arms of six joints beside each other, each with a finger that follows its last joint."""
+    """Return two arms of six joints, each with a finger that mimics its last joint."""
     urdf, srdf = two_arms_text(apart, waist=waist)
     return RobotModel(load_model_string(urdf), load_srdf_string(srdf))
 
 
 def two_arms_text(apart=0.6, *, waist=False):
-    """URDF and SRDF of these."""
+    """Return URDF and SRDF of these."""
     parts, base = ['<robot name="twins">', _LINK.format("base")], "base"
     if waist:
         parts += [_LINK.format("torso"), _JOINT.format("waist", base, "torso", "0 0 0.1", "0 0 1", "revolute", "")]  # fmt: skip
@@ -63,7 +63,7 @@ def two_arms_text(apart=0.6, *, waist=False):
 
 
 def posed(robot, seed):
-    """A state of all joints, and goals for both hands that it fulfils."""
+    """Return a state of all joints, and goals for both hands that it fulfils."""
     random = np.random.default_rng(seed)
     state = robot.complete(random.uniform(-0.9, 0.9, len(robot.variables)))
     goals = [

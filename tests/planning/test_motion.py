@@ -62,7 +62,7 @@ def from_positions(scene, group, positions):
 
 
 def assert_sound(scene, plan, velocity=1.0, acceleration=1.0):
-    """No state of a trajectory collides, no limit is exceeded, and it stands still at its ends."""
+    """Check a trajectory: no collision, no limit exceeded, at rest at its ends."""
     timed, group = plan.trajectory, plan.group
     fine = StateValidity(scene, group, plan.start)
     assert fine.path(timed.positions, fine.resolution / 10.0)

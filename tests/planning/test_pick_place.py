@@ -44,7 +44,7 @@ def model():
 
 @pytest.fixture
 def scene(model):
-    """A table with a cube on it; the arm is ready."""
+    """Return a table with a cube on it; the arm is ready."""
     made = PlanningScene(model)
     for name, value in fetch_robot.READY.items():
         made.state[model.column(name)] = value
@@ -62,7 +62,7 @@ def grasps(scene, **options):
 
 
 def straight(model, motion):
-    """How far the tip goes, and how far aside of the straight way [m]."""
+    """Return the distance of the tip, and its deviation from the straight line [m]."""
     states = np.tile(motion.start, (len(motion.trajectory.times), 1))
     states[:, motion.group.columns] = motion.trajectory.positions
     points = model.forward(states, "wrist_roll_link")[:, :3, 3]
@@ -152,7 +152,7 @@ def test_a_lift_that_would_be_too_short_is_none(scene):
 
 
 def hold(scene, model):
-    """Let the hand have taken the cube, a little above the table; the planner's plan."""
+    """Attach the cube to the hand, a little above the table; return the planner's plan."""
     plan = planner(scene).pick("cube", grasps(scene))
     scene.state = plan.stages[3 - 1].motion.end
     scene.attach("cube", plan.link, sorted(plan.touch_links))

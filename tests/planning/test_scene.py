@@ -32,7 +32,7 @@ RADIUS = 0.04
 
 
 def cube(edge):
-    """A mesh of twelve triangles."""
+    """Return a mesh of twelve triangles."""
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float) - 0.5
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     faces = [tri for a, b, c, d in quads for tri in ((a, b, c), (a, c, d))]
@@ -40,7 +40,7 @@ def cube(edge):
 
 
 def alone():
-    """The iiwa, only the sphere of its fourth link being checked."""
+    """Return the iiwa, of which only the sphere of its fourth link is checked."""
     scene = PlanningScene(arms.arm("iiwa"))
     acm = AllowedCollisionMatrix()
     for link in scene.robot.links:

@@ -7,7 +7,7 @@ GROUND = "<include><uri>model://ground_plane</uri></include>"
 
 
 def base(plugin, wheels=4, *, mu=1.0):
-    """A box on wheels of radius 0.1 m, 0.4 m between the sides, with a plugin."""
+    """Return a box on wheels of radius 0.1 m, 0.4 m between the sides, with a plugin."""
     places = [(0.2, 0.2), (0.2, -0.2), (-0.2, 0.2), (-0.2, -0.2)][:wheels]
     parts = []
     for i, (x, y) in enumerate(places):
@@ -27,7 +27,7 @@ def base(plugin, wheels=4, *, mu=1.0):
 
 
 def block(inside="", plugin="", *, gravity=True):
-    """A cube of 1 kg and 0.2 m, half a metre up."""
+    """Return a cube of 1 kg and 0.2 m, half a metre up."""
     return f"""<model name="cube"><pose>0 0 0.5 0 0 0</pose><link name="core">
     <gravity>{int(gravity)}</gravity><inertial><mass>1</mass><inertia><ixx>0.01</ixx>
     <iyy>0.01</iyy><izz>0.01</izz></inertia></inertial><collision name="hull"><geometry><box>
@@ -35,13 +35,13 @@ def block(inside="", plugin="", *, gravity=True):
 
 
 def simulate(*models, nworld=1, ground=True, **options):
-    """A running simulation of some models on the ground."""
+    """Return a running simulation of some models on the ground."""
     text = f"""<sdf version="1.6"><world name="w">{GROUND if ground else ""}{"".join(models)}
     </world></sdf>"""
     return gazelle.Simulation(formats.load_string(text), nworld=nworld, **options)
 
 
 def plugin(filename, **tags):
-    """A ``<plugin>`` with its tags."""
+    """Return a ``<plugin>`` with its tags."""
     inside = "".join(f"<{tag}>{text}</{tag}>" for tag, text in tags.items())
     return f'<plugin name="p" filename="{filename}">{inside}</plugin>'

@@ -16,7 +16,7 @@ WIDE = "<area>-50 50 -50 50</area>"
 
 
 def actor(target="0 -5", start="0 0 1", tags=WIDE, yaw=0.0):
-    """An actor that faces along yaw - pi/2, as Gazebo's do."""
+    """Return an actor that faces along yaw - pi/2, as Gazebo's do."""
     text = ACTOR.format(target=target, start=start, tags=tags, yaw=yaw + np.pi / 2)
     return text.replace("> ", ">")
 

@@ -32,7 +32,7 @@ def outputs(file, *, kind="camera", pixels="R8G8B8", tags="", more=""):
 
 
 def heard(robot):
-    """What comes on each topic."""
+    """Return the received messages of each topic."""
     told = {}
     for output in robot.outputs.values():
         output.subscribe(lambda value, topic=output.topic: told.setdefault(topic, []).append(value))

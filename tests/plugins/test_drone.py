@@ -34,7 +34,7 @@ NOISE = {"motionSmallNoise": 0.05, "motionDriftNoise": 0.03, "motionDriftNoiseTi
 
 
 def flight(nworld=1, *, flying=True, ground=False, **tags):
-    """A block under the plugin, in the air, and the plugin itself."""
+    """Return a block under the plugin, in the air, and the plugin itself."""
     model = block(plugin=plugin("libplugin_drone.so", **{**TAGS, **tags}))
     sim = simulate(model, nworld=nworld, ground=ground, time_step=0.005)
     drone = next(each.plugin for each in sim.plugins if isinstance(each.plugin, Drone))

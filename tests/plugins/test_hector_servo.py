@@ -25,7 +25,7 @@ PLACES = ("first", "second", "third")
 
 
 def head(axes, **tags):
-    """A base with servos about these axes, one upon the other."""
+    """Return a base with servos about these axes, one upon the other."""
     parts, parent = [LINK.format(name="base_link")], "base_link"
     parts.append(
         '<joint name="fix" type="fixed"><parent>world</parent><child>base_link</child></joint>'
@@ -50,7 +50,7 @@ def about(axis, angle):
 
 
 def turned(order, angles):
-    """The quaternion of turns about axes, each in the frame that the one before left."""
+    """Return the quaternion of turns about axes, each in the frame that the one before left."""
     result = np.array([UPRIGHT])
     for axis, angle in zip(order, angles, strict=True):
         result = multiply(result, about(axis, angle))

@@ -36,7 +36,7 @@ MODELS = {
 
 
 def run(model, start_ns, step):
-    """What a model and its plugins have come to after a while."""
+    """Return the state of a model and its plugins after a while."""
     with Simulation(scenes.world(scenes.ground(), step=step)) as sim:
         sim.clock.now_ns = start_ns
         robot = sim.spawn(model)

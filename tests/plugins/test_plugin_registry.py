@@ -141,7 +141,7 @@ with gazelle.Simulation(formats.load_string(world)) as sim:
 
 
 def install(site, name, points, source=PACKAGE):
-    """As pip lays a package out: its modules and its metadata on the path."""
+    """Install a package as pip does: its modules and its metadata on the path."""
     about = site / f"{name}-1.0.dist-info"
     about.mkdir(parents=True)
     (site / f"{name}_plugins.py").write_text(source)

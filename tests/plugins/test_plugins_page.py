@@ -16,7 +16,7 @@ SIMULATED = [row for row in TABLE if row.code.startswith("gazelle.plugins.")]
 
 
 def rows():
-    """The rows of the tables of what is simulated: file names, what they do, their tags."""
+    """Yield the table rows of simulated plugins: file names, functions, tags."""
     for line in PAGE.read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         files = re.findall(r"`lib([\w-]+)\.so`", cells[0])
@@ -25,7 +25,7 @@ def rows():
 
 
 def written(row):
-    """A row of what is not simulated, as the page has it."""
+    """Return a row of the page's list of what is not simulated."""
     files = "<br>".join(f"`lib{name}.so`" for name in row.files)
     return f"| {files} | {row.what} | {row.missing or row.done_by} |".replace(
         "<noise>", "`<noise>`"
@@ -33,7 +33,7 @@ def written(row):
 
 
 def tags_read(module):
-    """Tags that a module reads by name, and their defaults where they are plain."""
+    """Yield tags that a module reads by name, and their defaults where they are plain."""
     for node in ast.walk(ast.parse(inspect.getsource(importlib.import_module(module)))):
         if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)):
             continue
@@ -43,7 +43,7 @@ def tags_read(module):
 
 
 def default_of(node):
-    """As the page writes it; None for one that is computed."""
+    """Return a default as the page writes it; None for one that is computed."""
     if node.func.attr == "require":
         return None
     try:

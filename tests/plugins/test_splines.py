@@ -16,7 +16,7 @@ UPRIGHT = np.tile([0.0, 0.0, 0.0, 1.0], (4, 1))
 
 
 def hermite(p, q, m, n, t):
-    """A cubic by its four basis functions."""
+    """Return a cubic by its four basis functions."""
     one, two = 2 * t**3 - 3 * t**2 + 1, -2 * t**3 + 3 * t**2
     return one * p + (t**3 - 2 * t**2 + t) * m + two * q + (t**3 - t**2) * n
 

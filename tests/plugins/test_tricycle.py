@@ -23,7 +23,7 @@ TAGS = {
 
 
 def tricycle(**tags):
-    """Front wheel at x = 0.5, rear axle at the origin."""
+    """Return a tricycle: front wheel at x = 0.5, rear axle at the origin."""
     wheels = []
     for name, parent, x, y in (
         ("left", "body", 0, 0.2),

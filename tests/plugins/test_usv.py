@@ -50,7 +50,7 @@ def pair(**tags):
 
 
 def sunk(mass):
-    """How deep half circles of two hulls sink under a mass [m], by halving."""
+    """Return how deep half circles of two hulls sink under a mass [m], by halving."""
     radius, low, high = 0.213, 0.0, 0.213
     for _ in range(60):
         depth = 0.5 * (low + high)

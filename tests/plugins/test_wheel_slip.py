@@ -25,7 +25,7 @@ def wheels(lateral=0.0, longitudinal=0.0, force=CARRIED, count=4, **tags):
 
 
 def driving(model):
-    """Two worlds in which a base drives at two speeds, whatever pushes it."""
+    """Return two worlds in which a base drives at two speeds, whatever pushes it."""
     sim = simulate(model, nworld=2)
     for i in range(4):
         sim.engine.add_motor(f"base::joint{i}", 50.0)
@@ -35,12 +35,12 @@ def driving(model):
 
 
 def expected(compliance):
-    """v = compliance * |w r| * F / N, the force shared by four wheels."""
+    """Return v = compliance * |w r| * F / N, the force shared by four wheels."""
     return compliance * SPEEDS * RADIUS * (FORCE / 4.0) / CARRIED
 
 
 def along_and_aside(robot):
-    """Velocities the way the robot heads and to its left, shape (2,) each."""
+    """Return velocities along the robot's heading and to its left, shape (2,) each."""
     motion, yaw = robot.motion().linear, robot.yaw
     ahead = motion[:, 0] * np.cos(yaw) + motion[:, 1] * np.sin(yaw)
     return ahead, motion[:, 1] * np.cos(yaw) - motion[:, 0] * np.sin(yaw)

@@ -39,7 +39,7 @@ def model(name, geometry, pose, color=(0.7, 0.7, 0.7, 1.0)):
 
 
 def boxes(seed, count=12, **world):
-    """A floor with boxes that stand and lean about."""
+    """Return a floor with boxes that stand and lean on it."""
     random = np.random.default_rng(seed)
     models = [model("floor", Plane(size=(30.0, 30.0)), Pose())]
     for number in range(count):
@@ -51,7 +51,7 @@ def boxes(seed, count=12, **world):
 
 
 def shot(world, pose, lens=LENS, **options):
-    """One picture of a world as it is described."""
+    """Return one picture of a described world."""
     frames = Renderer(world, **options).render(
         lens, np.array([pose.position]), np.array([pose.quaternion])
     )
@@ -59,7 +59,7 @@ def shot(world, pose, lens=LENS, **options):
 
 
 def seen_by_rays(world, pose, lens=LENS):
-    """Depths and visuals that rays meet."""
+    """Return depths and visuals of ray hits."""
     tracer = make_tracer(world)
     focal = lens.focal
     x, y = np.meshgrid(
@@ -75,7 +75,7 @@ def seen_by_rays(world, pose, lens=LENS):
 
 
 def inner(labels):
-    """Pixels whose neighbours all show the same."""
+    """Return pixels whose neighbours all show the same."""
     same = np.ones_like(labels, bool)
     for axis in (0, 1):
         for shift in (-1, 1):
@@ -197,7 +197,7 @@ def test_what_glows_is_seen_without_any_light():
 
 
 def many(threads):
-    """Pictures of three worlds, whose boxes are elsewhere in each, by six cameras."""
+    """Return pictures of three worlds, whose boxes are elsewhere in each, by six cameras."""
     world = boxes(7, lights=(LIGHTS["sun"], LIGHTS["bulb"]))
     renderer = Renderer(world, nworld=3, threads=threads)
     random = np.random.default_rng(0)

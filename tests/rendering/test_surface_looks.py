@@ -82,7 +82,7 @@ def seen(models, want=("color",), eye=EYE, scene=EVEN):
 
 
 def board(x, *, size=4.0, **look):
-    """A square across the view, x before the origin."""
+    """Return a square across the view, x before the origin."""
     visual = Visual("v", geometry=Box((0.02, size, size)), **look)
     return Model(f"at{x}", pose=Pose(x), links=(Link("link", visuals=(visual,)),))
 
@@ -117,7 +117,7 @@ def test_no_script_breaks_the_reader(text):
 
 @pytest.fixture
 def model_folder(tmp_path, monkeypatch):
-    """A model as Gazebo's database has it, with a script and its picture."""
+    """Return a model as Gazebo's database has it, with a script and its picture."""
     folder = tmp_path / "sign"
     (folder / "materials/scripts").mkdir(parents=True)
     (folder / "materials/textures").mkdir()

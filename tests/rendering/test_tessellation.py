@@ -24,7 +24,7 @@ SHAPES = st.one_of(
 
 
 def volume(shape):
-    """Of the true shape [m^3]."""
+    """Return the volume of the true shape [m^3]."""
     match shape:
         case Box():
             return math.prod(shape.size)

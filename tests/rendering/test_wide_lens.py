@@ -35,7 +35,7 @@ WORLD = """<sdf version="1.6"><world name="w"><scene><ambient>0 0 0 1</ambient>
 
 
 def picture(directions, *, fov=2.0, lens="", face=256, more=""):
-    """What a camera at the origin sees of white balls 2 m away in some directions."""
+    """Return a camera's picture of white balls 2 m away in some directions."""
     balls = "".join(
         BALL.format(n=n, x=2.0 * x, y=2.0 * y, z=2.0 * z, color="1 1 1")
         for n, (x, y, z) in enumerate(directions)
@@ -46,7 +46,7 @@ def picture(directions, *, fov=2.0, lens="", face=256, more=""):
 
 
 def middle_of(color):
-    """Column and row, from the middle of the picture in halves of its width, of what is bright."""
+    """Return column and row of the bright part, from the middle, in halves of the width."""
     rows, columns = np.nonzero(color[..., 0] > 100)
     assert rows.size, "nothing is seen"
     height, width = color.shape[:2]
@@ -56,7 +56,7 @@ def middle_of(color):
 
 
 def direction(angle, about):
-    """A direction at an angle off the x axis, turned about it from the right downwards."""
+    """Return a direction at an angle off the x axis, turned about it from the right downwards."""
     side = math.sin(angle)
     return (math.cos(angle), -side * math.cos(about), -side * math.sin(about))
 

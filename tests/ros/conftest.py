@@ -45,7 +45,7 @@ def make_node(master):
 
 @pytest.fixture
 def strangers(monkeypatch):
-    """Nodes of this process do not know of each other, and use sockets."""
+    """Hide nodes of this process from each other, so that they use sockets."""
     monkeypatch.setattr(node_module.Node, "neighbour", staticmethod(lambda uri: None))
     alone = staticmethod(lambda host, port, name: None)
     monkeypatch.setattr(node_module.Node, "neighbour_service", alone)

@@ -14,7 +14,7 @@ PYTHON = "/usr/bin/python3"
 
 
 def environment(master_uri: str | None = None, **more: str) -> dict[str, str]:
-    """The environment in which Debian's nodes and tools run."""
+    """Return the environment in which Debian's nodes and tools run."""
     env = {
         "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
         "HOME": os.environ.get("HOME", "/tmp"),
@@ -29,7 +29,7 @@ def environment(master_uri: str | None = None, **more: str) -> dict[str, str]:
 
 @cache
 def has(*modules: str) -> bool:
-    """Whether Debian's Python has these modules."""
+    """Return whether Debian's Python has these modules."""
     line = "import " + ", ".join(modules)
     try:
         run = subprocess.run(

@@ -32,7 +32,7 @@ def say(*words): print(*words, flush=True)
 
 
 def environment(master_uri):
-    """What real programs need to find each other on this machine only."""
+    """Return the environment for real programs to find each other on this machine only."""
     home = Path(os.environ["ROS_HOME"])  # of these tests (tests/conftest.py)
     (home / "log").mkdir(parents=True, exist_ok=True)
     kept = {key: os.environ[key] for key in ("HOME", "LANG", "TMPDIR") if key in os.environ}
@@ -65,7 +65,7 @@ def stop(process):
 
 @contextlib.contextmanager
 def master(*, core=True, port=None):
-    """A real roscore (or a bare rosmaster); gives its URI."""
+    """Run a real roscore (or a bare rosmaster); yields its URI."""
     port = port or free_port()
     uri = f"http://127.0.0.1:{port}/"
     program = ["roscore", "-p", str(port)] if core else ["rosmaster", "--core", "-p", str(port)]
@@ -129,7 +129,7 @@ class RealNode:
 
 
 def tool(uri, *command, timeout=120):
-    """What a real command-line tool prints."""
+    """Return the output of a real command-line tool."""
     done = subprocess.run(
         command,
         env=environment(uri),

@@ -19,7 +19,7 @@ only_linux = pytest.mark.skipif(sys.platform != "linux", reason="only on Linux")
 
 @pytest.fixture
 def talk(make_node, strangers):
-    """A publisher and what its subscriber got."""
+    """Return a publisher and its subscriber's messages."""
     talker, listener = make_node("talker"), make_node("listener")
     got = []
     subscriber = listener.subscribe("chatter", Word, lambda message: got.append(message.data))

@@ -32,7 +32,7 @@ class Sleeper(threading.Thread):
 
 
 def asleep(clock, function):
-    """Somebody who already sleeps."""
+    """Start a thread that already sleeps."""
     sleeper = Sleeper(function)
     until(lambda: clock._sleepers)
     return sleeper

@@ -20,7 +20,7 @@ MASTER = "import sys; from gazelle.ros import run_master; run_master('127.0.0.1'
 
 
 def resident():
-    """Memory of this process, in MB."""
+    """Return memory of this process, in MB."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 

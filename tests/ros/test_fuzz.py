@@ -36,7 +36,7 @@ SERVICE_HEADER = {
 
 
 def seeds():
-    """Good beginnings of conversations, to be spoiled."""
+    """Return good beginnings of conversations, to be spoiled."""
     call = request("x", "/RPC2", write_call("setParam", ("/fuzz", "/p", {"a": [1, 2.5, "x"]})))
     return [
         call,

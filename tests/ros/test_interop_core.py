@@ -51,7 +51,7 @@ for persistent in (False, True):
     params=["our master", pytest.param("real roscore", marks=pytest.mark.long)]  # it takes a second
 )
 def graph(request):
-    """The URI of a master of either kind."""
+    """Yield the URI of a master of either kind."""
     if request.param == "our master":
         with Master(port=0) as running:
             yield running.uri

@@ -214,7 +214,7 @@ STEPS = st.lists(
 
 
 def plainly(root, action, key, value):
-    """What a parameter tree does, with a copy of everything."""
+    """Compute the result of a parameter tree, with a copy of everything."""
     root = copy.deepcopy(root)
     parts = [part for part in key.split("/") if part]
     if not parts:

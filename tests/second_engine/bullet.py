@@ -116,7 +116,7 @@ class Bullet:
                 self._motor(f"{model.name}::{joint.name}", 0.0, friction)
 
     def _place_root(self, body: int, pose: Pose) -> None:
-        """Bullet places a body by its centre of mass."""
+        """Place the root: Bullet places a body by its centre of mass."""
         placed = pose * self._inertial_frame(body, -1)
         self._b.resetBasePositionAndOrientation(body, placed.position, placed.quaternion)
 
@@ -143,7 +143,7 @@ class Bullet:
             self._b.changeConstraint(held, maxForce=_STRONG)
 
     def _from_centre(self, name: str, point: Any) -> Any:
-        """A point of a link's frame in its inertial frame, in which Bullet wants it."""
+        """Return a point of a link's frame in its inertial frame, as Bullet needs it."""
         frame = self._shifts[name] * self._inertial_frame(*self._bodies[name])
         return frame.inverse().apply(point)
 
@@ -162,7 +162,7 @@ class Bullet:
         self._b.changeConstraint(gear, gearRatio=-mimic.multiplier, maxForce=_STRONG, erp=_ERP)
 
     def _settle(self, world: World) -> None:
-        """Give all bodies their friction, and no other resistance."""
+        """Set the friction of all bodies, and no other resistance."""
         factors = _frictions(world)
         for name, (body, index) in self._bodies.items():
             if index < 0:
@@ -223,7 +223,7 @@ class Bullet:
         return Placement(np.array([pose.position]), np.array([pose.quaternion]))
 
     def _link_motion(self, link: str) -> Motion:
-        """Of a model of one link."""
+        """Return the motion of a model of one link."""
         body, index = self._bodies[link]
         if index >= 0:
             raise UntranslatableError("only the motion of roots is read")
@@ -252,7 +252,7 @@ def _rows(engine: Bullet, kind: str, names: Sequence[str]) -> Table[Any, Any]:
 
 @contextlib.contextmanager
 def _silence() -> Iterator[None]:
-    """Bullet greets and warns on the process's own standard output, past Python's."""
+    """Silence Bullet, which writes to the process's own standard output, past Python's."""
     sys.stdout.flush()
     kept = os.dup(1)
     with Path(os.devnull).open("w") as nowhere:
@@ -266,7 +266,7 @@ def _silence() -> Iterator[None]:
 
 
 def _frictions(world: World) -> dict[str, float]:
-    """A factor for each link, so that products are what the smaller of two surfaces says.
+    """Return a factor for each link, so that products are the smaller of two frictions.
 
     A link has one coefficient in Bullet: the smallest of its collisions'.
     """

@@ -56,7 +56,7 @@ class Tree:
 
 
 def trees_of(model: Model) -> tuple[list[Tree], list[Joint]]:
-    """All trees of a model, and the joints that close loops."""
+    """Return all trees of a model, and the joints that close loops."""
     if model.models or model.self_collide or any(link.self_collide for link in model.links):
         raise UntranslatableError(f"'{model.name}' has nested models or collides with itself")
     carrying: dict[str, Joint] = {}

@@ -68,7 +68,7 @@ _SCALES = {"mm": 1000.0, "mrad": 1000.0, "rad/s": 1.0}
 
 
 def compare(scene: Scene, step: float) -> list[Outcome]:
-    """The outcome of each measure, at a physics step [s], both engines being plain Euler."""
+    """Return the outcome of each measure, at a physics step [s], both engines by Euler."""
     world = scene.make()
     profile = replace(world.profile, max_step_size=step, integrator="euler")
     world = replace(world, physics=(profile,))
@@ -81,7 +81,7 @@ def compare(scene: Scene, step: float) -> list[Outcome]:
 
 
 def trajectory(scene: Scene, engine: Any, step: float) -> list[np.ndarray]:
-    """The values of each measure at every sample, shape (samples, values)."""
+    """Return the values of each measure at every sample, shape (samples, values)."""
     rows: list[list[list[float]]] = [[] for _ in scene.measures]
     try:
         scene.start(engine)

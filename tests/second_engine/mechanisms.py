@@ -24,7 +24,7 @@ X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def rod(name, length, mass, *, pose=None, along=Z, thick=0.04):
-    """A link whose frame is at one end of a rod, as a mechanism has it."""
+    """Return a link whose frame is at one end of a rod, as a mechanism has it."""
     across, long = mass * thick**2 / 6.0, mass * (length**2 + thick**2) / 12.0
     moments = [across if a else long for a in along]
     centre = Pose(*(0.5 * length * a for a in along))
@@ -41,14 +41,14 @@ def pendulum():
 
 
 def double_pendulum():
-    """Rods of different length and mass, so that no term cancels."""
+    """Return rods of different length and mass, so that no term cancels."""
     links = (rod("upper", 0.5, 1.0), rod("lower", 0.3, 0.7, pose=Pose(z=0.5)))
     joints = (hinge("shoulder", "world", "upper"), hinge("elbow", "upper", "lower"))
     return Model("m", links=links, joints=joints)
 
 
 def four_bar(crank_angle=1.0):
-    """A crank of 0.2 m, a coupler of 0.5 m and a rocker of 0.4 m, 0.55 m apart on the ground.
+    """Return a crank of 0.2 m, a coupler of 0.5 m and a rocker of 0.4 m, 0.55 m apart.
 
     The crank starts at an angle [rad] above the ground; coupler and rocker close the triangle.
     """
@@ -85,7 +85,7 @@ _ARM = (
 
 
 def arm():
-    """Six axes in the order of an industrial arm: base, shoulder, elbow, three of the wrist."""
+    """Return six axes of an industrial arm: base, shoulder, elbow, three of the wrist."""
     links, joints, end, parent = [], [], Pose(z=0.2), "world"
     for index, (length, mass, along, axis, damping) in enumerate(_ARM, start=1):
         name = f"link_{index}"
@@ -97,7 +97,7 @@ def arm():
 
 
 def gripper():
-    """A finger that is pushed, and a heavier one that follows it at half the speed."""
+    """Return a finger that is pushed, and a heavier one that follows it at half the speed."""
 
     def finger(name, mass, y):
         inertia = Inertia(mass * 1e-3, mass * 1e-3, mass * 1e-3)
@@ -114,7 +114,7 @@ def gripper():
 
 
 def wheel(mu):
-    """A cylinder on its rim, free to roll along x."""
+    """Return a cylinder on its rim, free to roll along x."""
     mass, radius, length = 2.0, 0.1, 0.06
     round_, across = mass * radius**2 / 2, mass * (3 * radius**2 + length**2) / 12
     surface = Surface(Friction(mu, mu))
@@ -133,7 +133,7 @@ def wheel(mu):
 
 
 def tall_box(name, size, mass, mu, pose):
-    """A free box."""
+    """Return a free box."""
     x, y, z = size
     moments = (mass / 12 * s for s in (y * y + z * z, x * x + z * z, x * x + y * y))
     collision = Collision("c", Box(size), surface=Surface(Friction(mu, mu)))

@@ -29,17 +29,17 @@ LIMIT = "a stop takes the velocity within a step in both; what is left is roundi
 
 
 def joints(*names: str):
-    """Reads joint positions."""
+    """Return a reader of joint positions."""
     return lambda engine: [float(engine.joints[f"m::{n}"].position()[0, 0]) for n in names]
 
 
 def places(link: str, *axes: int):
-    """Reads coordinates of a link's origin."""
+    """Return a reader of coordinates of a link's origin."""
     return lambda engine: [float(engine.links[link].placement().position[0, a]) for a in axes]
 
 
 def tilt(link: str):
-    """Reads the angle between a link's z axis and up."""
+    """Return a reader of the angle between a link's z axis and up."""
 
     def read(engine: Any) -> list[float]:
         pose = Pose.from_quaternion((0, 0, 0), engine.links[link].placement().quaternion[0])
@@ -50,7 +50,7 @@ def tilt(link: str):
 
 
 def heading(link: str):
-    """Reads the direction of a link's x axis as a point on a circle, which has no jumps."""
+    """Return a reader of a link's x direction as a point on a circle, which has no jumps."""
 
     def read(engine: Any) -> list[float]:
         pose = Pose.from_quaternion((0, 0, 0), engine.links[link].placement().quaternion[0])
@@ -61,12 +61,12 @@ def heading(link: str):
 
 
 def spin(link: str):
-    """Reads the angular velocity about y."""
+    """Return a reader of the angular velocity about y."""
     return lambda engine: [float(engine.links[link].motion().angular[0, 1])]
 
 
 def set_joints(**angles: float):
-    """Starts at joint positions."""
+    """Return a start at joint positions."""
 
     def start(engine: Any) -> None:
         for name, angle in angles.items():
@@ -76,21 +76,21 @@ def set_joints(**angles: float):
 
 
 def nothing(_: Any) -> None:
-    """Starts as described."""
+    """Start as described."""
 
 
 def thrown(model: str, speed: float):
-    """Starts with a speed along x."""
+    """Return a start with a speed along x."""
     return lambda engine: engine.models[model].set_motion((speed, 0.0, 0.0), STILL)
 
 
 def squeezed(engine: Any) -> None:
-    """Starts with a push on the leading finger."""
+    """Start with a push on the leading finger."""
     engine.joints["m::left"].set_effort(1.0)
 
 
 def driven(engine: Any) -> None:
-    """Starts with the wheels told to turn unequally."""
+    """Start with the wheels commanded unequally."""
     for side, speed in (("left", 6.0), ("right", 4.0)):
         joint = f"turtlebot3_burger::wheel_{side}_joint"
         engine.add_motor(joint, 10.0)
@@ -103,7 +103,7 @@ def sliding():
 
 
 def tilting():
-    """On its lower edge, leaning a tenth of a radian further than it could stand."""
+    """Return a box on its lower edge, leaning a tenth of a radian too far to stand."""
     width, height = 0.1, 0.4
     reach, corner = math.hypot(width, height) / 2.0, math.atan2(width, height)
     lean = corner + 0.1
@@ -117,7 +117,7 @@ def rolling():
 
 
 def stacked():
-    """Five boxes, each smaller and a little aside, 2 mm of air under each."""
+    """Return five boxes, each smaller and a little aside, 2 mm of air under each."""
     boxes = (
         mechanisms.tall_box(
             f"box_{i}",
@@ -137,7 +137,7 @@ def stack(engine: Any) -> list[float]:
 
 
 def burger():
-    """On narrow wheels with level axles: where on its tread a wheel stands, the engines differ."""
+    """Return the burger on narrow wheels with level axles, whose wheel contacts are clear."""
     robot = load(assets.robot("turtlebot3_burger")).models[0]
     return scenes.world(scenes.ground(1.0), replace(robot, links=tuple(map(_trued, robot.links))))
 
@@ -157,7 +157,7 @@ def _trued(link: Link) -> Link:
 
 
 def _level(pose: Pose) -> Pose:
-    """The pose with a quarter of a turn where the file says -1.57."""
+    """Return the pose with a quarter of a turn where the file says -1.57."""
     return Pose(*pose.position, roll=-math.pi / 2) if pose.roll == -1.57 else pose
 
 

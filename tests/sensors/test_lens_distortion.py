@@ -27,14 +27,14 @@ def test_where_light_comes_from_is_where_it_went_away(coefficients, x, y):
 
 
 def checkers(camera):
-    """A picture of soft dots, each row and column another brightness."""
+    """Return a picture of soft dots, each row and column another brightness."""
     y, x = np.mgrid[0 : camera.height, 0 : camera.width]
     grey = 127.5 + 60.0 * np.sin(x * 0.17) + 60.0 * np.cos(y * 0.23)
     return np.repeat(grey[None, :, :, None], 3, axis=3).astype(np.uint8)
 
 
 def undone(picture, lens, coefficients):
-    """As OpenCV's undistort does it, with D in units of the focal length; nearest pixels."""
+    """Undistort as OpenCV does, with D in units of the focal length; nearest pixels."""
     y, x = np.mgrid[0 : lens.height, 0 : lens.width] + 0.5
     place = np.stack((x - lens.width / 2, y - lens.height / 2), axis=-1) / lens.focal
     spot = distort(place, coefficients) * lens.focal + (lens.width / 2 - 0.5, lens.height / 2 - 0.5)

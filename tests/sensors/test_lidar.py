@@ -24,7 +24,7 @@ def model_of(engine, lidar, pose=None):
 
 
 def square_distance(x, y, angle, half=1.85):
-    """Distance from (x, y) to the walls of a square room."""
+    """Return distance from (x, y) to the walls of a square room."""
     c, s = np.cos(angle), np.sin(angle)
     with np.errstate(divide="ignore"):
         to_x = np.where(c > 0, (half - x) / c, (-half - x) / c)

@@ -28,7 +28,7 @@ G = 9.8
 
 
 def scale(tilt=0.4, sensor_pose=None, settings=None, joint_sensors=()):
-    """Two kilograms held half a metre ahead by a fixed joint, the holder tilted about x."""
+    """Return two kilograms held half a metre ahead by a fixed joint, the holder tilted about x."""
     base = Link("base", pose=Pose(roll=tilt), inertial=Inertial())
     load = Link(
         "load",

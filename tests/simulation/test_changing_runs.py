@@ -364,7 +364,7 @@ def cycles(count):
 
 
 def resident():
-    """Resident memory [byte]."""
+    """Return resident memory [byte]."""
     import resource
 
     pages = Path("/proc/self/statm").read_text().split()[1]

@@ -18,14 +18,14 @@ def spin(done):
 
 
 def without_lines(done):
-    """Spin in instructions that belong to no line, as the compiler makes some."""
+    """Spin in instructions without a line, as the compiler makes some."""
     code = spin.__code__
     nowhere = b"\xff" * (len(code.co_code) // 16 + 1)  # each: eight units without a location
     type(spin)(code.replace(co_linetable=nowhere), {})(done)
 
 
 def without_file(done):
-    """Spin in code that no file has, as `exec` makes it."""
+    """Spin in code without a file, as `exec` makes it."""
     exec(compile("while not done: pass", "<made>", "exec"), {"done": done})
 
 

@@ -111,7 +111,7 @@ def robot(number, plugin):
 
 
 def yard(plugin, *, together=True, nworld=1):
-    """Three robots on a ground; without ``together`` each is updated by itself."""
+    """Return three robots on a ground; without ``together`` each is updated by itself."""
     physics = "<physics name='p' type='ode'><max_step_size>.01</max_step_size></physics>"
     robots = "".join(robot(number, plugin) for number in range(3))
     text = f"<sdf version='1.7'><world name='w'>{physics}{GROUND}{robots}</world></sdf>"
@@ -131,7 +131,7 @@ def moving(sim):
 
 
 def listen(sim, heard, number):
-    """Note what a robot publishes, in the order of its topics."""
+    """Record what a robot publishes, in the order of its topics."""
     each = moving(sim)[number % len(moving(sim))]
 
     def note(name, value):

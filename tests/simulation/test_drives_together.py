@@ -69,7 +69,7 @@ def robot(number, kind):
 
 
 def yard(kind, *, native=True, together=True, **options):
-    """A running world of four robots and a wall; without ``native`` Python publishes odometry.
+    """Return a running world of four robots and a wall; without ``native`` Python publishes.
 
     Without ``together`` it updates each by itself.
     """
@@ -87,7 +87,7 @@ def yard(kind, *, native=True, together=True, **options):
 
 
 def part(sim):
-    """Let each plugin be updated by itself."""
+    """Update each plugin by itself."""
     for entry in sim.entities.plugins:
         entry.alone = True
 
@@ -105,7 +105,7 @@ def command(sim, turn):
 
 
 def lived(sim):
-    """Commands, listeners that come and go, a snapshot, resets, a spawn and a deletion."""
+    """Run commands, listeners that come and go, a snapshot, resets, a spawn and a deletion."""
     found, heard = [], []
 
     def listen(number):

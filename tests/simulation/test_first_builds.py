@@ -16,7 +16,7 @@ DRIVE = (scenes.drive_plugin(),)
 
 @pytest.fixture
 def compiled(monkeypatch):
-    """How often a world has been compiled."""
+    """Return the count of compilations of a world."""
     calls = []
     compile_world = worlds.compile_world
 
@@ -128,7 +128,7 @@ def test_a_world_that_cannot_be_simulated_is_refused_when_it_is_made():
 
 
 def replace_mass(world):
-    """The world with a link that weighs nothing."""
+    """Return the world with a link that weighs nothing."""
     model = world.models[0]
     link = replace(model.links[0], inertial=replace(model.links[0].inertial, mass=0.0))
     return replace(world, models=(replace(model, links=(link,)),))

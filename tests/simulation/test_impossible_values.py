@@ -27,7 +27,7 @@ def world_of(text):
 
 
 def refuses(match, call):
-    """An error of ours that says what was wrong, in one line."""
+    """Check for an error of ours that says what was wrong, in one line."""
     with pytest.raises(Error, match=match) as caught:
         call()
     assert "\n\n" not in str(caught.value)

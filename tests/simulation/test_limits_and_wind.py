@@ -10,7 +10,7 @@ from gazelle.simulation import Replay, Simulation
 
 
 def windmill():
-    """A wheel with limits on a post, its rim in the wind, and a leaf that flies."""
+    """Return a wheel with limits on a post, its rim in the wind, and a leaf that flies."""
     inertial = Inertial(1.0, Pose(x=0.3), Inertia(0.05, 0.05, 0.05))
     links = (Link("wheel", inertial=inertial, enable_wind=True),)
     axis = JointAxis((0.0, 0.0, 1.0), effort=2.0, velocity=1.5)

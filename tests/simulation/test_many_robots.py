@@ -29,7 +29,7 @@ SIDE = 4
 
 
 def robot(number, **changes):
-    """A robot of a lattice; every third one is of another make."""
+    """Return a robot of a lattice; every third one is of another make."""
     other = number % 3 == 2
     lidar = {"rate": 10 if number % 5 else 7, "rays": 40, "far": 6, "noise": 0.01, "bias": 0.0}
     if other:
@@ -49,7 +49,7 @@ def robot(number, **changes):
 
 
 def world(count):
-    """Robots in rows, and posts among them."""
+    """Return robots in rows, and posts among them."""
     posts = (
         POST.format(i, 1.5 * (i % SIDE) + 0.75, 1.5 * (i // SIDE) + 0.75) for i in range(count)
     )
@@ -59,7 +59,7 @@ def world(count):
 
 
 def yard(count=12, *, native=True, **options):
-    """A running world of robots; without ``native`` Python measures each by itself, and publishes."""
+    """Return a running world of robots; without ``native`` Python measures and publishes."""
     sim = gazelle.Simulation(formats.load_string(world(count)), "planar", seed=3, **options)
     if not native:
         for each in sim.robots.values():
@@ -78,21 +78,21 @@ def moving(sim):
 
 
 def command(sim, turn):
-    """Something else for each robot in each world."""
+    """Command each robot in each world differently."""
     for number, each in enumerate(moving(sim)):
         spread = np.arange(sim.nworld)
         each.inputs["cmd_vel"].send(0.3 - 0.02 * number + 0.01 * spread, turn * (number - 4.0))
 
 
 def told(sim):
-    """All that robots and their sensors say, and the state."""
+    """Return all that robots and their sensors publish, and the state."""
     readings = [each.sensors["eyes"].latest().tobytes() for each in moving(sim)]
     stamps = [each.sensors["eyes"].read().stamp for each in moving(sim)]
     return sim.state_hash(), readings, stamps
 
 
 def lived(sim):
-    """A life in which models come and go, some listen for a while, and worlds start over."""
+    """Run while models come and go, some listen for a while, and worlds start over."""
     found, heard = [], []
     for turn in (0.1, -0.3):
         command(sim, turn)

@@ -16,7 +16,7 @@ STEP_S = 0.0004  # what a step takes, by a clock of the test
 
 @pytest.fixture
 def sim(monkeypatch):
-    """A simulation, and how many steps it makes at once."""
+    """Return a simulation, and its numbers of steps at once."""
     sim, clock = gazelle.Simulation(World("w")), SimpleNamespace(now=100.0)
     ticking = SimpleNamespace(perf_counter=lambda: clock.now, process_time=lambda: clock.now)
     monkeypatch.setattr(step_loop, "time", ticking)

@@ -22,7 +22,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::gazelle.errors.GazelleWarning")
 
 
 def run(name, *, nworld=1, events=(), seed=0):
-    """What a robot does and sees in world 0, to the bit, after each round of steps.
+    """Return the robot's actions and observations in world 0, to the bit, after each round.
 
     Each event is a round and what happens in it.
     """

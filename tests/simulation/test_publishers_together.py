@@ -22,7 +22,7 @@ type='continuous'><parent>base</parent><child>head</child><axis><xyz>0 0 1</xyz>
 
 
 def yard(*, together=True, nworld=2, rate=20):
-    """Six robots that fall and turn; one of them sees its head from its base."""
+    """Return six robots that fall and turn; one of them sees its head from its base."""
     robots = "".join(
         ROBOT.format(
             i,
@@ -52,7 +52,7 @@ ARRAYS = {
 
 
 def lived(sim, output):
-    """Listeners that come and go, a reset and a snapshot."""
+    """Run listeners that come and go, a reset and a snapshot."""
     heard = []
 
     def listen(name):

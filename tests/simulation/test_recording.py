@@ -20,7 +20,7 @@ def world(*more):
 
 
 def busy_run(sim):
-    """A bit of everything."""
+    """Run a bit of everything."""
     robot = sim.robots["burger"]
     robot.inputs["cmd_vel"].send(linear=np.linspace(0.1, 0.2, sim.nworld), angular=0.5)
     sim.run(0.2)
@@ -178,7 +178,7 @@ def balls():
 
 
 def reference(balls, steps):
-    """State hash of a world that nothing happens to."""
+    """Return the state hash of an undisturbed world."""
     with Simulation(balls) as sim:
         sim.step(steps)
         return sim.state_hash()

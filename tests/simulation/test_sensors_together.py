@@ -27,7 +27,7 @@ POST = """<model name='post{0}'><static>1</static><link name='l'><collision name
 
 
 def lidar(number):
-    """Every third is of another make, every fifth slower, and mounted by a turn of its own."""
+    """Return a lidar: every third is of another make, every fifth slower, each turned."""
     other = number % 3 == 2
     noise = {"stddev": 0.02 if other else 0.01, "mean": 0.03 if other else 0.0}
     return LIDAR.format(
@@ -37,7 +37,7 @@ def lidar(number):
 
 
 def imu(number):
-    """Every third has other noise, one of them with biases and rounding."""
+    """Return an IMU: every third has other noise, one of them with biases and rounding."""
     other = number % 3 == 2
     drift = "<dynamic_bias_stddev>.01</dynamic_bias_stddev><dynamic_bias_correlation_time>2</dynamic_bias_correlation_time>"
     axis = f"<noise type='gaussian{'_quantized' if other else ''}'><stddev>.02</stddev>{drift}"
@@ -49,7 +49,7 @@ def imu(number):
 
 
 def contact(number):
-    """Of all of a link; one robot has two for the same."""
+    """Return a contact sensor of all of a link; one robot has two for the same."""
     text = """<sensor name='{0}' type='contact'><update_rate>{1}</update_rate></sensor>"""
     names = ("touch", "again") if number == 6 else ("touch",)
     return "".join(text.format(name, 10 if number % 5 else 7) for name in names)
@@ -59,7 +59,7 @@ SENSORS = {"lidar": lidar, "imu": imu, "contact": contact}
 
 
 def robot(kind, number):
-    """A robot that falls and topples a little, its sensor on the base or on a head."""
+    """Return a robot that falls and topples a little, its sensor on the base or on a head."""
     sensor = SENSORS[kind](number)
     return ROBOT.format(
         name=f"r{number}", x=1.5 * (number % 3), y=1.5 * (number // 3), yaw=0.7 * number,
@@ -81,13 +81,13 @@ def units(sim):
 
 
 def part(sim):
-    """Let each sensor be measured by itself."""
+    """Measure each sensor by itself."""
     for unit in units(sim):
         unit.kind = lambda: None
 
 
 def yard(kind, count=7, *, together=True, **options):
-    """A running world whose sensors are awake."""
+    """Return a running world whose sensors are awake."""
     world = formats.load_string(text(kind, count))
     sim = gazelle.Simulation(world, "mujoco", seed=3, **options)
     if not together:
@@ -98,7 +98,7 @@ def yard(kind, count=7, *, together=True, **options):
 
 
 def told(sim):
-    """All that sensors say, and the state with their noise and stamps."""
+    """Return all that sensors publish, and the state with their noise and stamps."""
     said = [(unit.latest().tobytes(), unit.read(sim.nworld - 1).stamp) for unit in units(sim)]
     return sim.state_hash(), said
 
@@ -111,7 +111,7 @@ def push(sim, size):
 
 
 def lived(sim, kind, *, together):
-    """A life in which models come and go, some listen for a while, and worlds start over."""
+    """Run while models come and go, some listen for a while, and worlds start over."""
     found, heard = [], []
     for turn in (0.5, -0.8):
         push(sim, turn)

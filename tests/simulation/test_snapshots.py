@@ -34,7 +34,7 @@ def test_bytes_that_are_no_snapshot_are_refused():
 
 
 def parts(data):
-    """The arrays of a snapshot by name: they lie one after the other, as an index says."""
+    """Return the arrays of a snapshot by name: they lie one after the other, as an index says."""
     with np.load(io.BytesIO(data)) as archive:
         index, whole = json.loads(archive["index"].tobytes()), archive["data"].tobytes()
     arrays, at = {}, 0
@@ -52,7 +52,7 @@ def archive_of(index, data):
 
 
 def with_member(data, name, value):
-    """A snapshot with one of its arrays replaced, or left out."""
+    """Return a snapshot with one of its arrays replaced, or left out."""
     arrays = parts(data)
     del arrays[name]
     if value is not None:

@@ -17,7 +17,7 @@ WHEELS = ("diff", "at every step", "skid", "built in")
 
 
 def yard(kind, nworld, *, native, more="", **options):
-    """Three robots, and a pillar on the way of the first."""
+    """Return three robots, and a pillar on the way of the first."""
     physics = "<physics name='p' type='ode'><max_step_size>.01</max_step_size></physics>"
     robots = "".join(drives.robot(number, drives.KINDS[kind]) for number in range(3))
     text = (

@@ -33,7 +33,7 @@ def burger(engine, seed=3):
 
 
 def quiet(reading):
-    """What a reading gives; None for what this engine or model refuses."""
+    """Return a reading; None if this engine or model lacks it."""
     try:
         return reading()
     except Error:
@@ -56,7 +56,7 @@ class Guarded:
 
 @pytest.fixture
 def watched(monkeypatch):
-    """Makes a simulation and the list of what was called on its engine by others."""
+    """Return a maker of a simulation and the list of others' calls on its engine."""
     import gazelle.simulation.simulation as module
 
     intruders, make = [], module.make_engine
@@ -81,7 +81,7 @@ def test_only_the_owner_touches_the_engine_whatever_is_read(watched, engine):
 
 
 def call_for(name):
-    """Arguments of a method that changes something."""
+    """Return arguments of a method that changes something."""
     known = {
         "set_pose": ((0.1, 0.0, 0.0),),
         "set_twist": ((0.1, 0.0, 0.0), (0.0, 0.0, 0.1)),
@@ -202,7 +202,7 @@ def test_eight_threads_that_read_everything_for_long_change_no_bit(engine):
 
 
 def writes(engine):
-    """Things to tell a burger; each changes what the physics does."""
+    """Return commands for a burger; each changes the physics."""
     both = [
         lambda sim, k: sim.robots["r"].inputs["cmd_vel"].send(0.01 * k, 0.02 * k),
         lambda sim, k: sim.robots["r"].set_pose((0.002 * k, 0.1, 0.01)),
@@ -230,7 +230,7 @@ def writes(engine):
 
 
 def write_from_threads(engine, least, pause):
-    """The final hash of a run that threads write into, and what was written when."""
+    """Return the final hash of a run that threads write into, and the log of writes."""
     log = []
     with burger(engine) as sim:
         todo, done = writes(engine), threading.Event()
@@ -259,7 +259,7 @@ def write_from_threads(engine, least, pause):
 
 
 def write_again(engine, end_ns, log):
-    """The final hash of a run into which one thread writes the same at the same times."""
+    """Return the final hash of a run into which one thread writes the same at the same times."""
     with burger(engine) as sim:
         todo = writes(engine)
         for time_ns, number, count in log:
@@ -356,7 +356,7 @@ def answered(work):
 
 
 def locked(work):
-    """Both take a lock, and the other has it."""
+    """Deadlock: both take a lock, and the other has it."""
     lock, held = threading.Lock(), threading.Event()
 
     def hold():

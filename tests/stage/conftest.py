@@ -8,7 +8,7 @@ from gazelle.stage import StageSimulation
 
 @pytest.fixture
 def start(tmp_path):
-    """Makes a simulation of the text of a world file, with one thread."""
+    """Yield a function that makes a simulation of a world file's text, with one thread."""
     made = []
 
     def make(text, **options):

@@ -20,7 +20,7 @@ FAR = 100.0
 
 
 def outline(random):
-    """A star about its middle, as a block."""
+    """Return a star about its middle, as a block."""
     angles, sizes = np.sort(random.uniform(0.0, 2.0 * math.pi, 7)), random.uniform(0.2, 1.2, 7)
     points = sizes[:, None] * np.stack((np.cos(angles), np.sin(angles)), axis=1)
     corners = " ".join(f"point[{k}] [{x:.4f} {y:.4f}]" for k, (x, y) in enumerate(points))
@@ -28,7 +28,7 @@ def outline(random):
 
 
 def thing(random, place, more=""):
-    """A model with such an outline and a colour of its own."""
+    """Return a model with such an outline and a colour of its own."""
     x, y = place
     size = " ".join(f"{length:.3f}" for length in random.uniform(0.2, 1.5, 3))
     color = " ".join(f"{part / 255.0:.9f}" for part in random.integers(0, 255, 3))
@@ -40,7 +40,7 @@ def thing(random, place, more=""):
 
 
 def world(seed):
-    """Robots with cameras, and what stands about them."""
+    """Return robots with cameras, and the things around them."""
     random = np.random.default_rng(seed)
     text = ""
     for number in range(3):
@@ -60,7 +60,7 @@ def world(seed):
 
 
 def prisms(model, pose, hidden=-1):
-    """What stands in a world of a model and all on it: outline (n, 2), heights, bytes.
+    """Yield outline (n, 2), heights and bytes of a model and all on it.
 
     Args:
         model: At the origin, or where it stands if it never moves.
@@ -82,7 +82,7 @@ def prisms(model, pose, hidden=-1):
 
 
 def inside(points, ring):
-    """Whether points are in an outline, and how far from its edges."""
+    """Return whether points are in an outline, and how far from its edges."""
     odd, margin = np.zeros(len(points), bool), np.full(len(points), np.inf)
     for a, b in zip(ring, np.roll(ring, -1, axis=0), strict=True):
         crossing = (a[1] > points[:, 1]) != (b[1] > points[:, 1])
@@ -116,7 +116,7 @@ class Rays:
         self.margin = np.full(len(grid), np.inf)
 
     def meet(self, normal, offset, color, covers):
-        """A plane that is seen from its front: what of it is covered, and from how far inside."""
+        """Add a plane that is seen from its front, with its covered part."""
         facing = self.ways @ normal
         with np.errstate(divide="ignore", invalid="ignore"):
             depth = (offset - self.eye @ normal) / facing
@@ -130,7 +130,7 @@ class Rays:
         self.depth[met], self.color[met] = depth[met], color
 
     def meet_prism(self, ring, low, high, color):
-        """All sides of what stands on an outline."""
+        """Add all sides of a prism on an outline."""
         for a, b in zip(ring, np.roll(ring, -1, axis=0), strict=True):
             length = np.linalg.norm(b - a)
             along = (b - a) / length
@@ -147,14 +147,14 @@ class Rays:
             self.meet(level, up * height, color, lambda places: inside(places[:, :2], ring))
 
     def meet_ground(self):
-        """The ground, which has no end."""
+        """Add the infinite ground."""
         endless = np.full(len(self.ways), np.inf)
         up = np.array([0.0, 0.0, 1.0])
         self.meet(up, 0.0, (255, 255, 255), lambda _: (np.isinf(endless), endless))
 
 
 def seen_by_rays(sim, robot, number):
-    """The rays of a robot's camera in a world."""
+    """Return the rays of a robot's camera in a world."""
     (camera,) = cameras_of(robot)
     poses = sim.fleet.rows.reshape(sim.nworld, sim.fleet.nbody, -1)[number][
         :, [c.X, c.Y, c.YAW, c.Z]

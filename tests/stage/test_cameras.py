@@ -24,7 +24,7 @@ WALL = 'model ( size [1 40 {height}] pose [{x} 0 0 0] color "green" )\n'
 
 
 def rows_of(picture, color, column):
-    """First and last row in which a column has a colour."""
+    """Return first and last row in which a column has a colour."""
     found = np.flatnonzero((picture.color[:, column, :3] == color).all(axis=1))
     return int(found[0]), int(found[-1])
 

@@ -11,7 +11,7 @@ from gazelle.stage import StageSimulation
 
 
 def crowd(folder, count):
-    """Robots without sensors, a line each."""
+    """Return robots without sensors, a line each."""
     lines = ['define robot position ( size [.2552 .2552 .4] drive "diff" color "gray" )']
     lines += [
         f'robot ( name "r{i}" pose [ {0.7 * (i % 100):.3f} {0.7 * (i // 100):.3f} 0 {i % 360}.5 ] )'

@@ -28,7 +28,7 @@ def start(tmp_path):
 
 
 def errors_of(ranges):
-    """How far beside the beams went, by where they met a wall across the axis [rad]."""
+    """Return the beams' deviations, from their hits on a wall across the axis [rad]."""
     return np.arccos(3.0 / ranges) - np.abs(ANGLES)
 
 

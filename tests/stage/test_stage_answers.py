@@ -19,7 +19,7 @@ FIRST_LOOK = 5
 
 @pytest.fixture
 def run(start):
-    """Runs a scene; what it comes to after the steps that count, shape (steps, robots, 7)."""
+    """Run a scene; return its values after counted steps, shape (steps, robots, 7)."""
 
     def make(scene):
         text = scene["world"]
@@ -46,7 +46,7 @@ def theirs(scene):
 
 
 def apart(ours, stage):
-    """How far they are apart, angles the short way round."""
+    """Return the differences, angles the short way round."""
     difference = ours - stage
     difference[..., (2, 6)] = np.remainder(difference[..., (2, 6)] + math.pi, 2 * math.pi) - math.pi
     return np.abs(difference)

@@ -19,7 +19,7 @@ masks = arrays(np.bool_, st.tuples(st.integers(1, 12), st.integers(1, 12)))
 
 
 def edges_of(lines):
-    """Each segment as edges of single cells, with their direction."""
+    """Return each segment as edges of single cells, with their direction."""
     found = []
     for x0, y0, x1, y1 in lines.tolist():
         steps = max(abs(x1 - x0), abs(y1 - y0))

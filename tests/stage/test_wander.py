@@ -16,7 +16,7 @@ ROBOT = 'position ( size [.1 .1 .1] ctrl "wander" ' + SCANNER + " pose [{} {} 0 
 
 
 def wall(x, y):
-    """A block of 0.2 m whose middle is there."""
+    """Return a block of 0.2 m with its middle there."""
     return f"model ( size [.2 .2 1] pose [{x} {y} 0 0] )"
 
 
@@ -49,7 +49,7 @@ def test_it_stands_and_turns_for_anything_near_wherever_it_is(start, samples, si
 
 
 def stages_answer(ranges):
-    """What Stage 4.3's controller does with a scan when it is not turning: speed and turn."""
+    """Return speed and turn of Stage 4.3's controller for a scan when it is not turning."""
     count = len(ranges)
     third = count // 3
     obstruction = any(r < 1.0 for i, r in enumerate(ranges) if third < i < count - third)

@@ -16,7 +16,7 @@ def _corridors():
 
 @pytest.fixture
 def tiny():
-    """A recipe that trains in a moment."""
+    """Return a recipe that trains in a moment."""
     from gazelle.training import PPOSettings, Recipe
 
     return Recipe(
@@ -29,7 +29,7 @@ def tiny():
 
 @pytest.fixture
 def cli(capsys):
-    """Runs the command line; gives the exit code, what it said, and what it complained."""
+    """Return a runner of the command line, which returns exit code, output and errors."""
     from gazelle.cli.main import main
 
     def run(*arguments):

@@ -25,7 +25,7 @@ OWN = {task.name for task in list_tasks() if task.id.startswith("gazelle/")}
 
 @pytest.fixture
 def campaign(monkeypatch):
-    """The module of the benchmarks, which know of no package."""
+    """Yield the module of the benchmarks, which know of no package."""
     monkeypatch.syspath_prepend(str(BENCHMARKS))
     import _campaign
 

@@ -40,7 +40,7 @@ def header_of(shape, kind="<f4"):
 
 
 def with_member(file, name, data):
-    """Put something else in the place of an array."""
+    """Replace an array by something else."""
     with zipfile.ZipFile(file) as old:
         members = {each: old.read(each) for each in old.namelist()}
     members[f"{name}.npy"] = data

@@ -13,7 +13,7 @@ from gazelle.training.workers.shards import Blueprint, Shard
 
 
 def actor(gain=0.0, bias=(0.0, 0.0, 0.0)):
-    """Moves towards the goal with a gain, or always the same way with a bias."""
+    """Return an actor towards the goal with a gain, or the same way with a bias."""
     weight = np.array([[gain, 0, -gain], [-gain, 0, gain], [0, 0, 0]], dtype=np.float32)
     return Actor((weight,), (np.array(bias, dtype=np.float32),), "tanh", "categorical")
 
@@ -170,7 +170,7 @@ def test_failures_are_told_one_by_one():
 
 
 def turn(size, action):
-    """Always the same of five actions."""
+    """Return always the same of five actions."""
     bias = np.zeros(5, np.float32)
     bias[action] = 1.0
     return Actor((np.zeros((size, 5), np.float32),), (bias,), "tanh", "categorical")

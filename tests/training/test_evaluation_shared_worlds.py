@@ -69,7 +69,7 @@ if "test/Halls-v0" not in gym.registry:
 
 
 def spread(found):
-    """By how many standard deviations the estimate is off."""
+    """Return the estimate's error in standard deviations."""
     rate = found.success
     return abs(rate.value - AT_FIRST) / np.sqrt(AT_FIRST * (1 - AT_FIRST) / rate.total)
 

@@ -33,7 +33,7 @@ read: set[str] = set()
 
 
 def watching(kind):
-    """Settings of a kind that note which of their values are read."""
+    """Return settings of a kind that record which of their values are read."""
     names = {each.name for each in dataclasses.fields(kind)}
 
     class Watching(kind):

@@ -42,7 +42,7 @@ def recipe(algo, **values):
 
 
 def policy_of(result):
-    """Stable-Baselines3's own policy, and observations as its task gives them, 1,000 of them."""
+    """Return Stable-Baselines3's own policy, and 1,000 observations of its task."""
     config = result.run.config
     env = VectorEnvAdapter(make_task(config.task, config.recipe.num_envs, **config.options))
     learner = build_learner(config.recipe, env, 0)
@@ -123,7 +123,7 @@ def test_bundled_tasks_too(tmp_path, task, algo):
 
 @pytest.fixture(scope="module")
 def stage4(tmp_path_factory):
-    """A hardly trained policy of stage 4."""
+    """Return a hardly trained policy of stage 4."""
     result = train(
         "TurtleBot3Stage4", recipe=recipe("ppo"), out=tmp_path_factory.mktemp("runs"), seed=2
     )

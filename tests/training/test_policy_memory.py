@@ -24,7 +24,7 @@ ROUNDS = 40
 
 
 def counting(inputs=3):
-    """A policy that tells how many steps it remembers, by a cell that grows by a tenth a step."""
+    """Return a policy that outputs how many steps it remembers, by a cell that grows by 0.1."""
     zero = np.zeros((1, 4), np.float32)
     # Gates: let in all, keep all, new value atanh(0.1), give all.
     bias = np.array([50.0, 50.0, np.arctanh(0.1), 50.0], np.float32)

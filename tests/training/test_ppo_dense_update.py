@@ -40,7 +40,7 @@ def made(*, continuous=False, **changes):
 
 
 def updated(monkeypatch, *, dense, rollouts=3, **options):
-    """Weights, moments and curves after some updates, in the one way or the other."""
+    """Return weights, moments and curves after some updates, in the one way or the other."""
     if not dense:
         monkeypatch.setattr(ppo, "fits_dense_update", lambda policy: False)
     learner, callback = made(**options)

@@ -24,7 +24,7 @@ def test_quantiles_agree_with_scipy(freedom):
 
 
 def shares(rng, mean, deviation, shape):
-    """True rates of seeds: equal, or from a beta distribution."""
+    """Return true rates of seeds: equal, or from a beta distribution."""
     if deviation == 0.0:
         return np.full(shape, mean)
     size = mean * (1 - mean) / deviation**2 - 1

@@ -39,7 +39,7 @@ def _cluster():
 
 @pytest.fixture
 def started(monkeypatch):
-    """Links to actors as they are started."""
+    """Return the links to actors as they are started."""
     links = []
     begin = RayLink.__init__
 

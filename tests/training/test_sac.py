@@ -35,7 +35,7 @@ def env():
 
 
 def learner_of(env, given):
-    """A learner whose memory holds some steps of random actions."""
+    """Return a learner whose memory holds some steps of random actions."""
     torch.manual_seed(0)
     env.seed(3)
     learner = build_learner(given, env, seed=1)
@@ -54,7 +54,7 @@ def learner_of(env, given):
 
 
 def learnt(learner, train, start, steps=6):
-    """Weights of the policy and of the entropy after some minibatches from the same state."""
+    """Return weights of policy and entropy after some minibatches from the same state."""
     learner.policy.load_state_dict(start)
     with torch.no_grad():
         learner.log_ent_coef.fill_(np.log(0.3))

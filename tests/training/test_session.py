@@ -211,7 +211,7 @@ def test_seconds_and_rates_go_on_over_a_break(tmp_path, tiny):
 
 
 def tensorboard_steps(folder):
-    """Steps of one curve, file by file, as they stand there."""
+    """Return steps of one curve, file by file."""
     steps = []
     for file in sorted((folder / "tensorboard").glob("events.out.tfevents.*")):
         steps += [

@@ -41,7 +41,7 @@ def env():
 
 
 def learner_of(env, given, steps=120):
-    """A learner whose memory holds some steps of random actions."""
+    """Return a learner whose memory holds some steps of random actions."""
     torch.manual_seed(0)
     env.seed(3)
     learner = build_learner(given, env, seed=1)

@@ -21,7 +21,7 @@ PLAIN = RunConfig(task="test/Corridor-v0", recipe=Recipe(), seed=0)
 
 @pytest.fixture
 def evil(tmp_path, monkeypatch):
-    """A folder with a module that leaves a mark when it is imported."""
+    """Yield a folder with a module that leaves a mark when it is imported."""
     folder = tmp_path / "evil"
     folder.mkdir()
     mark = tmp_path / "executed"

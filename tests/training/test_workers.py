@@ -37,7 +37,7 @@ def trained(tmp_path, tiny, workers, **options):
 
 @pytest.fixture
 def started(monkeypatch):
-    """Links to processes as they are started."""
+    """Return the links to processes as they are started."""
     links = []
     begin = ProcessLink.__init__
 

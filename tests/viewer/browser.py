@@ -13,7 +13,7 @@ HARMLESS = ("Unable to preventDefault inside passive event listener",)
 
 @contextmanager
 def opened(url, size=(1000, 480)):
-    """A page, and all errors of its console, which must be empty at the end."""
+    """Open a page; yields it, and all errors of its console, which must be empty at the end."""
     sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
     program = shutil.which("chromium") or shutil.which("chromium-browser")
     if program is None:
@@ -40,7 +40,7 @@ def opened(url, size=(1000, 480)):
 
 
 def pixels(page):
-    """What is seen of the scene between notices and panel, black around it, shape (height, width, 3)."""
+    """Return the visible scene between notices and panel, black around it, (height, width, 3)."""
     import io
 
     from PIL import Image

@@ -34,7 +34,7 @@ def transform(parent, child, now, x, yaw=0.0):
 
 
 def write(path, *, tf=True, grid=True, odometry=True):
-    """A robot drives along x, a metre a second for two; a wall is 3 m ahead of where it began."""
+    """Write a bag of a robot that drives along x at 1 m/s for 2 s towards a wall at 3 m."""
     with Bag(str(path), "w") as bag:
         if grid:
             cells = np.full((40, 80), -1, np.int8)
@@ -67,13 +67,13 @@ def write(path, *, tf=True, grid=True, odometry=True):
 
 
 def where(picture, colour):
-    """Columns of the pixels that have about a colour."""
+    """Return columns of the pixels that have about a colour."""
     near = np.abs(picture.astype(int) - colour).max(axis=-1) < 25
     return np.flatnonzero(near.any(axis=0))
 
 
 def metres(view, column):
-    """x of a column of the small picture."""
+    """Return x of a column of the small picture."""
     return float(view._frame.middles()[0, 2 * int(column), 0])
 
 

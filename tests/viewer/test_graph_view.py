@@ -274,7 +274,7 @@ def test_triangles_have_their_colours():
 
 
 def plan_of(names, *rows, model="r", **start):
-    """A DisplayTrajectory with a point every second."""
+    """Return a DisplayTrajectory with a point every second."""
     part = message("moveit_msgs/RobotTrajectory")
     part.joint_trajectory.joint_names = list(names)
     for second, row in enumerate(rows):

@@ -65,7 +65,7 @@ def secret(view):
 
 
 def upgrade(view, path):
-    """The first line of the answer to a websocket."""
+    """Return the first line of the answer to a websocket."""
     where = urlsplit(view.url)
     with socket.create_connection((where.hostname, where.port), timeout=60) as connection:
         connection.sendall(
@@ -77,12 +77,12 @@ def upgrade(view, path):
 
 
 def pictures(view):
-    """One picture, as if somebody looked; who looks is asked for by another thread otherwise."""
+    """Make one picture, as if the page were open; another thread checks that otherwise."""
     view._picture()
 
 
 def shapes(view):
-    """The batches of shapes, by how many instances they have."""
+    """Return the batches of shapes, by how many instances they have."""
     (layer,) = (each for each in view._layers[1:2])
     return [batch.handle for batch in layer._batches._batches]
 

@@ -47,7 +47,7 @@ def arm():
 
 
 def planar(pan, elbow):
-    """Where the tool is [m]."""
+    """Return the place of the tool [m]."""
     return np.cos(pan) + np.cos(pan + elbow), np.sin(pan) + np.sin(pan + elbow), 0.5
 
 
@@ -120,7 +120,7 @@ def test_nobody_is_told_after_the_view_is_closed(arm):
 
 
 def violet(shown):
-    """How many pixels are of the ghost's colour, and the middle of their columns."""
+    """Return how many pixels are of the ghost's colour, and the middle of their columns."""
     red, green, blue = (shown[..., k] for k in range(3))
     found = (blue > green + 40) & (red > green + 20) & (blue > red + 10)
     return int(found.sum()), float(np.nonzero(found)[1].mean()) if found.any() else 0.0

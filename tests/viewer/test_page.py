@@ -31,7 +31,7 @@ BOX = """
 
 @pytest.fixture
 def running(tmp_path):
-    """A simulation that goes on at about real time in a thread of its own."""
+    """Run a simulation at about real time in a thread of its own."""
     file = tmp_path / "room.world"
     file.write_text(BOX)
     over = threading.Event()
@@ -53,7 +53,7 @@ def running(tmp_path):
 
 
 def red(picture):
-    """Middle of all red pixels, (x, y), and how many there are."""
+    """Return middle of all red pixels, (x, y), and how many there are."""
     found = (picture[..., 0] > 90) & (picture[..., 0] > 2 * picture[..., 1])
     rows, columns = np.nonzero(found)
     return (columns.mean(), rows.mean(), len(rows)) if len(rows) else (np.nan, np.nan, 0)

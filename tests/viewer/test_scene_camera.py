@@ -116,7 +116,7 @@ def test_a_recording_is_filmed_in_steps_finer_than_it_was_made(tmp_path):
 
 @pytest.fixture
 def bag(tmp_path):
-    """Ten red images a second, brighter and brighter, beside another topic."""
+    """Return ten red images a second, brighter and brighter, beside another topic."""
     image, text = load_message("sensor_msgs/Image"), load_message("std_msgs/String")
     from gazelle.ros import Time
 

@@ -22,7 +22,7 @@ def nodes():
 
 
 def told(plot, rows):
-    """What the plot holds after messages; given to it as its subscription does."""
+    """Return the plot's content after messages."""
     for labels, values in rows:
         message = floats_message(labels, values)
         if not labels:

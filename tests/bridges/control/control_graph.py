@@ -33,7 +33,7 @@ class ControlGraph:
         return f"/{self.manager.namespace.strip('/')}".rstrip("/")
 
     def call(self, name, /, **fields):
-        """The answer of one of the manager's services."""
+        """Return the answer of one of the manager's services."""
         kind = load_service(f"controller_manager_msgs/{KINDS[name]}")
         if name not in self.clients:
             full = f"{self.space}/controller_manager/{name}"
@@ -67,20 +67,20 @@ class ControlGraph:
         return {each.name: each.state for each in self.call("list_controllers").controller}
 
     def listen(self, topic, kind):
-        """Messages of a topic, as they come."""
+        """Return the list of received messages of a topic."""
         found = []
         self.node.subscribe(f"{self.space}/{topic}", load_message(kind), found.append)
         return found
 
     def talk(self, topic, kind):
-        """A publisher of a topic, and the class of its messages."""
+        """Return a publisher of a topic, and the class of its messages."""
         message = load_message(kind)
         return self.node.advertise(f"{self.space}/{topic}", message, latch=True), message
 
 
 @contextlib.contextmanager
 def control_graph(hardware=None, *, namespace="", model=None, rate=200.0, run=True):
-    """A robot with an effort and a velocity joint, or another; its loop runs."""
+    """Yield a robot with an effort and a velocity joint, or another; its loop runs."""
     hardware = hardware or Frictionless({"Effort": ["hip", "knee"], "Velocity": ["left", "right"]})
     with (
         Master(port=0, rosout=False) as master,

@@ -45,7 +45,7 @@ except ImportError:  # Debian has no such module; these are its questions
 
 
 def limits():
-    """(least, most, speed) of each joint that has limits."""
+    """Return (least, most, speed) of each joint that has limits."""
     found = {}
     text = rospy.get_param("robot_description")
     for joint in xml.dom.minidom.parseString(text).getElementsByTagName("joint"):

@@ -21,7 +21,7 @@ class RobotGraph(ControlGraph):
 
 @contextlib.contextmanager
 def robot_graph(*texts, parameters=(), namespace="/arm", world=None, start=True):
-    """Robots of URDF texts in an empty world on a graph; it runs."""
+    """Run robots of URDF texts in an empty world on a graph."""
     with (
         Master(port=0, rosout=False) as master,
         Node("client", master_uri=master.uri) as client,

@@ -18,7 +18,7 @@ GAINS = {name: {"p": 600.0, "i": 100.0, "d": 60.0, "i_clamp": 50.0} for name in 
 
 @pytest.fixture(params=["Position", pytest.param("Effort", marks=pytest.mark.slow)])
 def uri(request):
-    """A running arm with a controller that follows trajectories, and one that does not."""
+    """Run an arm with a controller that follows trajectories, and one that does not."""
     kind = request.param
     parameters = {
         "/robot_description": arm_text(kind),

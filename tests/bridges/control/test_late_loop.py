@@ -22,7 +22,7 @@ PERIOD_S = 0.01
 
 @pytest.fixture
 def late():
-    """Sends a trajectory that ends at a time, when the clock shows another, after a period at 5 s."""
+    """Send a trajectory that ends at a time, when the clock shows another, after 5 s."""
     with contextlib.ExitStack() as stack:
         master = stack.enter_context(Master(port=0, rosout=False))
         clock = SimulatedClock()

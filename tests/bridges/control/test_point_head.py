@@ -101,7 +101,7 @@ def graph():
 
 
 def ask(master, node, place, frame="world", **fields):
-    """Have a head point somewhere: the state of the goal, and what was said."""
+    """Point the head to a place; return the state of the goal, and the log."""
     kind = load_message("control_msgs/PointHeadGoal")
     goal = kind(**fields)
     goal.target.header.frame_id = frame

@@ -37,7 +37,7 @@ REFUSALS = ("both claim", "does not run", "runs already", "it is not loaded", "i
 
 
 def claims_of(loaded):
-    """The joints that running controllers have to themselves, once for each."""
+    """Return the joints claimed by running controllers, once for each claim."""
     return [
         name
         for each in loaded
@@ -74,7 +74,7 @@ class Crowd:
             thread.start()
 
     def wait_for(self, count):
-        """Until so many switches were made; an error of a client is one here."""
+        """Wait for so many switches; an error of a client is raised here."""
         deadline = time.monotonic() + PATIENCE_S
         while self.made < count and any(thread.is_alive() for thread in self.threads):
             assert time.monotonic() < deadline, f"only {self.made} of {count} switches are done"
@@ -105,7 +105,7 @@ class Crowd:
 
     @staticmethod
     def _switch(controllers, draw):
-        """Whether the manager did not refuse."""
+        """Switch controllers; return whether the manager accepted."""
         good = False
         start = draw.sample(MOVERS, draw.randint(0, 2))
         stop = draw.sample(MOVERS, draw.randint(0, 3))

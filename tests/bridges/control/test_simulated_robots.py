@@ -30,7 +30,7 @@ def topics(graph):
 
 
 def controlled():
-    """A free joint with a transmission and the plugin."""
+    """Return a free joint with a transmission and the plugin."""
     plugin = '<gazebo><plugin name="c" filename="libgazebo_ros_control.so"/></gazebo>'
     return add_transmissions(FREE).replace("</robot>", f"{plugin}</robot>")
 
@@ -100,7 +100,7 @@ BARE = re.compile("<transmission.*</transmission>", re.DOTALL)
 
 
 def bare_world():
-    """The arm as SDF, which has no transmissions."""
+    """Return the arm as SDF, which has no transmissions."""
     urdf = BARE.sub("", arm_text())
     return load_string(urdf, name="arm")
 

@@ -13,7 +13,7 @@ KINDS = {
 
 
 def heard_from(graph, name):
-    """One message of each topic of a robot in a namespace of its own."""
+    """Return one message of each topic of a robot in a namespace of its own."""
     graph.sim.spawn("turtlebot3_burger", name=name, namespace=f"/{name}", pose=gazelle.Pose(1.0))
     heard = {topic: graph.client.listen(f"/{name}/{topic}", kind) for topic, kind in KINDS.items()}
     transforms = graph.client.listen("/tf", "tf2_msgs/TFMessage")

@@ -30,7 +30,7 @@ WORLD = """<sdf version='1.6'><world name='w'><model name='{}'><static>true</sta
 
 @pytest.fixture
 def server():
-    """A client, and the node of a simulator in the namespace /car that runs."""
+    """Yield a client, and the node of a running simulator in the namespace /car."""
     world = formats.load_string(WORLD.format("wall"))
     with Master(port=0, rosout=False) as master, gazelle.Simulation(world, namespace="/car") as sim:
         node = Node("gazebo", namespace="/car", master_uri=master.uri)

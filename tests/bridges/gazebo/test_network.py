@@ -17,7 +17,7 @@ CHECKER = "/ros_network_by_default/"  # the checker's own node
 
 
 def check(wanted, uri):
-    """Names, types and numbers of publishers, as the checker does; returns how many there are."""
+    """Check names, types and numbers of publishers as the checker does; return their number."""
     with GraphInspector("checker", uri) as graph:
         publishers, subscribers, offered = graph.master.system_state()
         types = graph.types()

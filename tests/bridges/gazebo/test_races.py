@@ -40,7 +40,7 @@ def bother(uri, number, calls, faults):
 
 
 def act(client, chance, name):
-    """One call, the quick kinds more often than the dear ones."""
+    """Make one call, the quick kinds more often than the slow ones."""
     if chance < 0.04:
         return client.call("spawn_sdf_model", "SpawnModel", model_name=name, model_xml=BALL)
     if chance < 0.08:
@@ -54,7 +54,7 @@ def act(client, chance, name):
 
 
 def storm(graph, calls):
-    """All clients at once; returns what was not as it should be."""
+    """Run all clients at once; return the wrong results."""
     faults: list[str] = []
     threads = [
         threading.Thread(target=bother, args=(graph.master.uri, i, calls // CLIENTS, faults))
@@ -83,7 +83,7 @@ def test_a_hundred_thousand_calls_leave_memory_flat(running):
 
 
 def memory():
-    """Resident memory [MB], without what the C library keeps for itself (Linux)."""
+    """Return resident memory [MB], without what the C library keeps for itself (Linux)."""
     gc.collect()
     ctypes.CDLL(None).malloc_trim(0)
     pages = int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[1])

@@ -52,7 +52,7 @@ print("resets", int(sys.argv[1]), seen.child_frame_id, flush=True)
 
 
 def reset_often(graph, tmp_path, count):
-    """A robot_state_publisher and a script with a tf listener, and resets."""
+    """Reset with a robot_state_publisher and a script with a tf listener."""
     script = tmp_path / "watcher.py"
     script.write_text(SCRIPT, encoding="utf-8")
     load_urdf(

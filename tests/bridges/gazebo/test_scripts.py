@@ -137,7 +137,7 @@ def classes(tmp_path_factory):
 
 @pytest.fixture
 def background(graph):
-    """The world running in real time beside the test."""
+    """Yield the world running in real time beside the test."""
     thread = threading.Thread(target=graph.door.run)
     thread.start()
     yield graph
@@ -146,7 +146,7 @@ def background(graph):
 
 
 def printed(command, surroundings):
-    """What a script writes, without what it logs."""
+    """Return the output of a script, without its log."""
     finished = subprocess.run(
         command,
         env=surroundings,

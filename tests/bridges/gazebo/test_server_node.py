@@ -145,7 +145,7 @@ ODD = WORLD.replace("</world>", '<plugin name="odd" filename="libnobody_has_this
 
 
 def heard_of(master, node):
-    """A node that hears what another says; and what it heard."""
+    """Return a node that subscribes to another, and the list of its messages."""
     heard = []
     listener = Node("listener", master_uri=master.uri)
     listener.subscribe("/rosout", load_message("rosgraph_msgs/Log"), heard.append, None)

@@ -215,7 +215,7 @@ def classes(tmp_path_factory):
 
 @pytest.fixture
 def background(graph):
-    """The world running in real time beside the test."""
+    """Yield the world running in real time beside the test."""
     thread = threading.Thread(target=graph.door.run)
     thread.start()
     yield graph

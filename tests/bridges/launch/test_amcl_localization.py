@@ -33,7 +33,7 @@ def test_drives_keep_away_from_walls_and_end_where_they_are_to(tmp_path):
 
 
 def originals():
-    """The folder ``amcl/test`` of a checkout of ros-planning's navigation in ``GAZELLE_ROBOTS``."""
+    """Return the folder ``amcl/test`` of a checkout of navigation in ``GAZELLE_ROBOTS``."""
     found = Path(os.environ.get("GAZELLE_ROBOTS", "")) / "navigation" / "amcl"
     if not (found / "test" / "basic_localization.py").is_file():
         pytest.skip("no checkout of navigation is at hand (set GAZELLE_ROBOTS)")
@@ -41,7 +41,7 @@ def originals():
 
 
 def package_with(original, folder, name):
-    """A package ``amcl`` with the original's script and launch file, and a hall and a bag of ours."""
+    """Return a package ``amcl`` with the original's script and launch file, our hall and bag."""
     tests = folder / "packages" / "amcl" / "test"
     tests.mkdir(parents=True)
     shutil.copy(original / "package.xml", tests.parent)
@@ -59,7 +59,7 @@ def package_with(original, folder, name):
 
 
 def _refine(path):
-    """The same map with cells of half the side."""
+    """Write the same map with cells of half the side."""
     with Image.open(path) as picture:
         picture.resize((2 * picture.width, 2 * picture.height), Image.Resampling.NEAREST).save(path)
 
@@ -148,7 +148,10 @@ def test_a_drive_is_followed_as_closely_as_that_script_asks(tmp_path, name, mode
             until(lambda: node.clock.now() - begun > 1e9 * drive.seconds, 400.0)
 
             def there(place, turn):
-                """Whether it knows where it stands; on a busy machine it may be some scans behind."""
+                """Return whether it knows its place.
+
+                On a busy machine it may be some scans behind.
+                """
                 found = frames.pose("map", "base_link")
                 return (
                     found is not None

@@ -52,7 +52,7 @@ class Controlled:
     stubs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
     def __str__(self) -> str:
-        """What the test is called."""
+        """Return the name of the test."""
         return self.description.rpartition("/")[2] or self.files[-1]
 
 
@@ -63,13 +63,13 @@ TRAJECTORY = "trajectory_msgs/JointTrajectory"
 
 
 def _there(**targets):
-    """A trajectory of one point, two seconds away."""
+    """Return a trajectory of one point, two seconds away."""
     point = {"positions": [*targets.values()], "time_from_start": {"secs": 2}}
     return {"joint_names": [*targets], "points": [point]}
 
 
 def _arm(name):
-    """An arm of Universal Robots with its own launch file and controllers."""
+    """Return an arm of Universal Robots with its own launch file and controllers."""
     wrists = {f"wrist_{number}_joint": 0.0 for number in (1, 2, 3)}
     return Controlled(
         (f"ur_gazebo {name}_bringup.launch gui:=false",),
@@ -83,7 +83,7 @@ def _arm(name):
 
 
 def _legs(file, name=""):
-    """A walking robot, whose description its user puts on the parameter server."""
+    """Return a walking robot, whose description its user puts on the parameter server."""
     joints = [
         f"{leg}_{part}_joint"
         for leg in ("lf", "rf", "lh", "rh")
@@ -196,7 +196,7 @@ OWN = [
 
 
 def _driven(name, wheel):
-    """A base that comes with Gazelle, in its own launch file."""
+    """Return a bundled base, in its own launch file."""
     return Controlled(
         (f"{name}_control {name}.launch gui:=false",),
         "joint_state_controller drive_controller",
@@ -346,7 +346,7 @@ def bring_up(case, folder, scratch):
 
 
 def check(case, launched):
-    """The controllers run, joint states come, and a command moves the joint."""
+    """Check that controllers run, joint states come, and a command moves the joint."""
     watched = Watched(launched.node, case)
     until(lambda: set(case.running.split()) <= watched.running(), PATIENCE_S)
     until(lambda: case.joint in watched.positions, PATIENCE_S)

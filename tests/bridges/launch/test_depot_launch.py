@@ -39,7 +39,7 @@ def depot():
 
 
 def parameters(plan, name):
-    """What stands below a node, nested."""
+    """Return the parameters below a node, nested."""
     whole = {}
     for path, each in plan.parameters.items():
         head, _, rest = path.partition(f"/{name}/")

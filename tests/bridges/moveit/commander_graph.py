@@ -66,7 +66,7 @@ class SpokenJoints:
 
 @contextlib.contextmanager
 def commander_graph(**own):
-    """A graph; gives the client of `moveit_graph`, and ``moveit_commander``."""
+    """Run a graph; yields the client of `moveit_graph`, and ``moveit_commander``."""
     with contextlib.ExitStack() as stack, pytest.MonkeyPatch.context() as patch:
         client = stack.enter_context(moveit_graph(controller_list=FAKE, **own))
         patch.setenv("ROS_MASTER_URI", client.node.master_uri)

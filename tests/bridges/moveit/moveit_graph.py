@@ -27,7 +27,7 @@ class MoveGroupClient:
         )
 
     def stand(self, **positions):
-        """Say where the joints are, and wait until it is known there."""
+        """Publish the joints' state, and wait until it is known there."""
         names = [each.name for each in self.group.context.robot.variables if not each.mimics]
         values = [float((READY | positions).get(name, 0.0)) for name in names]
         self.joints.publish(load_message("sensor_msgs/JointState")(name=names, position=values))
@@ -48,7 +48,7 @@ def set_parameters(node, srdf="fetch_arm.srdf"):
 
 @contextlib.contextmanager
 def moveit_graph(**own):
-    """A graph with ``move_group``; keywords are its own parameters."""
+    """Run a graph with ``move_group``; keywords are its own parameters."""
     with (
         Master(port=0, rosout=False) as master,
         Node("/asking", master_uri=master.uri) as asking,

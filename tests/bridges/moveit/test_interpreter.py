@@ -32,7 +32,7 @@ def moveit(graph):
 
 @pytest.fixture
 def told(moveit, tmp_path, monkeypatch):
-    """An interpreter that uses the arm, in a folder of its own."""
+    """Yield an interpreter that uses the arm, in a folder of its own."""
     monkeypatch.chdir(tmp_path)
     made = moveit.MoveGroupCommandInterpreter()
     assert made.execute("use arm") == OK

@@ -102,7 +102,7 @@ def goal_of(group="arm", *, plan_only=False, start=None, **positions):
 
 
 def send(robot, goal):
-    """The result of a goal of ``move_group``, and the state it ended in."""
+    """Return the result of a goal of ``move_group``, and the state it ended in."""
     client = action(robot, "move_group", "MoveGroup")
     client.send_goal(goal)
     assert client.wait_for_result(60.0)

@@ -58,7 +58,7 @@ def planned(client, **fields):
 
 
 def speed_of(robot, trajectory):
-    """Of the tip, between the points of a trajectory [m/s]."""
+    """Return the speed of the tip, between the points of a trajectory [m/s]."""
     times = np.array([each.time_from_start.to_sec() for each in trajectory.points])
     states = np.zeros((len(times), len(robot.variables)))
     states[:, robot.columns(trajectory.joint_names)] = [

@@ -260,7 +260,7 @@ def test_inverse_kinematics_end_in_time(fetch):
 
 
 def holding(pose, operation=0, name="stick", link=TIP, size=(0.3, 0.02, 0.02)):
-    """A state of a request in which a link holds a thing."""
+    """Return a state of a request with an object attached to a link."""
     state = message("RobotState", is_diff=True)
     thing = message("CollisionObject", id=name, operation=operation, pose=pose_message(pose))
     thing.header.frame_id = link

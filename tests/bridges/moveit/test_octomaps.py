@@ -25,7 +25,7 @@ def graph():
 
 @pytest.fixture
 def fetch(graph):
-    """The same node for all, its scene empty."""
+    """Yield the same node for all, with an empty scene."""
     whole = message(
         "PlanningScene", allowed_collision_matrix=shown(graph, 128).allowed_collision_matrix
     )
@@ -35,7 +35,7 @@ def fetch(graph):
 
 
 def octomap(origin, frame="base_link", **fields):
-    """One occupied cube, its lower corner at the origin, three levels above the finest leaves.
+    """Return one occupied cube, its lower corner at the origin, three levels up.
 
     The first step down is to the greater x, y and z, all others to the smaller.
     """
@@ -68,7 +68,7 @@ def clear_octomap(client):
 
 
 def around(pose):
-    """The origin that puts the cube's middle at a pose."""
+    """Return the origin that puts the cube's middle at a pose."""
     return pose * Pose(-EDGE / 2, -EDGE / 2, -EDGE / 2)
 
 

@@ -13,7 +13,7 @@ PAN = "shoulder_pan_joint"
 
 
 def in_the_way(client, angle):
-    """Where the hand is with the arm turned."""
+    """Return the pose of the hand with the arm turned."""
     context = client.group.context
     with context.lock:
         state = context.current()
@@ -22,7 +22,7 @@ def in_the_way(client, angle):
 
 
 def begin(robot, goal):
-    """A goal whose controllers do not end by themselves."""
+    """Start a goal whose controllers do not end by themselves."""
     robot.how = "linger"
     client = action(robot, "move_group", "MoveGroup")
     client.send_goal(goal)

@@ -30,7 +30,7 @@ PATIENT = {"allowed_goal_duration_margin": 600.0}  # the simulation does not wai
 
 
 def set_parameters(node, *, controllers=True):
-    """What ``move_group.launch`` sets."""
+    """Set the parameters of ``move_group.launch``."""
     root = assets.root()
     urdf = root / "fetch_description" / "robots" / "fetch.urdf"
     srdf = root / "fetch_moveit_config" / "config" / "fetch.srdf"
@@ -60,7 +60,7 @@ def translation(frame, direction, desired=0.1, minimum=0.05):
 
 
 def grasp_messages(robot, pose):
-    """Grasps of the cube at a pose in the robot's frame, as clients send them: of the tip."""
+    """Return grasps of the cube at a pose in the robot's frame, as sent by clients: of the tip."""
     apart = robot.pose(robot.zero(), "gripper_link").inverse() * robot.pose(
         robot.zero(), "wrist_roll_link"
     )
@@ -90,7 +90,7 @@ def box_message(name, pose, size):
 
 
 def act(node, name, goal):
-    """The result of a goal of an action, and the state it ended in."""
+    """Return the result of a goal of an action, and the state it ended in."""
     kind = load_message(f"moveit_msgs/{name.capitalize()}Action")
     client = SimpleActionClient(node, name, kind)
     assert client.wait_for_server(60.0)
@@ -101,7 +101,7 @@ def act(node, name, goal):
 
 @pytest.fixture(scope="module")
 def still():
-    """A ``move_group`` whose robot nobody moves: it plans."""
+    """Run a ``move_group`` for a robot without controllers: it plans."""
     with (
         Master(port=0, rosout=False) as master,
         Node("/asking", master_uri=master.uri) as asking,
@@ -212,7 +212,7 @@ def simulated(place, *, controllers=True):
 
 
 def errand(place, there, *, controllers=True):
-    """Have the cube taken and put elsewhere by the actions; how far it is off then [m]."""
+    """Pick and place the cube by the actions; return its final error [m]."""
     with simulated(place, controllers=controllers) as graph:
         back = graph.base.inverse()
         at = back * graph.cube.pose

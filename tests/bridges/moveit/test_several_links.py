@@ -28,7 +28,7 @@ def twins():
 
 
 def poses(client, seed):
-    """Where both hands are in a state of which all joints are within 0.9 rad of zero."""
+    """Return the poses of both hands in a state with all joints within 0.9 rad of zero."""
     robot = client.group.context.robot
     state = robot.complete(np.random.default_rng(seed).uniform(-0.9, 0.9, len(robot.variables)))
     return [robot.pose(state, link) for link in LINKS]

@@ -18,7 +18,7 @@ NEAREST, OWN, SPACE = ("all/f", "own/f"), ("f", "own/f"), ("r1/f", "r1/f")
 
 
 def model_of(filename):
-    """A model with the plugin in the namespace r1, publishing on r1/deep/t with the frame f."""
+    """Return a model with the plugin in namespace r1, publishing on r1/deep/t with frame f."""
     tags = {"robotNamespace": "r1", "topicName": "deep/t", "frameName": "f"}
     if filename in LASERS:
         return block(RAYS.format(plugin=plugin(filename, **tags)), gravity=False)

@@ -141,7 +141,7 @@ def test_a_port_that_cannot_be_on_the_graph_stays_away_alone():
 
 
 def topics_of(model):
-    """The topics of a graph with a model."""
+    """Return the topics of a graph with a model."""
     with running(model) as graph:
         first(graph, "/clock", "rosgraph_msgs/Clock")
         return dict(graph.client.node.master.published_topics())

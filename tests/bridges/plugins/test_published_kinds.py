@@ -68,7 +68,7 @@ def stamped(nanoseconds):
 
 
 def encoded(kind, case):
-    """A value, its message after a way over the wire, the world it is of, and the view."""
+    """Return a value, its message after a way over the wire, the world it is of, and the view."""
     rng = np.random.default_rng(case["seed"])
     world = int(rng.integers(case["nworld"]))
     value = MAKERS[kind](rng, case["nworld"], case["stamp"])
@@ -84,7 +84,7 @@ def encoded(kind, case):
 
 
 def headers_of(message):
-    """All headers in a message."""
+    """Return all headers in a message."""
     found = [message.header] if hasattr(message, "header") else []
     for name in ("transforms", "poses"):
         found += [each.header for each in getattr(message, name, ())]

@@ -44,7 +44,7 @@ def on_a_slope(heading):
 
 
 def slide(world, nworld=1, yaws=(0.0,)):
-    """Where a model comes to in a second, and how fast it is then, by world."""
+    """Return a model's place after a second, and its speed then, by world."""
     engine = make_engine("mujoco", world, nworld=nworld)
     for index, yaw in enumerate(yaws):
         place = engine.models["box"].placement()

@@ -15,7 +15,7 @@ from gazelle.simulation import Simulation
 
 
 def drive(step, linear, angular, seconds, model=None):
-    """Pose after driving from rest, and the total angle turned."""
+    """Return the pose after driving from rest, and the total angle turned."""
     world = scenes.world(scenes.ground(), scenes.burger(), step=step)
     with Simulation(world) as sim:
         sim.physics.friction_model = model

@@ -13,7 +13,7 @@ from gazelle.engines.mujoco.compiler.options import PASSIVE_OFF
 
 
 def heap():
-    """Loose bodies of several shapes each that fall among static ones, on a floor."""
+    """Return free bodies of several shapes each that fall among static ones, on a floor."""
     rng = np.random.default_rng(3)
     shapes = (Box((0.3, 0.2, 0.1)), Sphere(0.1), Cylinder(0.1, 0.3))
     models = [scenes.ground()]

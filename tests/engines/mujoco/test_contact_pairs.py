@@ -37,7 +37,7 @@ def bouncy(e, threshold=0.01):
 def drop(
     e_ball, e_ground, height=1.0, *, step=0.001, threshold=0.01, mass=1.0, size=0.1, box=False
 ):
-    """Height of the bottom of a ball, or a box that falls flat, at the top of its first bounce."""
+    """Return the height of the bottom of a ball, or a flat box, at the top of its first bounce."""
     start = Pose(z=size + height, yaw=0.3)
     if box:
         body = scenes.box("ball", size=(2.0 * size,) * 3, mass=mass, pose=start)
@@ -100,7 +100,7 @@ def test_a_corner_that_strikes_parts_at_e_times_its_speed(e):
 
 
 def speed_of(engine, arm):
-    """How fast a point of the box moves upwards."""
+    """Return the upward speed of a point of the box."""
     motion = engine.links["box::link"].motion()
     return float((motion.linear[0] + np.cross(motion.angular[0], arm))[2])
 

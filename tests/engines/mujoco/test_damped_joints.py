@@ -22,7 +22,7 @@ from gazelle.engines import make_engine
 
 
 def door(damping, mass, friction):
-    """A door in a frame that stands on the ground, and that a joint without play holds, too."""
+    """Return a door in a frame on the ground, also held by a joint without play."""
 
     def post(name, y):
         shape = Box((0.05, 0.07, 2.0))
@@ -48,7 +48,7 @@ def door(damping, mass, friction):
 
 
 def fastest(engine, seconds):
-    """The fastest that any joint turns at any step [rad/s]."""
+    """Return the fastest rate of any joint at any step [rad/s]."""
     engine.step(round(2.0 / engine.time_step))
     most = 0.0
     for _ in range(round(seconds / engine.time_step)):
@@ -78,7 +78,7 @@ def test_so_it_does_if_joints_are_damped_at_run_time():
 
 
 def slider(damping, mass):
-    """A body on a slide."""
+    """Return a body on a slide."""
     inertial = Inertial(mass, inertia=Inertia(0.01, 0.01, 0.01))
     axis = JointAxis((1.0, 0.0, 0.0), damping=damping)
     base = Link("base", inertial=Inertial(1.0, inertia=Inertia(0.1, 0.1, 0.1)))

@@ -12,7 +12,7 @@ X = (1.0, 0.0, 0.0)
 
 
 def spinner(nworld=1, joint="continuous", **limits):
-    """A flywheel on a hinge of the world, or a cart of 1 kg on a rail."""
+    """Return a flywheel on a hinge of the world, or a cart of 1 kg on a rail."""
     moments = Inertia(INERTIA, INERTIA, INERTIA)
     links = (Link("wheel", inertial=Inertial(1.0, Pose(), moments)),)
     axis = JointAxis(X if joint == "prismatic" else (0.0, 0.0, 1.0), **limits)

@@ -28,7 +28,7 @@ G = 9.8
 
 
 def pendulum():
-    """A point of 1 kg on an arm of 0.5 m; zero is level, pi / 2 hangs."""
+    """Return a point of 1 kg on an arm of 0.5 m; zero is level, pi / 2 hangs."""
     inertial = Inertial(1.0, Pose(x=0.5), Inertia(0.01, 0.01, 0.01))
     axes = (JointAxis(xyz=(0.0, 1.0, 0.0)),)
     hinge = Joint("hinge", "revolute", "world", "arm", axes=axes)
@@ -82,7 +82,7 @@ def momenta(engine, moments):
 
 
 def drift(moments, minutes, integrator=None):
-    """Largest change of momentum, angular momentum and energy of rotation, the last two relative."""
+    """Return the largest change of momentum, and relative ones of angular momentum and energy."""
     body = scenes.solid("b", Box((0.1, 0.2, 0.3)), mass=2.0, moments=moments)
     world = scenes.world(body, gravity=(0.0, 0.0, 0.0))
     profile = replace(world.profile, integrator=integrator)

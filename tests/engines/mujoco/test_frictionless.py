@@ -14,7 +14,7 @@ MODELS = ("pyramid_model", "cone_model")
 
 
 def on_casters(mu):
-    """A cart with a caster at each corner, more than can bear at once."""
+    """Return a cart with a caster at each corner, more than can bear at once."""
     made = scenes.cart(0.04, mu=1.0)
     balls = tuple(
         Collision(f"caster{i}", Sphere(0.02), Pose(x, y, 0.02), scenes.rubber(mu))

@@ -29,12 +29,12 @@ LEFT = "burger::wheel_left_link"
 
 
 def axis_of(engine, link):
-    """Where a link's z axis points, shape (3,)."""
+    """Return the direction of a link's z axis, shape (3,)."""
     return rotate(engine.links[link].placement().quaternion, np.array([[0.0, 0.0, 1.0]]))[0]
 
 
 def top(spin, step, *, tilt=0.3, about=0.005, across=0.003, lever=0.1, mass=1.0, kind="ball"):
-    """A top that precesses steadily, and by how much a second [rad/s].
+    """Return a top that precesses steadily, and its rate [rad/s].
 
     Steady precession W at a tilt of t: I1 cos t W² - I3 s W + m g l = 0, s being the spin about
     the axis of the top (Goldstein, Classical Mechanics, 5.7).
@@ -94,7 +94,7 @@ def test_a_thrown_disc_keeps_its_wobble(spin, step):
 
 
 def chain(count, step=0.001, *, integrator=None, axis=(0.0, 1.0, 0.0)):
-    """Rods of 1 m and 1 kg, one hanging on the other."""
+    """Return rods of 1 m and 1 kg, one hanging on the other."""
     links, joints = [], []
     for i in range(count):
         inertial = Inertial(1.0, Pose(x=0.5), Inertia(0.001, 1.0 / 12.0, 1.0 / 12.0))

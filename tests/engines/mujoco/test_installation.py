@@ -13,7 +13,7 @@ LOAD = "import gazelle; gazelle.Simulation('empty')"
 
 @pytest.fixture
 def beside(tmp_path):
-    """Lays distributions and a folder `mujoco` where Python looks first."""
+    """Return an installer of distributions and a folder `mujoco` at the head of the path."""
 
     def lay(package, **versions):
         folder = tmp_path / "mujoco"

@@ -200,7 +200,7 @@ def test_a_mimic_with_nothing_to_follow_is_an_error_with_its_place(leader, axis,
 
 
 def four_bar(closing):
-    """A parallelogram in the xz plane: ground a, cranks b and d, coupler c."""
+    """Return a parallelogram in the xz plane: ground a, cranks b and d, coupler c."""
     links = (
         Link("a", inertial=mass()),
         Link("b", inertial=mass(z=0.1)),

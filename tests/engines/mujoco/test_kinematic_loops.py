@@ -26,7 +26,7 @@ def hinge(name, parent, child, pose=None, **axis):
 
 
 def crank_slider(kind="prismatic", **slide):
-    """A crank, a rod and a slider along x; the slider's guide comes last in the file."""
+    """Return a crank, a rod and a slider along x; the slider's guide comes last in the file."""
     guide = JointAxis(X, **slide)
     second = (JointAxis(Y),) if kind in ("universal", "revolute2") else ()
     joints = (
@@ -114,7 +114,7 @@ def test_two_guides_of_one_slider_agree():
 
 
 def jack(pitch, *, base="world", turn=None):
-    """A carriage that slides along z, a screw that turns about z, and the thread between them."""
+    """Return a carriage that slides along z, a screw about z, and the thread between them."""
     up = (0.0, 0.0, 1.0)
     joints = (
         Joint("lift", "prismatic", base, "carriage", axes=(JointAxis(up),)),

@@ -19,7 +19,7 @@ def settled():
 
 
 def run():
-    """Where a falling ball is after a while, and the time that MuJoCo says it took."""
+    """Return the place of a falling ball after a while, and MuJoCo's time of it."""
     model = mujoco.MjModel.from_xml_string(
         "<mujoco><worldbody><geom type='plane' size='1 1 1'/><body pos='0 0 .2'>"
         "<freejoint/><geom size='.1' mass='1'/></body></worldbody></mujoco>"

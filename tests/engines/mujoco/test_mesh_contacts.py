@@ -30,7 +30,7 @@ def bowl(sections, rings, radius=1.0, thick=0.05):
 
 
 def period(engine, name="ball", seconds=8.0, step=0.001):
-    """Mean time between two passages through x = 0 in the same direction [s]."""
+    """Return mean time between two passages through x = 0 in the same direction [s]."""
     last, passages = engine.models[name].placement().position[0, 0], []
     for count in range(round(seconds / step)):
         engine.step()
@@ -59,7 +59,7 @@ def test_a_ball_rolls_in_a_bowl_as_fast_as_it_should(tmp_path, sections, rings):
 
 
 def house(width=6.0, depth=4.0, thick=0.15, height=2.5, door=(2.0, 3.0)):
-    """Four walls as one mesh, of which that at y = 0 has a door, and a floor."""
+    """Return four walls as one mesh, of which that at y = 0 has a door, and a floor."""
 
     def box(x, y, u, v, low=0.0, high=height):
         part = trimesh.creation.box((u - x, v - y, high - low))
@@ -121,7 +121,7 @@ def test_balls_come_to_rest_on_the_ground_that_rays_see(tmp_path, seed):
 
 
 def land(count, rough, *, flipped=False, scattered=False):
-    """Rolling ground over 10 m by 6 m, with cells split one way or the other."""
+    """Return rolling ground over 10 m by 6 m, with cells split one way or the other."""
     chance = np.random.default_rng(3)
     x, y = np.meshgrid(np.linspace(-4, 6, count), np.linspace(-2, 4, count))
     if scattered:
@@ -169,7 +169,7 @@ def test_ground_of_many_triangles_is_one_field_of_heights(tmp_path, mesh, fields
 
 
 def closest(mesh, point):
-    """The nearest place on a mesh: over all triangles, without an index."""
+    """Return the nearest place on a mesh: over all triangles, without an index."""
     places = trimesh.triangles.closest_point(mesh.triangles, np.tile(point, (len(mesh.faces), 1)))
     distances = np.linalg.norm(places - point, axis=1)
     row = int(distances.argmin())

@@ -21,7 +21,7 @@ RAYS = 200
 
 @pytest.fixture(scope="module")
 def largest(corpus):
-    """The meshes of the most triangles, each shape once, in metres."""
+    """Return the meshes of the most triangles, each shape once, in metres."""
     found = {}
     for file in sorted(corpus.rglob("*")):
         if file.suffix.lower() in {".stl", ".dae", ".obj"} and file.stat().st_size > 50_000:

@@ -15,7 +15,7 @@ def _own_cache(tmp_path, monkeypatch):
 
 
 def wall_with_a_door(width=3.0, height=1.0, thick=0.1, door=0.5, top=0.6):
-    """One closed mesh, of which a door at y = 0 is cut out down to the floor."""
+    """Return one closed mesh with a door at y = 0, cut out down to the floor."""
     left, right = -width / 2.0, width / 2.0
     rim = [(left, 0), (-door / 2, 0), (-door / 2, top), (door / 2, top)]
     rim += [(door / 2, 0), (right, 0), (right, height), (left, height)]

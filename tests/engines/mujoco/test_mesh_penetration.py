@@ -17,7 +17,7 @@ def _own_cache(tmp_path, monkeypatch):
 
 
 def corner():
-    """An L of two bars."""
+    """Return an L of two bars."""
     one, two = trimesh.creation.box((0.4, 0.1, 0.2)), trimesh.creation.box((0.1, 0.3, 0.2))
     one.apply_translation((0.1, 0.0, 0.0))
     two.apply_translation((-0.05, 0.2, 0.0))

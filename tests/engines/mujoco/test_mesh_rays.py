@@ -20,7 +20,7 @@ def _own_cache(tmp_path_factory):
 
 
 def seen(folder, mesh, origins, directions, *, static=True, pose=Pose()):  # noqa: B008
-    """What an engine's rays from the world's frame meet of a mesh at a pose."""
+    """Return an engine's ray hits from the world's frame on a mesh at a pose."""
     mesh.export(folder / "m.stl")
     thing = scenes.solid("thing", Mesh("m.stl", folder / "m.stl"), pose=pose, static=static)
     eye = scenes.solid("eye", scenes.Sphere(1e-3), pose=Pose(z=50.0))

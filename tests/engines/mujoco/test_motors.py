@@ -33,7 +33,7 @@ SHAPES = [None, Sphere(0.05), Box((3.0, 3.0, 3.0))]
 
 
 def arm(mass=5.0, reach=1.0, shape=None, *, moment=0.01, kind="revolute", gravity=G, **options):
-    """A mass out on one joint along y; level at zero, and weight turns it forward."""
+    """Return a mass out on a joint along y; level at zero, and weight turns it forward."""
     step, more = options.pop("step", 0.001), options.pop("more", ())
     shapes = () if shape is None else (Collision("c", shape),)
     inertial = Inertial(mass, Pose(x=reach), Inertia(moment, moment, moment))
@@ -45,7 +45,7 @@ def arm(mass=5.0, reach=1.0, shape=None, *, moment=0.01, kind="revolute", gravit
 
 
 def speeds(engine, joint, count):
-    """The velocity after each of so many steps, shape (count, axes)."""
+    """Return the velocity after each of so many steps, shape (count, axes)."""
     found = []
     for _ in range(count):
         engine.step()
@@ -315,7 +315,7 @@ def test_with_runge_kutta_too():
 
 
 def wheeled(*, cone, step, inertia=0.001, mass=10.0, mu=1.0, **options):
-    """A box on four driven wheels of 0.1 m, one at each corner."""
+    """Return a box on four driven wheels of 0.1 m, one at each corner."""
     rubber = Surface(Friction(mu, mu))
     links = [Link("base", Pose(z=0.15), Inertial(mass, inertia=Inertia(0.3, 0.5, 0.6)))]
     joints = []
@@ -358,7 +358,7 @@ def test_wheels_too_weak_to_slip_push_the_car_by_their_effort(cone):
 
 
 def ackermann(steering_shapes, step):
-    """Front wheels on knuckles that hold a steering angle, rear wheels that drive."""
+    """Return front wheels on knuckles that hold a steering angle, rear wheels that drive."""
     base, track, radius = 1.0, 0.6, 0.1
     grip = Surface(Friction(1.0, 1.0))
     links = [Link("body", Pose(z=0.2), Inertial(20.0, inertia=Inertia(0.7, 2.0, 2.5)))]

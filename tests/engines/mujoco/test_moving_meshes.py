@@ -17,7 +17,7 @@ from gazelle.formats.surface import clean
 
 
 def body(name, data, folder, mass=100.0, pose=None):
-    """A free body of a mesh, with the inertia of its box."""
+    """Return a free body of a mesh, with the inertia of its box."""
     file = folder / f"{name}.stl"
     trimesh.Trimesh(data.vertices, data.faces, process=False).export(file)
     x, y, z = np.ptp(data.vertices, axis=0).tolist()
@@ -92,7 +92,7 @@ def test_a_ball_in_a_sealed_cavity_stays_there(tmp_path):
 
 
 def on_axle(model, kind, axis, **options):
-    """Hang a model of one link on the world by a joint."""
+    """Attach a model of one link to the world by a joint."""
     joint = Joint("axle", kind, "world", "link", axes=(JointAxis(axis, **options),))
     return replace(model, joints=(joint,))
 

@@ -19,7 +19,7 @@ KINDS = ["revolute", "prismatic", "universal", "revolute2", "screw"]
 
 
 def mover(kind, step, nworld=1, terms=None, **axis):
-    """A link of 1 kg with a moment of 0.5 kg m² on a joint without gravity."""
+    """Return a link of 1 kg with a moment of 0.5 kg m² on a joint without gravity."""
     limits = {"lower": -LIMIT, "upper": LIMIT, **axis}
     axes = (JointAxis(Y, **limits), JointAxis((1.0, 0.0, 0.0)))
     count = 2 if kind in {"universal", "revolute2"} else 1

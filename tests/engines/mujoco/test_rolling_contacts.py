@@ -19,7 +19,7 @@ ROBOTS = ("turtlebot3_burger", "turtlebot3_waffle", "courier")
 
 
 def driven(name, step, left, right, slope=0.0):
-    """A robot on a cone that has driven for a second, and what its model is called."""
+    """Return a robot on a cone that has driven for a second, and the name of its model."""
     robot = load(assets.robot(name)).models[0]
     gravity = (-9.8 * math.sin(slope), 0.0, -9.8 * math.cos(slope))
     world = scenes.world(scenes.ground(), robot, step=step, gravity=gravity)
@@ -72,7 +72,7 @@ def test_wheels_that_start_at_once_rub_by_coulombs_law_beside_loose_things(robot
 
 
 def _rubbed(engine):
-    """Where the first body is after steps in which no contact rubs too much, and islands."""
+    """Return the first body's place after steps with limited friction, and islands."""
     compiled, data, force = (
         engine.running.batch.model,
         engine.running.batch.get_data(0),

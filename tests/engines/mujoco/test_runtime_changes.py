@@ -51,7 +51,7 @@ def make(*models, nworld=1, step=0.001, gravity=(0.0, 0.0, -9.8)):
 
 
 def arm(**axis):
-    """A rod of 1 kg on a vertical hinge that is held by the world."""
+    """Return a rod of 1 kg on a vertical hinge that is held by the world."""
     rod = Inertial(1.0, Pose(x=0.5), Inertia(0.02, 0.03, 0.04))
     return Model(
         "arm",

@@ -20,7 +20,7 @@ def _own_cache(tmp_path, monkeypatch):
 
 
 def rest(*models, seconds=1.5, name="ball", step=0.002):
-    """Where a model lies after a while."""
+    """Return the pose of a model after a while."""
     engine = make_engine("mujoco", scenes.world(scenes.ground(), *models, step=step))
     for _ in range(round(seconds / step)):
         engine.step()

@@ -42,7 +42,7 @@ def make(model, step, *models, gravity=(0.0, 0.0, -G), nworld=1, threads=None):
 
 
 def watch(engine, name, seconds):
-    """Way gone, largest rise, largest lean, in every world."""
+    """Return distance, largest rise, largest lean, in every world."""
     start = engine.models[name].placement().position.copy()
     rise, lean = np.zeros(len(start)), np.zeros(len(start))
     for _ in range(round(seconds / engine.time_step / 5) + 1):
@@ -95,7 +95,7 @@ def test_a_box_slides_down_a_slope_as_fast_as_it_should(model, step, mu, steepne
 
 
 def slope_of(kind, across, pitch):
-    """Tilted ground, and a place on its surface: no corner of a box there is a round number."""
+    """Return tilted ground, and a place on its surface without round numbers."""
     pose = Pose(x=3.7, z=1.1, yaw=across) * Pose(pitch=pitch)
     if kind == "plane":
         return replace(scenes.ground(), pose=pose), pose
@@ -127,7 +127,7 @@ def test_a_box_put_on_tilted_ground_slides_from_its_first_step_on(model, step, m
 
 
 def resting(kind, mu, place):
-    """A loose body that stands on a surface, in its frame."""
+    """Return a free body that stands on a surface, in its frame."""
     if kind == "capsule":
         shape, high, moments = Capsule(0.05, 0.4), 0.05, (0.02, 0.02, 0.00125)
         return scenes.solid(

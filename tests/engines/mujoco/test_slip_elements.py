@@ -16,7 +16,7 @@ ALONG, ACROSS = "<fdir1>0 0 1</fdir1>", "<fdir1>1 0 0</fdir1>"
 
 
 def described(tags, *, model="", yaw=0.0, nworld=1):
-    """A base whose wheels have more words for their friction."""
+    """Return a base whose wheels have more friction tags."""
     text = (model or base("")).replace("</mu2>", f"</mu2>{tags}")
     text = text.replace('<model name="base">', f'<model name="base"><pose>0 0 0 0 0 {yaw}</pose>')
     text = f'<sdf version="1.6"><world name="w">{GROUND}{text}</world></sdf>'
@@ -28,7 +28,7 @@ def slips(slip1=0.0, slip2=0.0, fdir1=""):
 
 
 def drift(engine, force):
-    """How fast a base goes along a force with its wheels held."""
+    """Return the speed of a base along a force with its wheels held."""
     for i in range(4):
         engine.add_motor(f"base::joint{i}", 50.0)  # at rest
     engine.links["base::body"].set_wrench(force, (0.0, 0.0, 0.0))

@@ -16,7 +16,7 @@ PAIR = "leader::link", "box::link"
 
 
 def pair(step=0.001, nworld=2):
-    """A box, and one that is only placed; nothing pulls them."""
+    """Return a box, and a kinematic one, without gravity."""
     models = scenes.box("leader"), scenes.box("box", pose=Pose(z=3.0))
     world = scenes.world(*models, step=step, gravity=(0.0, 0.0, 0.0))
     engine = make_engine("mujoco", world, nworld)
@@ -25,7 +25,7 @@ def pair(step=0.001, nworld=2):
 
 
 def gap_after(engine, seconds, away=(0.3, -0.2, 0.1)):
-    """How much is left of a gap, after the leader was put elsewhere; shape (nworld,)."""
+    """Return the rest of a gap, after the leader was placed elsewhere; shape (nworld,)."""
     there = np.add(away, [0.0, 0.0, 0.5])
     engine.models["leader"].set_placement(there, (0.0, 0.0, 0.0, 1.0))
     wanted = engine.links["box::link"].placement().position + away

@@ -16,7 +16,7 @@ AHEAD = int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
 
 
 def city(blocks, balls, radius=0.01):
-    """A world of still boxes in one model, and of loose balls above them."""
+    """Return a world of static boxes in one model, and of free balls above them."""
     box = "<collision name='b{0}'><pose>{0} 0 0 0 0 0</pose><geometry><box><size>.5 .5 .5</size></box></geometry></collision>"
     ball = (
         "<model name='ball{0}'><pose>{0} 0 5 0 0 0</pose><link name='l'><collision name='c'><geometry>"

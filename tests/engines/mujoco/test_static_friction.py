@@ -19,7 +19,7 @@ G = 9.8
 
 
 def held(shape, force, step, contacts=None):
-    """An engine in which an object is gripped, and has been for half a second."""
+    """Return an engine with a gripped object, held for half a second."""
     moment = 0.4 * MASS * 0.025**2
     thing = scenes.solid("thing", shape, mass=MASS, moments=(moment,) * 3, mu=MU, pose=Pose(z=0.5))
     world = scenes.world(gripper(), thing, step=step)

@@ -18,7 +18,7 @@ def final_hash(engine, world, pieces, prepare):
 
 
 def burger(sim):
-    """Its caster is a little in the ground at first."""
+    """Place the burger with its caster a little in the ground."""
     sim.spawn("turtlebot3_burger", name="r", pose=Pose(x=-2.0, y=-0.5))
     sim.robots["r"].inputs["cmd_vel"].send(0.2, 0.7)
     sim.step(1)
@@ -38,7 +38,7 @@ def slip(sim):
 
 
 def deep(sim):
-    """One of two worlds starts over in the middle of letting something out."""
+    """Reset one of two worlds in the middle of penetration recovery."""
     sim.spawn("turtlebot3_burger", name="r", pose=Pose(z=-0.05))
     sim.step(3)
     sim.reset([1])

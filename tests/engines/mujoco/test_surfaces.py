@@ -32,13 +32,13 @@ def with_surface(model, surface, **changes):
 
 
 def tilted(angle, heading=0.0):
-    """Gravity on a plane that falls by an angle towards a heading."""
+    """Return gravity on a plane that falls by an angle towards a heading."""
     down = math.sin(angle)
     return (G * down * math.cos(heading), G * down * math.sin(heading), -G * math.cos(angle))
 
 
 def slid(surface, angle, heading=0.0, *, ground=None, model=None, yaw=0.0):
-    """How far a flat block slides down a slope in a second, after a tenth [m]."""
+    """Return the distance of a flat block down a slope in a second, after a tenth [m]."""
     block = scenes.box(size=(0.4, 0.4, 0.05), pose=Pose(z=0.025, yaw=yaw))
     block = with_surface(block, surface)
     world = scenes.world(ground or scenes.ground(), block, gravity=tilted(angle, heading))

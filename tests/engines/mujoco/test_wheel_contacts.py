@@ -30,7 +30,7 @@ TRACK, RADIUS = scenes.CART_TRACK, scenes.CART_RADIUS
 
 
 def drive(model, left, right, seconds, friction, step=0.001):
-    """Where a cart is, and how far it has turned."""
+    """Return the place of a cart, and the angle it has turned."""
     world = scenes.world(scenes.ground(), model, step=step)
     ode = replace(world.profile.ode, friction_model=friction)
     engine = make_engine("mujoco", with_profile(world, replace(world.profile, ode=ode)))
@@ -72,7 +72,7 @@ def test_a_cart_on_wheels_of_any_width_turns_in_place_as_kinematics_say(width, m
 
 
 def contacts_of(engine, part):
-    """Places and depths of the contacts of shapes with a word in their names."""
+    """Return places and depths of the contacts of shapes with a word in their names."""
     model, data = engine.running.batch.model, engine.running.batch.get_data(0)
     mujoco.mj_forward(model, data)
     names = [model.geom(geom).name for geom in range(model.ngeom)]
@@ -179,7 +179,7 @@ def test_links_held_by_fixed_joints_are_straight_with_what_carries_them():
 
 
 def skid_steer(friction, width=0.1):
-    """Four driven wheels on fixed axles, at (0.2, 0.25) m from the middle."""
+    """Return four driven wheels on fixed axles, at (0.2, 0.25) m from the middle."""
     base = Link("base", inertial=Inertial(10.0, Pose(z=0.1), Inertia(0.2, 0.3, 0.4)))
     surface = Surface(friction)
 

@@ -26,7 +26,7 @@ def slipping(**options):
 
 
 def pushed(engine, seconds=1.0, force=(0.0, FORCE, 0.0)):
-    """How fast the base goes when it was pushed for some time."""
+    """Return the speed of the base after a push for some time."""
     engine.links["base::body"].set_wrench(force, (0.0, 0.0, 0.0))
     engine.step(round(seconds / engine.time_step))
     return engine.links["base::body"].motion().linear

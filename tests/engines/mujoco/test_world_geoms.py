@@ -34,7 +34,7 @@ FIELDS = ("geom_pos", "geom_quat", "geom_size", "geom_type", "geom_friction", "g
 
 
 def town(folder):
-    """Shapes of all kinds that stand still, some of them shared, and a few things that fall."""
+    """Return static shapes of all kinds, some of them shared, and a few falling things."""
     parts = [trimesh.creation.box((0.2, 0.3, 0.1 * k)) for k in range(1, 6)]
     for k, part in enumerate(parts):
         part.apply_translation((0.5 * k, 0.0, 0.05 * k))
@@ -117,7 +117,7 @@ def test_collisions_and_frictions_of_ten_thousand_shapes_are_found_by_name():
 
 
 def processor_time_of(count):
-    """Of a wall of meshes, each there once, that comes into a world [s]."""
+    """Return processor time of adding a wall of meshes, each there once [s]."""
     spec = mujoco.MjSpec()
     world = world_geoms.WorldGeoms(spec)
     builder = ShapeBuilder(spec, world.name_later)

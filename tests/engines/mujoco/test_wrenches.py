@@ -219,7 +219,7 @@ def test_a_resting_stack_presses_with_all_that_is_above():
 
 
 def table(kind, nworld=1):
-    """A beam of 4 kg on two posts, one a part of the tree, the other closing the loop."""
+    """Return a beam of 4 kg on two posts, one in the tree, the other closing the loop."""
     posts = (part("left", x=-0.6), part("right", x=0.9))
     beam = part("beam", mass=4.0, z=1.0)
     far = Joint("far", kind, "right", "beam", pose=Pose(x=0.9), axes=(JointAxis(Y),))

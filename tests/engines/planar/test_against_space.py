@@ -19,7 +19,7 @@ SECONDS = 5.0
 
 
 def column(folder, name, sides, low, high):
-    """A tapered column with some sides as a mesh in a file."""
+    """Return a tapered column with some sides as a mesh in a file."""
     angles = 2 * math.pi * np.arange(sides) / sides
     rows = [
         f"v {r * math.cos(a):.6f} {r * math.sin(a):.6f} {z}"
@@ -41,7 +41,7 @@ def column(folder, name, sides, low, high):
 
 
 def mesh_world(folder):
-    """A ring of tapered columns, all meshes."""
+    """Return a ring of tapered columns, all meshes."""
     models = []
     for k in range(7):
         shape = column(folder, f"column_{k}", 3 + k, 0.45, 0.2 + 0.05 * k)
@@ -53,7 +53,7 @@ def mesh_world(folder):
 
 
 def map_file(folder):
-    """A room with a pillar and a niche, drawn with 5 cm a pixel."""
+    """Return a room with a pillar and a niche, drawn with 5 cm a pixel."""
     pixels = np.full((80, 100), 254, np.uint8)
     pixels[[0, 1, -2, -1]] = 0
     pixels[:, [0, 1, -2, -1]] = 0

@@ -22,7 +22,7 @@ SEEDS = st.integers(0, 2**32 - 1)
 
 
 def picture(rng, rows=40, columns=50, share=0.15):
-    """A bitmap of scattered walls, 5 m wide and 3.2 m deep, somewhere at some angle."""
+    """Return a bitmap of scattered walls, 5 m wide and 3.2 m deep, somewhere at some angle."""
     cells = rng.random((rows, columns)) < share
     bitmap = StageBitmap("x.png", Path("x.png"), cells, (-2.5, -1.6), (2.5, 1.6), (0.0, 1.0))
     pose = StagePose(*rng.uniform(-3.0, 3.0, 2), 0.0, rng.uniform(-3.0, 3.0))
@@ -30,7 +30,7 @@ def picture(rng, rows=40, columns=50, share=0.15):
 
 
 def exact(models, circle, poses, fan):
-    """The ranges of one sensor at each pose, by every segment and the circle."""
+    """Return the ranges of one sensor at each pose, by every segment and the circle."""
     there = outlines_of(models).at(0.5)
     ranges = np.full((len(poses), fan.count), fan.reach)
     for row, (x, y, yaw) in zip(ranges, poses, strict=True):
@@ -47,7 +47,7 @@ def exact(models, circle, poses, fan):
 
 
 def fleet_of(models, circle, poses, z=0.5):
-    """Bodies without bodies, and a round post that is no part of a bitmap."""
+    """Return bodies without shapes, and a round post that is no part of a bitmap."""
     table = table_of(models)
     post = table_of([])
     rows = np.zeros((1, table.rows.shape[1]))
@@ -144,7 +144,10 @@ def test_squares_are_the_largest_that_are_empty(seed):
 
 
 def largest(taken, row, column, up, right):
-    """Side of the largest square without any that is taken; 21 for one that leaves the picture."""
+    """Return side of the largest square without any that is taken.
+
+    21 for one that leaves the picture.
+    """
     for side in range(1, 21):
         rows = sorted((row, row + up * (side - 1)))
         columns = sorted((column, column + right * (side - 1)))

@@ -147,7 +147,7 @@ def test_bodies_at_other_heights_pass():
 
 
 def outline(part, x, y, yaw):
-    """A part as shapely has it; circles a little too small."""
+    """Return a part in shapely; circles are a little too small."""
     c, s = math.cos(yaw), math.sin(yaw)
     points = [(x + c * px - s * py, y + s * px + c * py) for px, py in part.points]
     if part.radius > 0.0:

@@ -22,7 +22,7 @@ BOUNDS = {
 
 
 def clutter(rng, count):
-    """Walls and pillars in a square of 4 m."""
+    """Return walls and pillars in a square of 4 m."""
     ends = rng.uniform(-2.0, 2.0, (count, 4))
     walls = [PlanarPart(((a, b), (c, d)), closed=False) for a, b, c, d in ends]
     return [

@@ -54,7 +54,7 @@ def both(world, nworld=1):
 
 
 def ring_mesh(tmp_path):
-    """A leaning pyramid as a mesh in a file."""
+    """Return a leaning pyramid as a mesh in a file."""
     corners = "v 0.5 0.5 0\nv -0.5 0.5 0\nv -0.5 -0.5 0\nv 0.5 -0.5 0\nv 0.1 0.2 1\n"
     faces = "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 4 3 2\nf 4 2 1\n"
     path = tmp_path / "pyramid.obj"

@@ -24,7 +24,7 @@ FANS = [
 
 
 def polygon(rng, size=1.0):
-    """A convex polygon about the origin."""
+    """Return a convex polygon about the origin."""
     angles = np.sort(rng.uniform(0.0, 2 * math.pi, rng.integers(3, 8)))
     radius = size * rng.uniform(0.3, 1.0)
     return tuple((radius * math.cos(a), radius * math.sin(a)) for a in angles)
@@ -36,7 +36,7 @@ def moved(points, x, y, yaw):
 
 
 def nearest(lines, circles, x, y, angle, reach, begin=0.0):
-    """Distance along a ray to the nearest line or circle, by shapely and in closed form."""
+    """Return distance along a ray to the nearest line or circle, by shapely and in closed form."""
     dx, dy = math.cos(angle), math.sin(angle)
     far = (x + dx * (reach + 1.0), y + dy * (reach + 1.0))
     met = shapely.LineString([(x + begin * dx, y + begin * dy), far]).intersection(lines)

@@ -26,7 +26,7 @@ BODIES = {
 
 
 def room():
-    """Four walls without thickness."""
+    """Return four walls without thickness."""
     corners = [(-HALF, -HALF), (HALF, -HALF), (HALF, HALF), (-HALF, HALF)]
     pairs = zip(corners, corners[1:] + corners[:1], strict=True)
     return [PlanarPart(pair, closed=False) for pair in pairs]
@@ -38,7 +38,7 @@ def fleet(shape, kind="omni", **options):
 
 
 def escapes(made, commands):
-    """Whether the body is ever outside the room."""
+    """Return whether the body is ever outside the room."""
     for command in commands:
         made.command[:] = command
         made.step()

@@ -22,7 +22,7 @@ def vector(count, **options):
 
 @pytest.fixture(scope="module")
 def begun():
-    """A task of many worlds at the start of its episodes, and what is seen."""
+    """Yield a task of many worlds at the start of its episodes, and its observation."""
     task = CameraWorldTask(200, TaskSettings(engine="planar", seed=0))
     seen, info = task.begin(np.arange(200))
     yield task, seen, info["scenario"]
@@ -81,7 +81,7 @@ def test_equal_seeds_see_the_same_whatever_the_number_of_worlds():
 
 
 def placed(task, robot, red, others=((1.4, 1.4), (1.4, -1.4)), yaw=0.0):
-    """Put everything somewhere in world 0."""
+    """Place everything in world 0."""
     task.begin(np.arange(task.nworld))
     for post, spot in zip(task._posts, (red, *others), strict=True):
         post.set_pose(np.array([*spot, 0.0]), worlds=np.array([0]))

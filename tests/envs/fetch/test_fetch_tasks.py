@@ -249,7 +249,7 @@ def test_episodes_have_fifty_steps_and_a_world_does_the_same_among_others():
 
 
 def picked(env, seed, reach=0.033):
-    """A policy by hand: over the cube, down, close, and to the goal."""
+    """Run a hand-made policy: over the cube, down, close, and to the goal."""
     obs, _ = env.reset(seed=seed)
     held = np.zeros(env.num_envs)
     for _ in range(49):
@@ -418,7 +418,7 @@ def test_it_equals_gymnasium_robotics_itself(envs):
 
 
 def check_path(task, there):
-    """Twenty steps of the weld with any actions."""
+    """Check twenty steps of the weld with any actions."""
     env, rng, path = vector(task, 1, control="original"), np.random.default_rng(3), []
     env.reset(seed=0)
     for _ in range(20):

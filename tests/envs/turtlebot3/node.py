@@ -12,7 +12,7 @@ TOO_NEAR = 0.12  # a range of -inf, in which the node saw no collision, counts a
 
 
 def seen(ranges):
-    """Ranges that the node makes of a message's, whose numbers are of single precision."""
+    """Return the node's ranges of a message's, whose numbers are of single precision."""
     replaced = {math.inf: 3.5, -math.inf: float(np.float32(TOO_NEAR))}
     return [0 if math.isnan(r) else replaced.get(r, r) for r in map(float, ranges)]
 
@@ -31,7 +31,7 @@ def heading(position, yaw, goal):
 
 
 def state(stage, ranges, position, yaw, goal):
-    """What the network gets, whether it is a collision, and whether the goal is reached."""
+    """Return the network's input, whether it is a collision, and whether the goal is reached."""
     scan = seen(ranges)
     shortest = min(scan)
     away = distance(position, goal)
@@ -42,7 +42,7 @@ def state(stage, ranges, position, yaw, goal):
 
 
 def reward(stage, numbers, action, start_distance, *, collided, arrived):
-    """What the node pays for a state of ``state``."""
+    """Return the node's reward for a state of ``state``."""
     count = len(numbers) - (2 if stage == 1 else 4)
     angle, away = numbers[count], numbers[count + 1]
     phi = -math.pi / 4 + angle + (math.pi / 8 * action) + math.pi / 2

@@ -27,7 +27,7 @@ FINE = 0.01  # of the map of what stands still [m]
 
 
 def obstacle_paths(world, steps):
-    """Middles [m] and radii [m] of moving cylinders, control step by step: (steps, n, 2), (n,)."""
+    """Return middles and radii [m] of moving cylinders at control steps: (steps, n, 2), (n,)."""
     with Simulation(world, engine="planar", time_step=0.02) as simulation:
         discs = [
             (robot, collision.pose.position[:2], collision.geometry.radius)
@@ -47,7 +47,7 @@ def obstacle_paths(world, steps):
 
 
 def clear_of_statics(world, half):
-    """Whether a lidar is clear of what stands still, on a map of cells of `FINE`."""
+    """Return whether a lidar is clear of all that is static, on a map of cells of `FINE`."""
     ticks = np.arange(-half, half, FINE) + FINE / 2.0
     points = np.stack(np.meshgrid(ticks, ticks, indexing="ij"), axis=-1)
     free = np.ones(points.shape[:2], bool)
@@ -63,7 +63,7 @@ def clear_of_statics(world, half):
 
 
 def away(shape, place, points):
-    """Distance [m] of points in the plane from a box or an upright cylinder."""
+    """Return distance [m] of points in the plane from a box or an upright cylinder."""
     offset = points - np.array(place.position[:2])
     if isinstance(shape, Cylinder):
         return np.hypot(offset[..., 0], offset[..., 1]) - shape.radius
@@ -76,7 +76,7 @@ def away(shape, place, points):
 
 
 def driven(robots, rate):
-    """Robots of (x, y, yaw) a control step later, at these yaw rates."""
+    """Return robots of (x, y, yaw) a control step later, at these yaw rates."""
     half = 0.5 * rate * PERIOD
     chord = SPEED * PERIOD * np.sinc(half / np.pi)
     middle = robots[:, 2] + half
@@ -85,7 +85,7 @@ def driven(robots, rate):
 
 
 def thinned(robots, half):
-    """One robot for each cell of place and heading."""
+    """Return one robot for each cell of place and heading."""
     across = int(2 * half / CELL)
     cell = ((robots[:, :2] + half) / CELL).astype(int)
     heading = (robots[:, 2] * (HEADINGS / (2.0 * np.pi))).astype(int) % HEADINGS
@@ -96,7 +96,7 @@ def thinned(robots, half):
 
 
 def reached(world, start, goals, *, limit=300, begin=0, spin=None, half=2.4):
-    """Which goals can be reached within `limit` control steps.
+    """Return the goals that can be reached within `limit` control steps.
 
     Args:
         world: Bundled name.
@@ -136,7 +136,7 @@ def reached(world, start, goals, *, limit=300, begin=0, spin=None, half=2.4):
 
 
 def unharmed(robots, free, half, middles, radii):
-    """Whether the lidars are clear of everything."""
+    """Return whether the lidars are clear of everything."""
     lidar = robots[:, :2] + LIDAR * np.stack((np.cos(robots[:, 2]), np.sin(robots[:, 2])), 1)
     cell = ((lidar + half) / FINE).astype(int)
     safe = free[cell[:, 0], cell[:, 1]]
@@ -146,7 +146,7 @@ def unharmed(robots, free, half, middles, radii):
 
 
 def turned(track, radii, spin, steps):
-    """The first places of a track, turning about the origin."""
+    """Return the first places of a track, turning about the origin."""
     angle = spin * PERIOD * np.arange(steps)[:, None]
     x, y = track[0, :, 0], track[0, :, 1]
     cos, sin = np.cos(angle), np.sin(angle)

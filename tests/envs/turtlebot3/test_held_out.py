@@ -34,7 +34,7 @@ def many(stage, num_envs=32, engine="planar", **options):
 
 
 def away(points, others):
-    """Of each point from the nearest of others [m]."""
+    """Return the distance of each point from the nearest of others [m]."""
     return np.hypot(*np.moveaxis(points[:, None] - others[None], 2, 0)).min(axis=1)
 
 

@@ -9,7 +9,7 @@ CENTRES = [(0.6, 0.6), (0.6, -0.6), (-0.6, 0.6), (-0.6, -0.6), (0.0, 0.0)]
 
 
 def accepted(x, y, last=None):
-    """Whether the published rejection loop would take a goal."""
+    """Return whether the published rejection loop would take a goal."""
     for a, b in CENTRES:
         if abs(x - a) <= 0.4 and abs(y - b) <= 0.4:
             return False

@@ -27,7 +27,7 @@ places = st.tuples(st.floats(-2.3, 2.3), st.floats(-2.3, 2.3))
 
 
 def judged(stage, ranges, position, yaw, goal, action, start_distance):
-    """State, reward, collision and arrival of one robot, by the functions of the tasks."""
+    """Return state, reward, collision and arrival of one robot, by the functions of the tasks."""
     rules = STAGES[stage]
     view = sight(
         rules,

@@ -21,7 +21,7 @@ def one(folder, text):
 
 
 def box(model):
-    """The box around all of a body: least and greatest x, y, z."""
+    """Return the box around all of a body: least and greatest x, y, z."""
     corners = [(*point, z) for block in model.blocks for point in block.points for z in block.z]
     if model.bitmap is not None:
         corners += [(*model.bitmap.low, model.bitmap.z[0]), (*model.bitmap.high, model.bitmap.z[1])]

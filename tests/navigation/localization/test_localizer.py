@@ -21,7 +21,7 @@ LASER = (-0.03, 0.0, 0.0)
 
 
 def room():
-    """An asymmetric room of 8 m by 6 m with an inner wall and pillars."""
+    """Return an asymmetric room of 8 m by 6 m with an inner wall and pillars."""
     grid = np.zeros((120, 160), np.int8)
     grid[[0, -1]] = grid[:, [0, -1]] = 100
     grid[0:70, 60:63] = 100
@@ -137,7 +137,7 @@ def test_a_robot_is_found_anywhere_on_the_map(settings):
 
 
 def crowded(scan, angles):
-    """People around the robot: a third of its beams end on them."""
+    """Return a scan with people around the robot: a third of its beams end on them."""
     ranges = scan.ranges.copy()
     ranges[np.abs(np.sin(1.5 * angles)) > 0.87] = 0.5
     return PlanarScan(ranges, scan.angles, scan.range_max, scan.range_min, scan.laser)

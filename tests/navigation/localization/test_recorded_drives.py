@@ -58,12 +58,12 @@ FILES = {
 
 
 def as_seen():
-    """The hall's map as a laser makes one."""
+    """Return the hall's map as a laser makes one."""
     return OccupancyMap(seen_hall(), 0.1, gazelle.Pose(0.0, 0.0))
 
 
 def as_built():
-    """The same with walls that are solid."""
+    """Return the same map with solid walls."""
     data = np.where(hall(), 100, 0).astype(np.int8)
     return OccupancyMap(data, 0.1, gazelle.Pose(0.0, 0.0))
 
@@ -73,7 +73,7 @@ ANGLES = np.linspace(-math.radians(135.0), math.radians(135.0), 541)
 
 
 def follow(folder, drive, guess, settings, grid):
-    """How far the estimate is off along x and y [m] and turned [rad], when the test looks."""
+    """Return the estimate's errors along x and y [m] and in heading [rad]."""
     save_hall(folder)
     path = folder / "drive.world"
     path.write_text(WORLD % (*drive.start[:2], math.degrees(drive.start[2])))

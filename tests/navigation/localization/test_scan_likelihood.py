@@ -16,7 +16,7 @@ def field(seed, rows, columns):
 
 
 def values_at(terms, pose, points):
-    """What each end adds, None off the map: shape (m,)."""
+    """Return each end's term, None off the map: shape (m,)."""
     c, s = np.cos(pose[2]), np.sin(pose[2])
     x = pose[0] + c * points[:, 0] - s * points[:, 1] - ORIGIN[0]
     y = pose[1] + s * points[:, 0] + c * points[:, 1] - ORIGIN[1]

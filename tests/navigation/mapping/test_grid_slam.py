@@ -34,14 +34,14 @@ def room():
 
 
 def way():
-    """Around the wall and back, in steps of 5 cm or 6 degrees."""
+    """Return a path around the wall and back, in steps of 5 cm or 6 degrees."""
     ahead, left, right = (0.05, 0.0), (0.0, 0.105), (0.0, -0.105)
     return [*[ahead] * 36, *[left] * 15, *[ahead] * 58, *[right] * 15, *[ahead] * 40, *[right] * 15,
             *[ahead] * 50, *[left] * 15, *[left] * 15, *[ahead] * 45]  # fmt: skip
 
 
 def wall_error(found, true):
-    """Distances from the true walls that were seen to the nearest one of the map [cells]."""
+    """Return distances from visible true walls to the nearest one of the map [cells]."""
     corner = np.array([found.origin.x, found.origin.y])
     near = np.sqrt(squared_distances((found.data == 100).view(np.uint8)))
     free = squared_distances((true.data == 0).view(np.uint8)) <= 1

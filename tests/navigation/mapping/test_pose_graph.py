@@ -12,7 +12,7 @@ SURE = (100.0, 100.0, 400.0)
 
 
 def ring(count, drift):
-    """Poses around a circle by odometry that turns too much, with the edge that closes it."""
+    """Return poses around a circle by odometry with drift, with the closing edge."""
     step = (2.0 * math.sin(math.pi / count), 0.0, 2.0 * math.pi / count)
     true, found, edges = [(0.0, 0.0, 0.0)], [(0.0, 0.0, 0.0)], []
     for number in range(count - 1):

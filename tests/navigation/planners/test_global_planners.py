@@ -25,7 +25,7 @@ def costmap_of_cells(cells, resolution=0.05):
 
 
 def cluttered(seed, side=120, count=18):
-    """Random walls with costs that fall off around them."""
+    """Return random walls with costs that fall off around them."""
     rng = np.random.default_rng(seed)
     walls = np.zeros((side, side), bool)
     for _ in range(count):
@@ -41,7 +41,7 @@ def cluttered(seed, side=120, count=18):
 
 
 def dijkstra(prices, start, goal):
-    """The least price of a way over eight neighbours, half of each cell's."""
+    """Return the least price of a way over eight neighbours, half of each cell's."""
     best = {start: 0.0}
     queue = [(0.0, start)]
     while queue:
@@ -64,7 +64,7 @@ def dijkstra(prices, start, goal):
 
 
 def price_of(plan, prices, resolution=0.05):
-    """What a way costs: prices of cells times lengths in them."""
+    """Return the cost of a path: cells' costs times lengths in them."""
     points = plan[:, :2] / resolution - 0.5
     steps = np.diff(points, axis=0)
     total = 0.0

@@ -37,7 +37,7 @@ OLD = {
 
 
 def world(walls=()):
-    """A global and a local costmap of a room of 6 m by 6 m with walls (x0, y0, x1, y1)."""
+    """Return a global and a local costmap of a room of 6 m by 6 m with walls (x0, y0, x1, y1)."""
     grid = np.zeros((120, 120), np.int8)
     grid[[0, -1]] = grid[:, [0, -1]] = 100
     for x0, y0, x1, y1 in walls:

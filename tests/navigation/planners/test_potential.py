@@ -16,7 +16,7 @@ def prices_of(seed, rows, columns, closed):
 
 
 def from_neighbours(values, prices, quadratic):
-    """What the equation makes of the neighbours of the inner cells."""
+    """Return the equation's result for the neighbours of the inner cells."""
     a = np.minimum(values[1:-1, 2:], values[1:-1, :-2])
     b = np.minimum(values[2:, 1:-1], values[:-2, 1:-1])
     price = prices[1:-1, 1:-1]

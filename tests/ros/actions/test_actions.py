@@ -30,7 +30,7 @@ LONG = 1000
 
 @pytest.fixture
 def simple(make_node):
-    """A simple client and server; goals above 0 succeed, others abort, all can be preempted."""
+    """Yield a simple client and server; goals above 0 succeed, others abort."""
     states, go = [], threading.Event()
 
     def execute(goal):
@@ -162,7 +162,7 @@ def test_a_server_by_hand_is_told_that_its_goal_shall_end(make_node):
 
 @pytest.fixture
 def full(make_node):
-    """A client and a server whose goals wait to be judged."""
+    """Return a client and a server whose goals wait for an outcome."""
     goals, cancels = [], []
     server = ActionServer(make_node("server"), "/act", TEST, goals.append, cancels.append)
     client = ActionClient(make_node("client"), "/act", TEST)

@@ -15,7 +15,7 @@ def string():
 
 @pytest.fixture
 def write_bag(tmp_path, string):
-    """Writes messages, given as topic, text and seconds; gives the path."""
+    """Return a writer of messages, given as topic, text and seconds; it returns the path."""
 
     def write(rows, name="t.bag", **options):
         path = tmp_path / name
@@ -29,7 +29,7 @@ def write_bag(tmp_path, string):
 
 @pytest.fixture
 def unindex():
-    """Takes the index off a bag, as a recording that was cut off has none."""
+    """Return a function that removes a bag's index, as in a truncated recording."""
 
     def run(path, *, keep=1.0):
         data = bytearray(path.read_bytes())

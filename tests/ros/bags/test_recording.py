@@ -17,7 +17,10 @@ from gazelle.ros.bags.recording import BagRecorder, RecordOptions, check, durati
 
 @pytest.fixture
 def record(make_node, tmp_path):
-    """Records in the background; the fixture's function ends it and gives the files."""
+    """Yield a recorder in the background.
+
+    The fixture's function stops it and returns the files.
+    """
     made = []
 
     def run(**options):
@@ -182,7 +185,7 @@ def test_nothing_to_record_is_refused(options):
 
 @pytest.fixture
 def heard(make_node, string):
-    """What comes on ``/a`` and ``/b``, with the time it came."""
+    """Return the messages on ``/a`` and ``/b``, with their times."""
     found = []
     node = make_node("listener")
     for topic in ("/a", "/b", "/p/a"):
@@ -196,7 +199,7 @@ ROWS = [("/a", "1", 10.0), ("/b", "2", 10.2), ("/a", "3", 10.6)]
 
 
 def said(heard, number):
-    """The topics and texts of what was played, once there are so many."""
+    """Return the topics and texts that were played, once there are so many."""
     until(lambda: len(heard) >= number)
     return [(topic, text) for topic, text, _ in heard]
 

@@ -19,7 +19,7 @@ MANIFEST = """<?xml version="1.0"?>
 
 @pytest.fixture
 def data(tmp_path, monkeypatch):
-    """A folder of data in place of Gazelle's."""
+    """Yield a folder of data in place of Gazelle's."""
     monkeypatch.setattr(assets, "root", lambda: tmp_path)
     for cached in (bundled.folders, bundled.package):
         cached.cache_clear()

@@ -34,7 +34,7 @@ def manager(robot):
 
 @pytest.fixture
 def start(master, tmp_path):
-    """Starts a program of the package controller_manager."""
+    """Yield a function that starts a program of the package controller_manager."""
     made = []
 
     def run(kind, *arguments, **env):
@@ -53,7 +53,7 @@ def start(master, tmp_path):
 
 @pytest.fixture
 def said(start):
-    """What a program says that ends by itself."""
+    """Return a function for the output of a program that ends by itself."""
 
     def run(kind, *arguments, **env):
         return start(kind, *arguments, **env).communicate(timeout=30)[0]

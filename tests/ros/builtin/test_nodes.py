@@ -31,7 +31,7 @@ STRING = load_message("std_msgs/String")
 
 @pytest.fixture
 def start(master, tmp_path):
-    """Starts a built-in node as a process."""
+    """Yield a function that starts a built-in node as a process."""
     made = []
 
     def run(package, kind, *arguments):
@@ -67,7 +67,7 @@ def listen(make_node):
 
 @pytest.fixture
 def talk(make_node):
-    """Publishes numbers on ``/in`` at 50 Hz."""
+    """Publish numbers on ``/in`` at 50 Hz."""
     publisher = make_node("talker").advertise("/in", STRING)
     stop = threading.Event()
 

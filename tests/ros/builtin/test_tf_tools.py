@@ -27,7 +27,7 @@ ECHOED = """\
 
 @pytest.fixture
 def tree(make_node):
-    """``odom`` to ``base`` to ``laser``; returns when anybody has heard of it."""
+    """Return ``odom`` to ``base`` to ``laser``, once anybody has received it."""
     kind = load_message("tf2_msgs/TFMessage")
     node = make_node("tree")
     publisher = node.advertise("/tf_static", kind, latch=True)
@@ -52,7 +52,7 @@ def link(parent, child, place, turn):
 
 
 def first_lines(command, env, folder, enough):
-    """What a command has written when it has written enough."""
+    """Return the output of a command once it is long enough."""
     with subprocess.Popen(
         command, env=env, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     ) as process:

@@ -23,6 +23,6 @@ def rospy(master, monkeypatch):
 
 @pytest.fixture
 def node(rospy):
-    """rospy, with its node begun."""
+    """Return rospy, with its node initialised."""
     rospy.init_node("probe", disable_signals=True)
     return rospy

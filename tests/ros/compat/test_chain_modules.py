@@ -18,7 +18,7 @@ ARMS = {
 
 @pytest.fixture(scope="module", params=ARMS)
 def arm(request):
-    """Modules, the URDF, base, tip and positions of an arm."""
+    """Return modules, the URDF, base, tip and positions of an arm."""
     file = assets.robot(request.param)
     text = xacro.expand(file, {})
     base, tip, positions = ARMS[request.param]

@@ -14,7 +14,7 @@ from gazelle.ros.time import Time
 
 @pytest.fixture
 def simulated(rospy, make_node):
-    """rospy by simulated time, and a function that sets it."""
+    """Return rospy by simulated time, and a function that sets it."""
     driver = make_node("driver")
     driver.set_param("/use_sim_time", True)
     clock = load_message("rosgraph_msgs/Clock")
@@ -30,7 +30,7 @@ def simulated(rospy, make_node):
 
 
 def asleep(rospy):
-    """How many threads wait for a simulated time."""
+    """Return how many threads wait for a simulated time."""
     return len(rospy.core.process.clock._sleepers)
 
 

@@ -34,7 +34,7 @@ def installed():
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    """A package on ROS_PACKAGE_PATH."""
+    """Yield a package on ROS_PACKAGE_PATH."""
     folder = tmp_path / "demo"
     (folder / "cfg").mkdir(parents=True)
     (folder / "package.xml").write_text("<package><name>demo</name></package>")

@@ -126,7 +126,7 @@ def test_posemath_reads_a_camera():
 
 
 def turned():
-    """A quarter turn about z, and one metre along x."""
+    """Return a quarter turn about z, and one metre along x."""
     made = load_message("geometry_msgs/TransformStamped")()
     made.header.frame_id = "target"
     made.transform.translation.x = 1.0

@@ -133,7 +133,7 @@ def test_packages_of_the_user_bring_messages_and_code(tmp_path, monkeypatch):
 
 
 def openai_ros(folder):
-    """A package whose messages Gazelle has too, with Python code of its own."""
+    """Create a package whose messages Gazelle has too, with Python code of its own."""
     code = folder / "src" / "openai_ros"
     (code / "robot_envs").mkdir(parents=True)
     (folder / "package.xml").write_text("<package><name>openai_ros</name></package>")

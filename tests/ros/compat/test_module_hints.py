@@ -15,7 +15,7 @@ from gazelle.ros.messages import load_message
 
 @pytest.fixture
 def run(monkeypatch):
-    """``run_script``, without what it leaves behind in a process of its own."""
+    """Yield ``run_script``, without its effects in a process of its own."""
     monkeypatch.setitem(sys.modules, "__main__", sys.modules["__main__"])
     monkeypatch.setattr(sys, "argv", sys.argv)
     monkeypatch.setattr(sys, "path", list(sys.path))

@@ -25,7 +25,7 @@ WHEEL = (
 
 @pytest.fixture
 def robot(tmp_path, monkeypatch):
-    """A robot whose file includes one of another package on ROS_PACKAGE_PATH."""
+    """Return a robot whose file includes one of another package on ROS_PACKAGE_PATH."""
     folder = tmp_path / "src" / "parts"
     (folder / "urdf").mkdir(parents=True)
     (folder / "package.xml").write_text("<package><name>parts</name></package>")

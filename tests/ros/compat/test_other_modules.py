@@ -70,7 +70,7 @@ def test_a_filter_listens_to_a_topic(node, filters):
 
 
 def described():
-    """What a .cfg file becomes."""
+    """Return the description of a .cfg file."""
 
     def one(name, kind, level, default):
         return {

@@ -29,7 +29,7 @@ LAUNCH = """<launch><arg name="word" default="none"/>
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    """The package ``robot``, on ROS_PACKAGE_PATH."""
+    """Yield the package ``robot``, on ROS_PACKAGE_PATH."""
     folder = tmp_path / "ws" / "robot"
     (folder / "launch").mkdir(parents=True)
     (folder / "package.xml").write_text("<package><name>robot</name></package>")

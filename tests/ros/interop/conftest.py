@@ -19,7 +19,7 @@ SOURCE = Path(__file__).parent / "peer.cpp"
 
 @pytest.fixture(scope="session")
 def peer_program(tmp_path_factory):
-    """Where the compiled node is."""
+    """Return the path of the compiled node."""
     if not real.INSTALLED:
         pytest.skip("the real ROS 1 is not installed (Debian: ros-core python3-rospy)")
     if shutil.which("g++") is None or shutil.which("pkg-config") is None:
@@ -57,7 +57,7 @@ class CppNode(real.RealNode):
 
 @pytest.fixture(scope="module", params=["our master", "real roscore"])
 def running_master(request):
-    """The URI of a master of either kind."""
+    """Yield the URI of a master of either kind."""
     if request.param == "our master":
         with Master(port=0) as running:
             yield running.uri
@@ -68,7 +68,7 @@ def running_master(request):
 
 @pytest.fixture
 def graph(running_master):
-    """The URI of a master without parameters of other tests."""
+    """Yield the URI of a master without parameters of other tests."""
     yield running_master
     proxy = MasterProxy(running_master, "/test")
     for name in ("use_sim_time", "shared", "theirs", "followed", "gain", "cpp"):

@@ -10,7 +10,7 @@ from gazelle.ros.messages import search
 
 @pytest.fixture
 def workspace(tmp_path, monkeypatch):
-    """A folder on ROS_PACKAGE_PATH with the package ``robot``."""
+    """Yield a folder on ROS_PACKAGE_PATH with the package ``robot``."""
     folder = tmp_path / "ws"
     package = folder / "robot"
     (package / "launch").mkdir(parents=True)
@@ -25,7 +25,7 @@ def workspace(tmp_path, monkeypatch):
 
 @pytest.fixture
 def script(workspace):
-    """Writes an executable script of the package ``robot``; gives its path."""
+    """Return a writer of executable scripts of the package ``robot``; it returns the path."""
 
     def write(name, text, *, executable=True):
         path = workspace / "robot" / "scripts" / name
@@ -38,7 +38,7 @@ def script(workspace):
 
 @pytest.fixture
 def load(workspace):
-    """Loads ``<launch>`` with a body, as a file of the package ``robot``."""
+    """Return a loader of ``<launch>`` with a body, as a file of the package ``robot``."""
 
     def run(body, args=None, *, name="main.launch", **others):
         folder = workspace / "robot" / "launch"
@@ -53,7 +53,7 @@ def load(workspace):
 
 @pytest.fixture
 def values(load):
-    """The values of the parameters of a launch file, by name."""
+    """Return the values of the parameters of a launch file, by name."""
 
     def run(body, args=None, **others):
         plan = load(body, args, **others)

@@ -108,7 +108,7 @@ def file(workspace, script, tmp_path):
 
 @pytest.fixture(params=["launch", "core"])
 def begun(request, start, file):
-    """A launch with a node, or a roscore; and what its children are called."""
+    """Return a launch with a node, or a roscore; and the names of its children."""
     if request.param == "core":
         family, names = start("launch", "--core"), ("rosmaster", "rosout")
     else:

@@ -41,7 +41,7 @@ def home(tmp_path, monkeypatch):
 
 @pytest.fixture
 def launch(load, master):
-    """Starts a launch file's body; gives the launch and what it said."""
+    """Yield a function that starts a launch file's body; it returns the launch and its log."""
     made = []
 
     def run(body, *, start=True, patience=PATIENCE, **options):

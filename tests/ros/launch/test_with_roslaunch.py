@@ -88,7 +88,7 @@ def ours(path, environment, args=None):
 
 
 def comparable(answer):
-    """Without what differs from run to run, or in form only."""
+    """Return the answer without what differs from run to run, or in form only."""
     answer = json.loads(ANONYMOUS.sub(r"\1_ANON", json.dumps(answer, default=str)))
     answer.pop("problems", None)
     answer["actions"] = [

@@ -17,7 +17,7 @@ _DEBIAN = "/usr/lib/python3/dist-packages"
 
 @pytest.fixture(scope="session")
 def all_kinds() -> type[Message]:
-    """A message type with every kind of field."""
+    """Return a message type with every kind of field."""
     for name, text in message_samples.SAMPLE_TYPES.items():
         register("sample_msgs", name, text)
     return load_message("sample_msgs/AllKinds")
@@ -25,7 +25,7 @@ def all_kinds() -> type[Message]:
 
 @pytest.fixture(scope="session")
 def rosbags_store() -> Callable[[type[Message]], tuple[Any, str]]:
-    """rosbags' type store with a message type in it, and the type's name there."""
+    """Return rosbags' type store with a message type in it, and the type's name there."""
     typesys = pytest.importorskip("rosbags.typesys", reason="rosbags is not installed")
     store = typesys.get_typestore(typesys.Stores.EMPTY)
 
@@ -42,7 +42,7 @@ def rosbags_store() -> Callable[[type[Message]], tuple[Any, str]]:
 
 @pytest.fixture(scope="session")
 def genpy() -> Iterator[SimpleNamespace]:
-    """The real genpy: its modules, and its class of any type of ours."""
+    """Yield the real genpy: its modules, and its class of any type of ours."""
     before = set(sys.modules)
     sys.path.append(_DEBIAN)
     try:

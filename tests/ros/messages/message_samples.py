@@ -76,21 +76,24 @@ SAMPLE_TYPES = {"Inner": INNER, "Varying": VARYING, "Hollow": "\n", "AllKinds": 
 
 
 def dumps(message: Any) -> bytes:
-    """The bytes of a message of any maker with genpy's interface."""
+    """Serialise a message of any maker with genpy's interface."""
     buffer = io.BytesIO()
     message.serialize(buffer)
     return buffer.getvalue()
 
 
 def fields_of(made: type[Message]) -> list[Field]:
-    """The fields of a class, by the names they have in Python."""
+    """Return the fields of a class, by the names they have in Python."""
     return [
         Field(type_, name) for type_, name in zip(made._slot_types, made.__slots__, strict=True)
     ]
 
 
 def random_message(made: type[Message], rng: random.Random, longest: int = 3) -> Message:
-    """A message with random fields; arrays that may vary have up to ``longest`` elements."""
+    """Return a message with random fields.
+
+    Arrays that may vary have up to ``longest`` elements.
+    """
     message = made.__new__(made)
     for field in fields_of(made):
         if not field.is_array:
@@ -125,7 +128,7 @@ def _random_value(base: str, made: type[Message], rng: random.Random, longest: i
 
 
 def messages(made: type[Message]) -> st.SearchStrategy[Message]:
-    """Messages of a type, as a strategy."""
+    """Return messages of a type, as a strategy."""
     return st.tuples(*(_values(field, made) for field in fields_of(made))).map(
         lambda values: made(*values)
     )

@@ -74,7 +74,7 @@ def test_defaults_are_those_of_the_types(all_kinds):
 
 
 def of_packages():
-    """All messages, without those that other tests register, some of which cannot be."""
+    """Return all messages, without those that other tests register, some of which are invalid."""
     return [name for name in definitions() if not name.startswith("sample_msgs/")]
 
 

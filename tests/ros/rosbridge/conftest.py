@@ -17,7 +17,7 @@ PATIENCE_S = 60
 
 @pytest.fixture(scope="module")
 def graph():
-    """A master that the tests of a module share; each test uses names of its own."""
+    """Yield a master that the tests of a module share; each test uses names of its own."""
     with Master(port=0, rosout=False) as master:
         yield master
 
@@ -36,7 +36,7 @@ def bridge(graph):
 
 @pytest.fixture(scope="module")
 def robot(graph):
-    """Another node of the graph."""
+    """Yield another node of the graph."""
     with Node("robot", master_uri=graph.uri) as node:
         yield node
 
@@ -55,7 +55,7 @@ class JsonClient:
         return json.loads(data) if isinstance(data, str) else data
 
     def ask(self, op, **fields):
-        """Say something, and hear the next answer."""
+        """Send a message, and return the next answer."""
         self.say(op, **fields)
         return self.hear()
 

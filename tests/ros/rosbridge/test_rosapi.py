@@ -15,7 +15,7 @@ ACTION = ("cancel", "feedback", "goal", "result", "status")
 
 @pytest.fixture(scope="module", autouse=True)
 def _things(robot):
-    """Something to be found."""
+    """Advertise things to be found."""
     string = load_message("std_msgs/String")
     robot.advertise("/chatter", string)
     robot.subscribe("/heard", string, lambda _: None)

@@ -46,7 +46,7 @@ ALL = load_message("bridge_test/All")
 
 
 def over_the_wire(message):
-    """As messages come from the graph: arrays are views of their bytes."""
+    """Return a message as it comes from the graph: arrays are views of their bytes."""
     buffer = io.BytesIO()
     message.serialize(buffer)
     return type(message)().deserialize(buffer.getvalue(), numpy=True)

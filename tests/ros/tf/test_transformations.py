@@ -194,7 +194,7 @@ print(json.dumps([plain(call(n, [array(n, a) for a in args])) for n, args in jso
 
 
 def questions(rng):
-    """Every function, with random arguments."""
+    """Return every function, with random arguments."""
 
     def v():
         return rng.normal(size=3).tolist()

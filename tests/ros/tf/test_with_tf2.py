@@ -54,7 +54,7 @@ def random_rotation(rng):
 
 
 def scene(rng):
-    """Two trees of moving and static frames, some data missing, one frame with two parents."""
+    """Return two trees of moving and static frames, incomplete, one frame with two parents."""
     placements = []
     for index in range(1, 12):
         parent = "u" if index == 11 else f"f{rng.randrange(index)}"

@@ -55,7 +55,7 @@ def test_rates_of_topics_are_written(graph, make_node, out):
 
 
 def written_rate_is_right(graph, make_node, out):
-    """Whether it was as often as that; a pause of a thread or process leads to another rate."""
+    """Return whether the rate is right; a pause of a thread or process leads to another rate."""
     out.seek(0)
     out.truncate()
     node = make_node("talker")

@@ -27,18 +27,18 @@ class Stage:
         self._publishers = {}
 
     def topics(self):
-        """Type of each topic that the world publishes or subscribes to."""
+        """Return the type of each topic that the world publishes or subscribes to."""
         return dict(self.node.master.topic_types())
 
     def listen(self, topic, kind):
-        """The messages of a topic from now on."""
+        """Return the list of a topic's messages from now on."""
         heard = []
         self.node.subscribe(topic, load_message(kind), heard.append)
         self.until(lambda: self.connected(topic))
         return heard
 
     def connected(self, topic):
-        """Whether the world has a listener on a topic."""
+        """Return whether the world has a subscriber on a topic."""
         return any(p.topic == topic and p.num_connections for p in self.server.node.publications())
 
     def send(self, topic, kind, **fields):
@@ -76,7 +76,7 @@ class Stage:
 
 @pytest.fixture
 def stage(tmp_path):
-    """Puts the world of a text on a graph."""
+    """Yield a function that serves the world of a text on a graph."""
     open_things = []
 
     def make(text, params=None, **options):
@@ -100,7 +100,7 @@ def stage(tmp_path):
 
 @pytest.fixture
 def running():
-    """Lets a server run in the background while a test is in a ``with`` block."""
+    """Run a server in the background while a test is in a ``with`` block."""
     threads = []
 
     def start(server, seconds=None):

@@ -18,7 +18,7 @@ def master():
 
 @pytest.fixture(scope="session")
 def straight_on(tmp_path_factory):
-    """A policy file that always drives straight on, with the contract of stage 1."""
+    """Return a policy file that always drives straight on, with the contract of stage 1."""
     import numpy as np
 
     from gazelle.training.actor import Actor
@@ -30,7 +30,7 @@ def straight_on(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def homing(tmp_path_factory):
-    """A policy file that turns to the goal and drives there, blind to obstacles."""
+    """Return a policy file that turns to the goal and drives there, blind to obstacles."""
     import numpy as np
 
     from gazelle.training.actor import Actor

@@ -16,7 +16,7 @@ PATIENCE = 60.0
 
 
 def wait_for(condition, what):
-    """Until it holds; the deadline is for a machine that is very busy."""
+    """Wait until it holds; the deadline is for a machine that is very busy."""
     deadline = time.monotonic() + PATIENCE
     while not condition():
         if time.monotonic() > deadline:
@@ -86,7 +86,7 @@ class FakeRobot:
         self.tell(**what)
 
     def alive(self, until, what):
-        """Go on in time, and measure, until something holds."""
+        """Advance in time, and measure, until something holds."""
         deadline = time.monotonic() + PATIENCE
         while not until():
             if time.monotonic() > deadline:
@@ -132,7 +132,7 @@ class FakeRobot:
 
 
 def _as_in_a_terminal():
-    """What runs the tests may ignore hangups, as nohup does, and children would, too."""
+    """Reset hangups, which the parent may ignore as nohup does, and children would, too."""
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 

@@ -20,7 +20,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX sig
 
 @pytest.fixture
 def world(master):
-    """Starts ``gazelle run WORLD --ros`` with a burger, and waits until it measures."""
+    """Yield a starter of ``gazelle run WORLD --ros`` with a burger, once it measures."""
     started = []
 
     def start(name, place="turtlebot3_burger", *, rate="1.0"):

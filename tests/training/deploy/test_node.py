@@ -89,7 +89,7 @@ def test_cut_off_from_a_sensor_it_stops_within_half_a_second(robot, deploy, tmp_
     name = {"scan": "scan lost", "odom": "odometry lost"}[lost]
 
     def told(*names):
-        """Where the log says so; the clock may have overtaken what the other sensor sent."""
+        """Return the log's place of it; the clock may have overtaken the other sensor."""
         events = map(json.loads, log.read_text().splitlines())
         begun = (e for e in events if e["event"] == "begin" and e["time"] > cut)
         return [e for e in begun if e["reason"] in names]
@@ -244,7 +244,7 @@ def test_hanging_it_is_stopped_by_the_guard(robot, deploy):
 
 
 def guards_of(deployed):
-    """Processes that the node started."""
+    """Return processes that the node started."""
     text = open(f"/proc/{deployed.pid}/task/{deployed.pid}/children").read()  # noqa: PTH123, SIM115
     return [int(pid) for pid in text.split()]
 
@@ -279,7 +279,7 @@ def test_without_a_master_it_stands(tmp_path, straight_on):
 
 
 def changed(policy, folder, **action):
-    """A copy of a policy with another contract."""
+    """Return a copy of a policy with another contract."""
     told = json.loads(policy.with_suffix(".json").read_text())
     told["action"] |= action
     (folder / "odd.npz").write_bytes(policy.read_bytes())

@@ -34,7 +34,7 @@ def scan(ranges=FREE):
 
 @pytest.fixture
 def pilot(straight_on):
-    """Armed, on its way to a goal far ahead."""
+    """Return an armed pilot, on its way to a goal far ahead."""
     made = Pilot(open_policy(straight_on), SafetyLimits(stop_distance=0.2))
     made.see(scan(), 10.0)
     made.feel(AT, 10.0)

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX sig
 
 @pytest.fixture
 def results(master):
-    """What is heard on ``result``."""
+    """Yield the messages on ``result``."""
     heard = []
     with Node("listener", master_uri=master.uri) as node:
         kind = load_message("std_msgs/Float32MultiArray")

@@ -43,12 +43,12 @@ TOLERANCES = {"burger": 5e-5, "four-bar": 2e-5, "tilting block": 2e-5}
 
 
 def pair(world, nworld=1):
-    """The same world on the processor and in Warp."""
+    """Return the same world on the processor and in Warp."""
     return [make_engine(name, world, nworld) for name in ("mujoco", "mujoco-warp")]
 
 
 def apart(engines):
-    """The largest difference of any joint or link [m or rad]."""
+    """Return the largest difference of any joint or link [m or rad]."""
     one, other = engines
     joints = [
         np.abs(one.joints[n].position() - other.joints[n].position()).max()

@@ -16,7 +16,7 @@ COMMANDS = ('pip install "gazelle[warp]"', 'pip install --no-deps "mujoco-warp>=
 
 
 def without(monkeypatch, *names, error=None):
-    """Let imports of these modules fail."""
+    """Make imports of these modules fail."""
     really = importlib.import_module
 
     def fake(name, *rest):
