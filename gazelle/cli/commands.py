@@ -71,6 +71,9 @@ COMMANDS = {
         Command("worlds", "list the bundled worlds", "what there is", "worlds"),
         Command("plugins", "list the supported plugins", "what there is", "plugins"),
         Command("controllers", "list the types of controllers", "what there is", "controllers"),
+        Command(
+            "doctor", "this machine: what works and what is missing", "what there is", "doctor"
+        ),
         Command("completion", "tab completion for bash and zsh", "what there is", "completion"),
         Command("bench", "run the benchmarks of a source checkout", "measure", "bench"),
     )

@@ -1,0 +1,46 @@
+"""Examine this machine: what works, what is missing, and what to type.
+
+The exit code is 1 if there is a problem.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import textwrap
+
+from gazelle.cli.machine_checks import Finding, Grade, examine
+
+WIDTH = 80
+_INDENT = 22
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add no arguments."""
+    del parser
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; returns the exit code."""
+    del args
+    problems = 0
+    for finding in examine():
+        sys.stdout.write(_lines(finding))
+        sys.stdout.flush()
+        problems += finding.grade is Grade.PROBLEM
+    sys.stdout.write(f"{problems or 'no'} problem{'' if problems == 1 else 's'}\n")
+    return 1 if problems else 0
+
+
+def _lines(finding: Finding) -> str:
+    """Return a finding in lines of a terminal; the command of a hint is not broken."""
+    head = f"{finding.grade.value:<9}{finding.name:<{_INDENT - 9}}"
+    text = textwrap.fill(
+        finding.text,
+        WIDTH,
+        initial_indent=head,
+        subsequent_indent=" " * _INDENT,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return f"{text}\n" + (f"{'':<{_INDENT}}> {finding.hint}\n" if finding.hint else "")
