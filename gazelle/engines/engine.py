@@ -49,6 +49,7 @@ class DivergenceError(EngineError):
 # on a revolute joint, slip along their axle and about it by a velocity for each force.
 PARAMETERS: dict[str, tuple[str, int, str]] = {
     "attachment": ("attachment", 7, "m"),
+    "collision_contact": ("collision", 1, "0 where nothing touches it, else 1"),
     "collision_friction": ("collision", 1, ""),
     "gravity": ("world", 3, "m/s²"),
     "joint_damping": ("joint", 1, "N s/m or N m s/rad"),

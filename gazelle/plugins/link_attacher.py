@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.errors import Error
-from gazelle.simulation import LinkHandle, Service, Simulation, WorldPlugin
+from gazelle.simulation import LinkHandle, Robot, Service, Simulation, WorldPlugin
 from gazelle.simulation.values import LinkName, LinkPair
 
 
 class LinkAttacher(WorldPlugin):
-    """Answers ``attach``, ``detach`` and ``setstatic``: whether it could be done.
+    """Services ``attach``, ``detach`` and ``setstatic`` of links; each returns whether it succeeded.
 
-    ``setstatic`` is that of a fork: it takes a model's weight and motion, whatever its flag says.
-    The fork lets others pass through the model as well; here they go on colliding.
+    ``setstatic`` is that of a fork (UR5-Pick-and-Place-Simulation). Whatever its flag says, the model
+    loses its weight, its motion, and all contacts: others pass through it.
     """
 
     def load(self, simulation: Simulation, parameters: Parameters) -> None:  # noqa: ARG002  it has no tags
@@ -47,9 +49,12 @@ class LinkAttacher(WorldPlugin):
         try:
             robot = self._simulation.robots[name.model]
             robot.frame(name.link)
-            for link in robot.links.values():
-                link.set_properties(gravity=0.0, worlds=worlds)
-            robot.set_twist((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), worlds)
+            for collision in _collisions(robot):
+                self._simulation.engine.set_parameter("collision_contact", collision, 0.0, worlds)
+            if not robot.description.static:
+                for link in robot.links.values():
+                    link.set_properties(gravity=0.0, worlds=worlds)
+                robot.set_twist((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), worlds)
         except Error:
             return False
         return True
@@ -60,3 +65,12 @@ class LinkAttacher(WorldPlugin):
             robots[pair.model_1].frame(pair.link_1)[0],
             robots[pair.model_2].frame(pair.link_2)[0],
         )
+
+
+def _collisions(robot: Robot) -> Iterator[str]:
+    """Yield the scoped names of a robot's collisions."""
+    for placed in robot.description.walk():
+        scope = robot.name + placed.scope.removeprefix(robot.description.name)
+        for link in placed.model.links:
+            for collision in link.collisions:
+                yield f"{scope}::{link.name}::{collision.name}"

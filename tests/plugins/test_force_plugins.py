@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from models import block, plugin, simulate
 
+from gazelle import Pose
 from gazelle.errors import PluginWarning, SimulationError
 from gazelle.simulation.values import LinkName, LinkPair, Push
 
@@ -232,6 +233,39 @@ def test_a_model_is_laid_to_rest_in_the_worlds_that_are_asked():
         assert cube.position[1] == pytest.approx([0.0, 0.0, 0.5], abs=1e-9)
         assert not rest.call(LinkName("nobody", "core"))
         assert not rest.call(LinkName("cube", "nothing"))
+
+
+BOUNCING = """<surface><bounce><restitution_coefficient>0.5</restitution_coefficient><threshold>0
+</threshold></bounce></surface>"""
+
+
+@pytest.mark.parametrize("surface", ["", BOUNCING], ids=["rigid", "bouncing"])
+def test_others_pass_through_a_model_laid_to_rest(surface):
+    """As in the fork, by ``SetCollideMode("none")``."""
+    falling = block().replace('"cube"', '"other"').replace("0 0 0.5", "0 0 3")
+    falling = falling.replace("</collision>", f"{surface}</collision>")
+    with simulate(block(), falling, ATTACHER, nworld=2) as sim:
+        rest = sim.ports.services["setstatic"]
+        assert rest.call(LinkName("cube", "core"), np.array([1]))
+        sim.run(seconds=4.0)
+        heights = np.stack([sim.robots[name].position[:, 2] for name in ("cube", "other")])
+        assert heights == pytest.approx(np.array([[0.1, 0.5], [0.3, 0.1]]), abs=1e-3)
+        sim.spawn(sim.robots["other"].description, name="third", pose=Pose(x=3.0))
+        sim.reset()
+        sim.run(seconds=4.0)
+        heights = np.stack([sim.robots[name].position[:, 2] for name in ("cube", "other")])
+        assert heights == pytest.approx(np.array([[0.1, 0.5], [0.3, 0.1]]), abs=1e-3)
+
+
+def test_a_static_model_lets_others_through():
+    fixed = block().replace('"cube"', '"wall"')
+    fixed = fixed.replace("<link ", "<static>1</static><link ", 1)
+    falling = block().replace("0 0 0.5", "0 0 3")
+    with simulate(fixed, falling, ATTACHER) as sim:
+        assert sim.ports.services["setstatic"].call(LinkName("wall", "core"))
+        sim.run(seconds=2.0)
+        assert sim.robots["cube"].position[0, 2] == pytest.approx(0.1, abs=1e-3)
+        assert sim.robots["wall"].position[0, 2] == pytest.approx(0.5)
 
 
 def test_links_are_joined_and_parted_in_the_worlds_that_are_asked():

@@ -101,8 +101,14 @@ def _read_slip(target: _Target, name: str) -> Floats:
     return np.zeros(2) if slot is None else compiled_slip(target.batch.model, slot)
 
 
+def _read_contact(target: _Target, name: str) -> Floats:
+    target.geoms(name)
+    return np.ones(1)
+
+
 _READERS: dict[str, Callable[[_Target, str], Floats]] = {
     "attachment": _read_attachment,
+    "collision_contact": _read_contact,
     "collision_friction": _read_friction,
     "gravity": lambda t, _: np.array(t.batch.model.opt.gravity),
     "joint_damping": lambda t, n: np.array([t.batch.model.dof_damping[d.start] for d in t.dofs(n)]),
@@ -210,6 +216,17 @@ def _write_friction(target: _Target, name: str, values: Floats) -> None:
         target.batch.expand("pair_dim")[pairs] = np.maximum(model.pair_dim[touched], dims)
 
 
+def _write_contact(target: _Target, name: str, values: Floats) -> None:
+    geoms, model, off = target.geoms(name), target.batch.model, values[:, 0] == 0.0
+    for mask in ("geom_contype", "geom_conaffinity"):
+        target.batch.expand(mask)[:, geoms] = np.where(off[:, None], 0, getattr(model, mask)[geoms])
+    # Pairs that the model names go by no mask: they touch where they are deeper than their gap.
+    masks = target.batch.expand("geom_contype")
+    off = (masks[:, model.pair_geom1] == 0) | (masks[:, model.pair_geom2] == 0)
+    if off.size:
+        target.batch.expand("pair_gap")[:] = np.where(off, _FAR, model.pair_gap)
+
+
 def _write_gravity(target: _Target, _: str, values: Floats) -> None:
     target.batch.expand("opt.gravity")[:] = values
 
@@ -231,6 +248,7 @@ def _write_slip(target: _Target, name: str, values: Floats) -> None:
 
 _WRITERS: dict[str, Callable[[_Target, str, Floats], None]] = {
     "attachment": _write_attachment,
+    "collision_contact": _write_contact,
     "collision_friction": _write_friction,
     "gravity": _write_gravity,
     "joint_damping": _write_damping,
