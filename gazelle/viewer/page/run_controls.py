@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import time
 from dataclasses import dataclass
 from typing import Any
 
 from gazelle.viewer.page.context import PageContext
+from gazelle.viewer.page.pace_meter import PaceMeter
 
 _SPEEDS = ("0.1", "0.25", "0.5", "1", "2", "5", "10", "max")
-_WINDOW = 1.0  # over which the real-time factor is measured [s]
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +28,7 @@ class ClockState:
 
 
 class RunControls:
-    """Buttons for the clock, and what it shows.
+    """Buttons and display of the clock.
 
     Args:
         context: Of the page.
@@ -37,7 +36,8 @@ class RunControls:
 
     def __init__(self, context: PageContext) -> None:
         self._context = context
-        self._marks: list[tuple[float, float]] = []
+        self._meter = PaceMeter()
+        self._speed_before: float | None = None
         self._said = ""
         gui, careful = context.gui, context.careful
         self._status = gui.add_markdown("")
@@ -62,8 +62,11 @@ class RunControls:
             if speed not in self._speed.options:
                 self._speed.options = (*_SPEEDS, speed)
             self._speed.value = speed
-        factor = self._factor(state.time)
-        mode = "paused" if state.paused else f"real-time factor {factor:.2f}"
+        if state.paused or state.speed != self._speed_before:
+            self._meter.forget()
+        self._speed_before = state.speed
+        factor = self._meter.factor(state.time)
+        mode = "paused" if state.paused else _reached(factor)
         self._say(f"**{state.time:.{self._decimals()}f} s** &nbsp; {mode}")
 
     def renew(self) -> None:
@@ -77,17 +80,6 @@ class RunControls:
     def _say(self, text: str) -> None:
         if text != self._said:
             self._status.content = self._said = text
-
-    def _factor(self, now: float) -> float:
-        """Return the real-time factor of the last while."""
-        wall = time.monotonic()
-        if self._marks and now < self._marks[-1][1]:
-            self._marks.clear()
-        self._marks.append((wall, now))
-        while len(self._marks) > 2 and wall - self._marks[1][0] > _WINDOW:
-            self._marks.pop(0)
-        (start, began), passed = self._marks[0], wall - self._marks[0][0]
-        return (now - began) / passed if passed > 0.0 and start else 0.0
 
     def do(self, word: str) -> None:
         """Execute ``run``, ``pause``, ``step`` or ``reset``."""
@@ -112,6 +104,13 @@ def set_speed(simulation: Any, speed: str) -> None:
     factor = 0.0 if speed == "max" else float(speed)
     physics = simulation.physics
     physics.update_rate = factor / physics.time_step
+
+
+def _reached(factor: float | None) -> str:
+    """Return the text for a real-time factor: three digits."""
+    if factor is None:
+        return "not stepping"
+    return f"real-time factor {factor:.{max(0, 2 - math.floor(math.log10(factor)))}f}"
 
 
 def _name(speed: float | None) -> str:
