@@ -10,6 +10,7 @@ import sys
 import time
 
 import pytest
+from ros.graph import until
 
 from gazelle.cli.bench import benchmarks
 
@@ -58,23 +59,45 @@ def behind_a_script():
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
+STEPS = """
+import sys
+from gazelle.simulation import SystemPlugin
+class Steps(SystemPlugin):
+    update_rate = 10.0
+    def on_update(self, time):
+        sys.stderr.write("it steps\\n")
+        sys.stderr.flush()
+"""
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize(("extra", "before"), [([], behind_a_script), (["--paused"], None)])
+@pytest.mark.parametrize(
+    ("extra", "before", "sign"),
+    [
+        (["--plugins", ".", "--system", "steps:Steps"], behind_a_script, "it steps"),
+        (["--paused"], None, "paused"),
+    ],
+)
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
-def test_interrupt_ends_a_run_cleanly(extra, before, number):
-    process = subprocess.Popen(
-        [sys.executable, "-m", "gazelle.cli.main", "run", "empty", *extra],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        preexec_fn=before,  # noqa: PLW1509  # nothing else runs here
-    )  # fmt: skip
-    assert "world" in process.stdout.readline()
-    time.sleep(0.5)
-    os.kill(process.pid, number)
-    _, err = process.communicate(timeout=120)
-    assert process.returncode == 128 + number
-    assert "Traceback" not in err
-    assert "simulated" in err
+def test_interrupt_ends_a_run_cleanly(extra, before, sign, number, tmp_path):
+    (tmp_path / "steps.py").write_text(STEPS)
+    said = tmp_path / "said.txt"
+    with said.open("w") as out:
+        process = subprocess.Popen(
+            [sys.executable, "-m", "gazelle.cli.main", "run", "empty", *extra],
+            stdout=subprocess.DEVNULL, stderr=out, cwd=tmp_path,
+            preexec_fn=before,  # noqa: PLW1509  # nothing else runs here
+        )  # fmt: skip
+    try:
+        until(lambda: sign in said.read_text())
+        os.kill(process.pid, number)
+        assert process.wait(60) == 128 + number
+    finally:
+        process.kill()
+        process.wait()
+    assert "Traceback" not in said.read_text()
+    assert "simulated" in said.read_text()
 
 
 def test_check_of_a_good_file(cli):

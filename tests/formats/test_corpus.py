@@ -1,6 +1,7 @@
 """Every file of the corpus loads, or is refused for a reason that a human agrees with."""
 
 import difflib
+import time
 
 import corpus_table
 import pytest
@@ -17,6 +18,9 @@ SLOW = {
     "ros-simulation__gazebo_ros_pkgs/gazebo_plugins/test2/large_models/large_model.urdf.xacro": 4.0,
 }
 
+QUIET = 25.0
+"""So often a second holds the work of `second` on a quiet machine."""
+
 
 @pytest.fixture(scope="module")
 def outcomes(corpus):
@@ -32,15 +36,31 @@ def test_what_becomes_of_each_file_is_in_the_table(outcomes):
     assert len(outcomes) > 800
 
 
+def second():
+    """Return the processor time that a quiet machine's second of work takes now [s].
+
+    Programs beside this one slow a processor down: they share its caches and its clock.
+    """
+    start = time.process_time()
+    assert sum(number & 7 for number in range(1_000_000)) == 3_500_000
+    return (time.process_time() - start) * QUIET
+
+
 @pytest.mark.long
 def test_none_takes_more_than_a_second(corpus, outcomes):
-    slow = [name for name, (_, s) in outcomes.items() if s > SLOW.get(name, 1.0)]
-    again = {
-        name: min(corpus_table.outcome(corpus / name, corpus)[1] for _ in "12") for name in slow
-    }
-    assert {name: s for name, s in again.items() if s > SLOW.get(name, 1.0)} == {}
+    def over(name, seconds):
+        return seconds > SLOW.get(name, 1.0)
+
+    def again(name):
+        before = second()
+        _, seconds = corpus_table.outcome(corpus / name, corpus)
+        return seconds / max(before, second())
+
+    slow = [name for name, (_, seconds) in outcomes.items() if over(name, seconds)]
+    slow = {name: min(again(name) for _ in range(3)) for name in slow}
+    assert {name: seconds for name, seconds in slow.items() if over(name, seconds)} == {}
     seconds = sorted(seconds for _, seconds in outcomes.values())
-    assert seconds[len(seconds) // 2] < 0.02
+    assert seconds[len(seconds) // 2] < 0.02 * max(second() for _ in range(5))
 
 
 @pytest.mark.long

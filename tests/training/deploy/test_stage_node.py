@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import subprocess
 import sys
+import time
 
 import pytest
 from fake_robot import wait_for
 
-from gazelle.ros import Node, load_message
+from gazelle.clients import Gazebo
+from gazelle.ros import Node, WallClock, load_message
 from gazelle.ros.builtin import bundled
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
@@ -55,25 +58,52 @@ def test_a_training_tells_the_graph_scores_and_values(master, results, tmp_path,
 
 @pytest.mark.long
 def test_the_node_goes_to_published_goals_one_after_another(master, results, tmp_path, homing):
-    """Stage 1 in the simulator, on a graph; the policy goes straight to the goal."""
-    run = subprocess.Popen(
-        [sys.executable, "-m", "gazelle", "run", "turtlebot3_stage_1", "--ros", "--rate", "4",
-         "--spawn", "turtlebot3_burger"],
-        env=environment(master), stdout=subprocess.DEVNULL,
-    )  # fmt: skip
-    try:
-        done = subprocess.run(
-            [sys.executable, "-m", "gazelle", "exec", "turtlebot3_dqn", "turtlebot3_dqn_stage_1",
-             f"_run:={homing}", "_goals:=3"],
-            env=environment(master), capture_output=True, text=True, timeout=120, check=False,
-        )  # fmt: skip
-    finally:
-        run.terminate()
-        run.wait(60)
-    assert done.returncode == 0, done.stderr
-    assert done.stderr.count("reached, ") == 3, done.stderr
-    assert "(0.6, 0)  reached" in done.stderr  # the course's first goal
+    """Stage 1 in the simulator, on a graph; the policy goes straight to the goal.
+
+    Time stands until the node has acted on a scan. A simulator that goes on meanwhile, four times as
+    fast as the clock, is 0.4 s ahead after 0.1 s: the node finds that the scan is lost, stands, and
+    in the end exceeds the time for its goal.
+    """
+    said, acts = tmp_path / "said.txt", []
+    words = ["exec", "turtlebot3_dqn", "turtlebot3_dqn_stage_1", f"_run:={homing}", "_goals:=3"]
+    with (
+        said.open("w") as out,
+        Node("driver", master_uri=master.uri, clock=WallClock()) as node,
+        started(master, "run", "turtlebot3_stage_1", "--ros", "--paused",
+                "--spawn", "turtlebot3_burger"),
+        started(master, *words, stderr=out) as driving,
+    ):  # fmt: skip
+        node.subscribe("get_action", load_message("std_msgs/Float32MultiArray"), acts.append)
+        gazebo = Gazebo(node, timeout=60.0)
+        while driving.poll() is None:
+            before = len(acts)
+            gazebo.step(STEPS)
+            waited = time.monotonic() + 1.0  # it does not act before it is armed, nor at a goal
+            while len(acts) == before and driving.poll() is None and time.monotonic() < waited:
+                time.sleep(0.002)
+    assert driving.returncode == 0, said.read_text()
+    assert said.read_text().count("reached, ") == 3, said.read_text()
+    assert "(0.6, 0)  reached" in said.read_text()  # the course's first goal
     wait_for(lambda: len(results) >= 3, "three results")
+
+
+STEPS = 200
+"""From one scan to the next, 0.2 s."""
+
+
+@contextlib.contextmanager
+def started(master, *words, **streams):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "gazelle", *words],
+        env=environment(master),
+        stdout=subprocess.DEVNULL,
+        **streams,
+    )
+    try:
+        yield process
+    finally:
+        process.terminate()
+        process.wait(60)
 
 
 def environment(master):
