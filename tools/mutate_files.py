@@ -210,12 +210,14 @@ class Survey:
     keep: Path | None
     counted: collections.Counter[tuple[str, str]] = field(default_factory=collections.Counter)
     kinds: collections.Counter[str] = field(default_factory=collections.Counter)
+    seconds: dict[str, float] = field(default_factory=lambda: collections.defaultdict(float))
     slowest: float = 0.0
     largest: int = 0
 
     def add(self, seed: Seed, folder: Path, outcome: Outcome) -> None:
         """Count an outcome; show the first of a kind, and keep some."""
         self.counted[seed.reader, outcome.said] += 1
+        self.seconds[seed.reader] += outcome.seconds
         self.slowest = max(self.slowest, outcome.seconds)
         self.largest = max(self.largest, outcome.size)
         if outcome.said not in WRONG:
@@ -235,9 +237,10 @@ class Survey:
         """Print the counts."""
         readers = sorted({reader for reader, _ in self.counted})
         words = (GOOD, REFUSED, *WRONG)
-        print(f"{'':15}" + "".join(f"{word:>10}" for word in words))
+        print(f"{'':15}" + "".join(f"{word:>10}" for word in (*words, "seconds")))
         for reader in readers:
-            print(f"{reader:15}" + "".join(f"{self.counted[reader, word]:>10}" for word in words))
+            counts = "".join(f"{self.counted[reader, word]:>10}" for word in words)
+            print(f"{reader:15}{counts}{self.seconds[reader]:>10.1f}")
         sums = [sum(self.counted[reader, word] for reader in readers) for word in words]
         print(f"{'all':15}" + "".join(f"{number:>10}" for number in sums))
         print(
