@@ -161,12 +161,17 @@ def _inside(value: Any) -> Iterable[Any]:
 
 @functools.cache
 def _number_fields(kind: type) -> tuple[str, ...]:
-    """Return the attributes of a class that may not hold infinite numbers: of a pose, of a dataclass."""
+    """Return the attributes of a class that may not hold infinite numbers.
+
+    Those are numbers of poses and of dataclasses without arrays. With arrays it is a measurement,
+    such as a scan, whose ranges are infinite where nothing is near.
+    """
     if isinstance(getattr(kind, "numbers", None), property):
         return ("numbers",)
-    if not is_dataclass(kind):
+    members = fields(kind) if is_dataclass(kind) else ()
+    if any(_ARRAY.search(str(each.type)) for each in members):
         return ()
-    return tuple(each.name for each in fields(kind) if not _is_endless(each.default))
+    return tuple(each.name for each in members if not _is_endless(each.default))
 
 
 def _fault_of(kind: str, value: Any) -> str | None:

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from gazelle.argument_checks import checked
 from gazelle.description import JointAxis, Pose, Vector3
 from gazelle.errors import PlanningError
+from gazelle.sensors import LaserScan
 
 
 @checked(PlanningError)
@@ -122,3 +123,12 @@ def test_classes_check_what_they_are_made_of_and_their_methods_arguments():
         Span.about(math.nan)
     assert Span.about(1.0) == Span(0.0, 2.0)
     assert Span(0.0).scaled(3.0) == 3.0
+
+
+def test_measurements_may_hold_infinite_numbers():
+    @checked(PlanningError)
+    def take(scan: LaserScan) -> float:
+        return scan.range_max
+
+    scan = LaserScan(0, np.array([1.0, np.inf, -np.inf]), -1.0, 1.0, 1.0, 0.1, np.inf)
+    assert take(scan) == np.inf

@@ -94,10 +94,10 @@ def compiled_modules() -> Iterator[Finding]:
 
 def physics() -> Iterator[Finding]:
     """Yield the version of MuJoCo; another package may have overwritten its files."""
-    from gazelle.engines.mujoco import installation
-
     try:
-        installation.check_installation()
+        from gazelle.engines.mujoco import check_installation
+
+        check_installation()
     except EngineError as error:
         yield Finding(Grade.PROBLEM, "MuJoCo", error.message, error.hint or "")
     else:

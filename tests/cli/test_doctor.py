@@ -10,7 +10,7 @@ import pytest
 from gazelle.cli import machine_checks
 from gazelle.cli.machine_checks import EXTRAS, Grade, examine
 from gazelle.cli.main import main
-from gazelle.engines.mujoco import installation
+from gazelle.engines import mujoco
 from gazelle.errors import EngineError
 
 VARIABLES = (
@@ -74,7 +74,7 @@ def test_a_damaged_mujoco(monkeypatch):
     def fail():
         raise EngineError("MuJoCo is damaged", hint="pip install it again")
 
-    monkeypatch.setattr(installation, "check_installation", fail)
+    monkeypatch.setattr(mujoco, "check_installation", fail)
     found = finding("MuJoCo")
     assert (found.grade, found.hint) == (Grade.PROBLEM, "pip install it again")
 

@@ -7,4 +7,4 @@ check_installation()  # before anything here imports a MuJoCo that may be half o
 from gazelle.engines.mujoco.compiler.mjcf import to_mjcf  # noqa: E402
 from gazelle.engines.mujoco.engine import MujocoEngine  # noqa: E402
 
-__all__ = ["MujocoEngine", "to_mjcf"]
+__all__ = ["MujocoEngine", "check_installation", "to_mjcf"]
