@@ -127,11 +127,11 @@ class SimulationWarning(GazelleWarning):
 
 
 class ControlWarning(GazelleWarning):
-    """A controller, or something it was told, is ignored or done differently."""
+    """A controller, or something it was commanded, is ignored or done differently."""
 
 
 class PlanningWarning(GazelleWarning):
-    """A planner, or something it was told, is replaced or ignored."""
+    """A planner, or something it was given, is replaced or ignored."""
 
 
 class TaskWarning(GazelleWarning):

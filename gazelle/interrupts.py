@@ -304,7 +304,7 @@ class _Listener:
         os._exit(128 + number)
 
     def _insist(self) -> None:
-        """Raise again what went astray, until the block has ended."""
+        """Raise again what was lost, until the block has ended."""
         while not self._closing.wait(_LOST_S) and self.receivers:
             self._again = True
             signal.pthread_kill(self._main, signal.SIGINT)

@@ -30,7 +30,7 @@ def read_factor(text: str) -> float | None:
 
 
 class Pacer:
-    """Runs a simulation until it is told to stop.
+    """Runs a simulation until it is stopped.
 
     The pace is ``physics.update_rate`` steps a second of wall time, as in Gazebo; 0 means as
     fast as possible. It can be changed while running.

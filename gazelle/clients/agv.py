@@ -105,7 +105,7 @@ class AGVFleet(Closeable):
 
     @property
     def poses(self) -> Floats:
-        """x, y [m] and heading [rad] as last heard, shape (count, 3)."""
+        """x, y [m] and heading [rad] as last received, shape (count, 3)."""
         return self._source.latest()[0]
 
     def move_l(
@@ -182,7 +182,7 @@ class AGVFleet(Closeable):
             while not self._stop.is_set():
                 if self._source.await_news(0.1):
                     self._update()
-        except Exception as error:  # noqa: BLE001  # told to who waits
+        except Exception as error:  # noqa: BLE001  # raised in the waiting call
             self._fault = error
 
     def _update(self) -> None:
@@ -250,7 +250,7 @@ class AGV(Closeable):
 
     @property
     def pose(self) -> tuple[float, float, float]:
-        """x, y [m] and heading [rad] as last heard."""
+        """x, y [m] and heading [rad] as last received."""
         x, y, heading = self._fleet.poses[0].tolist()
         return x, y, heading
 

@@ -82,7 +82,7 @@ class TopicPoses(PoseSource):
         with self._news:
             self._poses[index] = place.x, place.y, heading
             self._stamps[index] = message.header.stamp.to_sec()
-            # News are complete when the slowest robot has told where it is at this time.
+            # News are complete when the slowest robot has published its pose at this time.
             oldest = float(self._stamps.min())
             if oldest != self._time or len(self._stamps) == 1:
                 self._time = oldest

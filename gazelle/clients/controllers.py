@@ -192,7 +192,7 @@ class Controllers(Closeable):
         self.unload(reversed(wanted))
 
     def reset(self, names: Names) -> None:
-        """Stop those that run and start all anew.
+        """Stop those that run and start all again.
 
         Raises:
             ClientError: As ``switch``.
@@ -202,7 +202,7 @@ class Controllers(Closeable):
         self.start(wanted)
 
     def reload_libraries(self, *, force_kill: bool = False) -> None:
-        """Find the types of controllers anew.
+        """Find the types of controllers again.
 
         Args:
             force_kill: Stop and unload all controllers first.

@@ -14,7 +14,7 @@ from gazelle.ros import Node, load_message
 
 _LOOK_S = 0.01
 Progress = Callable[[Mapping[str, float]], object]
-"""Told how far each joint has still to go [rad or m]."""
+"""Called with how far each joint has still to go [rad or m]."""
 
 
 class JointCommander(Closeable):
@@ -100,7 +100,7 @@ class JointCommander(Closeable):
             targets: As for ``send`` [rad or m].
             tolerance: How far a joint may be off [rad or m].
             timeout: For all of it [s of wall time].
-            progress: Told with each message of the joints what is left.
+            progress: Called with the rest at each message of the joints.
 
         Returns:
             Where the joints are.

@@ -56,7 +56,7 @@ class Driver(Closeable):
         """Pose and velocity of the base, as last received.
 
         Raises:
-            ClientError: Nothing was heard yet; see ``wait``.
+            ClientError: No odometry was received yet; see ``wait``.
         """
         if self._state is None:
             raise ClientError(f"nothing came on {self._pose_topic} yet", hint="call wait() first")

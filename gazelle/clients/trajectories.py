@@ -79,7 +79,7 @@ class TrajectoryRun:
         self._action, self._tell = client.ns, progress
         self._ended = threading.Event()
         self.progress: TrajectoryProgress | None = None
-        """As last heard."""
+        """As last received."""
         self._handle = client.send_goal(goal, self._changed, self._heard)
 
     def wait(self, timeout: float = 60.0) -> TrajectoryOutcome:
@@ -151,7 +151,7 @@ class TrajectoryClient(Closeable):
                 takes some of its joints, others need all.
             seconds: How long it takes, in the robot's time.
             timeout: The longest wait [s of wall time]; then it is cancelled.
-            progress: Told how it goes.
+            progress: Called with feedback.
 
         Raises:
             ClientError: It did not succeed, or not in time.
@@ -173,7 +173,7 @@ class TrajectoryClient(Closeable):
             joints: Whose positions the waypoints hold.
             waypoints: In the order of their times.
             timeout: As for ``move``.
-            progress: Told how it goes.
+            progress: Called with feedback.
 
         Raises:
             ClientError: It did not succeed, or not in time.
@@ -205,7 +205,7 @@ class TrajectoryClient(Closeable):
         Args:
             joints: Whose positions the waypoints hold.
             waypoints: In the order of their times; none to hold still.
-            progress: Told how it goes, by the thread that listens.
+            progress: Called with feedback, by the subscriber's thread.
             path_tolerance: How far joints may be off on the way [rad or m]; negative for no bound.
                 Those that are not named have the controller's own.
             goal_tolerance: Likewise, at the end.

@@ -31,7 +31,7 @@ _KEPT = ("wanted", "stamps", "last", "earlier")
 
 
 class BaseController(Controller):
-    """Drives a base as it is told, and tells where that leads.
+    """Drives a base by commands, and publishes its odometry.
 
     The ``BaseLaw`` of a subclass (``drive_by``) knows the wheels: it goes on with the odometry, holds
     the command within limits, and turns wheels, without Python while nobody listens. A command that is
@@ -219,7 +219,7 @@ class BaseController(Controller):
         linear[:, :2], angular[:, 2] = driven[:, :2], driven[:, 2]
         return StampedTwist(self.now_ns, self._base, linear, angular)
 
-    # -- beginning anew --------------------------------------------------------------------
+    # -- restarting --------------------------------------------------------------------
 
     def reset(self, worlds: Worlds | None) -> None:
         """Reset the odometry to its origin, at rest."""

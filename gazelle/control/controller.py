@@ -180,7 +180,7 @@ class Controller:
     def reset(self, worlds: Worlds | None) -> None:
         """Reset the controller in these worlds, all if None, and hold the robot there.
 
-        A controller that does not say otherwise starts anew, in all worlds.
+        A controller that does not say otherwise starts again, in all worlds.
         """
         del worlds
         if self.running:

@@ -86,7 +86,7 @@ class JointStateController(Controller):
         return JointStates(self.now_ns, self._names, position, velocity, effort)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Publish at once if time began anew."""
+        """Publish at once if time started again."""
         if worlds is None:
             self._schedule.start(self.now_ns)
 

@@ -37,7 +37,7 @@ class LoadedControllers(dict[str, LoadedController]):
         Args:
             now_ns: Time [ns].
             period: Since the last update [s].
-            restart: Worlds in which they begin anew first.
+            restart: Worlds in which they start again first.
         """
         time = now_ns * 1e-9
         for entry in self.running:

@@ -160,7 +160,7 @@ class ControllerManager:
         return registry.types()
 
     def reload(self, *, force_kill: bool = False) -> bool:
-        """Read libraries of controllers anew: none is left loaded.
+        """Read libraries of controllers again: none is left loaded.
 
         Args:
             force_kill: Stop and unload what is loaded.
@@ -229,7 +229,7 @@ class ControllerManager:
         Args:
             now_ns: Time [ns].
             period: Since the last update [s].
-            restart: Worlds in which what runs begins anew first, as after an emergency stop.
+            restart: Worlds in which what runs starts again first, as after an emergency stop.
         """
         self.now_ns = now_ns
         self._loaded.control(now_ns, period, restart)

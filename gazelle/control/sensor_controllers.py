@@ -57,7 +57,7 @@ class SensorController(Controller):
         self._schedule.skip(self.now_ns, updates)
 
     def reset(self, worlds: Worlds | None) -> None:
-        """Publish at once if time began anew."""
+        """Publish at once if time started again."""
         if worlds is None:
             self._schedule.start(self.now_ns)
 

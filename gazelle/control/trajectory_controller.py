@@ -76,7 +76,7 @@ class JointTrajectoryController(Controller):
         self._table.tell()
         self._goals: dict[int, Goal[TrajectoryGoal]] = {}
         self._numbers = 0
-        self._followed = False  # whether there was an update since it began anew
+        self._followed = False  # whether there was an update since it started again
 
     def _adapt(self, parameters: ControllerParameters) -> None:
         """Set up the conversion of targets to commands: direct, or by PID."""
@@ -338,7 +338,7 @@ class JointTrajectoryController(Controller):
         sample = JointSample(found.position, found.velocity, found.acceleration)
         return TrajectoryAnswer(self._names, sample)
 
-    # -- beginning anew --------------------------------------------------------------------
+    # -- restarting --------------------------------------------------------------------
 
     def reset(self, worlds: Worlds | None) -> None:
         """Hold the joints at their reset positions."""

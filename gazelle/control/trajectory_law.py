@@ -36,7 +36,7 @@ class TrajectoryMemory:
         path: Tolerances on the way: position, velocity, acceleration; shape (nworld, joints, 3).
         end: At the end, likewise.
         patience: How much later than its end a goal may be there [s], shape (nworld,).
-        event: How a goal ended that nobody was told of yet, shape (nworld,).
+        event: How a goal ended that was not reported yet, shape (nworld,).
         event_goal: Which, likewise.
         event_joint: Of the joint that strayed or is late, likewise.
         event_error: Its error [m or rad], likewise.

@@ -83,7 +83,7 @@ class Link:
         gravity: Whether gravity pulls it.
         enable_wind: Whether wind pushes it.
         self_collide: Whether it collides with links of its own model; None: as the model says.
-        kinematic: Whether it moves only when told to.
+        kinematic: Whether it moves only by being placed.
         velocity_decay_linear: Fraction of linear velocity lost; ODE's linear damping scale.
         velocity_decay_angular: Fraction of angular velocity lost.
         extras: Elements kept whole: projector, battery, audio, Simbody's must_be_base_link, ...

@@ -10,7 +10,7 @@ from gazelle.description.source import Source
 
 @dataclass(frozen=True, slots=True)
 class Ode:
-    """Terms of ODE's solver, which Gazebo classic uses unless told otherwise.
+    """Terms of ODE's solver, which Gazebo classic uses by default.
 
     Attributes:
         solver: ``quick`` (projected Gauss-Seidel) or ``world`` (exact).

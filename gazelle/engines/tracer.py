@@ -1,6 +1,6 @@
 """Ray tracing of the visible shapes of a world, apart from those that collide.
 
-A tracer knows no physics. It is told where the links are and follows rays to the nearest
+A tracer knows no physics. It gets the poses of links and casts rays to the nearest
 visual, on the processor, with no graphics card and no screen.
 """
 

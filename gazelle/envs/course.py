@@ -21,7 +21,7 @@ class CourseTask(TaskWrapper):
     For each number of steps: the direction of the way from where the base was seen so many steps ago to where
     it is seen now, an angle [rad] (0 while it is at the same place); and then for each number of steps and each
     action, the share of these steps in which it was taken. Nothing but what was observed and
-    done goes into it. It begins anew with every episode.
+    done goes into it. It starts again with every episode.
 
     Args:
         task: What to wrap; with a few actions to choose from.

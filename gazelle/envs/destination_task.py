@@ -1,4 +1,4 @@
-"""Tasks in which a robot goes somewhere: what is told of the way, and when it comes nearer."""
+"""Tasks in which a robot goes somewhere: the reported way, and when it comes nearer."""
 
 from __future__ import annotations
 

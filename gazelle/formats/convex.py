@@ -38,7 +38,7 @@ SLOW = 0.02
 _LOG = logging.getLogger(__name__)
 _LARGE = 100_000
 _PATIENCE = 2.0
-"""Triangles, and seconds spent on meshes in this process, from which on one is told to wait."""
+"""Triangles, and seconds spent on meshes in this process, after which a log line asks to wait."""
 _DENT = 0.01
 _DEEPEST_DENT = 0.01
 """Depth of dents that are filled: a share of the size, a length [m]."""

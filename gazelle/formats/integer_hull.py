@@ -138,7 +138,7 @@ class HullBuilder:
             x: [m].
             y: [m].
             z: [m].
-            last: Face that is asked first, as it told of a place nearby.
+            last: Face that is asked first, as it decided a place nearby.
         """
         x, y, z = (
             (x - self.low[0]) * self.scale,
@@ -285,7 +285,7 @@ class HullBuilder:
         self.look(point, face)
         orphan = self.take_away(point)
         count = self.edges
-        for k in range(count):  # ``patch`` is used anew, for the faces that come
+        for k in range(count):  # ``patch`` is used again, for the faces that come
             tail, head, beyond = self.rim[k, 0], self.rim[k, 1], self.rim[k, 2]
             made = self.put(tail, head, point)
             self.patch[k] = made

@@ -20,7 +20,7 @@ from gazelle.path_texts import can_be_path, expanded, shortened
 PathLike = str | os.PathLike[str]
 
 _told: set[tuple[str, Path]] = set()
-"""Models of the environment that have been told not to be taken."""
+"""Models of the environment that were reported as not taken."""
 
 _own_worlds: dict[tuple[Path, int], World] = {}
 """Bundled worlds that were read, by the file and its time of writing."""
@@ -217,7 +217,7 @@ def _bundled(name: str, resolver: Resolver, *, model: bool) -> Path | None:
     """Return the file or model's folder of a bare name.
 
     What comes with Gazelle is not hidden by what the environment has of that name: a task or a
-    tutorial that names it counts on it. What else there is, is told once.
+    tutorial that names it counts on it. What else there is, is reported once.
     """
     if "://" in name:
         return None

@@ -37,7 +37,7 @@ def load(digest: str) -> Stored | None:
             faces = np.asarray(data["faces"], np.int32).reshape(-1, 3)
             ends = np.asarray(data["ends"], np.int64).reshape(-1, 2)
             whole, gap, closed = bool(data["whole"]), float(data["gap"]), bool(data["closed"])
-    except Exception:  # noqa: BLE001  # a damaged file may raise anything; it is made anew
+    except Exception:  # noqa: BLE001  # a damaged file may raise anything; it is made again
         return None
     solids = _split(vertices, faces, ends)
     return None if solids is None else (solids, whole, gap, closed)

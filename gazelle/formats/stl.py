@@ -26,7 +26,7 @@ Triangles = tuple[NDArray[np.float64], NDArray[np.int32]]
 def parse(data: bytes) -> Triangles:
     """Parse vertices, shape (n, 3), and faces, shape (m, 3), of an STL file.
 
-    Whether a file is binary is told by its length: many binary ones begin with the word
+    Whether a file is binary is decided by its length: many binary ones begin with the word
     ``solid``, which is meant to mark text. Corners at the same place become one vertex.
 
     Raises:

@@ -12,7 +12,7 @@ from gazelle.array_types import Floats, Indices
 from gazelle.formats.slivers import flip_slivers, half_edge_twins
 
 _BITS = 21
-"""Of a coordinate that places are told apart by: a two-millionth of the size."""
+"""Of a coordinate that places are distinguished by: a two-millionth of the size."""
 _SLIVER = 2.0
 """Width of triangles that count as none, in such parts."""
 

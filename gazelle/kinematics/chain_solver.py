@@ -3,7 +3,7 @@
 Levenberg and Marquardt's method with the damping of Sugihara ("Solvability-unconcerned inverse
 kinematics by the Levenberg-Marquardt method", IEEE Transactions on Robotics 27, 2011): a multiple of
 the squared error. A joint that would leave its limits is held at them while the others are asked again.
-What does not get better is given up, and begun anew elsewhere.
+What does not get better is given up, and started again elsewhere.
 """
 
 # mypy: disallow-untyped-decorators=False

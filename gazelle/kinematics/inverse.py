@@ -144,7 +144,7 @@ class InverseKinematics:
 
         For poses a little way off, time after time. Where a pose is out of reach, or the arm is
         caught, the nearest of that descent is taken, never farther than the state that it began
-        from; nothing is begun anew.
+        from; nothing is started again.
 
         Args:
             poses: Homogeneous transforms in the robot's frame, shape (n, 4, 4).

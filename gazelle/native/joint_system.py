@@ -24,7 +24,7 @@ from gazelle.native.rows import first_of_run
 
 @cython.cclass
 class JointSystem(System):
-    """Is told where joints are at the beginning of a step, and says what acts on them in it.
+    """Reads joints at the start of a step, and sets what acts on them in it.
 
     An engine that takes it into its steps (``bind``) calls ``exchange``, which lets it see joints where
     the engine has them; else somebody fills ``position_in`` and ``velocity_in``, calls ``bring``, and

@@ -1,4 +1,4 @@
-"""A mobile robot that goes where it is told: ``libgazelle_go_to_goal.so``."""
+"""A mobile robot that drives to goals: ``libgazelle_go_to_goal.so``."""
 
 from __future__ import annotations
 

@@ -66,7 +66,7 @@ class Traveller(Protocol):
     Attributes:
         name: Of the robot.
         right_of_way: Its settings.
-        aside: Whether it stands where it was told to step aside to.
+        aside: Whether it stands where it was sent aside.
     """
 
     name: str

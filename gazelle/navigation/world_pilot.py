@@ -44,7 +44,7 @@ class WorldPilot:
         text: What was said of it.
         path: The last global plan to the goal, shape (n, 3): x, y and heading [m, rad].
         grid: The map; None before the first scan of one that is made on the way.
-        aside: Whether it stands where it was told to step aside to.
+        aside: Whether it stands where it was sent aside.
     """
 
     def __init__(

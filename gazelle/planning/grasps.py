@@ -59,7 +59,7 @@ class Grasp:
         approach: How it gets there.
         retreat: Where it goes then.
         open: Positions of the gripper's joints on the way [m or rad]; as they are if empty.
-        closed: Where they are told to go to hold the thing.
+        closed: Commanded positions that hold the object.
         effort: Largest one of the gripper [N or N m]; its controller's if zero.
         link: That the pose is of; the group's tip if empty.
         touches: What the hand may touch beside the thing.

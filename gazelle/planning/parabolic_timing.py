@@ -1,6 +1,6 @@
 """Times of given points: grown until the parabolas between them are within limits.
 
-Method: that of MoveIt's iterative parabolic time parameterization, written anew: each interval is as
+Method: that of MoveIt's iterative parabolic time parameterization, reimplemented: each interval is as
 long as velocities need, and grows where the change of velocity from one to the next is too great.
 """
 

@@ -98,7 +98,7 @@ class _Pad:
 
     Attributes:
         destination: Name of the pad that they are put to.
-        automatic: Whether they go without being told.
+        automatic: Whether they go by themselves.
         least: Corner of the box that they are taken from [m].
         most: The other corner.
         arrival: Where they are put that come from another pad.

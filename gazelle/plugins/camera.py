@@ -30,7 +30,7 @@ from gazelle.simulation.values import (
 
 
 class CameraTopic(SensorOutput):
-    """A picture's topic: told when the sensor has measured, unless something holds it back.
+    """A picture's topic: published when the sensor has measured, unless something holds it back.
 
     Args:
         sensor: Measures.
@@ -38,7 +38,7 @@ class CameraTopic(SensorOutput):
         topic: As the file names it.
         kind: Type of the values.
         read: The value now.
-        may_tell: Whether this measurement is told; asked once for each.
+        may_tell: Whether this measurement is published; called once for each.
     """
 
     def __init__(
@@ -73,7 +73,7 @@ class PublishedCamera:
         camera: Of the sensor.
         settings: Names and lens.
         look: The camera's picture now.
-        may_tell: Whether a measurement is told.
+        may_tell: Whether a measurement is published.
 
     Attributes:
         encoding: Of the pictures.

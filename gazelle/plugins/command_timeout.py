@@ -1,4 +1,4 @@
-"""Bases that stand when they were told nothing for too long: one, or many at once."""
+"""Bases that stand without a command for too long: one, or many at once."""
 
 from __future__ import annotations
 
@@ -60,8 +60,8 @@ class CommandTimeout:
     """Command of one base, and its timeout.
 
     Args:
-        clock: Tells how long ago it was told.
-        command: What it is told.
+        clock: Tells how old the command is.
+        command: Its command.
         longest: How long a command holds [s]; may be infinite.
     """
 
@@ -119,7 +119,7 @@ class CommandGroup:
         nworld: Number of worlds.
 
     Attributes:
-        linear: What they are told [m/s], shape (nworld, n, 3).
+        linear: Commands [m/s], shape (nworld, n, 3).
         angular: Likewise [rad/s].
     """
 

@@ -161,7 +161,7 @@ class DiffDrive(ModelPlugin):
         """Restore what ``state`` returned."""
         tables = self.motors.tables
         tables.speeds[:, 0][:], tables.last_ns[:, 0][:] = state["speeds"], state["last_ns"]
-        self.motors.forget(None)  # the motors are given their speeds anew
+        self.motors.forget(None)  # the motors are given their speeds again
         self.reckoning.restore({n: state[f"encoder_{n}"] for n in ("pose", "twist", "angles")})
         self.reckoning.last_ns = int(state["reckoned_ns"])
 

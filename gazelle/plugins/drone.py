@@ -35,7 +35,7 @@ _GROUND_TRUTH_QUEUE = 1024
 
 
 class Drone(ModelPlugin):
-    """Flies as it is told: takes off, holds a velocity or a place, lands.
+    """Flies by commands: takes off, holds a velocity or a place, lands.
 
     The link named ``bodyName`` is pushed; mass and inertia are taken as they are when it is loaded.
     """
@@ -92,7 +92,7 @@ class Drone(ModelPlugin):
         for name, output in zip(("gt_pose", "gt_vel", "gt_acc"), self._outputs, strict=True):
             robot.outputs[name] = output
 
-    # -- what it is told -----------------------------------------------------------------
+    # -- commands -----------------------------------------------------------------
 
     def _take_off(self, _trigger: Trigger, worlds: Worlds | None) -> None:
         self._begin(FlightPhase.TAKING_OFF, (FlightPhase.LANDED,), worlds)

@@ -19,7 +19,7 @@ _AXES = 4
 class DroneCommands(TwistInput):
     """Velocity commands with noise: on the velocity upwards and on all about the axes.
 
-    Each command gets fresh numbers; others drift along, and are drawn anew at the first command
+    Each command gets fresh numbers; others drift along, and are drawn again at the first command
     ``motionDriftNoiseTime`` after the last time. What was once drawn holds until the next command.
 
     Args:

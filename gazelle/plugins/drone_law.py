@@ -103,7 +103,7 @@ class DroneLaw:
         pids, step, linear = self.pids, now.step, now.motion.linear
         angles = roll_pitch_yaw(now.place.quaternion)
         weight = np.maximum(np.linalg.norm(gravity, axis=1), _WEIGHTLESS)
-        # A drone that is told a place is not held up unless it flies; so in the original.
+        # A drone that is commanded a place is not held up unless it flies; so in the original.
         held = orders.flying | ~orders.places
         tilt, climb = self._tilt_and_climb(now, orders, from_yaw(-angles[:, 2]), weight)
         rates = rotate(conjugate(now.place.quaternion), now.motion.angular)

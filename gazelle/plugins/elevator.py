@@ -24,9 +24,9 @@ _IDLE, _CLOSING, _LIFTING, _OPENING, _WAITING, _SHUTTING = range(6)
 
 
 class Elevator(ModelPlugin):
-    """Goes to the floor that it is told: closes the door, lifts, opens, waits, closes.
+    """Goes to the floor it is called to: closes the door, lifts, opens, waits, closes.
 
-    What it is told while it is busy is lost.
+    Commands while it is busy are lost.
     """
 
     update_rate = 0.0

@@ -1,4 +1,4 @@
-"""A base that is pushed to the velocity it is told: ``libgazebo_ros_force_based_move.so``."""
+"""A base that is pushed to the velocity of its command: ``libgazebo_ros_force_based_move.so``."""
 
 from __future__ import annotations
 

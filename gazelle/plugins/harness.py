@@ -52,7 +52,7 @@ class _Rope:
 class Harness(ModelPlugin):
     """Hangs a model on joints to the world; a winch lifts and lowers it until it is let go.
 
-    A reset hangs it up again, where Gazebo leaves it loose.
+    A reset hangs it up again, where Gazebo leaves it free.
     """
 
     update_rate = 0.0

@@ -19,7 +19,7 @@ class _HeardTransform:
 
     Attributes:
         parent: Name of the parent.
-        static: Whether it was told once and for all.
+        static: Whether it is static.
         known: Shape (nworld,).
         position: [m], shape (nworld, 3).
         quaternion: (x, y, z, w), shape (nworld, 4).
@@ -33,7 +33,7 @@ class _HeardTransform:
 
 
 class HeardFrames:
-    """The last transforms that were heard, by child.
+    """The last transforms that were received, by child.
 
     Args:
         nworld: Number of worlds.
@@ -80,7 +80,7 @@ class HeardFrames:
     def turn(self, target: str, source: str) -> Floats | None:
         """Return the orientation of a source frame in a target frame, shape (nworld, 4).
 
-        None if no way leads from one to the other. In worlds that nobody told of a frame it is
+        None if no way leads from one to the other. In worlds without a transform of a frame it is
         as its parent.
         """
         found = self._find(source, target)

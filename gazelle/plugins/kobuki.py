@@ -42,7 +42,7 @@ class Kobuki(ModelPlugin):
     The odometry takes distances from the wheels and the heading from the gyro.
 
     Attributes:
-        command: What it is told, and how long that holds.
+        command: Its command, and how long that holds.
         half: Half the distance between the wheels [m].
         radius: Of the wheels [m].
         wheels: Left and right.

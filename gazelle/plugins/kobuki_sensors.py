@@ -92,7 +92,7 @@ class Cliffs:
 
 
 class Bumpers:
-    """A contact sensor whose sides are told apart by where they are touched.
+    """A contact sensor whose sides are distinguished by where they are touched.
 
     Attributes:
         pressed: Shape (nworld, 3).

@@ -1,4 +1,4 @@
-"""A base that slides as it is told: what ``libgazebo_ros_planar_move.so`` does."""
+"""A base that slides by commands: what ``libgazebo_ros_planar_move.so`` does."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class PlanarMove(ModelPlugin):
     Its weight has no effect: the velocity upwards is held at zero, as in the original.
 
     Attributes:
-        command: What it is told, and how long that holds.
+        command: Its command, and how long that holds.
         odometry: What is published.
     """
 
@@ -96,7 +96,7 @@ class PlanarMove(ModelPlugin):
 
 
 class SlidingSystem(OdometrySystem[PlanarMove]):
-    """Bases that slide as they are told.
+    """Bases that slide by commands.
 
     Args:
         plugins: The bases.
@@ -129,7 +129,7 @@ class SlidingSystem(OdometrySystem[PlanarMove]):
 
 
 class PatientSystem(SlidingSystem):
-    """Bases that stand when they were told nothing for too long."""
+    """Bases that stand without a command for too long."""
 
     def __init__(self, plugins: Sequence[PlanarMove]) -> None:
         super().__init__(plugins)

@@ -85,7 +85,7 @@ class ScriptedMotion(ModelPlugin):
 
     @property
     def period(self) -> float:
-        """After how long the script begins anew [s]; 0 if it never does."""
+        """After how long the script starts again [s]; 0 if it never does."""
         if self.splines:
             last = self.splines[-1][0] + self.splines[-1][1].duration
             return float(last) if self.loop else 0.0

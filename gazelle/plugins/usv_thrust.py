@@ -126,7 +126,7 @@ class UsvThrust(ModelPlugin):
             absolute(namespace, "cmd_drive"), DriveCommand, self._both, queue_size=1
         )
 
-    # -- what it is told -------------------------------------------------------------------
+    # -- commands -------------------------------------------------------------------
 
     def _one(self, column: int) -> Callable[[Number, Worlds | None], None]:
         def take(command: Number, worlds: Worlds | None) -> None:

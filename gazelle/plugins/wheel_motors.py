@@ -18,7 +18,7 @@ class WheelMotors:
 
     Args:
         robot: Has them.
-        command: What it is told.
+        command: Its command.
         left: Wheels on the left, with motors.
         right: Wheels on the right, likewise.
         separation: Between the sides [m].

@@ -92,7 +92,7 @@ def _call(name: str, method: Method, caller: str, arguments: list[Any]) -> Tripl
         return method.function(caller, *arguments)
     except BadArgumentError as error:
         return -1, f"Error: invalid arguments: {error}", method.failure
-    except Exception as error:  # noqa: BLE001  # the caller is told, and so is the log
+    except Exception as error:  # noqa: BLE001  # reported to the caller and the log
         if not isinstance(error, ValueError):
             report(f"{name} of {caller}", error)
         return 0, f"Internal failure: {error}", method.failure

@@ -156,7 +156,7 @@ class Rate:
     Args:
         clock: Whose time counts.
         hertz: Cycles per second.
-        reset: Begin anew after a jump back instead of raising.
+        reset: Start again after a jump back instead of raising.
 
     Raises:
         ValueError: The rate is not positive.

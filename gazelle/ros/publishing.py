@@ -273,7 +273,7 @@ class Publisher:
         name: The topic's resolved name.
         on_connect: Called with the name of each subscriber that connects, on a worker thread.
         on_disconnect: Called with the name of each that goes.
-        introduced: Whether it was told who listened before it came.
+        introduced: Whether earlier subscribers were reported to it.
     """
 
     def __init__(

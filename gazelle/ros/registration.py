@@ -1,4 +1,4 @@
-"""Keeps a node registered: when its master goes and another comes, all is registered anew."""
+"""Keeps a node registered: when its master goes and another comes, all is registered again."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ class Registrar:
             self._schedule(_ALERT_S * 2)
             return
         self.lost = False
-        # Another node under our name is no reason to fight: the master told us to end.
+        # Another node under our name is no reason to fight: the master requested the end.
         unknown = triple[0] == -1 and self._has_registrations()
         if unknown and not self._unknown:
             self._schedule(_ALERT_S)  # a first registration may be under way

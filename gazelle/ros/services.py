@@ -151,7 +151,7 @@ class ServiceServer:
             return good_answer(buffer.getvalue())
         except self.refusals as error:
             return bad_answer(f"service cannot process request: {_text(error)}")
-        except Exception as error:  # noqa: BLE001  # the client is told
+        except Exception as error:  # noqa: BLE001  # reported to the client
             if self.on_error is None:
                 report(f"service {self.name}", error)
             else:

@@ -74,7 +74,7 @@ class Subscription:
         self._queue = SerialQueue(self._loop, self._deliver, f"callback of {topic}")
         self._drops = threading.Lock()
         self.updated = False
-        """True when the publishers were told for the first time."""
+        """True when the publishers were notified for the first time."""
         self._closed = False
         self._raw = message_class is RawMessage
         self._marks = hasattr(message_class, "_connection_header")

@@ -61,7 +61,7 @@ class Stopwatch:
         return (self._clock.now_ns - self.start_ns) / NANOSECONDS
 
     def restart(self) -> None:
-        """Start anew."""
+        """Start again."""
         self.start_ns = self._clock.now_ns
 
     def lap(self) -> float:

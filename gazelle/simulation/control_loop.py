@@ -110,7 +110,7 @@ class ControlLoop(ModelPlugin):
             with self._robot.simulation.lock:
                 self._catch_up()
 
-    # -- what it is told ---------------------------------------------------------------
+    # -- commands ---------------------------------------------------------------
 
     def _measure(self) -> int:
         """Read the joints again, for controllers that start; returns the time [ns].

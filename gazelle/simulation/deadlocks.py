@@ -19,7 +19,7 @@ from types import FrameType
 
 from gazelle.errors import SimulationError
 
-# How long the owner may wait for others before those that wait for it are told [s].
+# How long the owner may wait for others before those that wait for it get an error [s].
 _PATIENCE = 2.0
 
 _WAITING = (

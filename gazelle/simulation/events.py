@@ -7,7 +7,7 @@ from typing import Any
 
 
 class Event:
-    """Something that happens, and who is told."""
+    """Something that happens, and its listeners."""
 
     def __init__(self) -> None:
         self._listeners: list[Callable[..., Any]] = []

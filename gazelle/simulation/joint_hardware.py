@@ -81,7 +81,7 @@ class JointHardware(SimulatedHardware):
         self._loads = robot.simulation.loads
         described = [robot.joint_description(name) for name in names]
         for handle, joint in zip(self._handles, described, strict=True):
-            # The description is asked, not the engine: that would be compiled anew for every robot.
+            # The description is asked, not the engine: that would be compiled again for every robot.
             if len(joint.axes) != 1:
                 count = handle.axes
                 raise SimulationError(
@@ -287,7 +287,7 @@ class JointHardware(SimulatedHardware):
         self._memory.placed_speed[:, put] = speed
         self._engine.joints[self._put_names].place(wanted - speed * period, speed, good)
 
-    # -- beginning anew ----------------------------------------------------------------
+    # -- restarting ----------------------------------------------------------------
 
     def reset(self, worlds: Worlds | None) -> None:
         """Discard the state of these worlds."""

@@ -228,7 +228,7 @@ class PhysicsProperties:
 
     @property
     def contact_surface_layer(self) -> float:
-        """Overlap that is not let out slowly, but left to the contact [m]."""
+        """Overlap that is not under penetration recovery, but left to the contact [m]."""
         return self.profile.ode.contact_surface_layer
 
     @contact_surface_layer.setter
@@ -237,7 +237,7 @@ class PhysicsProperties:
 
     @property
     def contact_max_correcting_velocity(self) -> float:
-        """Largest velocity with which what overlaps in a file or when spawned is let out [m/s]."""
+        """Largest velocity with which penetration recovery resolves overlaps [m/s]."""
         return self.profile.ode.contact_max_correcting_vel
 
     @contact_max_correcting_velocity.setter
@@ -285,7 +285,7 @@ class PhysicsProperties:
         """``exact``: what is held does not creep; ``fast``: for robots that drive.
 
         None leaves it to ``friction_model``, or else to the engine: exact where something
-        lies loose. Friction is the same cone or pyramid as with ``friction_model``, which this
+        is free. Friction is the same cone or pyramid as with ``friction_model``, which this
         goes before. See docs/physics.md.
         """
         return self.profile.contacts

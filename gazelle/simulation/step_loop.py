@@ -53,7 +53,7 @@ class StepLoop:
         engine: Steps the physics.
         loads: Of the simulation.
         entities: Likewise.
-        faults: Told of worlds that break down.
+        faults: Called with worlds that break down.
 
     Attributes:
         cut: Whether the last steps ended for the sake of others, with nothing due.

@@ -2,7 +2,7 @@
 
 An output has one value for each world, in a tuple: of a bumper what ``StageFleet.bumps`` gives, of
 fiducial and blob finders a tuple of what they see, of a gripper its state, of an actuator its
-position [m or rad]. A gripper is told one of its commands through its input; an actuator a speed
+position [m or rad]. A gripper gets one of its commands through its input; an actuator a speed
 [m/s or rad/s] through ``NAME/speed``, or where to go [m or rad] through ``NAME/position``.
 """
 

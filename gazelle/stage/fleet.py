@@ -129,7 +129,7 @@ class StageFleet(Senses):
 
     @property
     def placed(self) -> Sequence[StageModel]:
-        """Models that are moved only when told to."""
+        """Kinematic models."""
         self.refresh()
         return self._placed
 

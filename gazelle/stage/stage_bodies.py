@@ -40,7 +40,7 @@ class StageBodies(ABC):
     @property
     @abstractmethod
     def placed(self) -> Sequence[StageModel]:
-        """Models that are moved only when told to."""
+        """Kinematic models."""
 
     @property
     @abstractmethod

@@ -77,7 +77,7 @@ def write_checkpoint(folder: Path, learner: Learner, extra: dict[str, Any]) -> N
 def read_checkpoint(folder: Path, learner: Learner) -> dict[str, Any]:
     """Restore the state of a checkpoint in a new learner and its environment.
 
-    If the environment cannot restore its state, its episodes start anew and a
+    If the environment cannot restore its state, its episodes start again and a
     `SimulationWarning` says so.
 
     Returns:

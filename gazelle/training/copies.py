@@ -82,7 +82,7 @@ class TaskCopies:
         return task_contract(self.env)
 
     def reset(self, seed: int | None = None) -> Floats32:
-        """Start all episodes anew; the first observations, shape (N, ...)."""
+        """Start all episodes again; the first observations, shape (N, ...)."""
         self.starts = np.ones(self.num_envs, dtype=np.bool_)
         return self._stepper.reset(seed=seed)
 

@@ -118,7 +118,7 @@ def evaluate(
     Every copy of the environment runs a number of episodes that is fixed in
     advance. (Taking the first episodes that end, from any copy, would favour
     the short ones.) Copies that share a world run one episode each, from a common start; for more
-    of them all begin anew. Same policy, seed and number of copies: same result.
+    of them all start again. Same policy, seed and number of copies: same result.
 
     A task says with which options it is evaluated, see `evaluation_options`; the bundled
     navigation tasks ask for starts and goals that no policy was trained on. Episodes that

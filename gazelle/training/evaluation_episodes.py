@@ -2,7 +2,7 @@
 
 How many episodes a copy runs is fixed in advance: of those that end first, the short ones would be too
 many. Copies that share a world, such as the robots of one hall, run one each and begin it together; for
-more episodes all of them begin anew. A world that simply went on would be another one in its second hour: what
+more episodes all of them start again. A world that simply went on would be another one in its second hour: what
 happens in it then, such as a jam that dissolves when the first episodes are cut off, would
 count the more, the more episodes are asked for.
 """

@@ -45,7 +45,7 @@ SOME_HEED: dict[str, tuple[str, ...]] = {
         ("exploration_fraction", "exploration_final", "target_update_interval"), _EXPLORING
     ),
 }
-"""Of a `Recipe` or of `OffPolicySettings`, what not all heed that such a recipe can be for."""
+"""Of a `Recipe` or of `OffPolicySettings`, values that not all its algorithms support."""
 
 
 def heeds(algo: str, name: str) -> bool:

@@ -189,7 +189,7 @@ class Trail:
         self._sums = np.where(where, _mixed(self._sums, obs), self._sums)
 
     def end(self, ended: Episodes, final_obs: npt.NDArray[np.float32]) -> UInts64:
-        """Return the sums of episodes that ended with these last observations; they begin anew."""
+        """Return the sums of episodes that ended with these last observations; they start again."""
         sums = _mixed(self._sums[ended.slots], final_obs)
         sums ^= ended.returns.view(np.uint64)
         self._sums[ended.slots] = 0

@@ -113,7 +113,7 @@ class Stepper:
         self._teacher = None if goal_reward is None else GoalRewards(goal_reward, env.num_envs)
 
     def reset(self, *, seed: int | None = None) -> Floats32:
-        """Start all episodes anew and return the first observations, shape (N, ...)."""
+        """Start all episodes again and return the first observations, shape (N, ...)."""
         obs, info = self.env.reset(seed=seed)
         self._resetting[:] = False
         self._forget(np.arange(self.num_envs))
@@ -294,7 +294,7 @@ class Stepper:
         return ended
 
     def _forget(self, slots: npt.NDArray[np.intp]) -> None:
-        """Count anew for the next episodes of these copies."""
+        """Count again for the next episodes of these copies."""
         self._returns[slots] = 0.0
         self._lengths[slots] = self._goals[slots] = self._goal_at[slots] = 0
         self._late_goals[slots] = 0

@@ -87,7 +87,7 @@ class TrialHost:
                 # Two workers may begin runs in the same second.
                 name = f"{Path(outcome.run).name}-{given.number}"
                 return TrialOutcome(outcome.score, run=name, files=_packed(Path(outcome.run), name))
-        except Exception as error:  # noqa: BLE001  # it is told
+        except Exception as error:  # noqa: BLE001  # it is reported
             return TrialOutcome(error=f"{type(error).__name__}: {error}")
 
     def _tried(self, given: TrialValues, runs: Path) -> TrialOutcome:

@@ -110,7 +110,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         self.copies.set_state(state)
 
     def reset(self) -> Floats32:
-        """Start all episodes anew, with the seed given to `seed` if there is one."""
+        """Start all episodes again, with the seed given to `seed` if there is one."""
         obs = self.copies.reset(self._seed)
         self._seed = None
         return obs

@@ -26,7 +26,7 @@ _CURVES = {
     "episodes/success_rate": "goals reached [share]",
     "episodes/return": "return of an episode",
 }
-_STYLES = ("-", "--", "-.", ":")  # told apart in print, too
+_STYLES = ("-", "--", "-.", ":")  # distinguished in print, too
 
 
 def plot_trainings(runs: Sequence[Path], file: Path) -> None:

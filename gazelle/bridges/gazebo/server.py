@@ -35,7 +35,7 @@ _ENGINES = ("ode", "mujoco")  # worlds for ODE are what MuJoCo is made to resemb
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run a world on the graph until it is told to end; returns the exit code."""
+    """Run a world on the graph until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "gazebo")
     options = _options(found.plain)
     place = names.as_namespace(found.options["namespace"])

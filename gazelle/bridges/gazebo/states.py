@@ -195,7 +195,7 @@ class PerformancePublisher(BasePlugin):
         self._publish(time)
 
     def reset(self, worlds: Any) -> None:
-        """Measure anew from here."""
+        """Measure again from here."""
         del worlds
         self._wall, self._simulated = time.monotonic(), self._context.simulation.time
 

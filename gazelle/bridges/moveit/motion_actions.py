@@ -65,7 +65,7 @@ class MoveGroupAction:
         finish(self._server, result, text)
 
     def _try_often(self, goal: Any, result: Any, *, only: bool) -> None:
-        """Plan and go, and plan anew as often as the goal allows where that may help."""
+        """Plan and go, and plan again as often as the goal allows where that may help."""
         options = goal.planning_options
         left = (options.replan_attempts or _REPLANS) if options.replan else 1
         while True:

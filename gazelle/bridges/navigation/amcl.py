@@ -41,7 +41,7 @@ _LOOK_S = 0.2
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Localise until it is told to end; returns the exit code."""
+    """Localise until shutdown; returns the exit code."""
     found = parse_arguments(arguments, "amcl")
     with found.start() as node, stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())

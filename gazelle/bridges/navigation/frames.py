@@ -15,7 +15,7 @@ from gazelle.ros.time import Time
 from gazelle.rotations import from_yaw, rotate, yaw_of
 
 _BACK_NS = 1_000_000_000
-"""A jump back that is longer than this begins time anew [ns]."""
+"""A jump back that is longer than this begins time again [ns]."""
 
 
 class GraphFrames:

@@ -17,7 +17,7 @@ class ControllersConnection:
 
     Args:
         namespace: Of the robot, without slashes; empty for none.
-        controllers_list: The controllers that `reset_controllers` starts anew.
+        controllers_list: The controllers that `reset_controllers` starts again.
     """
 
     def __init__(self, namespace: str, controllers_list: Sequence[str] = ()) -> None:

@@ -118,7 +118,7 @@ class GazeboConnection:
         self.unpauseSim()
 
     def update_gravity_call(self) -> None:
-        """Set the physics anew; the world stands still meanwhile, and runs then."""
+        """Set the physics again; the world stands still meanwhile, and runs then."""
         self.pauseSim()
         self._gazebo.set_physics()
         self.unpauseSim()

@@ -124,7 +124,7 @@ class Concurrence(Container):
                 self._child_outcomes[label] = outcome
                 ends = self._child_cb is not None and bool(self._child_cb(self._child_outcomes))
             self.call_transition_cbs()
-        except Exception as error:  # noqa: BLE001  # told where execute was called
+        except Exception as error:  # noqa: BLE001  # raised where execute was called
             self._failures.append(error)
             ends = True
         with self._changed:

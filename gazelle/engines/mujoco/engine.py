@@ -256,7 +256,7 @@ class MujocoEngine:
 
     @property
     def revision(self) -> int:
-        """Counts changes of models: systems then have to be bound to joints anew."""
+        """Counts changes of models: systems then have to be bound to joints again."""
         if self._run.revision:  # before the first nothing can be bound, and nothing is changed
             self._run.now()
         return self._run.revision

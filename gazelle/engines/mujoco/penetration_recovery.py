@@ -35,10 +35,10 @@ from gazelle.engines.mujoco.state import StateViews
 # it does not matter how many steps are made at once.
 _PIECE = 10
 
-# Margin of what touches with other pieces of a body that is let out [m]: it marks them.
+# Margin of what touches with other pieces of a body under penetration recovery [m]: it marks them.
 _MARK = -1e-9
 
-# Least depth that is let out slowly [m]: a contact pushes out gently what is less deep.
+# Least depth that penetration recovery handles [m]: a contact pushes out gently what is less deep.
 _SHALLOW = 2e-4
 
 _STATE = mujoco.mjtState.mjSTATE_INTEGRATION.value
@@ -283,7 +283,7 @@ _FASTER = 2.0
 
 
 class RecoverySpeedLimit:
-    """Bounds the speeds of free bodies that are let out.
+    """Bounds the speeds of free bodies under penetration recovery.
 
     The speed of a body is that of its frame and what its spin is worth in energy.
 
@@ -322,7 +322,7 @@ class RecoverySpeedLimit:
 
         Args:
             state: Of all worlds.
-            marked: Which geoms are let out, shape (nworld, geoms).
+            marked: Which geoms are under penetration recovery, shape (nworld, geoms).
             before: What ``before`` gave.
         """
         worlds, geoms = np.nonzero(marked)

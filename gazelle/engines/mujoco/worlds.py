@@ -1,4 +1,4 @@
-"""The worlds that run in MuJoCo: what was compiled, its state, and when it is compiled anew."""
+"""The worlds that run in MuJoCo: what was compiled, its state, and when it is compiled again."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class RunningWorlds:
         layout: Where things are in their arrays.
         state: Views of their states.
         parameters: Physical parameters that were changed.
-        overlaps: What is let out slowly of what it was put into.
+        overlaps: Bodies under penetration recovery.
         initial: The state that a reset puts back.
         before: Room for the states before a step, shape as those.
         sheets: Geoms that have no inside, shape (geoms,).

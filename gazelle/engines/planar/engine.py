@@ -37,7 +37,7 @@ _BODY = c.BODY + 7
 class PlanarEngine:
     """Many copies of one world in a plane; see ``gazelle.engines.engine.Engine``.
 
-    Bases are kinematic: they go as their wheels roll, or as they were told to, and stop at
+    Bases are kinematic: they go as their wheels roll, or as commanded, and stop at
     what they would run into. Nothing falls, and nothing is pushed. What is in the way is looked
     for where each step ends; on the way too if the profile's ``speculative_contacts`` is true.
     Bases go along the arc of their velocity; straight on, and then turn, if the profile's
@@ -133,7 +133,7 @@ class PlanarEngine:
 
     @property
     def revision(self) -> int:
-        """Counts changes of models: systems then have to be bound to the state anew."""
+        """Counts changes of models: systems then have to be bound to the state again."""
         return self._run.revision
 
     def add_motor(self, joint: str, max_effort: ArrayLike) -> None:
@@ -180,7 +180,7 @@ class PlanarEngine:
         self._run.targets[rows] = np.where(np.isnan(self._run.targets[0]), math.nan, 0.0)
 
     def command(self, wanted: ArrayLike) -> None:
-        """Set what drives of all bodies are told, shape (nworld, nbody, 3); see ``Drive``."""
+        """Set the drive commands of all bodies, shape (nworld, nbody, 3); see ``Drive``."""
         self._run.fleet.command[:] = np.asarray(wanted, np.float64)
 
     def place_body(

@@ -52,7 +52,7 @@ class FanScanner(System):
         missing: Range of beams that meet nothing [m].
         signed: Whether what is met from inside has the range minus infinity.
         way: See ``scan_columns.ALL`` and what follows.
-        spread: Standard deviation of the angles of beams that go astray [rad], one a mount.
+        spread: Standard deviation of the angles of beam errors [rad], one a mount.
         step: Angle between two beams [rad].
         constant: Standard deviation of normal noise on ranges [m].
         share: The same, as a share of the range.

@@ -26,7 +26,7 @@ class FleetInput:
         world: What to simulate.
         time_step: [s].
         motors: Joints with motors and the motors' largest efforts, in the order they were given.
-        kinematic: Models that only move when told to.
+        kinematic: Kinematic models.
         rays: Heights of rays beside those of the lidars [m].
     """
 

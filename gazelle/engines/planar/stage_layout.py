@@ -41,7 +41,7 @@ class StageLayout:
         names: Of the models that ``bodies`` are of.
         robots: In file order.
         things: Models that grippers can take, if there are grippers.
-        placed: Models that are moved only when told to.
+        placed: Kinematic models.
         still: Models that never move.
         statics: All that never moves.
         fans: Of each scanner.
@@ -70,7 +70,7 @@ def layout_of(
 
     Args:
         models: Those of Stage files.
-        kinematic: Names of models that are moved only when told to.
+        kinematic: Names of kinematic models.
         others: Bodies that come between ``bodies`` and ``riders``.
     """
     own = [(model.name, stage) for model in models if (stage := stage_model(model)) is not None]

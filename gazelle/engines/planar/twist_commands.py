@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc"
-"""Bodies that move at once as they are told: forward, sideways and turning."""
+"""Bodies that move at once by commands: forward, sideways and turning."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from gazelle.array_types import Floats
 
 @cython.cclass
 class TwistCommands(System):
-    """Some bodies in all worlds, a row each, with the velocities that they are told.
+    """Some bodies in all worlds, a row each, with the velocities of their commands.
 
     Args:
         linear: Forward and to the left [m/s], shape (nworld, n, 3); the third does nothing.

@@ -62,7 +62,7 @@ class AGVFleetVectorEnv(TaskVectorEnv):
 
     ## Episode end
 
-    * Terminated: the AGV bumps into something. It begins anew somewhere else in its hall, while
+    * Terminated: the AGV bumps into something. It starts again somewhere else in its hall, while
       the others go on; under PettingZoo it stays, in the way of the others, until all reset.
     * A goal is reached within 0.5 m; then there is a new one, and the episode goes on.
     * Truncated: after 500 steps (``max_episode_steps``).

@@ -1,1 +1,1 @@
-"""Tasks of openai_ros in which a base with a laser is told one of a few velocities."""
+"""Tasks of openai_ros in which a base with a laser is commanded one of a few velocities."""

@@ -1,4 +1,4 @@
-"""Fetch's gripper in all worlds of a simulation, and how it goes where it is told."""
+"""Fetch's gripper in all worlds of a simulation, and how it follows commands."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class CarriedGripper(ABC):
 
         Args:
             speed: Below 0 to close them [m/s], shape (nworld,).
-            period: After which they may be told something else [s].
+            period: After which they may get another command [s].
         """
         if self._fingers:
             now = self._fingers[0].positions()[:, 0]
@@ -124,7 +124,7 @@ class CarriedGripper(ABC):
 
 
 class FlyingGripper(CarriedGripper):
-    """The gripper alone, on three slides that go wherever they are told.
+    """The gripper alone, on three slides that go wherever they are commanded.
 
     Args:
         simulation: Where it is put.

@@ -33,7 +33,7 @@ from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
 
 FINGER_SPEED = 0.5
-"""Of a finger that is told to open or close as fast as it can [m/s]."""
+"""Of a finger commanded to open or close as fast as it can [m/s]."""
 
 _OBSERVED = {False: 10, True: 25}
 
@@ -57,7 +57,7 @@ class FetchTask(GoalSimulationTask):
             assets.world(figures.world), nworld, settings, WELDED_STEP if welded else None
         )
         self._gripper = _gripper_of(settings.control, simulation, figures)
-        # A weld is told the whole way, of which it gets as far in a step as there.
+        # A weld gets the whole way, of which it gets as far in a step as there.
         self._reach = LARGEST_STEP if welded else SHARE * LARGEST_STEP
         self._object = simulation.robots["object"] if figures.has_object else None
         self._dense = settings.reward_type == "dense"

@@ -87,7 +87,7 @@ class GoalLayout:
         flat = dataclasses.replace(self._settings, engine="planar", threads=1, time_step=None)
         try:
             with warnings.catch_warnings():
-                # What there is to tell was told when the task's own scene was made.
+                # What there is to report was reported when the task's own scene was made.
                 warnings.simplefilter("ignore", GazelleWarning)
                 scene = TaskScene(STAGES[self._stage], flat, 1)
         except Error as error:

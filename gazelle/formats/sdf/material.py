@@ -35,7 +35,7 @@ def read_material(node: Parameters | None, reading: Reading) -> Material | None:
         # files before SDF 1.3 write the script's name as the text itself
         name = values.word(script, "name") or script.text
         uris = tuple(uri.text for uri in script.find_all("uri") if uri.text)
-        if uris == (STANDARD,):  # Gazebo finds its own without being told where
+        if uris == (STANDARD,):  # Gazebo finds its own without a path
             uris = ()
     material = Material(
         ambient=_color(node, "ambient"),

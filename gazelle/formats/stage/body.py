@@ -41,7 +41,7 @@ def read_body(given: Properties, size: StageSize, context: Context, *, solid: bo
         given: The model's properties.
         size: Its size.
         context: Finds pictures.
-        solid: Whether a model of its type has a body without being told so.
+        solid: Whether a model of its type has a body by default.
 
     Raises:
         FormatError: A block or bitmap cannot be used.

@@ -285,7 +285,7 @@ class ModelType:
     Attributes:
         read: Its own properties; None if it has none.
         size: Of its body where the file says none.
-        solid: Whether it has a body without being told so.
+        solid: Whether it has a body by default.
         color: Where the file says none.
     """
 

@@ -2,7 +2,7 @@
 
 Method: A. Meijster, J. Roerdink and W. Hesselink, "A general algorithm for computing distance
 transforms in linear time", 2000: first along columns, then the lower envelope of parabolas along
-each row. All in whole numbers, so that the result is exact.
+each row. All in ints, so that the result is exact.
 """
 
 # mypy: disallow-untyped-decorators=False

@@ -15,7 +15,7 @@ def clear_rays(cells: Bytes, start: tuple[int, int], ends: Floats, most: float) 
     Args:
         cells: Shape (rows, columns), changed in place.
         start: Column and row.
-        ends: Columns and rows that lines lead to, whole numbers, on the grid or off it, shape (n, 2).
+        ends: Columns and rows that lines lead to, ints, on the grid or off it, shape (n, 2).
         most: Longest line [cells].
     """
     if 0 <= start[0] < cells.shape[1] and 0 <= start[1] < cells.shape[0]:

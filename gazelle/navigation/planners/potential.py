@@ -219,7 +219,7 @@ class PotentialField:
             grid: 1 to go from cell to cell; else in steps of half a cell along the gradient.
 
         Returns:
-            Columns and rows, of cells' middles whole numbers, shape (n, 2); empty if it leads nowhere.
+            Columns and rows, of cells' middles ints, shape (n, 2); empty if it leads nowhere.
         """
         room = 8 * (self._rows + self._columns) + self._rows * self._columns // 4
         points = np.empty((room, 2))

@@ -212,7 +212,7 @@ class SimpleActionServer:
         try:
             if self.execute_callback is not None:
                 self.execute_callback(goal)
-        except Exception as error:  # noqa: BLE001  # the client is told, the server goes on
+        except Exception as error:  # noqa: BLE001  # reported to the client, the server continues
             if self.node.closed:
                 return
             report("Exception in your execute callback", error)

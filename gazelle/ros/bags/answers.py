@@ -65,7 +65,7 @@ def types_and_topics(
     Args:
         file: The bag's bytes.
         index: Its index.
-        wanted: Of these connections only; None for all. Types are told of all.
+        wanted: Of these connections only; None for all. Types are those of all.
     """
     types: dict[str, str] = {}
     by_topic: dict[str, list[Connection]] = {}

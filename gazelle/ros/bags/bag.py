@@ -53,7 +53,7 @@ class Bag(Closeable):
 
     Args:
         f: Its path, or a binary stream: read from where it stands, or written to when it is closed.
-        mode: ``r`` to read, ``w`` to write anew, ``a`` to write at its end; all can be read from.
+        mode: ``r`` to read, ``w`` to write again, ``a`` to write at its end; all can be read from.
         compression: Of what is written: ``none``, ``bz2`` or ``lz4``.
         chunk_threshold: Uncompressed bytes after which a chunk is complete.
         allow_unindexed: Take a bag without an index too, by looking through all of it.

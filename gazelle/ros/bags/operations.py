@@ -48,7 +48,7 @@ def filter_bag(
         source: A bag.
         target: The bag to write.
         keep: Chooses.
-        show: Told about each message, and whether it is kept.
+        show: Called with each message, and whether it is kept.
 
     Returns:
         How many messages were kept, and how many there were.

@@ -67,7 +67,7 @@ class Player:
         node: Publishes; it must not run on simulated time.
         paths: The bags.
         options: What, and how.
-        show: Told the state, now and then: ``RUNNING``, ``PAUSED`` or ``DELAYED``, the bags' time
+        show: Called with the state at times: ``RUNNING``, ``PAUSED`` or ``DELAYED``, the bags' time
             and what passed of it, both in seconds.
     """
 

@@ -40,6 +40,6 @@ def run(command: str, arguments: Sequence[str] | None = None) -> None:
             for line in output:
                 sys.stdout.write(line)
         except KeyboardInterrupt:
-            process.terminate()  # what has been asked of us it is told, too
+            process.terminate()  # the request to end goes to it, too
     if process.wait():
         raise SystemExit(process.returncode)

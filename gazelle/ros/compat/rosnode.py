@@ -62,7 +62,7 @@ def kill_nodes(node_names: list[str]) -> tuple[list[str], list[str]]:
     """Shut nodes down.
 
     Returns:
-        Those that were told, and those that could not be.
+        Those that were requested, and those that could not be.
     """
     try:
         failed = nodes.kill(_graph(), node_names)

@@ -37,7 +37,7 @@ _HAS_GROUPS = hasattr(os, "killpg")
 class LaunchWatchdog:
     """A small process that outlives this one for a moment if this one is killed.
 
-    It is told of every node as soon as that has begun (who is killed between the two, leaves that node);
+    It gets every node as soon as that has started (what is killed between the two, leaves that node);
     on Windows there is none.
     """
 

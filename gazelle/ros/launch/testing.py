@@ -1,6 +1,6 @@
 """Run the ``<test>`` elements of launch files, as rostest does.
 
-Every test has a master of its own, and all nodes of the file anew (http://wiki.ros.org/rostest).
+Every test has a master of its own, and all nodes of the file again (http://wiki.ros.org/rostest).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The tree of parameters, and who is to be told about which change."""
+"""The tree of parameters, and the subscribers of its changes."""
 
 from __future__ import annotations
 

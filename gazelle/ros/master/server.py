@@ -20,17 +20,17 @@ from gazelle.ros.xmlrpc.async_client import AsyncClient
 from gazelle.ros.xmlrpc.server import XmlRpcServer
 
 _PATIENCE_S = 3.0
-"""Seconds to wait for a node that is told something; dead nodes stay registered."""
+"""Seconds to wait for a node that is called; dead nodes stay registered."""
 
 _GREETING_S = 10.0
 """A master on this machine that somebody asks who it is answers within this time."""
 
 
 class Master(Closeable):
-    """A ROS master with parameter server and, unless told otherwise, the rosout aggregator.
+    """A ROS master with parameter server and, by default, the rosout aggregator.
 
     Args:
-        host: The name nodes reach it by; loopback unless told otherwise.
+        host: The name nodes reach it by; loopback by default.
         port: 0 for any free one.
         rosout: As roscore does, run the node ``/rosout`` that copies ``/rosout`` to
             ``/rosout_agg``, and set ``/run_id`` and its like; without, as bare rosmaster.

@@ -211,7 +211,7 @@ def register(package: str, name: str, text: str, kind: str | None = None) -> Non
         package: Name of the package.
         name: Name of the message, service or action, without the package.
         text: The definition, as in a ``.msg``, ``.srv`` or ``.action`` file.
-        kind: ``msg``, ``srv`` or ``action``; by default told by the number of ``---`` lines.
+        kind: ``msg``, ``srv`` or ``action``; by default decided by the number of ``---`` lines.
 
     Raises:
         InvalidDefinitionError: The text is malformed.

@@ -16,7 +16,7 @@ from gazelle.ros.loop import READ, WRITE, EventLoop
 _BATCH = 65536
 _POLL_S = 0.5
 AT_ONCE: int | None = socket.MSG_DONTWAIT if sys.platform == "linux" else None
-"""Flag of calls that must not wait; None where not all calls heed it, or there is none."""
+"""Flag of calls that must not wait; None where not all calls support it, or there is none."""
 
 
 class OutboundLink:

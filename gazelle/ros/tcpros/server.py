@@ -18,7 +18,7 @@ _RETRY_ACCEPT = 0.2
 Route = Callable[[socket.socket, net.Address, dict[str, str], bytes], None]
 """Takes over a socket, its peer's address and header, and what came after the header.
 
-Raises RosError to refuse; the peer is told the text."""
+Raises RosError to refuse; the peer gets the text."""
 
 
 class TcprosServer:

@@ -42,7 +42,7 @@ _MAX_DEPTH = 1000
 _FOREVER = 1 << 62
 _QUIET_S = 10.0
 DEFAULT_CACHE_NS = 10_000_000_000
-"""Time that transforms are kept, unless told otherwise [ns]."""
+"""Time that transforms are kept, by default [ns]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,7 +48,7 @@ def tool_node(graph: GraphInspector, **keywords: Any) -> Node:
 
 
 class PeriodicReport:
-    """Calls something once a second until it is told to stop."""
+    """Calls something once a second until it is stopped."""
 
     def __init__(self, stop: threading.Event) -> None:
         self._stop = stop

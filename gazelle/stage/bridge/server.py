@@ -14,7 +14,7 @@ from gazelle.stage.bridge.door import StageDoor
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Run a Stage world on the graph until it is told to end; returns the exit code.
+    """Run a Stage world on the graph until shutdown; returns the exit code.
 
     The pace is what the file's ``speedup`` says, with a window or without.
     """

@@ -26,7 +26,7 @@ _LOG = logging.getLogger(__name__)
 
 _TICK_S = 0.02
 _CLOCK_LATE_S = 1.0
-"""A stamp that is ahead of the clock by more is not of this time: the clock began anew [s]."""
+"""A stamp that is ahead of the clock by more is not of this time: the clock started again [s]."""
 _MASTER_LOOK_S = 0.5
 _MASTER_MISSES = 2
 _FAREWELLS = 5
@@ -61,7 +61,7 @@ class DeployNode(Closeable):
         turned: How far the lidar is turned to the left on the robot [rad].
         time_limit: For each goal [s]; None for that of the contract.
         log: File for the log of interventions.
-        on_end: Told what became of a goal, by the thread that drives; it may give the next one.
+        on_end: Called with the outcome of a goal, by the driving thread; it may give the next one.
 
     Raises:
         GuardLostError: The guard did not start.

@@ -101,7 +101,7 @@ class Pilot:
         self._acted_at = -math.inf
         self._fresh = self._touching = False
 
-    # What is heard -------------------------------------------------------------------------
+    # Messages received -------------------------------------------------------------------------
 
     def see(self, scan: ScanReading, now: float) -> None:
         """Store a scan."""
@@ -142,7 +142,7 @@ class Pilot:
             place: Of the goal in the frame of the odometry [m]; None where that is not known.
         """
         if now < self._now - _SPEED_CHANGE:
-            # Time began anew: what was heard before it did is of another life.
+            # Time started again: earlier messages are of another run.
             self._scan = self._odometry = None
             self._halt()
         self._now = now

@@ -54,7 +54,7 @@ def run_stage(stage: int, arguments: Sequence[str]) -> int:
 
 
 def _learned(node: Node, stage: int) -> Path | None:
-    """Return the folder of a run; None if its training was told to stop."""
+    """Return the folder of a run; None if its training was stopped."""
     given = str(node.get_param("~run", ""))
     if given:
         return expanded(given)
@@ -80,7 +80,7 @@ def _learned(node: Node, stage: int) -> Path | None:
 
 
 class _Tour:
-    """Goes to the published goals, one after another; a world in which it fails begins anew."""
+    """Goes to the published goals, one after another; a world in which it fails starts again."""
 
     def __init__(self, node: Node, policy: Policy, stage: int, stop: threading.Event) -> None:
         distance = SafetyLimits.default_stop_distance(policy.contract)

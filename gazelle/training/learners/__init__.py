@@ -51,7 +51,7 @@ def build_learner(recipe: Recipe, env: VectorEnvAdapter, seed: int) -> Learner:
 
 
 def _scaled(learner: Learner, env: VectorEnvAdapter) -> Learner:
-    """Return the learner, with the scale of its observations told of all that is observed."""
+    """Return the learner, with the scale of its observations updated by all that is observed."""
     learner.scale = learner.policy_kwargs["features_extractor_kwargs"]["scale"]
     env.watch(learner.scale.observe)
     return learner

@@ -1,7 +1,7 @@
 """Hindsight experience replay: what was reached by chance is taught as if it had been the goal.
 
 M. Andrychowicz et al., "Hindsight Experience Replay" (NIPS 2017, arXiv 1707.01495), with goals
-from the future of the same episode. Why this is not Stable-Baselines3's class is told in
+from the future of the same episode. Why this is not Stable-Baselines3's class is documented in
 docs/decisions/012-own-learners.md.
 """
 

@@ -160,7 +160,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
                 super().learn(*arguments, **options)
         except BaseException:
             if self.ahead is not None:
-                with contextlib.suppress(Exception):  # one error is told, the first one
+                with contextlib.suppress(Exception):  # only the first error is reported
                     self.ahead.wait()
             raise
         self._hand_over()

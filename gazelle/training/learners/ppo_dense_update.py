@@ -215,7 +215,7 @@ class _FlatAdam:
     def step(self, gradients: torch.Tensor, longest: float) -> None:
         """Move the weights, with gradients shortened as ``clip_grad_norm_`` does."""
         length = torch.linalg.vector_norm(gradients)
-        # An infinite one makes weights NaN, which is told, where it would stop all learning.
+        # An infinite one makes weights NaN, which is reported, where it would stop all learning.
         gradients.mul_((longest / (length + 1e-6)).clamp_(max=1.0) + 0.0 * length)
         self._count += 1
         first, second = self._betas

@@ -109,7 +109,7 @@ class Shard:
         self.rng = np.random.default_rng(number)
 
     def reset(self, seed: int | None) -> Floats32:
-        """Start all episodes anew, with other chances in every shard."""
+        """Start all episodes again, with other chances in every shard."""
         if seed is not None:
             places, actions = np.random.SeedSequence([seed, self.number]).generate_state(2)
             self.rng = np.random.default_rng(int(actions))
@@ -170,7 +170,7 @@ class ShardHost:
         )
 
     def reset(self, seed: int | None) -> dict[int, tuple[Floats32, Any]]:
-        """Start all episodes anew; first observations and states by shard."""
+        """Start all episodes again; first observations and states by shard."""
         return {n: (each.reset(seed), each.get_state()) for n, each in self._shards.items()}
 
     def collect(self, actor: Actor, steps: int) -> dict[int, tuple[Rollout | None, Any]]:

@@ -43,9 +43,9 @@ class WorkerLink(Protocol):
 class Team:
     """Some workers and the shards that they hold.
 
-    A worker that is lost is started anew, gets its shards back as they were after the last
+    A worker that is lost is started again, gets its shards back as they were after the last
     rollout, and is asked again: nothing but time is lost. Where it was asked for a single step,
-    its episodes start anew instead, and the answer is their first observations.
+    its episodes start again instead, and the answer is their first observations.
 
     Args:
         start: Makes the link to a new worker with these shards.

@@ -84,7 +84,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         return [seed] * self.num_envs
 
     def reset(self) -> Floats32:
-        """Start all episodes anew, with the seed given to `seed` if there is one."""
+        """Start all episodes again, with the seed given to `seed` if there is one."""
         self.obs = np.concatenate(list(self.team.call("reset", self._seed).values()))
         self.starts = np.ones(self.num_envs, np.bool_)
         self._seed = None

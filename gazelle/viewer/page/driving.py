@@ -11,7 +11,7 @@ from gazelle.simulation.ports import TwistInput
 from gazelle.viewer.page.context import PageContext
 from gazelle.viewer.page.server import PageServer
 
-_LATE = 0.6  # after which a robot stands still when nothing is heard [s]
+_LATE = 0.6  # after which a robot stands still when nothing is received [s]
 
 _STICK = """
 <div id="gazelle-stick" tabindex="0" title="drag, or click and use the arrow keys or W A S D"

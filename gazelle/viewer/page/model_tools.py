@@ -90,7 +90,7 @@ class ModelTools:
         context.heading = followed
 
     def renew(self) -> None:
-        """List the models anew."""
+        """List the models again."""
         self._name.options = (NONE, *self._context.simulation.robots)
         self._selected()
 

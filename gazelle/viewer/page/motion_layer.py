@@ -30,7 +30,7 @@ class _Seen:
 
 
 class MotionLayer:
-    """Ghosts of robots whose motions were told of by ``simulation.events.planned``.
+    """Ghosts of robots whose motions were reported by ``simulation.events.planned``.
 
     Args:
         context: Of the page.

@@ -100,7 +100,7 @@ class FrameLayer:
         self._point(at, turned)
 
     def renew(self) -> None:
-        """List the links anew."""
+        """List the links again."""
         for handle in (self._axes, self._arrows):
             if handle is not None:
                 handle.remove()
@@ -180,7 +180,7 @@ class ContactLayer:
             )
 
     def renew(self) -> None:
-        """List the collision shapes of what moves anew."""
+        """List the collision shapes of what moves again."""
         self._names = tuple(
             f"{placed.scope}::{link.name}::{collision.name}"
             for model in self._context.simulation.world.models

@@ -59,7 +59,7 @@ class PlotLayer:
             self._chart.data = tuple(data)
 
     def renew(self) -> None:
-        """List the ports anew."""
+        """List the ports again."""
         ports = tuple(
             f"{robot.name}: {name}"
             for robot in self._context.simulation.robots.values()

@@ -76,7 +76,7 @@ class ShapeBatches:
         root: Under which name they are.
         world: What there is.
         spots: Where the copies stand [m], shape (copies, 3).
-        on_batch: Told of every batch, with what names the part of an instance.
+        on_batch: Called with every batch, with what names the part of an instance.
         opacity: Below 1 lets see through.
 
     Attributes:

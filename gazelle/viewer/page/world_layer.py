@@ -24,7 +24,7 @@ class ShapeLayer:
         context: Of the page.
         name: Under which they are.
         collisions: Whether collision shapes are shown, which can be seen through.
-        on_batch: Told of every batch of shapes.
+        on_batch: Called with every batch of shapes.
         shown: Whether they are shown at first.
     """
 

@@ -73,7 +73,7 @@ class PoseTargets:
         """Return the target of a link that is to be changed in part: a new one without a target.
 
         Position and orientation are set one after the other; a target in another frame than the
-        reference frame is begun anew, as its other half means something else here.
+        reference frame is started again, as its other half means something else here.
         """
         found = self.by_link.get(link or self.link)
         if found and found[0].header.frame_id in ("", self.frame):

@@ -34,7 +34,7 @@ class RequestSettings:
         start: A ``RobotState``.
         workspace: ``WorkspaceParameters``.
         path, trajectory: ``Constraints`` along the way, and ``TrajectoryConstraints``.
-        look, replan: Whether to look around, and to plan anew while moving.
+        look, replan: Whether to look around, and to plan again while moving.
         support: The surface that objects are put on.
     """
 

@@ -51,7 +51,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         model_ori_y: See ``model_ori_x``.
         model_ori_z: See ``model_ori_x``.
         model_ori_w: See ``model_ori_x``.
-        reset_controllers: Whether an episode begins with controllers that were started anew.
+        reset_controllers: Whether an episode begins with controllers that were started again.
         reset_mode: 1 puts back the models, 2 the time too.
         step_mode: 1 lets time go on while the action is sent, 2 makes ``num_gazebo_steps`` steps then.
         num_gazebo_steps: Of the physics.

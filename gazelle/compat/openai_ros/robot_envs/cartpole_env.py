@@ -56,7 +56,7 @@ class CartPoleEnv(TopicRobotEnv):
         self.joints = data
 
     def check_publishers_connection(self) -> None:
-        """Wait until both commands are heard."""
+        """Wait until both commands have subscribers."""
         self._check_publishers_connection()
 
     def init_internal_vars(self, init_pos_value: float) -> None:

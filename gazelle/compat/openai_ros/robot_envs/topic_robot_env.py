@@ -104,7 +104,7 @@ class TopicRobotEnv(RobotGazeboEnv):
         return rospy.Subscriber(sensor.topic, load_message(sensor.kind), take, queue_size=10)
 
     def _check_all_systems_ready(self) -> bool:
-        """Wait until all sensors have said something since now, and commands are heard."""
+        """Wait until all sensors have published since now, and commands have subscribers."""
         self._check_all_sensors_ready()
         self._check_publishers_connection()
         return True

@@ -2,7 +2,7 @@
 
 ODE's first friction direction is the file's ``fdir1``, which turns with its collision, or,
 without one, a direction chosen by the normal: world y on level ground, level on a wall. What
-of this MuJoCo's contacts do not know of themselves it is told in every step (see ``contact_laws.kernel``).
+of this MuJoCo's contacts do not know of themselves it is set in every step (see ``contact_laws.kernel``).
 """
 
 from __future__ import annotations

@@ -42,7 +42,7 @@ from gazelle.errors import EngineWarning
 # What falls that fast fell from 45 m.
 _LARGEST_THRESHOLD = 30.0
 
-# Speed over which what rests too deep is let out, times 1 - e² over e [m/s].
+# Speed over which a deep contact at rest recovers, times 1 - e² over e [m/s].
 _USUAL_SPEED = 4.0
 
 # Softest correction of a bouncing contact, as a share of the depth a step. With none at all

@@ -31,7 +31,7 @@ def allows_sleep(world: World, kinematic: Collection[str] = ()) -> bool:
 
     Args:
         world: The description.
-        kinematic: Names of models that move only when told to; such a one is never loose.
+        kinematic: Names of kinematic models; such a one is never free.
     """
     wanted = world.profile.auto_disable
     if wanted is not None:
@@ -82,7 +82,7 @@ def has_free_bodies(world: World, kinematic: Collection[str] = ()) -> bool:
 
     Args:
         world: The description.
-        kinematic: Names of models that move only when told to; such a one is never loose.
+        kinematic: Names of kinematic models; such a one is never free.
     """
     return any(_is_free(model) and _collides(model) for model in _moving(world, kinematic))
 

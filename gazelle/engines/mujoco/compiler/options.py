@@ -52,7 +52,7 @@ def set_options(
         spec: What MuJoCo compiles.
         world: The description.
         time_step: Physics step [s].
-        kinematic: Names of models that move only when told to.
+        kinematic: Names of kinematic models.
     """
     option = spec.option
     option.timestep = time_step
@@ -99,7 +99,7 @@ def damp_implicitly(spec: mujoco.MjSpec) -> None:
     """Set Euler's method to damp joints implicitly, constraints included.
 
     With the damping D and the step h, implicit Euler is (M + h D) a = f - D v. MuJoCo's own way
-    (``eulerdamp``) solves constraints with M, and finds the acceleration anew with M + h D from their
+    (``eulerdamp``) solves constraints with M, and finds the acceleration again with M + h D from their
     forces: what a motor and a stiff contact ask for is not what comes of it, and a robot that grips
     or leans on something shakes until it flies apart. Here h D is part of the joints' inertia (as an
     armature), so that both are found together; motion without constraints is the same.

@@ -72,7 +72,7 @@ class CompilerInput:
     Attributes:
         world: The description.
         time_step: Physics step [s].
-        kinematic: Names of models that move only when told to.
+        kinematic: Names of kinematic models.
         motors: By scoped joint name.
         attachments: Pairs of links that can be held together at run time.
         tyres: Links whose shapes may slip in proportion to the force.

@@ -17,7 +17,7 @@ _PREFIX = "still_"
 class WorldGeoms:
     """Adds geoms to the world's body of an ``MjSpec``.
 
-    With each geom that is added MuJoCo lists all elements of the model anew, which is a quarter of
+    With each geom that is added MuJoCo lists all elements of the model again, which is a quarter of
     a millisecond where there are fifty thousand. What is attached from another ``MjSpec`` is
     listed once. So all but the first geoms come in by thousands. Of what is listed it is the names
     that take the time, so those are given at the end, to what was attached and to meshes.

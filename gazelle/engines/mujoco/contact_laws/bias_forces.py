@@ -66,7 +66,7 @@ def take_bias_midway(
         return False
     if first * step > MOST_A_STEP:
         floats(told)[0] = 1.0
-    # What comes later in the step fills these anew.
+    # What comes later in the step fills these again.
     kept = floats(word(data + AT.constraint))
     force = floats(word(data + AT.smooth))
     gained = floats(word(data + AT.acceleration))

@@ -17,7 +17,7 @@ in an impact all of it, with k = 1.
 
 An estimate that is wrong for a step unloads a contact, and what stands on others besides may stay
 there: on a caster, with wheels that do not grip. So contacts of robots, and of hollow meshes, are
-left alone while they slip so little that they may only creep. A loose body of one friction has no
+left alone while they slip so little that they may only creep. A free body of one friction has no
 such others, and is kept down however slowly it slides. Else it rises by mu times its slip, loses contact, and with it
 all friction of a step: 0.2 % of it on a slope, half of it where it is pushed at 1 mm/s.
 """

@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="misc"
-"""Bases that slide as they are told: level velocities of free bodies along their headings."""
+"""Bases that slide by commands: level velocities of free bodies along their headings."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from gazelle.array_types import Floats, Indices
 
 @cython.cclass
 class LevelMotion(System):
-    """Some models in all worlds, each carried by one free body, with the velocities they are told.
+    """Some models in all worlds, each moved by one free body, with their commanded velocities.
 
     Args:
         linear: Forward and to the left [m/s], shape (nworld, n, 3); the third does nothing.

@@ -1,6 +1,6 @@
 """Forces of what turns, at the middle of a step: ``contact_laws.bias_forces`` and the tumbling of free bodies.
 
-Their sources are told there and in ``contact_laws.kernel``.
+Their sources are documented there and in ``contact_laws.kernel``.
 """
 
 import warp as wp

@@ -1,6 +1,6 @@
 """Contacts on the device: directions of friction, treads of wheels, ways out of overlaps, bounces.
 
-The laws are those of ``gazelle.engines.mujoco.contact_laws``, where their sources and limits are told.
+The laws are those of ``gazelle.engines.mujoco.contact_laws``, with their sources and limits.
 """
 
 import warp as wp

@@ -84,7 +84,7 @@ def share_field(model: Any, name: str, values: Floats) -> None:
 
 
 def can_share(name: str) -> bool:
-    """Return whether a field can be changed on the device without making the model anew."""
+    """Return whether a field can be changed on the device without making the model again."""
     return not _is_read(name) or (_fields().get(name, False) and name not in _BY_PRESENCE)
 
 

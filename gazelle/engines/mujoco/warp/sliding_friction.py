@@ -1,4 +1,4 @@
-"""Contacts that slide do not part: ``contact_laws.sliding_friction`` on the device, where its source is told."""
+"""Contacts that slide do not part: ``contact_laws.sliding_friction`` on the device; see its source there."""
 
 import warp as wp
 

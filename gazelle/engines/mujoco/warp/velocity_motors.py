@@ -1,4 +1,4 @@
-"""Motors that hold a velocity: ``contact_laws.velocity_motors`` on the device, where its source is told."""
+"""Motors that hold a velocity: ``contact_laws.velocity_motors`` on the device; see its source there."""
 
 import warp as wp
 

@@ -11,7 +11,7 @@ from gazelle.ros.compat.PyKDL.vector import EPSILON, Vector, close, row
 from gazelle.ros.tf import rotations
 
 _POLE = 1e-12
-"""Distance from a pole at which two angles cannot be told apart."""
+"""Distance from a pole at which two angles cannot be distinguished."""
 
 
 class Rotation:

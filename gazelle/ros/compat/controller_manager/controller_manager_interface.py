@@ -25,14 +25,14 @@ def list_controller_types() -> None:
 
 
 def reload_libraries(force_kill: bool, restore: bool = False) -> bool:  # noqa: FBT001, FBT002  # the original's interface
-    """Load the code of the controllers anew.
+    """Load the code of the controllers again.
 
     Args:
         force_kill: Stop and unload what is loaded; else there must be nothing.
         restore: Load and start it again afterwards.
 
     Returns:
-        Whether the code was loaded anew.
+        Whether the code was loaded again.
     """
     _say(f"Restore: {restore}")
     before = _call("list_controllers", "ListControllers").controller if restore else []

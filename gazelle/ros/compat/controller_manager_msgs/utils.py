@@ -81,7 +81,7 @@ class ControllerManagerLister:
 class ControllerLister:
     """Called again and again, tells which controllers a manager has loaded.
 
-    The connection stays open; one that broke is made anew.
+    The connection stays open; one that broke is made again.
 
     Args:
         namespace: Of the manager.

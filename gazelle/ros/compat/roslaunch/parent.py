@@ -42,7 +42,7 @@ class ROSLaunchParent:
         is_core: Start a master; there must be none.
         port: The master's, if it is not that of ROS_MASTER_URI.
         local_only: Accepted; nodes run on this machine.
-        process_listeners: Told of the end of nodes.
+        process_listeners: Called at the end of nodes.
         verbose: Accepted, and not needed.
         force_screen: All nodes write to the screen.
         force_log: No node writes to the screen.
@@ -167,7 +167,7 @@ class Runner:
 
     Args:
         launch: What to watch.
-        listeners: Told of the end of nodes.
+        listeners: Called at the end of nodes.
     """
 
     def __init__(self, launch: Launch, listeners: Iterable[ProcessListener] = ()) -> None:

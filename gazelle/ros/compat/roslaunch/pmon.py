@@ -1,4 +1,4 @@
-"""Processes, and who is told of their end."""
+"""Processes, and listeners of their end."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gazelle.ros.launch.process import NodeProcess
 
 
 class ProcessListener:
-    """Is told of the end of processes that end by themselves."""
+    """Listens to the end of processes that end by themselves."""
 
     def process_died(self, process_name: str, exit_code: int) -> None:
         """Handle the end of a process."""

@@ -27,7 +27,7 @@ class Guest:
         self.limits = LIMITS
         self.parameters = NodeParameters(cast("Node", self))
         self.uri = "http://127.0.0.1:0/"
-        """Address without a server: a guest is told of no changes."""
+        """Address without a server: a guest gets no changes."""
 
     def resolve(self, name: str) -> str:
         """Return the global name of a name."""

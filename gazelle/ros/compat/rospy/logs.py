@@ -207,7 +207,7 @@ def _due(site: Any, period: float) -> bool:
     """Return whether the period since the last time at this place is over."""
     now = get_rostime() if is_rostime_initialized() else Time.from_sec(time.time())
     before = _when.get(site)
-    # After a jump back of simulated time, the count begins anew.
+    # After a jump back of simulated time, the count starts again.
     if before is not None and before <= now and (now - before).to_sec() < period:
         return False
     _when[site] = now

@@ -59,7 +59,7 @@ class Rate:
 
     Args:
         hz: Cycles per second.
-        reset: Begin anew after a jump back of simulated time, instead of raising.
+        reset: Start again after a jump back of simulated time, instead of raising.
     """
 
     def __init__(self, hz: float, reset: bool = False) -> None:  # noqa: FBT001, FBT002  # rospy's interface
@@ -123,7 +123,7 @@ class Timer(threading.Thread):
         period: Between calls.
         callback: Called with a `TimerEvent`, on this thread.
         oneshot: Call once.
-        reset: Begin anew after a jump back of simulated time; otherwise the thread ends.
+        reset: Start again after a jump back of simulated time; otherwise the thread ends.
     """
 
     def __init__(

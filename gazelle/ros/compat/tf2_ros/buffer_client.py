@@ -36,7 +36,7 @@ class BufferClient(BufferInterface):
     Args:
         ns: Of the server's action.
         check_frequency: Accepted, and not needed.
-        timeout_padding: How much longer to wait than the server is told to.
+        timeout_padding: How much longer to wait than the server does.
     """
 
     def __init__(

@@ -180,7 +180,7 @@ def clear_constraints(group: MoveGroupCommander) -> Answer:
 
 
 def allow(group: MoveGroupCommander, what: str, value: str) -> Answer | None:
-    """Allow looking around or planning anew."""
+    """Allow looking around or planning again."""
     if what in ("look", "looking"):
         group.allow_looking(value in _YES)
     elif what in ("replan", "replanning"):
