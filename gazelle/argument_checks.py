@@ -31,7 +31,7 @@ _CHECKED: set[type] = set()
 """Classes whose instances were checked when they were made."""
 _TRUSTED = {"restore"}
 """Methods that get what their own class made, such as a state with infinite costs."""
-_ARRAY = re.compile(r"\b(ArrayLike|Floats|Bools|Indices|Ints\d*)\b")
+_ARRAY = re.compile(r"\b(ArrayLike|Floats\d*|Bools|Indices|Ints\d*)\b")
 _LENGTHS = {"Vector3": 3, "Vector": 3, "Range": 2, "Color": 4, "Quaternion": 4}
 """Numbers in a value of these annotations."""
 _ROWS = re.compile(r"(?:Sequence|Iterable|list|tuple)\[(tuple\[.*?\])(?:, \.\.\.)?\]")

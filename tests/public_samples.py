@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import arms
+import gymnasium as gym
 import numpy as np
 import scenes
 import wrong_calls
@@ -66,6 +67,11 @@ class Samples:
         if name in BY_NAME and ("str" in annotation or not annotation):
             return BY_NAME[name](self)
         plain = annotation.replace("'", "")
+        if plain.startswith("Sequence[tuple[float, float]]"):
+            return [(0.0, 1.0), (2.0, 1.0)]
+        if "gym." in plain:
+            box = gym.spaces.Box(-1.0, 1.0, (2,))
+            return gym.spaces.Dict({"a": box}) if "Dict" in plain else box
         if re.search(r"(Iterable|Sequence|tuple)\[tuple\[(Shape|Geometry)", plain):
             return ((Box((1.0, 1.0, 1.0)), Pose()),)
         listed = re.match(r"(Sequence|Iterable|list|tuple)\[\(?(\w+)", plain)
@@ -81,13 +87,16 @@ class Samples:
 
     def instance(self, kind: type) -> Any:
         """Return an instance of a public class, made of good values; None if none can be made."""
-        with contextlib.suppress(gazelle.Error):
+        try:
             return self._made(kind)
+        except Exception as error:  # noqa: BLE001  # the sample is wrong: others are not concerned
+            print(f"no sample of {kind.__name__}: {error!r:.150}")
+            return None
 
     def _made(self, kind: type) -> Any:
         if kind.__name__ in TABLE:
             return TABLE[kind.__name__](self)
-        if kind in self._making:
+        if kind in self._making or inspect.isabstract(kind):
             return None
         self._making.append(kind)
         try:
@@ -119,6 +128,22 @@ class Samples:
         return planning.Group(self.arm, "arm").plan({"wrist_flex_joint": 0.3})
 
     @functools.cached_property
+    def task(self) -> Any:
+        """A task of two worlds."""
+        return self._task("gazelle/CartPoleStayUp-v0")
+
+    @functools.cached_property
+    def goal_task(self) -> Any:
+        """A task with goals, of two worlds."""
+        return self._task("gazelle/FetchReach-v0")
+
+    def _task(self, name: str) -> Any:
+        env = gym.make_vec(name, 2, vectorization_mode="vector_entry_point")
+        self.stack.callback(env.close)
+        env.reset(seed=1)
+        return env.unwrapped.task
+
+    @functools.cached_property
     def arm(self) -> Any:
         """Robot of a running simulation with a group "arm"."""
         sim = self.stack.enter_context(Simulation("fetch", threads=1))
@@ -128,6 +153,9 @@ class Samples:
 TABLE: dict[str, Callable[[Samples], Any]] = {
     "Simulation": lambda s: s.simulation,
     "Robot": lambda s: s.arm,
+    "BatchedTask": lambda s: s.task,
+    "SimulationTask": lambda s: s.task,
+    "GoalSimulationTask": lambda s: s.goal_task,
     "World": lambda s: scenes.world(scenes.ground(), scenes.box()),
     "Model": lambda s: scenes.box("new"),
     "RobotModel": lambda s: arms.arm("fetch"),

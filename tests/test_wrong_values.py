@@ -114,6 +114,7 @@ def test_a_simulation_refuses_wrong_values(engine):
 
 ROOMS = {
     "builders": 3000,
+    "envs": 1000,
     "kinematics": 500,
     "navigation": 800,
     "planning": 2500,

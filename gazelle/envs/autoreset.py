@@ -10,6 +10,7 @@ from gymnasium.vector import AutoresetMode
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.envs.options import check_name
+from gazelle.envs.row_checks import action_array
 from gazelle.errors import TaskError
 
 
@@ -36,7 +37,7 @@ def with_idle(actions: ArrayLike, space: gym.Space[Any], over: NDArray[np.intp])
         space: Of the actions of one world.
         over: The worlds whose action is not looked at, shape (n,).
     """
-    given = np.asarray(actions)
+    given = action_array(actions)
     if given.ndim == 0 or len(given) <= over.max(initial=-1):
         return actions
     if isinstance(space, gym.spaces.Discrete):

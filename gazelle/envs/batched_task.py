@@ -15,10 +15,12 @@ from gazelle.envs.autoreset import with_idle
 from gazelle.envs.contract import PolicyContract, generic_contract
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.row_checks import (
+    action_array,
     checked_ends,
     checked_info,
     checked_observation,
     checked_reward,
+    checked_worlds,
 )
 from gazelle.errors import TaskError
 
@@ -172,6 +174,7 @@ class BatchedTask(ABC):
         Returns:
             First observations, shape (n, size), and their info.
         """
+        worlds = checked_worlds(worlds, self.nworld)
         self.elapsed[worlds] = 0
         self._begin(worlds)
         seen, told = self._look(worlds)
@@ -204,7 +207,9 @@ class BatchedTask(ABC):
         Raises:
             TaskError: The actions have the wrong shape or values, or what the task returns has.
         """
-        verdict, nworld = self._act(actions), self.nworld
+        plain = isinstance(self.action_space, gym.spaces.Box | gym.spaces.Discrete)
+        verdict = self._act(action_array(actions) if plain else actions)
+        nworld = self.nworld
         observation = checked_observation(verdict.observation, nworld, self.row_space.shape)
         reward = checked_reward(verdict.reward, nworld)
         terminated = checked_ends("terminated", verdict.terminated, nworld)
@@ -257,6 +262,7 @@ class BatchedTask(ABC):
         Raises:
             TaskError: The actions have the wrong shape or values.
         """
+        over = checked_worlds(over, self.nworld)
         if not len(over):
             return self.advance(actions)
         kept = self._hold(over)
@@ -298,13 +304,15 @@ class BatchedTask(ABC):
         """
         try:
             elapsed = np.asarray(state["elapsed"], dtype=np.int64)
+            if elapsed.shape != (self.nworld,):
+                raise TaskError(
+                    f"the state is of {elapsed.size} worlds, and this task has {self.nworld}"
+                )
+            self._set_state(state)
         except KeyError as error:
             raise TaskError(f"this is not a state of this task: there is no {error}") from error
-        if elapsed.shape != (self.nworld,):
-            raise TaskError(
-                f"the state is of {elapsed.size} worlds, and this task has {self.nworld}"
-            )
-        self._set_state(state)
+        except (TypeError, ValueError, IndexError, OverflowError) as error:
+            raise TaskError(f"this is not a state of this task: {error}") from error
         self.elapsed[:] = elapsed
 
     def _hold(self, worlds: Worlds) -> Any:

@@ -8,12 +8,14 @@ all that by a `PolicyContract`; it is kept beside the policy as JSON.
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass, field
 from typing import Any, Literal, get_args
 
 import gymnasium as gym
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.errors import TaskError, did_you_mean
 
 FORMAT = "gazelle-contract-1"
@@ -37,6 +39,7 @@ _MEANINGS = {
 """Of parts that goal environments have."""
 
 
+@checked(TaskError, most=math.inf)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ObservationPart:
     """Some entries of an observation that stand side by side."""
@@ -61,6 +64,7 @@ class ObservationPart:
     """One sentence."""
 
 
+@checked(TaskError)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ScanRule:
     """Conversion of a lidar's ranges to a policy's input."""
@@ -81,6 +85,7 @@ class ScanRule:
     """Frame that ranges are measured from; x ahead, z up, as REP 103 asks."""
 
 
+@checked(TaskError, most=math.inf)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActionRule:
     """Meaning of actions."""
@@ -107,6 +112,7 @@ class ActionRule:
     """One sentence."""
 
 
+@checked(TaskError)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PolicyContract:
     """Contract of a policy: its observations, its actions and its training."""

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats32, Worlds
 from gazelle.envs.batched_task import BatchedTask
+from gazelle.envs.limits import MAX_COURSE_STEPS
 from gazelle.envs.options import check_whole
 from gazelle.envs.wrappers import TaskWrapper
 from gazelle.errors import TaskError
@@ -42,7 +43,7 @@ class CourseTask(TaskWrapper):
             if not 0 <= entry < space.shape[0]:
                 raise TaskError(f"there is no entry {entry} to take a course from")
         for count in steps:
-            check_whole("a number of steps of a course", count, 1)
+            check_whole("a number of steps of a course", count, 1, MAX_COURSE_STEPS)
         self._place, self._steps = [x, y], tuple(steps)
         self._start = int(actions.start)
         shares = len(self._steps) * int(actions.n)

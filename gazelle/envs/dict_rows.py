@@ -64,15 +64,30 @@ class DictRows:
         return {OBSERVATION, ACHIEVED, DESIRED} <= set(self.slices)
 
     def join(self, parts: Mapping[str, Any]) -> Floats32:
-        """Return rows of shape (n, size) from parts of shape (n, ...)."""
-        count = len(next(iter(parts.values())))
-        rows = np.empty((count, self.size), np.float32)
-        for key, place in self.slices.items():
-            rows[:, place] = np.reshape(parts[key], (count, -1))
+        """Return rows of shape (n, size) from parts of shape (n, ...).
+
+        Raises:
+            TaskError: A part is missing, or the shapes do not fit.
+        """
+        try:
+            count = len(parts[next(iter(self.slices))])
+            rows = np.empty((count, self.size), np.float32)
+            for key, place in self.slices.items():
+                rows[:, place] = np.reshape(parts[key], (count, -1))
+        except KeyError as error:
+            raise TaskError(f"there is no part {error}") from error
+        except (TypeError, ValueError) as error:
+            raise TaskError(f"the parts do not fit {self.space}: {error}") from error
         return rows
 
     def split(self, rows: Floats32) -> dict[str, Floats32]:
-        """Return parts of shape (n, ...), as own arrays, from rows of shape (n, size)."""
+        """Return parts of shape (n, ...), as own arrays, from rows of shape (n, size).
+
+        Raises:
+            TaskError: The rows have another shape.
+        """
+        if rows.shape[1:] != (self.size,):
+            raise TaskError(f"rows have the shape (n, {self.size}), not {rows.shape}")
         return {
             key: rows[:, place].reshape(len(rows), *(self.space.spaces[key].shape or ())).copy()
             for key, place in self.slices.items()

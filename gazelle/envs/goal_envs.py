@@ -13,6 +13,7 @@ from gazelle.array_types import Bools, Floats, Floats32
 from gazelle.envs.goal_task import GoalSimulationTask
 from gazelle.envs.single_env import TaskEnv
 from gazelle.envs.vector_env import TaskVectorEnv
+from gazelle.errors import TaskError
 
 Parts = dict[str, Floats32]
 """``observation``, ``achieved_goal`` and ``desired_goal``."""
@@ -71,7 +72,7 @@ class TaskGoalVectorEnv(TaskVectorEnv):
         self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: object
     ) -> NDArray[Any]:
         """Return the reward; see `GoalSimulationTask.compute_reward`."""
-        return self.task.compute_reward(achieved_goal, desired_goal, info)
+        return _reward(self.task, achieved_goal, desired_goal, info)
 
 
 class TaskGoalEnv(TaskEnv):
@@ -113,7 +114,21 @@ class TaskGoalEnv(TaskEnv):
         self, achieved_goal: NDArray[Any], desired_goal: NDArray[Any], info: object
     ) -> NDArray[Any]:
         """Return the reward; see `GoalSimulationTask.compute_reward`."""
-        return self.task.compute_reward(achieved_goal, desired_goal, info)
+        return _reward(self.task, achieved_goal, desired_goal, info)
 
     def _parts(self, row: Floats32) -> Parts:
         return {key: part[0] for key, part in self.task.rows.split(row[None]).items()}
+
+
+def _reward(
+    task: GoalSimulationTask, achieved: NDArray[Any], desired: NDArray[Any], info: object
+) -> NDArray[Any]:
+    """Return the reward, for goals whose shapes were checked."""
+    shape = task.goal_space.shape
+    for goals in (achieved, desired):
+        if np.shape(goals)[-len(shape) :] != shape:
+            raise TaskError(f"goals have the shape (..., {shape[0]}), not {np.shape(goals)}")
+    try:
+        return task.compute_reward(achieved, desired, info)
+    except ValueError as error:
+        raise TaskError(f"these goals do not fit each other: {error}") from error

@@ -146,7 +146,13 @@ class GoalSimulationTask(SimulationTask):
         return StepOutcome(reward, np.zeros(self.nworld, np.bool_), info)
 
     def goal_parts(self, rows: Floats32) -> tuple[Floats32, Floats32]:
-        """Return the achieved and the desired goals of rows of shape (n, size)."""
+        """Return the achieved and the desired goals of rows of shape (n, size).
+
+        Raises:
+            TaskError: The rows have another shape.
+        """
+        if rows.shape[1:] != (self.rows.size,):
+            raise TaskError(f"rows have the shape (n, {self.rows.size}), not {rows.shape}")
         shape = (len(rows), *self.goal_space.shape)
         slices = self.rows.slices
         return rows[:, slices[ACHIEVED]].reshape(shape), rows[:, slices[DESIRED]].reshape(shape)

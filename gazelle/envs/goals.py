@@ -24,7 +24,7 @@ class GoalTable:
         start: Index of the place of the very first goal, where a task wants a fixed one.
 
     Raises:
-        TaskError: No points, or points that are not pairs of finite numbers.
+        TaskError: No points, points that are not pairs of finite numbers, or another shape.
 
     Attributes:
         points: Places in the world frame [m], shape (m, 2).
@@ -43,7 +43,11 @@ class GoalTable:
         self.points = _checked(points)
         self.start = start
         count = len(self.points)
-        allowed = ~np.eye(count, dtype=np.bool_) if follows is None else follows.copy()
+        if not 0 <= start < count:
+            raise TaskError(f"the first of {count} goals cannot be number {start}")
+        allowed = ~np.eye(count, dtype=np.bool_) if follows is None else np.array(follows, bool)
+        if allowed.shape != (count, count):
+            raise TaskError(f"follows must have the shape {(count, count)}, not {allowed.shape}")
         stuck = ~allowed.any(axis=1)
         allowed[stuck, stuck] = True
         self.counts = allowed.sum(axis=1)
@@ -54,8 +58,14 @@ class GoalTable:
 
         Args:
             goals: Indices into ``points``, shape (n,).
+
+        Raises:
+            TaskError: There is no such place.
         """
-        return self.points.take(goals, axis=0)  # several times as fast as indexing
+        try:
+            return self.points.take(goals, axis=0)  # several times as fast as indexing
+        except (IndexError, TypeError) as error:
+            raise TaskError(f"there are {len(self.points)} goals, not {goals!r:.60}") from error
 
     def first(self, uniform: Floats) -> Indices:
         """Return any place as a first goal.
@@ -77,9 +87,15 @@ class GoalTable:
 
         Returns:
             Indices into ``points``, shape (n,).
+
+        Raises:
+            TaskError: There is no such place, or a number is not in that range.
         """
-        choice = (uniform * self.counts[last]).astype(np.intp)
-        following: Indices = self.successors[last, choice]
+        try:
+            choice = (uniform * self.counts[last]).astype(np.intp)
+            following: Indices = self.successors[last, choice]
+        except (IndexError, ValueError) as error:
+            raise TaskError(f"no goal follows {last!r:.60} by {uniform!r:.60}") from error
         return following
 
 

@@ -15,3 +15,9 @@ MAX_AGENTS = 10_000
 
 MAX_STEPS = 1 << 53
 """Control steps of an episode."""
+
+MAX_COURSE_STEPS = 10_000
+"""Control steps over which a course is shown: all places in them are kept."""
+
+MAX_DRAWS = 2**20
+"""Random numbers that a task draws for a world at once."""

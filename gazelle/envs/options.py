@@ -10,6 +10,7 @@ from typing import Any, ClassVar, TypedDict, TypeVar
 
 from gazelle.description import Model, World
 from gazelle.engines import engine_names
+from gazelle.engines.limits import SHORTEST_STEP
 from gazelle.envs.limits import MAX_LIDAR_SAMPLES, MAX_STEPS
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.real_numbers import real
@@ -216,6 +217,24 @@ def checked_mapping(name: str, value: object) -> Mapping[str, Any]:
     return value
 
 
+def checked_seed(seed: object) -> int:
+    """Return a seed.
+
+    Raises:
+        TaskError: It is no int, or negative.
+    """
+    try:
+        number = operator.index(seed)  # type: ignore[arg-type]  # that is what is tested
+    except TypeError as error:
+        raise TaskError(
+            f"seed must be one int, not {seed!r}",
+            hint="every world derives its own random numbers from it",
+        ) from error
+    if number < 0:
+        raise TaskError(f"seed must not be negative: {number}")
+    return number
+
+
 def check_up_to(name: str, value: object, most: float, unit: str) -> None:
     """Raise TaskError unless the value is a number from 0 on and not too large."""
     number = real(value)
@@ -224,8 +243,11 @@ def check_up_to(name: str, value: object, most: float, unit: str) -> None:
 
 
 def _check_time_step(value: object) -> None:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 < value < 1.0:
-        raise TaskError(f"time_step must be a number of seconds between 0 and 1, not {value!r}")
+    number = real(value)
+    if number is None or not SHORTEST_STEP <= number < 1.0:
+        raise TaskError(
+            f"time_step must be a number of seconds from {SHORTEST_STEP:g} to 1, not {value!r}"
+        )
 
 
 def _check_kind(name: str, value: object, description: type) -> None:

@@ -11,11 +11,13 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import World
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
-from gazelle.envs.options import TaskSettings
-from gazelle.envs.row_checks import checked_observation
+from gazelle.envs.limits import MAX_DRAWS
+from gazelle.envs.options import TaskSettings, check_whole
+from gazelle.envs.row_checks import checked_observation, checked_worlds
 from gazelle.errors import TaskError
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
@@ -102,9 +104,15 @@ class SimulationTask(BatchedTask):
     def outcome(self, observation: Any) -> StepOutcome:
         """Return the outcome of the step, given the observation after it, shape (nworld, ...)."""
 
+    @checked(TaskError)
     def draw(self, low: float, high: float, worlds: Worlds, count: int = 1) -> Floats:
-        """Return random numbers for these worlds, shape (n, count): worlds are independent."""
-        return low + (high - low) * self._stream.uniform(count, worlds)
+        """Return random numbers for these worlds, shape (n, count): worlds are independent.
+
+        Raises:
+            TaskError: There is no such world, or a number cannot be.
+        """
+        check_whole("count", count, 0, MAX_DRAWS)
+        return low + (high - low) * self._stream.uniform(count, checked_worlds(worlds, self.nworld))
 
     @property
     def lasting(self) -> Bools:

@@ -12,7 +12,8 @@ from gazelle.array_types import Floats32
 from gazelle.envs.batched_task import BatchedTask, Info
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.errors import check_open
-from gazelle.envs.options import RENDER_MODES, check_name, checked_mapping
+from gazelle.envs.options import RENDER_MODES, check_name, checked_mapping, checked_seed
+from gazelle.envs.row_checks import action_array
 from gazelle.envs.vector_env import TaskVectorEnv
 
 
@@ -60,6 +61,7 @@ class TaskEnv(gym.Env[Any, Any]):
         for name in checked_mapping("reset options", options):
             check_name("reset option", name, [])
         if seed is not None:
+            seed = checked_seed(seed)
             super().reset(seed=seed)
         observation, info = self._vector.reset(seed=seed)
         if self._np_random is None:
@@ -75,7 +77,7 @@ class TaskEnv(gym.Env[Any, Any]):
             ClosedEnvError: The environment is closed.
         """
         self._vector.check_ready("step()")
-        result = self.task.advance(np.asarray(action)[None])
+        result = self.task.advance(action_array(action)[None])
         return (
             result.observation[0],
             float(result.reward[0]),

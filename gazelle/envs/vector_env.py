@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import operator
 from typing import Any, ClassVar
 
 import gymnasium as gym
@@ -17,7 +16,7 @@ from gazelle.envs.batched_task import BatchedTask, BatchStep, Finals, Info
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.errors import ResetNeededError, check_open, check_ready
 from gazelle.envs.floor_plan import FloorPlan
-from gazelle.envs.options import RENDER_MODES, check_name, checked_mapping
+from gazelle.envs.options import RENDER_MODES, check_name, checked_mapping, checked_seed
 from gazelle.errors import TaskError
 
 
@@ -104,7 +103,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         if seed is None and self._np_random is None:
             seed = self._first_seed if self._first_seed is not None else _fresh_seed()
         if seed is not None:
-            number = _whole_seed(seed)
+            number = checked_seed(seed)
             super().reset(seed=number)
             self.task.seed(number)
         observation, info = self.task.begin(worlds)
@@ -205,8 +204,11 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
             ClosedEnvError: The environment is closed.
         """
         check_open("set_state()", closed=self.closed)
+        over = np.asarray(state.get("over", self._over & False))
+        if over.shape != self._over.shape:
+            raise TaskError(f"the state is of {over.size} worlds, and there are {self.num_envs}")
         self.task.set_state(state)
-        self._over[:] = state.get("over", False)
+        self._over[:] = over
         self._begun = True
         if self._np_random is None:
             super().reset(seed=int(state["seed"]) if "seed" in state else 0)
@@ -258,19 +260,6 @@ def _masked(mask: object, nworld: int) -> Worlds:
             f"reset_mask must hold {nworld} booleans, at least one of them True, not {mask!r}"
         )
     return np.flatnonzero(array)
-
-
-def _whole_seed(seed: object) -> int:
-    try:
-        number = operator.index(seed)  # type: ignore[arg-type]  # that is what is tested
-    except TypeError as error:
-        raise TaskError(
-            f"seed must be one int, not {seed!r}",
-            hint="every world derives its own random numbers from it",
-        ) from error
-    if number < 0:
-        raise TaskError(f"seed must not be negative: {number}")
-    return number
 
 
 def _fresh_seed() -> int:

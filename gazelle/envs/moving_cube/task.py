@@ -18,6 +18,7 @@ from gazelle.envs.moving_cube.rules import WalkRules, has_failed, reward_of, whe
 from gazelle.envs.options import DynamicsSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.errors import TaskError
+from gazelle.real_numbers import finite
 from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
 
@@ -52,7 +53,7 @@ class MovingCubeSettings(DynamicsSettings):
         DynamicsSettings.__post_init__(self)
         if self.n_actions not in _ACTIONS:
             raise TaskError(f"n_actions must be 3 or 5, not {self.n_actions!r}")
-        if not np.isfinite(self.failure_reward):
+        if finite(self.failure_reward) is None:
             raise TaskError(f"failure_reward must be finite, not {self.failure_reward!r}")
         if not isinstance(self.shows_hold, bool):
             raise TaskError(f"shows_hold must be True or False, not {self.shows_hold!r}")
