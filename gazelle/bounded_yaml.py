@@ -1,6 +1,6 @@
 """YAML of anybody: safe values, of which aliases do not make more than there is room for.
 
-``[*a, *a]`` shares a list that what walks through it meets twice, so a file of a kilobyte can hold
+``[*a, *a]`` shares a list that a traversal meets twice, so a file of a kilobyte can hold
 more values than any memory. What contains itself holds values without end.
 """
 

@@ -10,7 +10,7 @@ _WIDE = "\u00a0\u1680" + "".join(map(chr, range(0x2000, 0x200B))) + "\u202f\u205
 _WITHOUT_WIDTH = "\u200b\u2060\ufeff"
 
 UNUSUAL = _WIDE + _WITHOUT_WIDTH
-"""Blanks that nobody types."""
+"""Blanks that are not typed."""
 
 XML_COMMENT = re.compile("<!--.*?-->", re.DOTALL)
 """Pattern of a comment in XML."""

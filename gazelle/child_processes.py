@@ -36,7 +36,7 @@ def become(command: Sequence[str], environment: Mapping[str, str] | None = None)
 def child_process(command: Sequence[str], **options: Any) -> Iterator[subprocess.Popen[bytes]]:
     """Run a program; it is killed at the end of the block unless it has ended.
 
-    An interrupt within ``Popen`` would leave a process that nobody knows of.
+    An interrupt within ``Popen`` would leave a process that is unknown.
 
     Args:
         command: The program and its arguments.

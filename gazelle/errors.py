@@ -139,7 +139,7 @@ class TaskWarning(GazelleWarning):
 
 
 class PluginWarning(SimulationWarning):
-    """A plugin failed; the simulation goes on without it."""
+    """A plugin failed; the simulation continues without it."""
 
 
 def describe(

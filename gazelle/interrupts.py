@@ -85,7 +85,7 @@ def exit_code(error: KeyboardInterrupt) -> int:
 
 
 def requested() -> bool:
-    """Return whether somebody asked this process to end, and a block that ends it has begun."""
+    """Return whether a request asked this process to end, and a block that ends it has begun."""
     return _active is not None and _active.asked
 
 
@@ -202,7 +202,7 @@ class SignalRelay:
 
 
 class _Listener:
-    """The handlers of this process, while somebody wants to know of requests."""
+    """The handlers of this process, while requests have receivers."""
 
     def __init__(self) -> None:
         self.receivers: list[StopRequest | None] = []
@@ -291,7 +291,7 @@ class _Listener:
     def _await_handler(self, number: int) -> None:
         """Wake the main thread, and end the process if it does not run the handler.
 
-        Of two signals that come together the main thread may note both and go on waiting.
+        Of two signals that come together the main thread may note both and continue waiting.
         """
         for _ in range(_LOOKS):
             if self._count or self._closing.wait(_DEAF_S / _LOOKS):

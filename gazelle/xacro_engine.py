@@ -26,7 +26,7 @@ _KEYWORDS = {
     "property": {"name"},
     "unless": {"value"},
 }
-"""Tags of xacro, and the attributes that tell them from others of the same name, as SDF's include."""
+"""Tags of xacro, and attributes that distinguish them from others, such as SDF's include."""
 
 _NOT_CALLED = frozenset({
     "actuator", "axis", "bodyName", "box", "calibration", "camera", "capsule", "child", "collision",

@@ -44,7 +44,7 @@ def _nothing() -> None:
 class Binding:
     """The ports of one owner as topics and services, until it is closed.
 
-    A topic that nobody listens to costs nothing: its port is listened to only while there are
+    A topic without subscribers costs nothing: its port is subscribed only while there are
     subscribers. Settings are looked up on the parameter server before all else; tunings become
     dynamic_reconfigure servers.
 
@@ -76,7 +76,7 @@ class Binding:
             self._open(self._tune, tuning)
 
     def refresh(self) -> None:
-        """Publish what is true now to all who listen."""
+        """Publish the present values to all subscribers."""
         for output in tuple(self._outputs):
             if output.event:
                 continue

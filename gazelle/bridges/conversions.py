@@ -234,7 +234,7 @@ def encoder_of(kind: type[Any]) -> Encoder:
     """Return the encoder of values of a kind; those of message classes are messages already.
 
     Raises:
-        RosError: Nobody said; see ``add_encoder``.
+        RosError: No function is registered; see ``add_encoder``.
     """
     message = message_kinds.name_of(kind)
     if message is not None:
@@ -247,7 +247,7 @@ def decoder_of(kind: type[Any]) -> Decoder:
     """Return the decoder of values of a kind.
 
     Raises:
-        RosError: Nobody said; see ``add_decoder``.
+        RosError: No function is registered; see ``add_decoder``.
     """
     message = message_kinds.name_of(kind)
     if message is not None:
@@ -260,7 +260,7 @@ def service_of(request: type[Any] | None, response: type[Any] | None) -> Service
     """Return the codec of a kind of service.
 
     Raises:
-        RosError: Nobody said; see ``add_service``.
+        RosError: No function is registered; see ``add_service``.
     """
     service = message_kinds.service_name_of(request, response)
     if service is not None:

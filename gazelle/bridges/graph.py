@@ -44,7 +44,7 @@ class Graph:
         simulation: Runs.
         node: On the graph.
         world: Which world of a batch the graph sees and commands.
-        monotonic: Let the graph's time never go back: after a reset it goes on from where it
+        monotonic: Let the graph's time never go back: after a reset it continues from where it
             was.
     """
 

@@ -1,4 +1,4 @@
-"""Publish what somebody listens to; what nobody hears is not computed."""
+"""Topics with subscribers; others are not computed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Listen = Callable[[Callable[[Any], None]], Callable[[], None]]
 
 
 class HeardTopic:
-    """A topic of a simulation: its port is listened to while the topic has subscribers.
+    """A topic of a simulation: its port is subscribed while the topic has subscribers.
 
     Args:
         graph: Where.

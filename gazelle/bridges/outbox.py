@@ -1,4 +1,4 @@
-"""Messages of every step, sent together when steps are quicker than anybody can tell."""
+"""Messages of every step, sent together when steps are very quick."""
 
 from __future__ import annotations
 

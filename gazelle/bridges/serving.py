@@ -85,7 +85,7 @@ def serve_ros(
 ) -> RosDoor:
     """Serve a simulation on a ROS 1 graph as Gazebo's ROS packages do.
 
-    The caller goes on stepping it, or lets ``RosDoor.run`` do so.
+    The caller continues stepping it, or lets ``RosDoor.run`` do so.
 
     Args:
         simulation: Runs.
@@ -94,7 +94,7 @@ def serve_ros(
         name: Of the node.
         host: The name other nodes reach it by; loopback by default.
         world: Which world of a batch the graph sees and commands.
-        monotonic_clock: Let ``/clock`` go on at a reset instead of back to zero.
+        monotonic_clock: Let ``/clock`` continue at a reset instead of back to zero.
 
     Raises:
         MasterUnreachableError: There is no master, and none can be started at that address.

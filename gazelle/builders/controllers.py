@@ -36,7 +36,7 @@ _LEAST = 1e-4  # Of an inertia, for gains that are not nothing [kg m²].
 @checked(BuildError)
 @dataclass(frozen=True, slots=True)
 class ControlFiles:
-    """Texts that let a robot be controlled.
+    """Texts for the control of a robot.
 
     Attributes:
         name: Of the robot.

@@ -1,6 +1,6 @@
 """Furniture, to scale. Each stands on its frame's xy plane, around its origin.
 
-Whoever uses it looks along +x: a chair's sitter, a desk's worker (who sits at its -x side).
+A user looks along +x: a chair's sitter, a desk's worker (who sits at its -x side).
 With ``movable`` a thing can be pushed, and weighs what such a thing weighs.
 """
 
@@ -40,7 +40,7 @@ def desk(
         length: Depth, along x [m].
         width: Along y [m].
         height: [m].
-        screen: Whether somebody works here.
+        screen: Whether it is a workplace.
         movable: Whether it can be pushed.
         color: Of the top.
 

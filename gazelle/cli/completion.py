@@ -1,4 +1,4 @@
-"""Print what lets bash or zsh complete Gazelle's commands.
+"""Print the completion of bash or zsh for Gazelle's commands.
 
   echo 'eval "$(gazelle completion bash)"' >> ~/.bashrc
   echo 'eval "$(gazelle completion zsh)"' >> ~/.zshrc

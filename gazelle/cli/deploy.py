@@ -1,4 +1,4 @@
-"""Let a policy drive a robot on a ROS 1 graph: Gazelle's, a real Gazebo's, a real
+"""Drive a robot by a policy on a ROS 1 graph: Gazelle's, a real Gazebo's, a real
 TurtleBot3. Needs no torch.
 
   gazelle run turtlebot3_stage_1 --ros --spawn turtlebot3_burger

@@ -70,5 +70,5 @@ def _joints(text: str) -> JointTree | None:
 
     try:
         return read_joints(text)
-    except Error:  # whoever loaded it first reported what is wrong with it
+    except Error:  # its first load reported the error
         return None

@@ -1,4 +1,4 @@
-"""Let the policy of a run act at its best and count how its attempts at goals end.
+"""Evaluate the policy of a run: count the outcomes of its episodes.
 
   gazelle eval runs/TurtleBot3Stage1-ppo-20261105-140302 --episodes 1000
   gazelle eval RUN --failures failures.csv --failures failures.png

@@ -65,7 +65,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _until(stop: StopRequest, pictures: Iterable[Picture]) -> Iterator[Picture]:
-    """Yield pictures until somebody asks to stop, at least one."""
+    """Yield pictures until a stop is requested, at least one."""
     for picture in pictures:
         yield picture
         if stop.is_set():

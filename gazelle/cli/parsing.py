@@ -99,7 +99,7 @@ def add_scenario_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_import_option(parser: argparse.ArgumentParser) -> None:
-    """Add the options that find tasks of the user's own, and that let a run find them."""
+    """Add the options that find tasks of the user's own, and with which a run finds them."""
     parser.add_argument(
         "--import",
         dest="imports",

@@ -227,7 +227,7 @@ def _advance(sim: Simulation, seconds: float | None, status: _Status) -> None:
         try:
             sim.run(max(min(piece, end - sim.time), least), rate=rate)
         except SimulationError:
-            if not _paused(sim):  # else somebody paused it just now
+            if not _paused(sim):  # else it was paused just now
                 raise
             continue
         if rate is None:

@@ -1,6 +1,6 @@
 """Call a function of yours with many parameters and seeds, on all processors or
 on a cluster, and write what it returns into one table. A study that was stopped
-goes on when the same command is given again.
+continues when the same command is given again.
 
   gazelle study my_study.py:run --vary speed=0.2,0.5 --seeds 20
   gazelle study my_study.py:run --seeds 1000 --ray auto --out stalls.csv

@@ -1,4 +1,4 @@
-"""Train a policy for a task on many copies of its world at once, or go on with a
+"""Train a policy for a task on many copies of its world at once, or continue with a
 run that was stopped. Ctrl-C and SIGTERM save a checkpoint first.
 
   gazelle train TurtleBot3Stage1

@@ -5,7 +5,7 @@ machine.
   gazelle view turtlebot3_world
   gazelle view                           # ROS_MASTER_URI's graph
 
-A file stands still until the page lets it run. Of a graph the page shows
+A file stands still until it is started on the page. Of a graph the page shows
 robots (robot_description and tf), scans, point clouds, maps, paths, poses,
 markers and images.
 """  # noqa: D205  # this is the text of --help

@@ -31,7 +31,7 @@ class AGVFleet(Closeable):
     """Many AGVs, moved together by one thread; also a context manager, which stops them.
 
     Args:
-        node: Publishes and listens.
+        node: Publishes and subscribes.
         spaces: Namespace of each robot, such as ``/robot_3``; empty for a single one without.
         poses: ``topic`` for ``nav_msgs/Odometry``, or ``service`` for one that answers with
             x, y [m] and an angle [degrees], as ``sim_agv/AgvPose`` does.
@@ -71,7 +71,7 @@ class AGVFleet(Closeable):
         self._thread.start()
 
     def wait(self, timeout: float = 30.0) -> Self:
-        """Wait until all robots listen and their poses are known.
+        """Wait until all robots have subscribed and their poses are known.
 
         Raises:
             ClientError: That takes longer than ``timeout`` [s of wall time].
@@ -209,7 +209,7 @@ class AGV(Closeable):
     """One AGV; its moves return the simulated time they took [s]. Many may run in threads.
 
     Args:
-        node: Publishes and listens.
+        node: Publishes and subscribes.
         space: Its namespace, such as ``/robot_3``.
         poses: See ``AGVFleet``; the other arguments as well.
         pose_name: See there.
@@ -240,7 +240,7 @@ class AGV(Closeable):
         )
 
     def wait(self, timeout: float = 30.0) -> Self:
-        """Wait until the robot listens and its pose is known.
+        """Wait until the robot has subscribed and its pose is known.
 
         Raises:
             ClientError: That takes longer than ``timeout`` [s of wall time].

@@ -66,7 +66,7 @@ class SimulatorProcess(Closeable):
             command += ["--spawn", str(robot)]
         command += options
         _refuse_another(uri)
-        # A file, for a pipe that nobody reads would stop a simulator that says much.
+        # A file, for a pipe without a reader would stop a simulator that says much.
         self._said = tempfile.TemporaryFile()  # noqa: SIM115  # it is closed with the process
         self._process = subprocess.Popen(  # noqa: S603  # this very program
             command,

@@ -24,7 +24,7 @@ class JointCommander(Closeable):
     (``effort_controllers/JointPositionController`` and its kin), ``joints`` for groups.
 
     Args:
-        node: Publishes and listens.
+        node: Publishes and subscribes.
         controller: Its name.
         namespace: Of the robot.
         states: Topic of ``sensor_msgs/JointState``; the namespace's ``joint_states`` if None.
@@ -54,7 +54,7 @@ class JointCommander(Closeable):
         return {name: self._positions[name] for name in self.joints if name in self._positions}
 
     def wait(self, timeout: float = 30.0) -> None:
-        """Wait until the controller listens.
+        """Wait until the controller has subscribed.
 
         Raises:
             ClientError: That takes longer than ``timeout`` [s of wall time].
@@ -76,10 +76,10 @@ class JointCommander(Closeable):
         Args:
             targets: One for each joint, in the controller's order, or by name; one number is for all
                 [rad, m, rad/s, m/s, N m or N, as the controller takes it].
-            timeout: For the controller to listen [s of wall time].
+            timeout: For the controller to subscribe [s of wall time].
 
         Raises:
-            ClientError: A joint is unknown or left out, or nobody listens.
+            ClientError: A joint is unknown or left out, or there is no subscriber.
         """
         values = self._in_order(targets)
         self.wait(timeout)

@@ -19,7 +19,7 @@ class Driver(Closeable):
     """Commands one base and knows its pose; also a context manager, which stops it at the end.
 
     Args:
-        node: Publishes and listens.
+        node: Publishes and subscribes.
         model: Its topics are ``/<model>/cmd_vel`` and ``/<model>/pose`` of ``geometry_msgs/Pose``, those
             of the example plugin, unless they are given; velocities are not known then (nan).
         command_topic: Of ``geometry_msgs/Twist``.
@@ -63,7 +63,7 @@ class Driver(Closeable):
         return self._state
 
     def wait(self, timeout: float = 10.0) -> Self:
-        """Wait until the base listens and its pose is known.
+        """Wait until the base has subscribed and its pose is known.
 
         Raises:
             ClientError: That takes longer than ``timeout`` [s of wall time].

@@ -141,7 +141,7 @@ class Processes:
         return node_tools.kill(GraphInspector("clients", self._uri), nodes)
 
     def kill_all(self) -> list[str]:
-        """Request all nodes of the graph to shut down, whoever started them; see ``kill``."""
+        """Request all nodes of the graph to shut down, of any origin; see ``kill``."""
         return self.kill(*self.nodes())
 
     def kill_master(self) -> None:

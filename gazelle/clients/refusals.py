@@ -1,4 +1,4 @@
-"""Why a controller manager refuses: it answers only that it does, and what it has tells the rest."""
+"""Reasons why a controller manager refuses, from its state: it answers only that it does."""
 
 from __future__ import annotations
 

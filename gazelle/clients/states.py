@@ -42,7 +42,7 @@ class LiveStates(Mapping[str, ModelState], Closeable):
         return self
 
     def close(self) -> None:
-        """Stop listening."""
+        """Unsubscribe."""
         self._subscriber.close()
 
     def __getitem__(self, name: str) -> ModelState:

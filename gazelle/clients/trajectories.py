@@ -86,7 +86,7 @@ class TrajectoryRun:
         """Wait for the end.
 
         Raises:
-            ClientError: It does not come within ``timeout`` [s of wall time]; it goes on.
+            ClientError: It does not come within ``timeout`` [s of wall time]; it continues.
         """
         if not self._ended.wait(timeout):
             raise ClientError(f"{self._action} is not done after {timeout:g} s")
@@ -200,7 +200,7 @@ class TrajectoryClient(Closeable):
         goal_tolerance: Mapping[str, float] | None = None,
         goal_time: float = 0.0,
     ) -> TrajectoryRun:
-        """Send waypoints and go on.
+        """Send waypoints and continue.
 
         Args:
             joints: Whose positions the waypoints hold.

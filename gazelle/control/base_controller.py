@@ -33,8 +33,8 @@ _KEPT = ("wanted", "stamps", "last", "earlier")
 class BaseController(Controller):
     """Drives a base by commands, and publishes its odometry.
 
-    The ``BaseLaw`` of a subclass (``drive_by``) knows the wheels: it goes on with the odometry, holds
-    the command within limits, and turns wheels, without Python while nobody listens. A command that is
+    The ``BaseLaw`` of a subclass (``drive_by``) knows the wheels: it advances the odometry, holds
+    the command within limits, and turns wheels, without Python without subscribers. A command that is
     older than ``cmd_vel_timeout`` is one to stand still.
     """
 

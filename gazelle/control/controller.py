@@ -16,13 +16,13 @@ A controller of one's own is a subclass, found by its type (see ``registry``)::
 by a name that does not change: ``inputs`` (``CommandPort``: subscribe, hand each message's value to
 ``send``), ``outputs`` (``StatePort``: listen with ``subscribe`` while the topic has subscribers),
 ``actions`` (``ActionPort``: give each goal to ``send`` and keep the ``Goal`` it returns; its states are
-actionlib's; ``Goal.subscribe`` tells of changes and feedback, ``Goal.cancel`` takes a cancel request),
+actionlib's; ``Goal.subscribe`` reports changes and feedback, ``Goal.cancel`` takes a cancel request),
 ``queries`` (``QueryPort``: a service, ``ask``; a ``ControlError`` is its failure) and ``tunings``
 (``TuningPort``: a dynamic_reconfigure server). A port's ``topic`` is relative to the manager's
 namespace (``arm_controller/command``), or begins with a slash. Its ``kind`` is the class of the values:
 see ``values`` and ``measurements``, which say which message they stand for. All ports may be used from
 any thread. Values that are published hold all worlds; a bridge shows its own. What is sent holds in the
-``worlds`` that are given. ``ControllerManager.watch`` tells of controllers that are loaded and unloaded.
+``worlds`` that are given. ``ControllerManager.watch`` reports controllers that are loaded and unloaded.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class ControllerSetup:
         name: Its name.
         type: Such as ``effort_controllers/JointPositionController``.
         hardware: Of its robot.
-        model: The robot as its URDF describes it; None where nobody knows it.
+        model: The robot as its URDF describes it; None if unknown.
         call: Does work between two updates.
         settle: Called before the time is looked at, as native code may update the controller.
     """
@@ -239,7 +239,7 @@ class Controller:
 
     @property
     def model(self) -> Model | None:
-        """The robot as its URDF describes it; None where nobody knows it."""
+        """The robot as its URDF describes it; None if unknown."""
         return self._setup.model
 
     def topic(self, name: str) -> str:

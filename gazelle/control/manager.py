@@ -46,7 +46,7 @@ class ControllerManager:
     Args:
         hardware: The robot.
         parameters: Of controllers by name, as YAML gives them; each has a ``type``.
-        model: The robot as its URDF describes it; None where nobody knows it.
+        model: The robot as its URDF describes it; None if unknown.
         call: Does work between two updates; a lock of its own if None.
         namespace: Of the robot; before all topics that are relative.
         measure: Called before controllers start: reads the robot once more, and returns the time now

@@ -69,7 +69,7 @@ class CommandPort(Generic[T]):
 
 
 class StatePort(Generic[T]):
-    """A value that a controller publishes; it costs nothing while nobody listens.
+    """A value that a controller publishes; it costs nothing without subscribers.
 
     Args:
         topic: As of a ``CommandPort``.
@@ -117,7 +117,7 @@ class StatePort(Generic[T]):
         return lambda: self._call(end)
 
     def publish(self) -> None:
-        """Compute the value and hand it to all who listen, if anybody does."""
+        """Compute the value and hand it to all subscribers, if there are any."""
         if self._listeners:
             value = self._produce()
             for listener in tuple(self._listeners):

@@ -196,8 +196,8 @@ class TrajectoryTable:
     def follow(self, points: Waypoints, now: float, begin: float, goal: int, rows: Worlds) -> None:
         """Follow other points.
 
-        What was followed goes on until they begin; a segment leads from there to the first point.
-        Joints that the points are not of go on as before.
+        What was followed continues until they begin; a segment leads from there to the first point.
+        Joints that the points are not of continue as before.
 
         Args:
             points: Where to go; all after now.

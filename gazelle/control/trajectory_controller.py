@@ -279,7 +279,7 @@ class JointTrajectoryController(Controller):
         """Follow a trajectory from the next update on.
 
         Raises:
-            TrajectoryRefusedError: It cannot be followed; what is followed goes on.
+            TrajectoryRefusedError: It cannot be followed; what is followed continues.
         """
         if not self.running:
             raise TrajectoryRefusedError(_NOT_RUNNING)

@@ -80,7 +80,7 @@ class TrajectoryMemory:
 
 @cython.cclass
 class TrajectoryLaw(ControlLaw):
-    """Follows the segments of a ``TrajectoryTable``, which tells ``follow`` of them.
+    """Follows the segments of a ``TrajectoryTable``, which passes them to ``follow``.
 
     Args:
         joints: To be read and commanded.

@@ -26,7 +26,7 @@ class Plugin:
 
 @dataclass(frozen=True, slots=True)
 class StagePlugin(Plugin):
-    """Drives or sees for one of Stage's models where nobody runs that as Stage does.
+    """Drives or sees for one of Stage's models where no engine runs that as Stage does.
 
-    One of the same kind that somebody else gave the model is no ``StagePlugin``, and runs everywhere.
+    One of the same kind of another source is no ``StagePlugin``, and runs everywhere.
     """

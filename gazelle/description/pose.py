@@ -220,7 +220,7 @@ def rotate(q: Quaternion, v: Vector3) -> Vector3:
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
     """Return quaternion (x, y, z, w) of R = Rz(yaw) Ry(pitch) Rx(roll); angles in rad.
 
-    Of an angle that is not finite it is no number, which whoever uses the pose refuses.
+    Of an angle that is not finite it is no number, which users of the pose reject.
     """
     if not (math.isfinite(roll) and math.isfinite(pitch) and math.isfinite(yaw)):
         return (math.nan, math.nan, math.nan, math.nan)

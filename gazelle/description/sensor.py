@@ -136,7 +136,7 @@ class Sensor:
         type: As SDF names it: ``ray``, ``imu``, ``camera``, ``contact``, ...
         pose: In the frame of its link, or of the joint's child link.
         update_rate: Measurements a second [Hz]; 0 means every step.
-        always_on: Measure also when nobody listens.
+        always_on: Measure also without subscribers.
         visualize: Show its rays or frustum in a viewer.
         topic: Topic the file asks for, or empty.
         lidar: Set for the ray family.

@@ -202,7 +202,7 @@ class StageModel:
         controllers: Programs that the file starts on it.
         children: Models mounted on it.
         update_interval: Between two updates [s].
-        always_on: Whether it works without anybody listening.
+        always_on: Whether it works without subscribers.
         stack_children: Whether z of the children's poses starts at the top of the body.
         mass: [kg]; 0 where the file says none.
         friction: Of a model that was pushed.

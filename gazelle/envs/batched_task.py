@@ -99,7 +99,7 @@ class BatchedTask(ABC):
     numbers in a step also says how to take that back, in ``_hold`` and ``_release``.
 
     A task can be pickled and copied: it is made again with the arguments that it was made with,
-    and goes on from the state of ``get_state``.
+    and continues from the state of ``get_state``.
 
     Args:
         nworld: Number of worlds.
@@ -110,7 +110,7 @@ class BatchedTask(ABC):
         action_space: Of one world.
         control_period: Simulated time of one control step [s].
         scenario_names: What the numbers of `scenario` are, such as ``start_x``.
-        floor_plan: What stands in the world, seen from above; None if it cannot tell.
+        floor_plan: What stands in the world, seen from above; None if unknown.
         elapsed: Control steps of the current episode, shape (nworld,).
     """
 
@@ -146,7 +146,7 @@ class BatchedTask(ABC):
     def goal_places(self) -> Floats | None:
         """Goals of the running episodes in the world frame [m], shape (nworld, 2 or 3), to draw them.
 
-        By default what the info tells as ``goal``; None before the first episode, and of a task
+        By default the info's ``goal``; None before the first episode, and of a task
         without such an entry.
         """
         return self._goals_told
@@ -193,7 +193,7 @@ class BatchedTask(ABC):
 
         All that was drawn for them: where the robot starts, its goal, how obstacles stand. Two
         episodes with equal numbers are the same one, which evaluations count once; noise does not
-        belong here. None, the default, if the task cannot tell.
+        belong here. None, the default, if unknown.
         """
         del worlds
         return None
@@ -365,7 +365,7 @@ def _put(info: Info, start: Info, worlds: Worlds) -> Info:
     merged = dict(info)
     nworld = len(next(iter(info.values()))) if info else 0
     for name, values in start.items():
-        # What only a first moment tells, such as the scenario, is zero elsewhere.
+        # What is known only at first, such as the scenario, is zero elsewhere.
         known = name in info
         whole = info[name].copy() if known else np.zeros((nworld, *values.shape[1:]), values.dtype)
         whole[worlds] = values

@@ -1,6 +1,6 @@
 """Contract of a policy: its observations and actions, independent of the training environment.
 
-Whoever lets a policy act elsewhere, on a robot or in another simulator, has to give it the same
+A user who runs a policy elsewhere, on a robot or in another simulator, has to give it the same
 numbers in the same order, as often, and do with its actions what the environment did. A task says
 all that by a `PolicyContract`; it is kept beside the policy as JSON.
 """
@@ -53,7 +53,7 @@ class ObservationPart:
     size: int = 1
     """Number of entries."""
     unit: str = ""
-    """``m``, ``rad``, ``m/s``, ``rad/s``; ``1`` for counts; empty where nobody said."""
+    """``m``, ``rad``, ``m/s``, ``rad/s``; ``1`` for counts; empty if unspecified."""
     low: float | tuple[float, ...] | None = None
     """Lower bound, of each entry where they differ; None where there is none."""
     high: float | tuple[float, ...] | None = None
@@ -120,7 +120,7 @@ class PolicyContract:
     task: str = ""
     """Gymnasium id of the task."""
     control_period: float | None = None
-    """Time between two actions [s]; None where the task does not tell."""
+    """Time between two actions [s]; None if unknown."""
     observation: tuple[ObservationPart, ...] = ()
     """The observation, part by part, without gaps."""
     action: ActionRule = ActionRule()

@@ -22,7 +22,7 @@ def check_open(what: str, *, closed: bool) -> None:
 
 
 def check_ready(what: str, *, closed: bool, begun: bool) -> None:
-    """Raise ClosedEnvError or ResetNeededError unless an episode goes on."""
+    """Raise ClosedEnvError or ResetNeededError unless an episode continues."""
     check_open(what, closed=closed)
     if not begun:
         raise ResetNeededError(f"{what} before the first reset()", hint="call reset() first")

@@ -49,6 +49,6 @@ def goal_reward(over: Bools, reached: Bools, end: float, step: Floats) -> Floats
         over: Whether the episode ends.
         reached: Whether the goal is reached.
         end: Reward of an end at the goal; elsewhere it is minus that.
-        step: Reward where the episode goes on.
+        step: Reward where the episode continues.
     """
     return np.asarray(np.where(over, np.where(reached, end, -end), step), np.float64)

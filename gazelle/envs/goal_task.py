@@ -101,7 +101,7 @@ class GoalSimulationTask(SimulationTask):
         """Return the reward of steps after which this is achieved, were that the goal.
 
         By default 0 where it is reached and -1 elsewhere. It depends on the arguments alone, so
-        that it tells what a step had been worth with another goal.
+        that it returns what a step had been worth with another goal.
 
         Args:
             achieved_goal: Shape (..., size), any number of leading axes.

@@ -128,7 +128,7 @@ class NavigationSettings(TaskSettings):
             for the task's own, as ``published``.
         seen_goals: Places [m] that ``held-out`` goals keep away from, as from the task's own.
         starts: One of `SPLITS`: how the robot and what moves stand when an episode begins.
-        respawn: Whether the episode goes on to another goal when one is reached.
+        respawn: Whether the episode continues to another goal when one is reached.
         margin: By how much sooner than published a range is a collision [m], so that what is
             learnt keeps its distance.
     """

@@ -21,7 +21,7 @@ class TaskEnv(gym.Env[Any, Any]):
     """A batched task of one world as a Gymnasium environment.
 
     It is world 0 of the vector environment: the same seed and actions give the same bits. It can
-    be pickled and copied, and both go on with the same future.
+    be pickled and copied, and both continue with the same future.
 
     Args:
         task: A task of one world; the environment closes it.

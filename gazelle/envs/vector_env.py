@@ -32,7 +32,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
       there instead of doing the action, with a reward of 0. What comes after is the same.
     - ``Disabled``: ``reset(options={"reset_mask": mask})`` begins it, before the next step.
 
-    It can be pickled and copied, and both go on with the same future.
+    It can be pickled and copied, and both continue with the same future.
 
     Args:
         task: What to wrap; the environment closes it.
@@ -143,7 +143,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         )
 
     def check_ready(self, what: str) -> None:
-        """Raise an error unless episodes go on.
+        """Raise an error unless episodes continue.
 
         Raises:
             ResetNeededError: Nothing was reset yet.
@@ -172,7 +172,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
 
     @property
     def floor_plan(self) -> FloorPlan | None:
-        """Obstacles of the world, seen from above; None if the task cannot tell."""
+        """Obstacles of the world, seen from above; None if unknown."""
         return self.task.floor_plan
 
     @property

@@ -18,7 +18,7 @@ from gazelle.formats.resolve import Resolver
 from gazelle.formats.urdf.tree import read_tree
 
 TOLERATED = "tolerated"
-"""Rule of the faults that a load goes on with, as Gazebo does."""
+"""Rule of the faults that a load continues with, as Gazebo does."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class Problem:
     """One finding.
 
     Attributes:
-        severity: An error stops the load or a plugin, or is a fault that the load goes on with
+        severity: An error stops the load or a plugin, or is a fault that the load continues with
             as Gazebo does (rule ``tolerated``); a warning is neither.
         message: What is wrong.
         file: File it is in.

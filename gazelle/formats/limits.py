@@ -46,6 +46,6 @@ def refuse_special(path: Path) -> None:
     try:
         mode = path.stat().st_mode
     except OSError:
-        return  # whoever opens it says why
+        return  # its opening reports why
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
         raise FormatError("this is a pipe, a socket or a device, and no file", file=str(path))

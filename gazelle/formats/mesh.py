@@ -140,7 +140,7 @@ def load_parts(path: Path) -> tuple[MeshPart, ...]:
 
 
 class _Content:
-    """File content that the cache tells apart by its digest alone."""
+    """File content that the cache distinguishes by its digest alone."""
 
     def __init__(self, data: bytes, path: Path) -> None:
         self.data: bytes | None = data

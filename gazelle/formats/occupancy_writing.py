@@ -17,7 +17,7 @@ PathLike = str | os.PathLike[str]
 _OCCUPIED, _FREE, _UNKNOWN = 0, 254, 205
 """Grey levels of cells."""
 _DARK, _BRIGHT = 0.65, 0.196
-"""Limits for reading: they tell the three levels apart, whatever the limits of the cells were."""
+"""Limits for reading: they separate the three levels, whatever the limits of the cells were."""
 
 
 def grey_levels(grid: OccupancyMap, *, occupied: float = 65.0, free: float = 25.0) -> Bytes:

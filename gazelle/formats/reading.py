@@ -43,7 +43,7 @@ class Note:
         message: What is the case, and what was made of it.
         source: Where.
         hint: What to do about it.
-        severity: An error is what the format does not allow, and Gazebo goes on with.
+        severity: An error is what the format does not allow, and Gazebo continues with.
         rule: Name of what is found, where a check finds it in a description too.
     """
 
@@ -99,13 +99,13 @@ class Reading:
     def fault(self, message: str, node: Parameters, hint: str | None = None) -> None:
         """Record what is wrong with an element, and what was taken for it.
 
-        For what the format does not allow, and Gazebo or libsdformat go on with all the same:
+        For what the format does not allow, and Gazebo or libsdformat continue with all the same:
         a load warns of it, a check counts it as an error.
         """
         self._keep(Note(message, node.source, hint, "error"))
 
     def tolerate(self, error: FormatError, taken: str) -> None:
-        """Record an error as a fault that the load goes on with, and what was taken."""
+        """Record an error as a fault that the load continues with, and what was taken."""
         source = Source(error.file, error.line, error.element)
         self._keep(Note(f"{error.message}: {taken}", source, error.hint, "error"))
 

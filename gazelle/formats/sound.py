@@ -1,6 +1,6 @@
 """Masses and inertias that no body can have, made those of one that can.
 
-Gazebo classic goes on with them: ODE cannot invert such an inertia and takes the identity for
+Gazebo classic continues with them: ODE cannot invert such an inertia and takes the identity for
 its inverse, that is 1 kg m² about every axis, whatever the link weighs. Here the inertia becomes
 the nearest one that a body can have. Its second moments of mass, ``s = tr(I) / 2 - I`` about the
 principal axes, must be positive (Wensing, Kim and Slotine, "Linear matrix inequalities for

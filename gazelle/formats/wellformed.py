@@ -1,4 +1,4 @@
-"""XML that is not well-formed, made so where Gazebo's parsers (TinyXML and TinyXML-2) go on.
+"""XML that is not well-formed, made so where Gazebo's parsers (TinyXML and TinyXML-2) continue.
 
 ``--`` in comments, misspelt or misplaced declarations, attributes without quotes or twice, ``&``
 by itself, bytes that are not UTF-8, and anything behind the end of the root element. Lines keep

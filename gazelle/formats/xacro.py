@@ -74,7 +74,7 @@ class _Children(NodeList[Any]):
 
 
 class PlacedElement(dom.Element):
-    """A DOM element that knows where it was written, and tells its copies."""
+    """A DOM element that knows where it was written, and passes it to copies."""
 
     place: tuple[str, int] | None = None
 

@@ -68,7 +68,7 @@ def parse(text: str | bytes, *, name: str, report: Report | None = None) -> Para
         text: The text, or its bytes.
         name: Stands for the file in errors.
         report: Takes what is wrong with text that is not well-formed and that Gazebo's parsers
-            go on with; without it such text is an error.
+            continue with; without it such text is an error.
 
     Raises:
         FormatError: The text is not well-formed XML, or exceeds a limit.

@@ -44,8 +44,8 @@ class JointBounds:
     Attributes:
         lower: [m or rad].
         upper: [m or rad].
-        velocity: Largest speed [m/s or rad/s]; infinite where nobody says.
-        acceleration: Largest acceleration [m/s² or rad/s²]; infinite where nobody says.
+        velocity: Largest speed [m/s or rad/s]; infinite by default.
+        acceleration: Largest acceleration [m/s² or rad/s²]; infinite by default.
     """
 
     lower: float = -math.inf

@@ -38,7 +38,7 @@ def _wait_on(owner: int) -> None:
 
 @cython.cclass
 class Turn:
-    """Place in the queue: of a thread that waits, or of work that whoever holds the lock does.
+    """Place in the queue: of a thread that waits, or of work that the lock's owner does.
 
     Args:
         thread: Identifier of the thread; 0 for work.

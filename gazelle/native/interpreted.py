@@ -1,4 +1,4 @@
-"""Let Python run the sources of compiled modules, for debuggers and for comparison."""
+"""Sources in Python of compiled modules, for debuggers and for comparison."""
 
 from __future__ import annotations
 

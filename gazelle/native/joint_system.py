@@ -27,7 +27,7 @@ class JointSystem(System):
     """Reads joints at the start of a step, and sets what acts on them in it.
 
     An engine that takes it into its steps (``bind``) calls ``exchange``, which lets it see joints where
-    the engine has them; else somebody fills ``position_in`` and ``velocity_in``, calls ``bring``, and
+    the engine has them; else a caller fills ``position_in`` and ``velocity_in``, calls ``bring``, and
     acts on what came out. A row is a world. Subclasses override ``advance``.
 
     Args:
@@ -71,7 +71,7 @@ class JointSystem(System):
         Args:
             places: Among its positions.
             dofs: Among its velocities and efforts.
-            most: Largest efforts that it lets act [N or N m].
+            most: Largest efforts that it applies [N or N m].
             motors: Among its motors; -1 for none.
         """
         self.places, self.dofs, self.most, self.motors = places, dofs, most, motors

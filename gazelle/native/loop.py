@@ -294,7 +294,7 @@ class SystemLoop:
         """Run a share of every system, with a barrier before and after each.
 
         What cannot be shared out, or is not worth it, is done by the last thread, which waits for
-        nobody between two of them.
+        no other between two of them.
         """
         index: cython.Py_ssize_t
         self._begin(part)

@@ -37,7 +37,7 @@ class _Worker:
             try:
                 self._done.acquire()
                 break
-            except KeyboardInterrupt as interruption:  # nobody else could wait for the thread later
+            except KeyboardInterrupt as interruption:  # no other code can wait for it later
                 stop = interruption
         value, error = self._value, stop or self._error
         self._work = self._value = self._error = None
@@ -109,7 +109,7 @@ class WorkerPool:
                 worker.start(functools.partial(work, part))
             try:
                 first = work(0)
-            finally:  # whoever works is waited for, also when something went wrong
+            finally:  # workers are waited for, also when something went wrong
                 others = [worker.outcome() for worker in workers]
             return [first, *(_value(*outcome) for outcome in others)]
 

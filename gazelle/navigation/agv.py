@@ -1,6 +1,6 @@
 """The motions of automated guided vehicles: straight to a point, turn by, turn to.
 
-Poses in, velocities out: where they come from and go to is somebody else's matter, so that
+Poses in, velocities out: where they come from and go to is up to the caller, so that
 the same motions drive robots of a simulation, of a ROS graph, or real ones.
 """
 

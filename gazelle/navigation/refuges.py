@@ -96,7 +96,7 @@ class RefugeMap:
         bodies: Sequence[RobotDisc],
         taken: Sequence[RobotDisc],
     ) -> RobotDisc | None:
-        """Return the place, nearest by the way there, where a robot stands in nobody's way.
+        """Return the place, nearest by the way there, where a robot stands in no other's way.
 
         Args:
             robot: That has to make way.

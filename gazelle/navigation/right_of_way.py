@@ -2,7 +2,7 @@
 
 Each robot plans by itself, and takes the others for obstacles. Where two meet in a corridor each finds
 its way blocked by the other. So robots that stand are looked at together: who stands on the way that
-another one would go, were it alone. Of those that hang together the first by priority goes on, and the
+another one would go, were it alone. Of those that hang together the first by priority continues, and the
 others wait; those on its way first go to the nearest place beside it, backwards if they have to.
 """
 
@@ -298,7 +298,7 @@ class RightOfWay:
             found.append(_Waiting(each, each.goal, place, until))
         return found
 
-    # Going on -----------------------------------------------------------------------------
+    # Continuing ---------------------------------------------------------------------------
 
     def _go_on(self, time: float, met: _Encounter, present: Sequence[Traveller]) -> bool:
         """Advance an encounter; returns whether it lasts."""

@@ -33,7 +33,7 @@ class GoalSeeker:
     """Drives one base from goal to goal, in the frame of its odometry.
 
     Plain numbers in, plain numbers out; it knows no simulation. Nothing is known about the
-    ground at first: what the laser sees goes on a map, unknown ground counts as free, and
+    ground at first: what the laser sees is put on a map, unknown ground counts as free, and
     the path is planned again when something turns up on it. Of a goal too near to an obstacle
     the nearest free place is taken; where there is no way, it waits for one.
 

@@ -88,7 +88,7 @@ class PlaceLocation:
         pose: Of the thing in the robot's frame.
         approach: How it gets there.
         retreat: Where the hand goes then.
-        open: Positions of the gripper's joints that let go.
+        open: Positions of the gripper's joints that release.
         of_tip: Whether the pose is of the group's tip instead.
         touches: What the hand may touch beside the thing.
         quality: Better ones are tried first.

@@ -41,7 +41,7 @@ def plan_with_ompl(
         goals: Valid positions, shape (k, n); endless joints the shorter way round from the start.
         validity: Says what is valid.
         planner: A key of ``BOUND``.
-        seed: The same one gives the same path, unless the planner goes on until time is up.
+        seed: The same one gives the same path, unless the planner continues until time is up.
         until: When to give up, on ``time.monotonic``'s clock [s].
         edge: Longest edge of a tree; as the planner likes if zero.
 

@@ -1,4 +1,4 @@
-"""Boxes in the world that tell what is in them, or put it elsewhere.
+"""Boxes in the world that report their contents, or put it elsewhere.
 
 ``libContainPlugin.so`` and ``libTransporterPlugin.so``. What counts is where the origin of a
 model or link is.

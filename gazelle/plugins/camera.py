@@ -1,6 +1,6 @@
 """Camera plugins: ``libgazebo_ros_camera.so`` and similar, with the topic names of files.
 
-Pictures are drawn while somebody listens, at the sensor's rate in simulated time; those of one
+Pictures are drawn while there are subscribers, at the sensor's rate in simulated time; those of one
 moment have the same stamp on every topic.
 """
 

@@ -25,7 +25,7 @@ class HandOfGod(ModelPlugin):
     update_rate = 0.0
 
     def load(self, robot: Robot, parameters: Parameters) -> None:
-        """Read the tags, find the link, listen to tf."""
+        """Read the tags, find the link, subscribe to tf."""
         self._robot, self._simulation = robot, robot.simulation
         self._link, _ = robot.frame(parameters.require("linkName", str))
         self._link.set_properties(gravity=0.0)

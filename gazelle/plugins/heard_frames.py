@@ -1,4 +1,4 @@
-"""Frames as others tell them on tf, in every world: where one is in another, by any way."""
+"""Frames received on tf, in every world: where one is in another, by any way."""
 
 from __future__ import annotations
 

@@ -112,7 +112,7 @@ class SensorErrors:
     def _tune(self, values: Mapping[str, float]) -> None:
         known = self._tuned()
         for row, (name, value) in zip(self._numbers, values.items(), strict=True):
-            # What nobody changed stays as it is on each axis.
+            # What was not changed stays as it is on each axis.
             if value != known[name]:
                 row[:] = value
 

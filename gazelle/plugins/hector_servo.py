@@ -36,7 +36,7 @@ _AXES = {(1.0, 0.0, 0.0): "x", (0.0, 1.0, 0.0): "y", (0.0, 0.0, 1.0): "z"}
 class HectorServo(ModelPlugin):
     """Turns one to three servos so that what they carry has an orientation in some frame.
 
-    Frames are those of ``/tf``, or the model's own where it does not tell of them. While one is
+    Frames are those of ``/tf``, or the model's own where it does not have them. While one is
     not known the servos stand still.
     """
 

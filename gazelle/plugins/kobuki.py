@@ -37,7 +37,7 @@ _VARIANCE: SixNumbers = (0.1, 0.1, 1e6, 1e6, 1e6, 0.05)
 
 
 class Kobuki(ModelPlugin):
-    """Drives two wheels until the last command is too old; tells of cliffs, bumps and the gyro.
+    """Drives two wheels until the last command is too old; publishes cliffs, bumps and the gyro.
 
     The odometry takes distances from the wheels and the heading from the gyro.
 

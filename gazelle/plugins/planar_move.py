@@ -68,7 +68,7 @@ class PlanarMove(ModelPlugin):
         if schedule is None:
             return False
         last_ns = now_ns - self._clock.step_ns
-        if schedule.due_ns <= last_ns:  # nobody listened then, and nobody asked
+        if schedule.due_ns <= last_ns:  # it had no subscribers and no reader
             schedule.done(last_ns)
         return schedule.is_due(now_ns)
 

@@ -1,4 +1,4 @@
-"""Plugins that only publish, and need no updates while nobody has subscribed."""
+"""Plugins that only publish, and need no updates without subscribers."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class _Region:
 class RegionEvents(WorldPlugin):
     """Tells the plugins of models, such as lifts, when a model that can move is in a region.
 
-    Events of other kinds, which only Gazebo's own topics tell, are left out with a warning.
+    Events of other kinds, which are only on Gazebo's own topics, are left out with a warning.
     """
 
     update_rate = 10.0

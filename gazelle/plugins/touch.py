@@ -18,7 +18,7 @@ from gazelle.simulation.values import Flags
 class Touch(ModelPlugin):
     """Tells when some contact sensors have touched the target, and nothing else, long enough.
 
-    It tells once, and waits then to be enabled again, in every world by itself.
+    It publishes once, and waits then to be enabled again, in every world by itself.
     """
 
     update_rate = 50.0

@@ -93,7 +93,7 @@ class WheelPlugin(OdometryPlugin, Protocol):
 
 
 class WheelSystem(OdometrySystem[WheelPlugin]):
-    """Drives of two sides, whose law runs in steps where nobody has subscribed.
+    """Drives of two sides, whose law runs in steps without subscribers.
 
     Args:
         plugins: The drives.

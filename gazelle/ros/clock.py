@@ -69,7 +69,7 @@ class WallClock:
 
 
 class _Sleeper:
-    """Somebody who waits for simulated time."""
+    """A thread that waits for simulated time."""
 
     __slots__ = ("event", "jump", "start", "target")
 

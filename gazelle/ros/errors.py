@@ -77,7 +77,7 @@ class UnreachableError(RosError):
 
 
 class RefusedConnectionError(UnreachableError, ConnectionRefusedError):
-    """Nobody listens where a peer was."""
+    """There is no peer at its former address."""
 
     errno = _errno.ECONNREFUSED
 
@@ -95,7 +95,7 @@ class MasterUnreachableError(UnreachableError, ConnectionError):
 
 
 class NoListeningMasterError(MasterUnreachableError, RefusedConnectionError):
-    """Nobody listens where the ROS master ought to be: a `ConnectionRefusedError`."""
+    """There is no ROS master at its address: a `ConnectionRefusedError`."""
 
 
 class NoMasterError(MasterUnreachableError):
@@ -125,7 +125,7 @@ class ServiceError(RosError):
 
 
 class ServiceNotFoundError(ServiceError):
-    """Nobody offers the service."""
+    """The service has no provider."""
 
 
 class ServiceFailedError(ServiceError):

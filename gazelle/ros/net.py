@@ -174,7 +174,7 @@ def connect(host: str, port: int, timeout: float | None) -> socket.socket:
 
 
 def _refuse_self(sock: socket.socket) -> None:
-    """Raise an error for a connection of a local port to itself, which means nobody listens."""
+    """Raise an error for a connection of a local port to itself, which means there is no server."""
     with contextlib.suppress(OSError):
         if sock.getsockname() == sock.getpeername():
             raise ConnectionRefusedError("nobody listens there")

@@ -54,7 +54,7 @@ class Node(TopicNode, ServiceNode, Closeable):
         clock: What time it is for this node; by default wall time, or simulated time from
             ``/clock`` if the parameter ``/use_sim_time`` is set.
         share_messages: Give subscribers in this process the published object itself when
-            nobody else listens; otherwise every subscriber gets a copy.
+            there is no other subscriber; otherwise every subscriber gets a copy.
         limits: What peers may demand.
 
     Attributes:

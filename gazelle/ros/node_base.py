@@ -111,7 +111,7 @@ class NodeBase(ABC):
             raise NodeClosedError(f"the node {self.name} is closed")
 
     def _ask(self, method: str, *params: Any) -> Any:
-        """Call the master; while it does not answer, the registrar goes on trying."""
+        """Call the master; while it does not answer, the registrar continues trying."""
         try:
             return self.master.call(method, *params)
         except (MasterUnreachableError, ApiError) as error:

@@ -86,7 +86,7 @@ class NodeParameters:
         """
         key = self._node.resolve(name)
         self._node.master.set_param(key, value)
-        self._apply(key, value)  # the master does not tell the node that did it
+        self._apply(key, value)  # the master does not notify the node that did it
 
     def has(self, name: str) -> bool:
         """Return True if it is set."""
@@ -117,10 +117,10 @@ class NodeParameters:
         """Return all keys that hold a value."""
         return self._node.master.param_names()
 
-    # What the master tells -----------------------------------------------------------------
+    # Updates by the master ---------------------------------------------------------------
 
     def update(self, key: str, value: Any) -> bool:
-        """Handle a change; False if nobody follows the parameter."""
+        """Handle a change; False if the parameter is not followed."""
         return self._apply(names.canonical(key), value)
 
     def followed(self) -> list[str]:

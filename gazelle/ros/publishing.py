@@ -93,7 +93,7 @@ class Publication:
     # Sending -----------------------------------------------------------------------------
 
     def publish(self, message: Any) -> None:
-        """Send a message to everybody who listens."""
+        """Send a message to all subscribers."""
         if self.has_header:
             with self._lock:
                 self._sequence += 1
@@ -127,7 +127,7 @@ class Publication:
                 neighbour.send(None, data)
 
     def _latch(self, message: Any) -> None:
-        """Send and keep a message; whoever connects at the same time gets it once."""
+        """Send and keep a message; a subscriber that connects at the same time gets it once."""
         data = frame(message)
         with self._lock:
             self._last = data

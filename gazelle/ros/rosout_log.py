@@ -30,7 +30,7 @@ _LEVELS = (
     (logging.INFO, _INFO),
 )
 _MOST_KEPT = 100
-"""Lines that are kept for the first who listens: rosout hears of a new node a moment late."""
+"""Lines that are kept for the first subscriber: rosout hears of a new node a moment late."""
 
 
 def report_on_rosout(node: Node) -> RosoutLog | None:
@@ -50,7 +50,7 @@ class RosoutLog(logging.Handler):
     They are shown as before, too.
 
     Args:
-        node: Publishes; goes on until it is closed.
+        node: Publishes; continues until it is closed.
     """
 
     def __init__(self, node: Node) -> None:

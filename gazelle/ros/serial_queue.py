@@ -50,7 +50,7 @@ class SerialQueue:
         return done
 
     def handle_all(self, items: list[Any]) -> bool:
-        """Handle items on this thread if nobody is at it, else post them.
+        """Handle items on this thread if no thread handles them, else post them.
 
         Returns:
             False if they took so long that others should not wait for this thread.
@@ -85,7 +85,7 @@ class SerialQueue:
                 except Exception as error:  # noqa: BLE001  # a callback must not end its thread
                     report(self.what, error)
         self._runner = 0
-        # Whoever posts from here on starts another run; what was posted just before must not
+        # A thread that posts from here on starts another run; what was posted just before must not
         # wait for that.
         self._running.release()
         if items:

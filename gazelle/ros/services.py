@@ -232,7 +232,7 @@ class ServiceClient:
             timeout: Seconds of wall time; None to wait for ever.
 
         Raises:
-            ServiceNotFoundError: Nobody offers it.
+            ServiceNotFoundError: It has no provider.
             ServiceFailedError: The server failed; the message is its text.
             ServiceError: The connection broke or was refused.
             RosTimeoutError: No answer in time.
@@ -345,7 +345,7 @@ def find_service(node: NodeBase, name: str) -> tuple[str, int]:
     """Return host and port of a service.
 
     Raises:
-        ServiceNotFoundError: Nobody offers it.
+        ServiceNotFoundError: It has no provider.
         MasterUnreachableError: The master does not answer.
     """
     try:

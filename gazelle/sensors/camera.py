@@ -1,4 +1,4 @@
-"""Cameras: colours and depths, drawn when somebody looks."""
+"""Cameras: colours and depths, rendered on demand."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ class RangeLaw:
 
 
 class LidarNoise:
-    """The noise of some lidars, a row each; arrays are views, and go on in place.
+    """The noise of some lidars, a row each; arrays are views, and continue in place.
 
     Args:
         deviation: Standard deviation of the white noise [m], shape (n,).

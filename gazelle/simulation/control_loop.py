@@ -115,7 +115,7 @@ class ControlLoop(ModelPlugin):
     def _measure(self) -> int:
         """Read the joints again, for controllers that start; returns the time [ns].
 
-        Since the last update somebody may have put the joints elsewhere, and where nothing was to be
+        Since the last update the joints may have been placed elsewhere, and where nothing was to be
         done there was none for long: that is no period of control.
         """
         if not self.active:
@@ -187,7 +187,7 @@ class ControlLoop(ModelPlugin):
         if laws is None:
             return None
         if not (laws or self.active):
-            # A class of a user's own may have more to do than it lets see when it is asked.
+            # A class of a user's own may have more to do than it reports.
             self._resting = type(hardware) is JointHardware
             return InStep((), math.inf, lasting=True) if self._resting else None
         cycle = hardware.in_step
@@ -200,7 +200,7 @@ class ControlLoop(ModelPlugin):
             self._carrying = wanted
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
         self._handed = True
-        # Without controllers nobody says when there is nothing left to do.
+        # Without controllers nothing reports when there is nothing left to do.
         return InStep((cycle,), self.manager.wake_ns(), bool(laws) and self.manager.patient)
 
     @property

@@ -2,7 +2,7 @@
 
 A callback that is called between two steps, of a plugin or a listener, may hand work to another
 thread and wait for it. If that reads the simulation, each waits for the other for ever. Where
-the owner stands tells: the same instruction, in the waiting parts of the standard library or at
+the owner stands is the sign: the same instruction, in the waiting parts of the standard library or at
 a lock, for long. Nor does a thread give it up that has ended.
 """
 
@@ -30,7 +30,7 @@ _WAITING = (
 """Files whose functions stand still only to wait for other threads."""
 
 _LOCKING = re.compile(r"\bwith\b|\.(acquire|join|wait)\(")
-"""A line at which a thread waits in native code, if it does not go on from it."""
+"""A line at which a thread waits in native code, if it does not continue from it."""
 
 
 class BlockedOwner:
@@ -44,7 +44,7 @@ class BlockedOwner:
         """Check again for a deadlock.
 
         Args:
-            owner: Identifier of the thread; 0 for nobody.
+            owner: Identifier of the thread; 0 for none.
 
         Raises:
             SimulationError: It waits for the calling thread, has long waited for some other, or

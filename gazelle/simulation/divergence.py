@@ -44,7 +44,7 @@ class FaultLog:
 
     Args:
         policy: ``raise`` an error after the other worlds made their steps, or ``reset`` the
-            world and go on.
+            world and continue.
         dump: File for the recording of a fault; those after the first get a number. A
             temporary file if None.
 

@@ -34,8 +34,8 @@ class Events:
         managed: A model has one more controller manager: called with its ``Robot``, which may not
             be spawned yet.
         rested: A run of steps is over; others may follow at once.
-        planned: Somebody planned a motion, or begins to make one, in any thread: called with the
-            ``Robot``, the number of the world, and a ``JointMotion``. Planners of users tell it too,
+        planned: A motion was planned, or begins to make one, in any thread: called with the
+            ``Robot``, the number of the world, and a ``JointMotion``. Planners of users report it too,
             by ``simulation.events.planned.tell(robot, world, motion)``.
     """
 

@@ -1,4 +1,4 @@
-"""A motion of a robot's joints that somebody has planned."""
+"""A motion of a robot's joints that was planned."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class JointMotion:
         times: Since its beginning [s], rising from 0, shape (m,).
         positions: [m or rad], shape (m, joints).
         start: Positions of other joints meanwhile [m or rad]; of those not named zero.
-        tip: Name of the link whose path matters, "" if nobody says.
+        tip: Name of the link whose path matters, "" if unknown.
     """
 
     joints: tuple[str, ...]

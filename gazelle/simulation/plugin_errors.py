@@ -1,4 +1,4 @@
-"""Say which plugin failed, and where, when the simulation goes on without it."""
+"""Warnings of failed plugins, without which the simulation continues."""
 
 from __future__ import annotations
 

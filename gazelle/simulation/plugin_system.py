@@ -42,7 +42,7 @@ class PluginSystem(Generic[P]):
     """Plugins that name one class as their ``system`` and are due together, a row each.
 
     A system is made of one plugin or of many: there is no other implementation for one robot. It
-    is made again when somebody subscribes, and when models come or go. What is reset, saved and
+    is made again when subscribers change, and when models come or go. What is reset, saved and
     restored stays with the plugins, such as in columns of the system's arrays.
 
     Args:

@@ -3,7 +3,7 @@
 A port carries plain values and knows of no door: a ROS bridge binds it to a topic, an
 environment reads it as arrays, Python reads it as values. What it carries is a plain
 dataclass (see ``values``, ``gazelle.sensors``) or a bool, an int, a float or a str. An output
-costs nothing while nobody listens.
+costs nothing without subscribers.
 """
 
 from __future__ import annotations
@@ -225,9 +225,9 @@ class Output(StatePart, Generic[T]):
         frame: Frame of the values, for kinds that carry none themselves.
         queue_size: Of the topic.
         latch: Whether who comes late gets the last value.
-        namespace: Whose frames they are; the topic tells if None.
+        namespace: Whose frames they are; by the topic if None.
         prefix: What goes before the names of its frames on a graph.
-        event: Whether it tells of what happens, and has nothing to tell at other times.
+        event: Whether it publishes events, and nothing at other times.
     """
 
     def __init__(
@@ -287,7 +287,7 @@ class Output(StatePart, Generic[T]):
 
     @between_steps
     def publish(self) -> None:
-        """Compute the value and hand it to all who listen, if anybody does."""
+        """Compute the value and hand it to all subscribers, if there are any."""
         if self._listeners:
             self.hand(self._produce())
 
@@ -337,7 +337,7 @@ class PortTable(dict[str, T]):
         raise UnknownNameError(f"there is no '{name}' here", hint=did_you_mean(name, self))
 
     def update(self, ports: Mapping[str, T] = MappingProxyType({}), /, **more: T) -> None:  # type: ignore[override]
-        """Add ports; a dict's own would not tell them which simulation they belong to."""
+        """Add ports; a dict's own would not set their simulation."""
         for name, port in {**ports, **more}.items():
             self[name] = port
 

@@ -72,7 +72,7 @@ def header(
 class Recorder(Closeable):
     """Writes down a run until it is closed; a context manager.
 
-    It listens to the methods of the engine that change something, whoever calls them, and compares the
+    It records the methods of the engine that change something, of any caller, and compares the
     state before each with that after the call before. As long as it records, systems are updated from
     here, one step at a time, so that what they write is found.
 
@@ -235,7 +235,7 @@ class Recorder(Closeable):
             self._pending = {}
 
     def _write(self, line: dict[str, Any]) -> None:
-        """Write a line; if there is no room the recording ends, and the simulation may go on."""
+        """Write a line; if there is no room the recording ends, and the simulation may continue."""
         if self._file.closed:
             return
         try:

@@ -70,7 +70,7 @@ class Replay(Closeable):
 
         Raises:
             SimulationError: The state is not the recorded one, or the recording is damaged.
-            DivergenceError: A world broke down, and the recorded run did not go on from there.
+            DivergenceError: A world broke down, and the recorded run did not continue from there.
         """
         while not self.done:
             event = self._events[self._next]

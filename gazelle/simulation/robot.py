@@ -382,7 +382,7 @@ class Robot(Ports):
 class SensorUnit(SampledSensor):
     """One sensor of one robot.
 
-    It sleeps until somebody reads or subscribes; then it measures at its ``update_rate``.
+    It sleeps until it is read or subscribed to; then it measures at its ``update_rate``.
 
     Attributes:
         robot: The robot that it is on.

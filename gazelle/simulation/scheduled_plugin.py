@@ -22,7 +22,7 @@ T = TypeVar("T")
 class ScheduledPlugin:
     """A loaded plugin, what it is on, and when it is due; no schedule means never.
 
-    One that raises is detached with a warning: it is never asked again, and all else goes on.
+    One that raises is detached with a warning: it is never asked again, and all else continues.
     """
 
     plugin: BasePlugin

@@ -117,7 +117,7 @@ def group_sensors(
 
     Args:
         units: All that are awake.
-        native: Whether kernels may measure those that nobody subscribed to.
+        native: Whether kernels may measure those without subscribers.
     """
     kernels = list[SensorGroup]()
     places: list[tuple[list[U], SensorGroup | None]] = []

@@ -1,4 +1,4 @@
-"""Sensors of a running robot: measured at their own rate, while somebody wants them."""
+"""Sensors of a running robot: measured at their own rate, on demand."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NO_WORLDS = np.zeros(0, np.intp)
 class SampledSensor:
     """Sensor that measures at its own rate; with its robot it is a ``SensorUnit``.
 
-    It sleeps until somebody reads or subscribes; then it measures at its ``update_rate``.
+    It sleeps until it is read or subscribed to; then it measures at its ``update_rate``.
 
     Attributes:
         description: What the file says.
@@ -246,7 +246,7 @@ class SampledSensor:
 
 
 class SensorOutput(Output[Any]):
-    """The readings of a sensor: whoever listens wakes it.
+    """The readings of a sensor: a subscriber wakes it.
 
     Args:
         sensor: Measures, in all worlds.
@@ -254,7 +254,7 @@ class SensorOutput(Output[Any]):
         kind: Type of its readings.
         frame: Frame of the readings.
         read: The reading from the sensor; its own kind of reading if None.
-        namespace: Whose frames they are; the topic tells if None.
+        namespace: Whose frames they are; by the topic if None.
         prefix: What goes before the name of the frame on a graph.
     """
 

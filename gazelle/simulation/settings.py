@@ -18,7 +18,7 @@ T = TypeVar("T")
 
 
 class Setting(StatePart, Generic[T]):
-    """A value that somebody around may know; its default holds until then.
+    """A value that the surroundings may know; its default holds until then.
 
     Args:
         name: Full name.
@@ -26,7 +26,7 @@ class Setting(StatePart, Generic[T]):
         receive: Called with each value that is given. Ports are put on a graph after that,
             and may get other topics here.
         search: Whether a value in a namespace above will do, as of ``/robot_description``.
-        awaited: Whether to go on looking for a value until there is one.
+        awaited: Whether to continue looking for a value until there is one.
 
     Attributes:
         value: What holds now.

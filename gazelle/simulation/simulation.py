@@ -64,7 +64,7 @@ class Simulation(Closeable):
         threads: Native threads; all processors if None. Results do not depend on it.
         time_step: Physics step [s]; the world's ``max_step_size`` if None.
         on_fault: What to do when the state of a world becomes infinite: ``raise`` an error, or
-            ``reset`` the world with a warning and go on. The other worlds make their steps
+            ``reset`` the world with a warning and continue. The other worlds make their steps
             either way, and the steps that broke it are written down for ``Replay``.
         fault_dump: File for that; a temporary one if None.
         namespace: Before names of topics that files ask for, as that of the node of a ``gzserver``.
@@ -175,7 +175,7 @@ class Simulation(Closeable):
         self.loop.walk(inputs.steps(count), _never)
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
-        """Advance by simulated time, or until somebody pauses the simulation.
+        """Advance by simulated time, or until a pause.
 
         Args:
             seconds: How long [s]; rounded to whole physics steps.

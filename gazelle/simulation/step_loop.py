@@ -34,7 +34,7 @@ from gazelle.simulation.systems_in_step import SystemsInStep
 CLOSED = "the simulation is closed"
 
 # For how long the physics is stepped at once, at most, while others ask for something, and while
-# nobody does: what is done between pieces finds its memory cold, and slows the physics down [s].
+# there are none: what is done between pieces finds its memory cold, and slows the physics down [s].
 _PIECE, _LONG_PIECE = 0.003, 0.02
 
 # Who asked for something so lately asks again [s].
@@ -45,7 +45,7 @@ class StepLoop:
     """Steps a simulation from one thing that is due to the next.
 
     The physics is never stepped for longer than some milliseconds at once, or for one step, so
-    that other threads get their answers soon; within 3 ms where somebody asked lately. Results do
+    that other threads get their answers soon; within 3 ms after a recent request. Results do
     not depend on where it is cut.
 
     Args:
@@ -143,7 +143,7 @@ class StepLoop:
             loads.update(clock.now_ns)
         if self.followers or self._listeners:
             most = 1
-        # Nothing is due within a single step: nobody need be asked.
+        # Nothing is due within a single step: no plugin need be asked.
         steps = 1 if most == 1 else steps_to_next(plugins, plan.sensors, clock, most)
         if steps > 1:
             # What broke down starts over within a second, and what falls is looked for.
@@ -184,7 +184,7 @@ class StepLoop:
                 fresh = [each for each in late if asked.isdisjoint(each.members())]
                 update_plugins(fresh, simulation.clock)
                 plugins += late
-            # One of them may have woken a sensor, let others come or go, or changed the engine.
+            # One of them may have woken a sensor, added or removed others, or changed the engine.
             if simulation.lock.closed or self._is_settled():
                 return plugins
             for each in plugins:

@@ -1,4 +1,4 @@
-"""Bumpers: strips that tell what they touch."""
+"""Bumpers: strips that report contacts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stage's cameras: what they see, drawn when somebody asks."""
+"""Stage's cameras: pictures, rendered on demand."""
 
 from __future__ import annotations
 

@@ -216,7 +216,7 @@ def find_blobs(around: Surroundings, robot: int, which: int, world: int) -> list
 
 
 def _add(blobs: list[Blob], new: Blob) -> None:
-    """Add a column to the last blob if it goes on, else as a new one."""
+    """Add a column to the last blob if it continues, else as a new one."""
     last = blobs[-1] if blobs else None
     if last is None or last.right != new.left - 1 or last.color != new.color:
         blobs.append(new)

@@ -29,7 +29,7 @@ COMMANDS: tuple[Command, ...] = ("open", "close", "up", "down")
 _STEP = 0.05  # share of their way by which paddles and lift go in an update
 _INSETS = (0.75, 0.25)  # of the beams from the tips, as shares of the paddles' length
 _NOWHERE = -1e6  # height of what is carried: neither seen nor bumped into [m]
-_CLEAR = 1e-3  # room that is left between a gripper and what it lets go [m]
+_CLEAR = 1e-3  # room that is left between a gripper and what it releases [m]
 _NONE = -1
 
 
@@ -157,7 +157,7 @@ class Gripper:
         self.carried[:] = [things.get(thing, _NONE) for thing in self.carried.tolist()]
 
     def _move(self, world: int, step: float) -> None:
-        """Move the paddles of one world; let go, or take what they touch."""
+        """Move the paddles of one world; release, or grip what they touch."""
         position = self.paddles[world] + step * self._closing[world]
         if self._closing[world] < 0:
             if self.carried[world] != _NONE and position < self._limit[world]:

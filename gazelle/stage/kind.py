@@ -17,7 +17,7 @@ from gazelle.stage.running import StageRunner
 
 
 class StageKind:
-    """Models of Stage files: a fleet moves them, and lets them see.
+    """Models of Stage files: a fleet moves them, and its sensors measure.
 
     Args:
         fleet: The robots, for users too.
@@ -37,7 +37,7 @@ class StageKind:
         open_devices(self.extension, robot)
 
     def starts(self, plugin: Plugin) -> bool:
-        """Return False for plugins that let such a model drive and see in other engines."""
+        """Return False for plugins for drives and sensors of such a model in other engines."""
         return not isinstance(plugin, StagePlugin)
 
 

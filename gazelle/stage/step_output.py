@@ -1,4 +1,4 @@
-"""Outputs of Stage's robots: what is true after a step, while somebody listens."""
+"""Outputs of Stage's robots: values after a step, while there are subscribers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 
 class StepOutput(Output[T]):
-    """Published after every step while somebody listens.
+    """Published after every step while it has subscribers.
 
     Args:
         robot: Whose it is.

@@ -1,6 +1,6 @@
 """Distance and direction to a fixed goal, computed from the observed position of the base.
 
-A network must tell 0.05 m from 0.1 m beside a goal that x and y of a whole hall are
+A network must distinguish 0.05 m from 0.1 m beside a goal that x and y of a whole hall are
 scaled by, and know sines and cosines to steer there. So it is given the logarithm of the distance,
 and the direction as a vector of length 1: ahead and to the left.
 """

@@ -141,7 +141,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
 
     @property
     def _seconds(self) -> float:
-        """Wall time of the training so far, without that between a stop and going on [s]."""
+        """Wall time of the training so far, without that between a stop and a resume [s]."""
         return self._seconds_before + time.monotonic() - self._began
 
     def finish(self) -> None:

@@ -45,11 +45,11 @@ class Trial:
     success: int
     """Goals that were reached."""
     effective: float | None = None
-    """Independent attempts that tell as much as these; None for all of them."""
+    """Independent attempts that count as much as these; None for all of them."""
     distinct: int | None = None
     """Episodes that differ; None where it was not recorded."""
     collisions: int | None = None
-    """Attempts that ended in a collision; None where the task does not tell."""
+    """Attempts that ended in a collision; None if unknown."""
     timeouts: int | None = None
     """Attempts that ran out of time; None where it was not recorded."""
     cpu: float

@@ -73,7 +73,7 @@ class TaskCopies:
 
     @property
     def control_period(self) -> float | None:
-        """Simulated seconds of a control step; None if the environment does not tell."""
+        """Simulated seconds of a control step; None if unknown."""
         return control_period(self.env)
 
     @property

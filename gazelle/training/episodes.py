@@ -42,7 +42,7 @@ class Episodes:
     """For each name in `OUTCOMES` that the environment reports: whether it holds at the end."""
     goals: Ints64
     """Goals reached: ``goals_reached`` of the last info, else as often as ``is_success`` became
-    true. More than one where an episode goes on to the next goal."""
+    true. More than one where an episode continues to the next goal."""
     since_goal: Ints64
     """Control steps since the last goal on the way was reached, or since the start."""
     truncated: Bools

@@ -47,9 +47,9 @@ class Evaluation:
     seed: int
     """Seed of the environment."""
     success: SuccessRate | None
-    """Goals that were reached; None when the task does not tell."""
+    """Goals that were reached; None if unknown."""
     collision: SuccessRate | None
-    """Attempts that ended in a collision; None when the task does not tell."""
+    """Attempts that ended in a collision; None if unknown."""
     timeout: SuccessRate
     """Attempts that ran out of time."""
     other: SuccessRate
@@ -65,7 +65,7 @@ class Evaluation:
     records: tuple[EpisodeRecord, ...] = field(default=(), repr=False)
     """Each episode by itself."""
     floor_plan: FloorPlan | None = field(default=None, repr=False)
-    """Obstacles of the world, seen from above; None when the task does not tell."""
+    """Obstacles of the world, seen from above; None if unknown."""
 
     @property
     def rtf(self) -> float | None:
@@ -129,7 +129,7 @@ def evaluate(
         episodes: How many episodes to count; where copies share a world, as many more as fill the
             last world, so that each of them counts as often as the others.
         seed: What the environment's seed follows from; see `evaluation_seed`. Trainings draw others.
-        task: The task; needed unless a run tells it.
+        task: The task; needed unless a run names it.
         num_envs: Copies that run at once; by default one an episode, at most 128.
         imports: Modules or files to import first, which register the task.
         trust: Whether to import modules that the run names and ``imports`` does not.

@@ -70,7 +70,7 @@ class EpisodesPlayed:
     sim_seconds: float | None
     """Of all copies together [s]; None when the task has no control period."""
     floor_plan: FloorPlan | None
-    """Obstacles of the world; None when the task does not tell."""
+    """Obstacles of the world; None if unknown."""
 
 
 def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int) -> EpisodesPlayed:

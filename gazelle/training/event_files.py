@@ -1,7 +1,7 @@
-"""TensorBoard's files of events, cut where a run goes on from.
+"""TensorBoard's files of events, cut where a run continues from.
 
 A run that was killed has written curves beyond its last checkpoint, and writes those steps again
-when it goes on. The form of the files is that of TensorFlow's records: length (8 bytes), its
+when it continues. The form of the files is that of TensorFlow's records: length (8 bytes), its
 checksum (4), the event, its checksum (4).
 """
 

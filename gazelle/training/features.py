@@ -1,6 +1,6 @@
 """Sines, cosines, logarithms and bearings of observations, which small networks are slow to make themselves.
 
-To keep away from what is near, a policy must tell 0.2 m from 0.3 m and need not tell 2.2 m from
+To keep away from what is near, a policy must distinguish 0.2 m from 0.3 m and need not distinguish 2.2 m from
 2.3 m; and an angle of pi is one of -pi. What an entry is shows in its bounds: one between -pi and
 pi is an angle, one that cannot be negative is a range, a distance or a count. Angles of joints have
 limits of their own, so those have to be named.

@@ -1,4 +1,4 @@
-"""A reward for the learner alone, of what a task tells of its goals.
+"""A reward for the learner alone, from a task's information on goals.
 
 The reward that a task publishes is what reports and evaluations show. It need not be what a policy
 is best taught with: the published one of the TurtleBot3, say, pays more for a well-aimed turn far from the
@@ -29,7 +29,7 @@ class GoalReward:
     progress: float = 1.0
     """For each metre that the robot comes nearer to its goal (``distance`` [m])."""
     waypoint: float = 0.0
-    """For each point on the way to the goal (``waypoints``, if the task tells how many were reached):
+    """For each point on the way to the goal (``waypoints``, if the task counts them):
     ``distance`` is to the next one."""
     other_end: float = 0.0
     """Taken where the task ends an episode otherwise, such as out of its work space."""
@@ -72,13 +72,13 @@ class GoalRewards:
 
         Args:
             info: Of the step.
-            last: Where the ended episodes tell of their last moment, if not in ``info``.
+            last: Where the ended episodes have their last info, if not in ``info``.
             slots: Copies whose episodes ended.
             terminated: Where the task ended them, shape (N,).
             valid: False where the step was spent on a reset, shape (N,).
 
         Raises:
-            TaskError: The task does not tell what is needed.
+            TaskError: The task does not report what is needed.
         """
         success, collision, now = (
             _merged(info, last, slots, name) for name in ("is_success", "is_collision", "distance")
@@ -93,7 +93,7 @@ class GoalRewards:
             passed = _merged(info, last, slots, "waypoints") - self.waypoints
             self.waypoints += passed
             reward += pay.waypoint * passed
-        # After a goal or a point another one is under way, whose distance the next step tells.
+        # After a goal or a point another one is under way, whose distance comes with the next step.
         self.distance = np.where((success + passed) > 0.0, np.nan, now)
         result: Floats = np.where(valid, reward, 0.0)
         return result

@@ -1,4 +1,4 @@
-"""The progress of a training on a ROS 1 graph, as turtlebot3_machine_learning tells it."""
+"""The progress of a training on a ROS 1 graph, as turtlebot3_machine_learning publishes it."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class _ResultWriter(KVWriter):  # type: ignore[misc]  # untyped base
     def write(
         self, key_values: dict[str, Any], key_excluded: dict[str, Any], step: int = 0
     ) -> None:
-        """Publish a point of the curves that tells of episodes."""
+        """Publish a point of the curves with episodes."""
         del key_excluded, step
         if _RETURN in key_values:
             values = [float(key_values[_RETURN]), self._largest_output()]

@@ -1,4 +1,4 @@
-"""Modules that register tasks of the user's own, found again by whoever opens the run."""
+"""Modules that register tasks of the user's own, found again when the run is opened."""
 
 from __future__ import annotations
 

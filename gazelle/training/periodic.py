@@ -1,4 +1,4 @@
-"""Evaluations while a training goes on, and the best policy of them."""
+"""Evaluations while a training continues, and the best policy of them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _COLUMNS = ("steps", "success_rate", "collision_rate", "timeout_rate", "return",
 class PeriodicEvaluation:
     """Evaluates now and then, writes ``evaluations.csv``, and keeps the best as ``best.npz``.
 
-    Best is what reaches the greatest share of goals or, where tasks do not tell of that or shares
+    Best is what reaches the greatest share of goals or, where tasks do not report that or shares
     are alike, has the greatest mean return. Evaluations have an environment and random
     numbers of their own, so that a training does the same with them as without.
 

@@ -24,7 +24,7 @@ class Playback(Closeable):
     Args:
         run_or_policy: Folder of a run, a ``policy.npz``, or an actor.
         seed: Of the environment.
-        task: The task; needed unless a run tells it.
+        task: The task; needed unless a run names it.
         imports: Modules or files to import first, which register the task.
         trust: Whether to import modules that the run names and ``imports`` does not.
         options: Of the environment, as ``evaluate`` takes them.

@@ -33,7 +33,7 @@ class EpisodeRecord:
     sum_of_rewards: float
     """Its return."""
     scenario: dict[str, float]
-    """Initial conditions, as far as the environment tells."""
+    """Initial conditions, as far as known."""
     info: dict[str, tuple[float, ...]]
     """The numbers of its last info, such as ``goal`` and ``position`` (x, y) [m]."""
     ends: tuple[int, int, int]

@@ -74,10 +74,10 @@ def play(
         actor: The policy.
         steps: How many.
         rng: Where actions are drawn from.
-        on_step: Called after each step; what it returns says whether to go on.
+        on_step: Called after each step; what it returns says whether to continue.
 
     Returns:
-        What was met; None if it did not go on.
+        What was met; None if it did not continue.
     """
     copies = env.num_envs
     observations = np.empty((steps, *env.obs.shape), env.obs.dtype)

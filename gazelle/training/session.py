@@ -1,4 +1,4 @@
-"""Train a policy for a task, or go on with a run that was stopped."""
+"""Train a policy for a task, or continue with a run that was stopped."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ def clustered_rate(
 ) -> SuccessRate:
     """Return a rate over episodes of which some are repetitions of others.
 
-    Repetitions tell less than fresh draws: nothing more where they end alike. The number of
+    Repetitions count less than fresh draws: nothing more where they end alike. The number of
     draws that the interval counts is the total divided by the design effect of the clusters
     (E. L. Korn and B. I. Graubard, "Confidence intervals for proportions with small expected
     number of positive counts estimated from survey data", Survey Methodology 24 (1998)
@@ -88,7 +88,7 @@ def clustered_rate(
         return SuccessRate(count, total)
     # If all attempts of a cluster end alike (L. Kish, "Survey Sampling", 1965, sec. 8.2).
     alike = total**2 / float((sizes**2).sum())
-    # Few clusters tell little of how alike their attempts end. Two more that are, one of each
+    # Few clusters say little about how alike their attempts end. Two more that are, one of each
     # kind, keep the interval from being too short, as Agresti's and Coull's do for a share.
     usual = total / many
     sizes = np.append(sizes, (usual, usual))
@@ -106,7 +106,7 @@ def rate_between_worlds(
 
     A robot that blocks an aisle blocks it for all. How much is seen from how far apart worlds are, with
     the variance of a ratio between them and Student's distribution for their number (E. L. Korn
-    and B. I. Graubard, see `clustered_rate`). Worlds without a difference tell nothing of it; then they count
+    and B. I. Graubard, see `clustered_rate`). Worlds without a difference say nothing about it; then they count
     as repetitions do.
 
     Args:

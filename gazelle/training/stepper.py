@@ -181,7 +181,7 @@ class Stepper:
         if "is_success" not in info:
             return
         there = np.asarray(info["is_success"], dtype=np.bool_) & valid & ~done
-        # A goal at which a task lets its robot stay is reached once.
+        # A goal at which a task keeps its robot is reached once.
         came = there & ~self._there
         self._goals += came
         self._late_goals += came & self._begun_late()

@@ -8,7 +8,7 @@ An experiment is a function of the user's::
         return {"stalls": ..., "mean_speed": ...}
 
 and a `Study` says with which values it is called. The table has a row a call and is complete up to
-the last row at any time, so that a study that was stopped goes on where it was.
+the last row at any time, so that a study that was stopped continues where it was.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class StudyResult:
     new: int
     """Number of new rows."""
     failed: int
-    """Number of all calls that ended in an error, which their rows tell."""
+    """Number of all calls that ended in an error, which are in their rows."""
 
 
 class ExperimentHost:

@@ -1,8 +1,8 @@
-"""Search hyperparameters with Optuna, over processes or a cluster, and go on where it was stopped.
+"""Search hyperparameters with Optuna, over processes or a cluster; a stopped search resumes.
 
 The driver asks Optuna for one trial after another, has workers train and evaluate them, and keeps
 all in a journal file. Workers end with the driver, however it ends; what they were at is tried
-again when the search goes on.
+again when the search continues.
 """
 
 from __future__ import annotations

@@ -78,7 +78,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
 
     @property
     def control_period(self) -> float | None:
-        """Simulated seconds of a control step; None if the environment does not tell."""
+        """Simulated seconds of a control step; None if unknown."""
         return self.copies.control_period
 
     @property

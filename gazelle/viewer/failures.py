@@ -35,14 +35,14 @@ def draw_failures(found: Evaluation, size: int = 800) -> Picture:
     small ring its start.
 
     Args:
-        found: Of a task that tells ``position`` or ``goal`` (x, y) [m] in its info.
+        found: Of a task that reports ``position`` or ``goal`` (x, y) [m] in its info.
         size: Longer side of the plan [pixel].
 
     Returns:
         Shape (height, width, 3).
 
     Raises:
-        TaskError: The task tells no places.
+        TaskError: The task reports no places.
     """
     places = [point for record in found.records for point in _points(record).values()]
     if not places:

@@ -31,13 +31,13 @@ from gazelle.viewer.page.shapes import extent_of_world
 from gazelle.viewer.page.world_layer import ShapeLayer
 from gazelle.viewer.scene_camera import distance_to_see
 
-_BESIDE = 4  # worlds of a batch that are shown if nobody says
+_BESIDE = 4  # worlds of a batch that are shown by default
 _LENS = PinholeLens(400, 400, 1.25)  # about that of the page
 _SHARE = 0.25  # of a core that pictures take at most: dearer ones come less often
 
 
 class LiveView(Closeable):
-    """Shows a simulation in a browser while it runs, and lets people take part; a context manager.
+    """Shows a simulation in a browser while it runs, with controls; a context manager.
 
     The page is served on this machine's loopback address, and only to those who know the secret
     in its address. While no page is open it costs nothing. What goes wrong on it stops nothing.
@@ -176,7 +176,7 @@ class LiveView(Closeable):
         self._changed = True
 
     def _follow(self) -> None:
-        """Show picture after picture while somebody looks."""
+        """Show picture after picture while the page is open."""
         try:
             while not self._stop.is_set():
                 if not self._server.watched:

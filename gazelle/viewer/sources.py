@@ -22,7 +22,7 @@ _NANOSECONDS = 1e9
 
 
 class FilmSource(Closeable):
-    """Something that goes on in time and can be looked at."""
+    """A source of pictures over time."""
 
     @abstractmethod
     def advance(self, seconds: float) -> bool:

@@ -76,7 +76,7 @@ def codec_of(kind: type[Any]) -> ActionCodec:
     """Return the codec of goals of a kind; those of message classes are passed unchanged.
 
     Raises:
-        RosError: Nobody said.
+        RosError: No function is registered.
     """
     found = _CODECS.get(kind)
     name = message_kinds.name_of(kind)
@@ -105,7 +105,7 @@ class _GraphClock:
 class ActionBridge:
     """A port as an action server.
 
-    What a controller says of a goal is sent by a worker, in order, so that nobody waits for a socket
+    A controller's report on a goal is sent by a worker, in order, so that no thread waits for a socket
     in a step.
 
     Args:

@@ -46,7 +46,7 @@ def command_decoder_of(kind: type[Any]) -> CommandDecoder:
     """Return the decoder of commands of a kind; those of message classes are commands already.
 
     Raises:
-        RosError: Nobody said; see ``gazelle.bridges.conversions.add_decoder``.
+        RosError: No function is registered; see ``gazelle.bridges.conversions.add_decoder``.
     """
     found = _DECODERS.get(kind)
     if found is not None:

@@ -39,13 +39,13 @@ class GazeboDoor(Closeable):
 
     Every service is carried out between two steps, also while the simulation is paused, and
     answers when what it says is true. After a reset, a spawn or steps of a paused world
-    everything that is listened to is published once before the answer.
+    everything with subscribers is published once before the answer.
 
     Args:
         simulation: Runs, on whatever thread steps it.
         node: Called ``gazebo``; it stays open when the door is closed.
         world: Which world of a batch the graph sees and commands.
-        monotonic_clock: Let ``/clock`` go on at a reset instead of back to zero.
+        monotonic_clock: Let ``/clock`` continue at a reset instead of back to zero.
 
     Attributes:
         context: What the parts of the door share.
@@ -114,7 +114,7 @@ class GazeboDoor(Closeable):
         ]
 
     def publish(self) -> None:
-        """Publish everything that somebody listens to, as it is now."""
+        """Publish everything with subscribers, as it is now."""
         with self._simulation.lock:
             self._publish()
 

@@ -23,7 +23,7 @@ _STAMP = struct.Struct("<II")
 
 
 class ClockPublisher(BasePlugin):
-    """Publishes ``/clock`` while somebody listens.
+    """Publishes ``/clock`` while it has subscribers.
 
     Args:
         context: Of the door.
@@ -72,7 +72,7 @@ class ClockPublisher(BasePlugin):
 
 
 class StatesPublisher(BasePlugin):
-    """Publishes ``model_states`` and ``link_states`` at every step while somebody listens."""
+    """Publishes ``model_states`` and ``link_states`` at every step while it has subscribers."""
 
     update_rate = 0.0
 
@@ -173,7 +173,7 @@ def _strings(names: Iterable[str]) -> bytes:
 
 
 class PerformancePublisher(BasePlugin):
-    """Publishes ``performance_metrics`` while somebody listens."""
+    """Publishes ``performance_metrics`` while it has subscribers."""
 
     update_rate = _PERFORMANCE_RATE
 

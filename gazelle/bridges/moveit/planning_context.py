@@ -32,7 +32,7 @@ class PlanningContext:
         scene: What must not be touched; use it only while holding ``lock``.
         lock: Questions and changes come one at a time, and are short.
         planned: The scene that plans are made in, so that nothing waits for a plan; use it only while
-            holding ``planning``, and let it follow ``scene`` before.
+            holding ``planning``, and have it follow ``scene`` before.
         planning: Plans come one at a time; take it before ``lock``.
         monitor: Where the joints are.
         frames: Frames of messages.

@@ -15,7 +15,7 @@ _PATIENCE_S = 5.0
 
 
 class NavigationWarning(GazelleWarning):
-    """A navigation node waits for something that nobody sends."""
+    """A navigation node waits for something that never comes."""
 
 
 class StartDiagnosis:

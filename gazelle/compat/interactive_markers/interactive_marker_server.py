@@ -203,7 +203,7 @@ class InteractiveMarkerServer:
         return list(self._shown)
 
     def processFeedback(self, feedback: Any) -> None:  # noqa: N802  # ROS's name
-        """Move a marker as somebody moved it, and call its functions."""
+        """Move a marker as a user does, and call its functions."""
         with self._lock:
             shown = self._shown.get(feedback.marker_name)
             if shown is None or self._is_anothers(shown, feedback.client_id):

@@ -92,7 +92,7 @@ class GazeboConnection:
         """Set steps of 1 ms, 9.81 m/s² down, and ODE's settings of openai_ros.
 
         The pace is 1,000 steps a second, as there, unless the simulator is faster already: a world
-        that runs as fast as possible goes on doing so.
+        that runs as fast as possible continues doing so.
         """
         rate = self._gazebo.physics.max_update_rate
         self._gazebo.set_physics(

@@ -15,7 +15,7 @@ from gazelle.compat.openai_ros.simulated_time import SimulatedTime
 class RobotGazeboEnv(GraphEnv):
     """An environment whose robot is on a ROS 1 graph.
 
-    A step lets time go on, does the action, pauses, and looks. After every episode
+    A step unpauses, applies the action, pauses, and observes. After every episode
     ``openai_ros/RLExperimentInfo`` with its number and reward is published on ``/openai/reward``.
     Subclasses say what to do in the methods that raise `NotImplementedError` here.
 

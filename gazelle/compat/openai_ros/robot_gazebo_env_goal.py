@@ -15,7 +15,7 @@ class RobotGazeboEnv(GraphEnv, GoalEnv):
     """An environment with goals whose robot is on a ROS 1 graph.
 
     Observations are dictionaries with ``observation``, ``achieved_goal`` and ``desired_goal``. Unlike in
-    `robot_gazebo_env`, time goes on between steps, every step's reward is published, a reset
+    `robot_gazebo_env`, time continues between steps, every step's reward is published, a reset
     puts back the models only, and the physics is left as it is.
 
     Args:

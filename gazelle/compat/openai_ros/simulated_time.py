@@ -14,7 +14,7 @@ CLOCK = "/clock"
 
 
 class SimulatedTime:
-    """Waits for ``/clock``; where nobody publishes it, as with a real robot, for the machine's clock.
+    """Waits for ``/clock``; without a publisher, as with a real robot, for the machine's clock.
 
     A script's node goes by the machine's clock if it began before the simulator did, as nodes begin
     that start the simulator themselves.

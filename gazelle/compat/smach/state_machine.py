@@ -162,7 +162,7 @@ class StateMachine(Container):
         return outcome
 
     def _step(self, label: str) -> str | None:
-        """Execute one state and go on to the next; returns the machine's outcome at its end."""
+        """Execute one state and continue to the next; returns the machine's outcome at its end."""
         state = self._states[label]
         with self._changing:
             self._pass_on_preempt(state)

@@ -111,7 +111,7 @@ class ContactAccess:
 
     Args:
         run: What runs.
-        stepper: Lets the forces of a moment act.
+        stepper: Applies the forces of a moment.
         reactions: Has single worlds with all their forces.
     """
 

@@ -138,7 +138,7 @@ class MujocoEngine:
         return self._calls_systems and self._run.batch.model.opt.integrator in _ONCE
 
     def _kinematic(self, model: str) -> None:
-        """Make a model kinematic by the engine's own call, which a recorder listens to."""
+        """Make a model kinematic by the engine's own call, which a recorder records."""
         self.make_kinematic(model)
 
     @staticmethod

@@ -29,7 +29,7 @@ class JointReactions:
 
     Args:
         run: What runs.
-        stepper: Lets the forces of a moment act.
+        stepper: Applies the forces of a moment.
     """
 
     def __init__(self, run: RunningWorlds, stepper: ForcedSteps) -> None:

@@ -38,7 +38,7 @@ def _stop_timing() -> None:
     """Remove MuJoCo's clock, which the Python module has no function for.
 
     ``mjcb_time`` is a public variable of MuJoCo's C library; a null pointer means no timing.
-    Where the library does not let it be found, MuJoCo goes on timing itself.
+    Where the library hides it, MuJoCo continues timing itself.
     """
     try:
         library = ctypes.CDLL(sys.modules[mujoco.set_mjcb_time.__module__].__file__)

@@ -26,7 +26,7 @@ _GROUPS = np.array([group in _SEEN for group in range(6)], dtype=np.uint8)
 BESIDE = 3e-6 * np.array([0.613, 0.371, 0.697])
 _NOWHERE = np.zeros(3)
 
-# How far behind a surface that is passed through a ray goes on [m].
+# How far behind a surface that is passed through a ray continues [m].
 _BEHIND = 1e-6
 _MOST_PASSED = 8
 
@@ -68,7 +68,7 @@ def behind(
 ) -> Hits:
     """Return the first hits of rays, except on some geoms of the world's body.
 
-    MuJoCo passes through whole bodies only. Rays that meet one of these go on behind it.
+    MuJoCo passes through whole bodies only. Rays that meet one of these continue behind it.
     """
     passed = np.zeros(along.shape[:2])
     for _ in range(_MOST_PASSED):

@@ -58,7 +58,7 @@ _COMPILED = frozenset(
 class RunningWorlds:
     """Many copies of a compiled world, which the parts of the engine share.
 
-    They are compiled when somebody asks for what only a compiled world has. Motors and kinematic
+    They are compiled on the first use of what only a compiled world has. Motors and kinematic
     models that are asked for before that, as plugins do, are compiled with it.
 
     Args:

@@ -4,7 +4,7 @@
 Statics have a grid of their own for this, the finer the more of them there are; where there is a
 bitmap, its cells are that grid's. For each of four directions ``clear`` says how large a square
 of empty cells begins at a cell and goes there, and last how large one is all around it: a beam
-goes on to the edge of its square at once. It is 0 where primitives are listed, and negative where
+continues to the edge of its square at once. It is 0 where primitives are listed, and negative where
 a cell is solid to its edges.
 """
 

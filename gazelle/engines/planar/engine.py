@@ -103,7 +103,7 @@ class PlanarEngine:
         self.set_parameter = unsupported.set_parameter
 
     def _kinematic(self, model: str) -> None:
-        """Make a model kinematic by the engine's own call, which a recorder listens to."""
+        """Make a model kinematic by the engine's own call, which a recorder records."""
         self.make_kinematic(model)
 
     @property

@@ -127,7 +127,7 @@ class Lanes:
             quadrant = (0.0 if along > 0.0 else 2.0) + (0.0 if across > 0.0 else 1.0)
             self.table[LANE_BASE + i] = quadrant * columns * rows
 
-    # -- going on ----------------------------------------------------------------------
+    # -- advancing ----------------------------------------------------------------------
 
     def cell_of(self, i: int, columns: float, rows: float) -> tuple[float, float]:
         """Return column and row of the cell that lane i is in."""

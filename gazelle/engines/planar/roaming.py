@@ -1,4 +1,4 @@
-"""Let all robots of a fleet roam about by themselves, at native speed."""
+"""Fleets of robots that roam by themselves, at native speed."""
 
 from __future__ import annotations
 

@@ -63,8 +63,8 @@ class AGVFleetVectorEnv(TaskVectorEnv):
     ## Episode end
 
     * Terminated: the AGV bumps into something. It starts again somewhere else in its hall, while
-      the others go on; under PettingZoo it stays, in the way of the others, until all reset.
-    * A goal is reached within 0.5 m; then there is a new one, and the episode goes on.
+      the others continue; under PettingZoo it stays, in the way of the others, until all reset.
+    * A goal is reached within 0.5 m; then there is a new one, and the episode continues.
     * Truncated: after 500 steps (``max_episode_steps``).
 
     ## Info

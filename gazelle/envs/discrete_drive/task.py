@@ -185,7 +185,7 @@ class DriveTask(DestinationTask):
     def _ranges(self, worlds: Worlds | None) -> NDArray[Any]:
         """Return ranges [m]; what is too near to measure is next to nothing.
 
-        openai_ros takes that (-inf) for nothing in range, so a base that touches a wall would go on.
+        openai_ros takes that (-inf) for nothing in range, so a base that touches a wall would continue.
         """
         ranges = self.robot.sensors[self._lidar.sensor].measure(worlds)
         return np.where(np.isneginf(ranges), np.finfo(np.float32).tiny, ranges)

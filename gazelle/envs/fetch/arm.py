@@ -37,7 +37,7 @@ def held_model(
 
     Args:
         model: As its file says.
-        moving: Names of the joints that go on moving; the others stay at zero.
+        moving: Names of the joints that continue moving; the others stay at zero.
         changed: What becomes of those.
     """
     child = {joint.child for joint in model.joints}

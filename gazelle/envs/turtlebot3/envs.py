@@ -103,7 +103,7 @@ class TurtleBot3Env(TaskEnv):
 
     * Terminated: a range below 0.13 m is a collision (a range of 0 is a failed ray and is not).
     * A goal is reached at a rounded distance below 0.2 m. With ``respawn=True``, as published,
-      the episode goes on: a new goal is set, which the next observation shows. The first goal
+      the episode continues: a new goal is set, which the next observation shows. The first goal
       is (0.6, 0), and a goal not reached stays for the next episode. With ``respawn=False`` every
       episode has one fresh goal, and reaching it terminates the episode: success, collision
       and time-out are then the three outcomes, which is what training and evaluation by
@@ -136,7 +136,7 @@ class TurtleBot3Env(TaskEnv):
     ``goals``              "published"  or a list of (x, y) [m], or "training" or "held-out"
     ``starts``             "published"  or "training" or "held-out", see below
     ``seen_goals``         None         list of (x, y) [m] that "held-out" goals keep away from
-    ``respawn``            True         whether the episode goes on at a goal
+    ``respawn``            True         whether the episode continues at a goal
     ``margin``             0.0          ranges are collisions so much sooner [m], up to 0.15
     ``threads``            all          native threads; results do not depend on it
     ``time_step``          0.02         physics step [s]; must divide 0.2
@@ -215,7 +215,7 @@ class TurtleBot3VectorEnv(TaskVectorEnv):
 
     ``gymnasium.make_vec(id, num_envs=1024, vectorization_mode="vector_entry_point")`` makes it.
     Episodes that end are followed by the next one in the same step; ``info["final_obs"]`` and
-    ``info["final_info"]`` hold what was last; `TaskVectorEnv` tells of other modes. World 0 is,
+    ``info["final_info"]`` hold what was last; `TaskVectorEnv` documents other modes. World 0 is,
     bit for bit, the single environment with the same seed, whatever ``num_envs`` and ``threads``.
 
     Args:

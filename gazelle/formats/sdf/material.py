@@ -51,7 +51,7 @@ def read_material(node: Parameters | None, reading: Reading) -> Material | None:
     saved = node.attributes.get(URDF_COLOR, "")
     if saved:
         color = values.parse_color(node, saved)
-        if material.ambient == material.diffuse == brightened(color):  # nobody changed it since
+        if material.ambient == material.diffuse == brightened(color):  # it was not changed since
             return with_urdf_color(replace(material, ambient=None, diffuse=None), color)
     return with_script_colors(material)
 

@@ -1,4 +1,4 @@
-"""Plugins that let a Stage robot drive and see in other simulators, with stage_ros's names."""
+"""Plugins for drives and sensors of a Stage robot in other simulators, with stage_ros's names."""
 
 from __future__ import annotations
 

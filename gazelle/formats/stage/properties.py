@@ -1,4 +1,4 @@
-"""The properties of an entity by type, in SI units and radians, and those nobody asks for."""
+"""The properties of an entity by type, in SI units and radians, and those never read."""
 
 from __future__ import annotations
 

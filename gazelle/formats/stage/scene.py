@@ -59,7 +59,7 @@ DEFAULT_MASS = 10.0
 """Of a robot whose file gives none [kg]; Stage's manual names it as the default."""
 
 _STEP = 0.01
-"""Longest step of other engines [s]: robots on wheels that nobody simulates need no finer one."""
+"""Longest step of other engines [s]: robots on wheels that are not simulated need no finer one."""
 _SMOOTH = Surface(Friction(mu=0.0, mu2=0.0))
 _MANY = 40
 """Runs of pixels a box beyond which rectangles need not be tried."""

@@ -69,7 +69,7 @@ def read_world(script: Script, reading: Reading, folder: Path | None) -> StageWo
 
 
 def _try_macros(macros: dict[str, Entity], context: Context) -> None:
-    """Warn of errors in macros of an included file, as nobody uses them here."""
+    """Warn of errors in macros of an included file, as they are unused here."""
     for macro in macros.values():
         if macro.type not in KINDS:
             continue

@@ -17,7 +17,7 @@ from gazelle.formats.reading import Reading
 
 @dataclass(frozen=True, slots=True)
 class ElementSchema:
-    """An element: what may stand in it; whole, if that is somebody else's business.
+    """An element: what may stand in it; whole, if for another reader.
 
     Attributes:
         attributes: Names.

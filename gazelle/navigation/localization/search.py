@@ -13,7 +13,7 @@ _SIDE, _TURN = 0.1, 0.2
 """Poses are tried about so close to one another [m], [rad]."""
 _MOST = 1_000_000
 _SHARE = 0.2
-"""Of the particles: as many candidates of equal weight tell as much as those that are drawn."""
+"""Of the particles: as many candidates of equal weight count as much as those that are drawn."""
 
 
 def count_for(area: float) -> int:

@@ -158,7 +158,7 @@ class KartoSlam:
     # Loops --------------------------------------------------------------------------------
 
     def _close_loop(self) -> None:
-        """Match the last scan to old ones that it is near again, and let all poses fit."""
+        """Match the last scan to old ones that it is near again, and fit all poses."""
         s = self.settings
         last = len(self._frames) - 1
         if last - self._closed_at < s.loop_match_minimum_chain_size:

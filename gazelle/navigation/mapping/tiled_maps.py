@@ -48,7 +48,7 @@ class TiledMaps:
         """Copy the map of another particle to each, shape (count,)."""
         tables = np.asarray(self._tables)[chosen]
         users = np.bincount(tables[tables >= 0], minlength=self._used)
-        # What nobody uses any more is left out.
+        # What is not used any more is left out.
         kept = np.flatnonzero(users > 0)
         place = np.full(self._used + 1, -1, np.int32)
         place[kept] = np.arange(len(kept), dtype=np.int32)

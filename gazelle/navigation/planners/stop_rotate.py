@@ -103,7 +103,7 @@ class StopRotate:
         """Stop, or turn; None if there is no room for it.
 
         It turns the shorter way round, as the original, unless only the longer one is free. What the
-        original asks of a turn, that it could go on for ``sim_time``, is only asked where neither is.
+        original asks of a turn, that it could continue for ``sim_time``, is only asked where neither is.
 
         Args:
             pose: Of the robot.

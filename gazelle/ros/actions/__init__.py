@@ -1,4 +1,4 @@
-"""Actions: goals that take time, tell how they go, and can be given up.
+"""Actions: goals that take time, report feedback, and can be cancelled.
 
 The protocol is that of http://wiki.ros.org/actionlib.
 """

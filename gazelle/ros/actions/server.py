@@ -190,7 +190,7 @@ class ActionServer:
         name: Of the action; topics are below it.
         spec: The message class of the action.
         goal_cb: Called with each new goal.
-        cancel_cb: Called with each goal somebody wants given up.
+        cancel_cb: Called with each goal to be cancelled.
         auto_start: Start at once.
         clock: What time it is, if not the node's; rates of topics are those of the wall's clock.
 

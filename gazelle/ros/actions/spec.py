@@ -31,7 +31,7 @@ class ActionTypes:
             `action_feedback` come back.
         goal: What is to be done.
         result: What came of it.
-        feedback: What is going on.
+        feedback: What is happening.
     """
 
     action_goal: Any

@@ -60,7 +60,7 @@ class BagFile:
         self._chunks.clear()
         view, self._view = self._view, memoryview(b"")
         mapped, self._map = self._map, None
-        # Somebody who still reads messages keeps the bytes; they go when he is done.
+        # A reader of messages keeps the bytes until it is done.
         with contextlib.suppress(BufferError):
             view.release()
             if mapped is not None:

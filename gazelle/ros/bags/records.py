@@ -14,7 +14,7 @@ MESSAGE, BAG_HEADER, INDEX, CHUNK, CHUNK_INFO, CONNECTION = 2, 3, 4, 5, 6, 7
 HEADER_BYTES = 4104
 """Length of the padded bag header, which is written again when the bag is closed.
 
-Rosbag's own length: whoever appends with another length overwrites the first chunk."""
+Rosbag's own length: a program that appends with another length overwrites the first chunk."""
 SECOND = 1_000_000_000
 
 U32 = struct.Struct("<I")

@@ -76,7 +76,7 @@ def parse_arguments(
     Args:
         arguments: Without the program.
         name: The node's name if the command line has none.
-        anonymous: Make that name one that nobody else has.
+        anonymous: Make that name one that is unique.
     """
     plain, mappings = names.split_arguments(arguments)
     special = {key: value for key, value in mappings.items() if key.startswith("__")}

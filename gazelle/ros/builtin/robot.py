@@ -21,7 +21,7 @@ def state_main(arguments: Sequence[str]) -> int:
 
 
 def joint_main(arguments: Sequence[str]) -> int:
-    """Send positions of joints that nobody measures; returns the exit code."""
+    """Send positions of joints without sensors; returns the exit code."""
     found = parse_arguments(arguments, "joint_state_publisher")
     with found.start() as node:
         JointStatePublisher(node, described_joints(node))

@@ -24,7 +24,7 @@ def main(arguments: list[str]) -> int:
         with interruptible(ends_process=True):
             return main_of(package, kind)(rest)
     except NodeClosedError:
-        return 0  # somebody asked the node to end while it began
+        return 0  # the node was requested to end while it began
     except Error as error:
         sys.stderr.write(f"[{package}/{kind}] {error}\n")
         return 1

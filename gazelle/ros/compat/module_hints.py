@@ -1,6 +1,6 @@
 """Hints for modules that a ROS 1 machine has and this one may lack.
 
-One table for what pip brings under the same or another name, one for what nobody sells.
+One table for what pip brings under the same or another name, one for what is not on PyPI.
 """
 
 from __future__ import annotations

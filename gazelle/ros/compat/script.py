@@ -36,7 +36,7 @@ def run_script(
     Args:
         path: The script.
         arguments: Its command line; remappings may be among them.
-        sim_sleep: Let its ``time.sleep`` wait for simulated time, if its node goes by that.
+        sim_sleep: Make its ``time.sleep`` wait for simulated time, if its node goes by that.
         debug: Print whole tracebacks, always.
 
     Returns:
@@ -142,7 +142,7 @@ def _execute(source: bytes, file: Path, main: types.ModuleType, *, debug: bool) 
         if not debug:
             _explain(error, source, file)
         trace = error.__traceback__
-        # Our own frames in front tell the user nothing.
+        # Our own frames in front do not help the user.
         inner = trace.tb_next if trace is not None and not debug else trace
         traceback.print_exception(type(error), error, inner)
         return INTERRUPTED if isinstance(error, KeyboardInterrupt) else 1

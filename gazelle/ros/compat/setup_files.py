@@ -63,7 +63,7 @@ def python_code(folder: Path) -> PythonCode:
 
 
 class _Unknown:
-    """A value that only running the file would tell."""
+    """A value that only running the file would reveal."""
 
 
 _UNKNOWN = _Unknown()

@@ -146,7 +146,7 @@ class LaunchScope:
         """Declare an argument of the file.
 
         Raises:
-            LaunchError: It was declared before, or is a constant that somebody gave a value.
+            LaunchError: It was declared before, or is a constant with a given value.
         """
         if name in self.declared and not self.passes_all:
             raise element.error(f"the argument '{name}' was declared before")

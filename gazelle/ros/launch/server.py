@@ -20,12 +20,12 @@ class LaunchServer:
 
     Args:
         processes: Gives the processes of the launch.
-        end: Called with a reason when somebody asks the launch to end.
+        end: Called with a reason on a request to end.
         host: The name peers use.
 
     Attributes:
         uri: Where it answers.
-        key: The parameter that tells others.
+        key: The parameter for others.
     """
 
     def __init__(

@@ -23,7 +23,7 @@ class MasterApi:
 
     Args:
         notify: Calls a node without waiting for it.
-        shutdown: Called when somebody asks the master to end.
+        shutdown: Called on a request to end.
     """
 
     def __init__(self, notify: Notify, shutdown: Callable[[str], None]) -> None:

@@ -22,7 +22,7 @@ class ParameterTree:
     def __init__(self) -> None:
         self._root: dict[str, Any] = {}
         self._fresh: dict[int, dict[str, Any]] = {}
-        """Dicts that nobody else has, by their identity."""
+        """Dicts without other owners, by their identity."""
 
     def get(self, key: str) -> Any:
         """Return the value of `key`, which is not to be changed; a namespace is a dict.
@@ -133,12 +133,12 @@ def changes(
 
     Args:
         tree: After the change.
-        subscribed: The keys somebody subscribed to.
+        subscribed: The keys with subscribers.
         key: What was changed.
         value: What it is now.
 
     Yields:
-        The subscribed key, the key to tell (with a slash at the end), and the value to tell.
+        The subscribed key, the key to report (with a slash at the end), and the value to report.
     """
     told = key.rstrip(SEPARATOR) + SEPARATOR
     deleted = value == {} and not tree.has(key)

@@ -92,8 +92,8 @@ class MasterProxy:
         """Return the process of the master, with a short timeout.
 
         Raises:
-            MasterUnreachableError: Nobody listens.
-            NoMasterError: Somebody does who is no master.
+            MasterUnreachableError: There is no server.
+            NoMasterError: The server is no master.
         """
         shy = MasterProxy(self.uri, self.caller, GREETING_S)
         try:

@@ -23,7 +23,7 @@ _PATIENCE_S = 3.0
 """Seconds to wait for a node that is called; dead nodes stay registered."""
 
 _GREETING_S = 10.0
-"""A master on this machine that somebody asks who it is answers within this time."""
+"""A master on this machine that is asked for its identity answers within this time."""
 
 
 class Master(Closeable):
@@ -41,7 +41,7 @@ class Master(Closeable):
     Attributes:
         uri: Where it answers.
         port: The port in it.
-        ended: Set when somebody asks the master to end.
+        ended: Set on a request to end.
 
     Raises:
         RosError: The port is taken.

@@ -146,7 +146,7 @@ def _parse_constant(line: str, content: str) -> Constant:
     type_ = content.split(maxsplit=1)[0].partition("=")[0]
     if type_ not in CONSTANT_TYPES:
         raise ValueError(f"'{type_}' is no type for a constant")
-    # A string goes on to the end of the line: a # in it starts no comment.
+    # A string continues to the end of the line: a # in it starts no comment.
     source = line if type_ == "string" else content
     before, _, value = source.partition("=")
     words = before.split()

@@ -1,4 +1,4 @@
-"""Positions for joints that nobody measures.
+"""Positions for joints without sensors.
 
 What it does, and its parameters, are those of http://wiki.ros.org/joint_state_publisher.
 """

@@ -29,7 +29,7 @@ class TopicQueue:
         self.settings = DeliverySettings()
         self.waiting: deque[BridgedMessage] = deque()
         self.last = float("-inf")
-        """When a message was sent, or let through, last."""
+        """When a message was sent, or forwarded, last."""
 
     def due(self) -> float:
         """Return the time of the next message."""

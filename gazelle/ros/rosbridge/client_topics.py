@@ -41,7 +41,7 @@ class TopicTypes:
             wanted: The type that a client names, or None.
 
         Raises:
-            RosError: The topic is of another type, or nobody knows of it and no type is named.
+            RosError: The topic is of another type, or unknown without a named type.
         """
         types = dict(self._node.master.topic_types())
         known = types.get(self._node.resolve(topic))

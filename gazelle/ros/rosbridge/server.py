@@ -35,9 +35,9 @@ _TOO_SLOW = 1008  # WebSocket's code for a client that breaks the server's rules
 
 
 class BridgeServer(Closeable):
-    """Lets WebSocket clients take part in a ROS graph; a context manager.
+    """Server for WebSocket clients of a ROS graph; a context manager.
 
-    Each client has its own queue and its own sender, so that a slow one makes nobody wait.
+    Each client has its own queue and its own sender, so that a slow one blocks no other.
 
     Args:
         node: On the graph. Its topics ``client_count`` and ``connected_clients`` say who is there.

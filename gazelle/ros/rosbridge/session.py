@@ -116,7 +116,7 @@ class BridgeSession:
         except Error as error:
             hint = f"; {error.hint}" if error.hint else ""
             self.status("error", f"{operation}: {error.message}{hint}", identifier)
-        except Exception as error:  # noqa: BLE001  # one client's message ends nobody's connection
+        except Exception as error:  # noqa: BLE001  # one client's message ends no connection
             report(f"rosbridge's {operation}", error)
             self.status("error", f"{operation}: {error}", identifier)
 

@@ -56,7 +56,7 @@ def check_publisher(fields: Mapping[str, str], topic: str, md5sum: str, kind: st
     """Check, as a subscriber, the header of a publisher.
 
     Raises:
-        ProtocolError: The publisher refused, or left out what it must tell.
+        ProtocolError: The publisher refused, or left out a required field.
         Md5MismatchError: It publishes another type, as it says or as we see.
     """
     if "error" in fields:

@@ -99,7 +99,7 @@ def topic_info(graph: GraphInspector, topic: str) -> str:
     """Return type, publishers and subscribers of a topic.
 
     Raises:
-        ToolError: Nobody uses it.
+        ToolError: It is unused.
     """
     name = graph.resolve(topic)
     uses = graph.uses()
@@ -167,7 +167,7 @@ def topic_type(graph: GraphInspector, name: str) -> str:
     For a field of its messages, the type, the field and the field's type.
 
     Raises:
-        ToolError: Nobody uses it.
+        ToolError: It is unused.
     """
     wanted = graph.resolve(name)
     found = find_topic(graph, wanted)

@@ -35,7 +35,7 @@ def service_node(graph: GraphInspector, service: str) -> str:
     """Return the node that provides a service.
 
     Raises:
-        ToolError: Nobody does.
+        ToolError: None does.
     """
     name = graph.resolve(service)
     known = dict(graph.services())
@@ -48,7 +48,7 @@ def service_uri(graph: GraphInspector, service: str) -> str:
     """Return the address of a service.
 
     Raises:
-        ToolError: Nobody offers it.
+        ToolError: It has no provider.
     """
     name = graph.resolve(service)
     uri = graph.service_uri(name)
@@ -61,7 +61,7 @@ def probe(graph: GraphInspector, service: str) -> dict[str, str]:
     """Return the header of a service.
 
     Raises:
-        ToolError: Nobody offers it, or it does not answer.
+        ToolError: It has no provider, or it does not answer.
     """
     name = graph.resolve(service)
     uri = service_uri(graph, name)
@@ -79,7 +79,7 @@ def service_type(graph: GraphInspector, service: str) -> str:
     """Return the type of a service.
 
     Raises:
-        ToolError: Nobody offers it, or it does not answer.
+        ToolError: It has no provider, or it does not answer.
     """
     return probe(graph, service).get("type", "")
 
@@ -100,7 +100,7 @@ def service_arguments(graph: GraphInspector, service: str) -> str:
     """Return the fields of a service's request, separated by spaces.
 
     Raises:
-        ToolError: Nobody offers it, or it does not answer.
+        ToolError: It has no provider, or it does not answer.
     """
     request = load_service(service_type(graph, service))._request_class
     return get_printable_message_args(request())
@@ -110,7 +110,7 @@ def service_info(graph: GraphInspector, service: str) -> str:
     """Return node, address, type and arguments of a service.
 
     Raises:
-        ToolError: Nobody offers it, or it does not answer.
+        ToolError: It has no provider, or it does not answer.
     """
     lines = [
         f"Node: {service_node(graph, service)}",
@@ -130,7 +130,7 @@ class ServiceCaller:
         service: The service's name.
 
     Raises:
-        ToolError: Nobody offers it, or it does not answer.
+        ToolError: It has no provider, or it does not answer.
     """
 
     def __init__(self, graph: GraphInspector, node: Node, service: str) -> None:

@@ -62,7 +62,7 @@ class BlockingClient:
             MarshalError: A parameter cannot be sent, or the answer is no XML-RPC.
             FaultError: The server answered with a fault.
             UnreachableError: There is no answer.
-            SilentPeerError: There is none, but somebody listens.
+            SilentPeerError: There is none, but there is a server.
         """
         document = write_call(method, params)
         data = request(f"{self._host}:{self._port}", self._path, document)

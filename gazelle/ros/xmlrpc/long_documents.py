@@ -37,7 +37,7 @@ def is_long(value: Any) -> bool:
 
 
 class BackgroundTasks:
-    """Runs tasks one after another on a thread that holds up nobody. Only on the loop's thread.
+    """Runs tasks one after another on a thread that blocks no other. Only on the loop's thread.
 
     There is one at a time, however many clients send long documents: Python runs one thread at a
     time, and the loop would have to wait for its turn.

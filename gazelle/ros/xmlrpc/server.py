@@ -41,7 +41,7 @@ class UnknownMethodError(Exception):
 class XmlRpcServer:
     """Answers calls; `dispatch(method, params)` runs on the loop's thread and must be quick.
 
-    Long requests are read, and long answers written, on another thread, so that nobody else waits.
+    Long requests are read, and long answers written, on another thread, so that no other waits.
 
     Args:
         loop: Where it lives.

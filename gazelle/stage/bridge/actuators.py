@@ -49,7 +49,7 @@ class ActuatorTopics:
         return told
 
     def publish(self) -> None:
-        """Publish what is listened to."""
+        """Publish what has subscribers."""
         for which, publisher in enumerate(self._publishers):
             if publisher.has_listener:
                 position = self._actuator(which).position[self._world]

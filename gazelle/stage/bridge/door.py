@@ -29,7 +29,7 @@ class StageDoor(Closeable):
     """ROS interface of a Stage world; also a context manager.
 
     Topics, frames, parameters and services are those of stage_ros (wiki.ros.org/stage_ros);
-    the docs list what is added. Everything is published after each step to those who listen,
+    the docs list what is added. Everything is published after each step to subscribers,
     unless ``~publish_rate`` says less often.
 
     Args:
@@ -102,7 +102,7 @@ class StageDoor(Closeable):
         return Time(nsecs=self._simulation.clock.now_ns + self._offset_ns)
 
     def publish(self) -> None:
-        """Publish what is true now, and the time, to all who listen."""
+        """Publish the present values and the time, to all subscribers."""
         self._tick()
         facts = facts_of(self._stage, self._world, self.now())
         watched = [key for topics in self._topics for key in topics.cameras.watched()]

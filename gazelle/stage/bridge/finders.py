@@ -43,7 +43,7 @@ class FinderTopics:
                 self._topics.append(_Topic(publisher, fill(which, device)))
 
     def publish(self, stamp: Time) -> None:
-        """Publish what is listened to."""
+        """Publish what has subscribers."""
         for topic in self._topics:
             if topic.publisher.has_listener:
                 message: Any = topic.publisher.message_class()

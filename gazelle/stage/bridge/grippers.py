@@ -42,7 +42,7 @@ class GripperTopics:
         return told
 
     def publish(self, stamp: Time) -> None:
-        """Publish what is listened to."""
+        """Publish what has subscribers."""
         for which, publisher in enumerate(self._publishers):
             if publisher.has_listener:
                 state = self._simulation.gripper(self._robot.name, which).state(self._world)

@@ -25,7 +25,7 @@ class StageParameters:
         pose_service: Type of ``get_pose``; empty for the usual one where that is known.
         cmd_pose_type: ``Pose`` or ``Pose2D``.
         slashed_frames: Whether frames of several robots begin with ``/``.
-        monotonic_clock: Whether the graph's time goes on at a reset instead of back to zero.
+        monotonic_clock: Whether the graph's time continues at a reset instead of back to zero.
     """
 
     base_watchdog_timeout: float = 0.2
@@ -46,7 +46,7 @@ def read_parameters(node: Node) -> StageParameters:
     """Read the private parameters of a node.
 
     stage_ros's own are left at their defaults with a warning where they are of another type,
-    as it leaves them without one, and so that launch files written for it go on.
+    as it leaves them without one, and so that launch files written for it continue.
 
     Raises:
         RosError: One of the others is not what it must be.

@@ -116,7 +116,7 @@ class RobotTopics:
         ]
 
     def publish(self, facts: Facts) -> None:
-        """Publish what is true to all who listen."""
+        """Publish the present values to all subscribers."""
         i = self._robot.index
         if self._odom.has_listener:
             self._odom.publish(self._odometry(facts, facts.odometry[i], facts.velocity[i]))

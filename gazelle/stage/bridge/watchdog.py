@@ -1,4 +1,4 @@
-"""Robots that nobody commands any longer stand still."""
+"""Robots without recent commands are stopped."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from gazelle.training.deploy.goals import GoalPlace
 
 
 class GoalFrames:
-    """Knows where goals are in the frame of the odometry; listens to ``/tf`` once it has to.
+    """Knows where goals are in the frame of the odometry; subscribes to ``/tf`` once it has to.
 
     Args:
         node: Listens.

@@ -20,11 +20,11 @@ _END_S = 10.0
 
 
 class GuardLostError(Error):
-    """The guard ended, so nobody would stop the robot if the node did."""
+    """The guard ended, so nothing would stop the robot if the node did."""
 
 
 class Guarded:
-    """Starts a guard and tells it what the robot is to do.
+    """Starts a guard and sends it the robot's commands.
 
     Args:
         node: What the guard's `gazelle.ros.Node` takes.

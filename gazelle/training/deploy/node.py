@@ -1,4 +1,4 @@
-"""The node: hears scan, odometry and goals, lets the pilot decide, and orders the guard."""
+"""The node: receives scan, odometry and goals, runs the pilot, and commands the guard."""
 
 from __future__ import annotations
 
@@ -267,7 +267,7 @@ class DeployNode(Closeable):
                 self._over.wait(0.1)
 
     def _watch_master(self) -> None:
-        """Stop the robot without a master: nobody could disarm the node."""
+        """Stop the robot without a master: it could not be disarmed the node."""
         proxy, missed = MasterProxy(self.node.master_uri, self.node.name), 0
         while not self._over.wait(_MASTER_LOOK_S) and not self.node.closed:
             try:

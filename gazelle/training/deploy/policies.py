@@ -69,7 +69,7 @@ def command_of(action: tuple[float, ...], rule: ActionRule) -> VelocityCommand:
     """Return the velocity command that an action stands for.
 
     Raises:
-        TaskError: The rule does not tell, or the action is none of its own.
+        TaskError: The rule is undecided, or the action is none of its own.
     """
     if rule.type == "discrete":
         number = int(action[0]) - rule.first

@@ -12,7 +12,7 @@ from gazelle.errors import TaskError
 from gazelle.training.deploy.sensing import ScanReading
 
 _MARGIN = 0.03  # [m] that are driven between two scans of 5 Hz at 0.15 m/s
-_STOP_DISTANCE = 0.3  # [m] where a contract tells no range of collisions
+_STOP_DISTANCE = 0.3  # [m] where a contract has no range of collisions
 _FAILED = 0.5  # share of rays that may fail
 
 

@@ -99,7 +99,7 @@ class _Tour:
             deployed.run(self._stop, arm=True)
 
     def _ended(self, ended: GoalResult) -> None:
-        if ended.outcome == "replaced":  # somebody else's goal took its place
+        if ended.outcome == "replaced":  # another client's goal took its place
             return
         goal = ended.goal
         sys.stderr.write(f"({goal.x:g}, {goal.y:g})  {ended.outcome}, {ended.seconds:.1f} s\n")

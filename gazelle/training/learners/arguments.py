@@ -112,7 +112,7 @@ def replay_options(recipe: Recipe, env: VectorEnvAdapter) -> dict[str, Any]:
     """Return the replay-memory arguments of a Stable-Baselines3 algorithm.
 
     Raises:
-        TaskError: The recipe pays in another way than the task, which cannot tell what that had
+        TaskError: The recipe pays in another way than the task, which does not define what that had
             been worth with other goals.
     """
     goals = env.goal_replay

@@ -2,7 +2,7 @@
 
 The policy that plays keeps its weights meanwhile: an update works on a copy of them, and hands the
 result over when the rollout is there. So what comes out does not depend on which of the two takes
-longer, and nobody who looks at the policy sees it half done. Each rollout is played by weights that are one
+longer, and no reader of the policy sees it half done. Each rollout is played by weights that are one
 update old, exactly one, and PPO's ratios account for that.
 """
 
@@ -57,7 +57,7 @@ class UpdateAhead:
         return self._told
 
     def get_state(self) -> dict[str, Any]:
-        """Wait; what `from_state` goes on with."""
+        """Wait; what `from_state` continues with."""
         self.wait()
         return {**self._update.get_state(), "told": self._told}
 

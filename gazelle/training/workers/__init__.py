@@ -2,7 +2,7 @@
 
 All copies of a task are divided into shards of a size that depends on their number alone. A
 worker holds some of the shards; a policy goes out to it once an iteration, and whole rollouts
-come back, with what it takes to go on from their end. So the result depends neither on how many
+come back, with what it takes to continue from their end. So the result depends neither on how many
 workers there are nor on which of them are lost on the way.
 """
 

@@ -128,7 +128,7 @@ class _Caller(Generic[JobT]):
                 self._queue.finish(job, self._answer(job))
         except StopIteration:
             return
-        except BaseException as error:  # noqa: BLE001  # whoever waits gets it
+        except BaseException as error:  # noqa: BLE001  # the waiting call gets it
             self._error = error
 
     def _answer(self, job: JobT) -> Any:

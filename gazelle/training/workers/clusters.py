@@ -70,7 +70,7 @@ def connect(address: str | None) -> int:
         MissingExtraError: Ray is not installed.
         TaskError: There is no cluster at this address.
     """
-    os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # it would tell its makers
+    os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # it would report to its makers
     try:
         import ray
     except ModuleNotFoundError as error:

@@ -124,7 +124,7 @@ def _listen(requests: IO[bytes], inbox: queue.SimpleQueue[Any]) -> None:
             inbox.put(read(requests))
     inbox.put(None)
     time.sleep(_GRACE)
-    os._exit(1)  # it is still at something long, of which nobody will hear
+    os._exit(1)  # it is still at something long, without a receiver
 
 
 def write(pipe: IO[bytes], value: Any) -> None:

@@ -36,7 +36,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
     Attributes:
         obs: What is acted on next, shape (N, ...).
         starts: Which copies begin an episode with it, shape (N,).
-        control_period: Simulated seconds of a control step; None if the task does not tell.
+        control_period: Simulated seconds of a control step; None if unknown.
         contract: What the task says of what its policies see and do.
     """
 

@@ -39,7 +39,7 @@ _EVERY = frozenset(["visualization_msgs/Marker", "visualization_msgs/MarkerArray
 class GraphView(Closeable):
     """Shows robots, frames and topics of a ROS 1 graph; also a context manager.
 
-    Topics are subscribed while somebody looks, and messages drawn twenty times a second at most.
+    Topics are subscribed while the page is open, and messages drawn twenty times a second at most.
 
     Args:
         master_uri: Of the master; ``ROS_MASTER_URI`` if None.

@@ -131,7 +131,7 @@ class PageContext:
             work()
         except Error as error:
             self.tell("This cannot be done", str(error))
-        except Exception as error:  # noqa: BLE001  whatever it is, the run goes on
+        except Exception as error:  # noqa: BLE001  whatever it is, the run continues
             _log.exception("the page of a simulation failed")
             self.tell("This failed", f"{type(error).__name__}: {error}")
 

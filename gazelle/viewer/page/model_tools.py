@@ -30,7 +30,7 @@ class ModelTools:
 
     def __init__(self, context: PageContext) -> None:
         self._context = context
-        self._held = False  # somebody drags it
+        self._held = False  # it is dragged
         gui = context.gui
         with gui.add_folder("Model"):
             self._name: Any = gui.add_dropdown("Selected", (NONE,))

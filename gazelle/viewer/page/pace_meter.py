@@ -1,4 +1,4 @@
-"""Real-time factor of a simulation that somebody else steps."""
+"""Real-time factor of a simulation stepped elsewhere."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class PaceMeter:
         self._last = 0.0
 
     def forget(self) -> None:
-        """Begin again, as after a pause."""
+        """Start again, as after a pause."""
         self._marks.clear()
 
     def factor(self, simulated: float) -> float | None:

@@ -1,6 +1,6 @@
 """A page on this machine that only those see who know its address.
 
-viser serves whoever reaches its port, and offers to share the page over the internet. Here every
+viser serves every client of its port, and offers to share the page over the internet. Here every
 request, the websocket's too, has to begin with a secret; what comes without it is refused before
 viser sees it, and nothing is shared.
 """
@@ -91,7 +91,7 @@ class PageServer(Closeable):
         return self._closed
 
     def wait(self, seconds: float | None = None) -> None:
-        """Wait until somebody comes or goes, or it is closed."""
+        """Wait until a client comes or goes, or it is closed."""
         self._changed.wait(seconds)
         self._changed.clear()
 
@@ -109,7 +109,7 @@ class PageServer(Closeable):
         self._changed.set()
 
     def close(self) -> None:
-        """Serve nobody any more, and give the port back."""
+        """Stop serving, and give the port back."""
         if self._closed:
             return
         self._closed = True

@@ -77,7 +77,7 @@ class ShapeBatches:
         world: What there is.
         spots: Where the copies stand [m], shape (copies, 3).
         on_batch: Called with every batch, with what names the part of an instance.
-        opacity: Below 1 lets see through.
+        opacity: Below 1 is transparent.
 
     Attributes:
         links: Names of the links whose places are wanted.

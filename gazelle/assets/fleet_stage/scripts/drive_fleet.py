@@ -72,7 +72,7 @@ def leg(
     watcher.start()
     try:
         way = goals - fleet.poses[:, :2]
-        # All turn first, so that all set off together and nobody runs into who is late.
+        # All turn first, so that all set off together and none runs into a late one.
         took = fleet.move_ofsc(np.arctan2(way[:, 1], way[:, 0]), timeout=60.0).max()
         took = took + fleet.move_l(goals[:, 0], goals[:, 1], timeout=60.0)
     finally:

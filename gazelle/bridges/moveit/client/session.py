@@ -34,7 +34,7 @@ class ClientSession:
         self._name, self._arguments = name or _NAME, [str(each) for each in arguments]
 
     def use(self, node: Node) -> None:
-        """Use a node that somebody else opens and closes."""
+        """Use a node that another owner opens and closes."""
         with self._lock:
             self._node = node
 

@@ -165,7 +165,7 @@ def _await(name: str) -> None:
 
 
 def close_Gazebo() -> bool:  # noqa: N802
-    """Stop the simulator, whoever started it; returns True."""
+    """Stop the simulator, of any origin; returns True."""
     from gazelle.compat.frobs_rl.common.ros_node import ros_kill_node
 
     for name in _NODES:

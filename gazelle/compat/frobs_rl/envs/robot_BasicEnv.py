@@ -53,7 +53,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
         model_ori_w: See ``model_ori_x``.
         reset_controllers: Whether an episode begins with controllers that were started again.
         reset_mode: 1 puts back the models, 2 the time too.
-        step_mode: 1 lets time go on while the action is sent, 2 makes ``num_gazebo_steps`` steps then.
+        step_mode: 1 lets time advance while the action is sent, 2 makes ``num_gazebo_steps`` steps then.
         num_gazebo_steps: Of the physics.
 
     Raises:
@@ -150,7 +150,7 @@ class RobotBasicEnv(gymnasium.Env[Any, Any]):
     # -- Gymnasium's interface -----------------------------------------------------------------
 
     def step(self, action: Any) -> Result:
-        """Send an action, let it act, and look."""
+        """Send an action, let it act, and observe."""
         self.info = {}
         if self.step_mode == _BY_TIME:
             ros_gazebo.gazebo_unpause_physics()

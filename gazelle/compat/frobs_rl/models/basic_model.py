@@ -37,7 +37,7 @@ class BasicModel:
         model: Stable-Baselines3's.
 
     Raises:
-        TaskError: The parameters are not found, a model to go on with is missing, or logs of a run of
+        TaskError: The parameters are not found, a model to continue with is missing, or logs of a run of
             that name are there already.
         MissingExtraError: Stable-Baselines3 is not installed.
     """

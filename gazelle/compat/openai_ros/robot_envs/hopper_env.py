@@ -16,7 +16,7 @@ _LONGEST_S = 2.0
 
 
 class HopperEnv(TopicRobotEnv):
-    """A leg with three joints; time goes on in a reset."""
+    """A leg with three joints; time continues in a reset."""
 
     package: ClassVar[str] = "legged_robots_sims"
     sensors = (

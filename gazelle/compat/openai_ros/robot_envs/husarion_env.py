@@ -10,7 +10,7 @@ from gazelle.compat.openai_ros.robot_envs.wheeled_robot_env import WheeledRobotE
 
 
 class HusarionEnv(WheeledRobotEnv):
-    """A ROSbot with ``/odom``, ``/scan``, a depth camera and ``/cmd_vel``; time goes on in a reset."""
+    """A ROSbot with ``/odom``, ``/scan``, a depth camera and ``/cmd_vel``; resets keep the time."""
 
     package: ClassVar[str] = "rosbot_gazebo"
     sensors = (

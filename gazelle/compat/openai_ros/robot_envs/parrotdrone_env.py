@@ -11,14 +11,14 @@ from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
 
 _HOLD_S = 1.0
-"""Time that a velocity acts before a step goes on [s of simulated time]."""
+"""Time that a velocity acts before a step continues [s of simulated time]."""
 _UP, _DOWN = 0.8, 0.6
 """Heights above which it has taken off, and below which it has landed [m]."""
 _LONGEST_S = 10.0
 
 
 class ParrotDroneEnv(TopicRobotEnv):
-    """A drone with two cameras, an IMU and a sonar; time goes on in a reset."""
+    """A drone with two cameras, an IMU and a sonar; time continues in a reset."""
 
     package: ClassVar[str] = "drone_construct"
     launch_file: ClassVar[str] = "put_drone_in_world.launch"

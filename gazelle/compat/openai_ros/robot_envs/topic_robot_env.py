@@ -49,7 +49,7 @@ class TopicRobotEnv(RobotGazeboEnv):
     Attributes:
         package: With the launch file.
         launch_file: Spawns the robot.
-        sensors: What is listened to.
+        sensors: What is subscribed.
         robot_name_space: Of its controllers.
         controllers_list: Its controllers.
         reset_controls: Whether they are reset with every episode.
@@ -110,7 +110,7 @@ class TopicRobotEnv(RobotGazeboEnv):
         return True
 
     def _check_all_sensors_ready(self) -> None:
-        """Wait until all sensors have said something since now; time must go on."""
+        """Wait until all sensors have published since now; time must advance."""
         before = dict(self._heard)
         deadline = time.monotonic() + PATIENCE_S
         for sensor in self.sensors:
@@ -173,10 +173,10 @@ class TopicRobotEnv(RobotGazeboEnv):
         return made
 
     def _check_publishers_connection(self) -> None:
-        """Wait until somebody hears each command.
+        """Wait until each command has a subscriber.
 
         Raises:
-            TaskError: Nobody does within a minute.
+            TaskError: There is none within a minute.
         """
         deadline = time.monotonic() + PATIENCE_S
         for each in self.publishers_array:

@@ -10,7 +10,7 @@ from gazelle.compat.openai_ros.robot_envs.wheeled_robot_env import WheeledRobotE
 
 
 class TurtleBot2Env(WheeledRobotEnv):
-    """A TurtleBot2 with ``/odom``, ``/kobuki/laser/scan`` and ``/cmd_vel``; time goes on in a reset."""
+    """A TurtleBot2 with ``/odom``, ``/kobuki/laser/scan`` and ``/cmd_vel``; resets keep the time."""
 
     package: ClassVar[str] = "turtlebot_gazebo"
     sensors = (

@@ -10,7 +10,7 @@ from gazelle.ros import load_message
 
 
 class WamvEnv(TopicRobotEnv):
-    """A catamaran with ``/wamv/odom`` and two propellers; time goes on in a reset."""
+    """A catamaran with ``/wamv/odom`` and two propellers; time continues in a reset."""
 
     package: ClassVar[str] = "robotx_gazebo"
     launch_file: ClassVar[str] = "put_wamv_in_world.launch"

@@ -9,7 +9,7 @@ from gazelle.compat.openai_ros.robot_envs.topic_robot_env import TopicRobotEnv
 from gazelle.ros import load_message
 
 _HOLD_S = 0.2
-"""Time that a velocity acts before a step goes on [s of simulated time]."""
+"""Time that a velocity acts before a step continues [s of simulated time]."""
 
 
 class WheeledRobotEnv(TopicRobotEnv):

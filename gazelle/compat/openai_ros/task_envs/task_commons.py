@@ -62,7 +62,7 @@ def _read(package: str, folder: str, file: str) -> Mapping[str, Any]:
 
 
 def _complete(name: str, value: Any) -> None:
-    """Set a parameter, or those below it, that nobody has set."""
+    """Set a parameter, or those below it, that is not set."""
     if isinstance(value, Mapping):
         for key, inner in value.items():
             _complete(f"{name}/{key}", inner)

@@ -1,4 +1,4 @@
-"""Let MuJoCo find the contacts of cylinders and planes in our way (``plane_cylinder``).
+"""Contacts of cylinders and planes in MuJoCo, replaced by ours (``plane_cylinder``).
 
 It takes MuJoCo's place in the table of collision functions, for the whole process.
 """

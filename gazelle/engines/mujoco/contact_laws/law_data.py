@@ -105,7 +105,7 @@ def prepare(spec: mujoco.MjSpec, extras: LawSelection) -> None:
 
 
 def finish(model: mujoco.MjModel, extras: LawSelection) -> None:
-    """Write the laws into a compiled model, and let MuJoCo follow them.
+    """Write the laws into a compiled model, and have MuJoCo apply them.
 
     Raises:
         EngineError: Another program in this process has MuJoCo's callback.

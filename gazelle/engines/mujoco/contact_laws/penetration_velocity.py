@@ -2,7 +2,7 @@
 
 The surfaces of what overlapped are below where they are, and rise (``penetration_recovery``): their contacts
 have a margin below zero, which marks them. Of such a body other pieces come to touch as it
-moves, at depths that nobody foresaw. MuJoCo's contact wants -B v - K d, v being the velocity at
+moves, at depths that were not foreseen. MuJoCo's contact wants -B v - K d, v being the velocity at
 which two surfaces part and d their distance: so it pushes until v is K d / B. That is bounded.
 """
 

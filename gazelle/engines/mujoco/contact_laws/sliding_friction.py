@@ -5,13 +5,13 @@ contact wants, it finds forces such that of r = J a - aref, a contact that slide
 r_n = mu |r_t|: the normal velocity grows with the slip, and what slides flies. Coulomb's law
 wants r_n = 0. As r_n counts from aref_n, taking mu |r_t| off aref_n gives just that (de Saxcé
 and Feng 1998; Acary, Cadoux, Lemaréchal and Malick 2011). r_t follows from forces that are not
-known yet, but the accelerations of the last step tell what it will be: along the slip it is
+known yet, but the accelerations of the last step determine it: along the slip it is
 positive where friction cannot stop the slip in this step, and zero where it can, so that what
 holds is left alone.
 
 An error e of that estimate makes the next one wrong by e mu² k / (1 + mu² k), k being the ratio
 of the contact's inverse inertias along the slip and the normal (1 for a block, 7/2 for a ball).
-So errors die out, for every mu. The normal acceleration that the last step lacked tells more:
+So errors die out, for every mu. The normal acceleration that the last step lacked determines more:
 with k known, the estimate would be exact at once. Some of that is taken, which damps for all k;
 in an impact all of it, with k = 1.
 

@@ -236,7 +236,7 @@ def _type_of(kind: Any) -> Any:
 
 
 def _verify(found: Offsets) -> None:
-    """Compare the offsets with a small model whose addresses MuJoCo tells.
+    """Compare the offsets with a small model whose addresses MuJoCo reports.
 
     Raises:
         EngineError: They differ.

@@ -1,4 +1,4 @@
-"""Let MuJoCo Warp follow the laws that a compiled model asks for, within its step."""
+"""Contact laws of a compiled model in MuJoCo Warp's step."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ _KEY = re.compile("\x1b\\[[0-9;]*[A-Za-z~]|\x1bO[A-Za-z]|.", re.DOTALL)
 class Keyboard:
     """The keys of the terminal, without waiting for the end of a line; use it with ``with``.
 
-    Afterwards the terminal is as it was. Ctrl-C and Ctrl-Z go on to do what they do.
+    Afterwards the terminal is as it was. Ctrl-C and Ctrl-Z continue to do what they do.
 
     Raises:
         RosError: Standard input is no terminal.

@@ -1,4 +1,4 @@
-"""Names for goals that nobody else has."""
+"""Names for goals that are unique."""
 
 from __future__ import annotations
 

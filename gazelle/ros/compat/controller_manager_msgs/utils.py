@@ -62,7 +62,7 @@ def _candidates(namespace: str) -> list[str]:
 
 
 class ControllerManagerLister:
-    """Called again and again, tells which controller managers there are.
+    """Called again and again, returns the present controller managers.
 
     Args:
         namespace: Look below this one.
@@ -79,7 +79,7 @@ class ControllerManagerLister:
 
 
 class ControllerLister:
-    """Called again and again, tells which controllers a manager has loaded.
+    """Called again and again, returns a manager's controllers.
 
     The connection stays open; one that broke is made again.
 

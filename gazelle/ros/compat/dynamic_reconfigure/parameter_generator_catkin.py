@@ -92,7 +92,7 @@ class ParameterGenerator:
     def generate(self, pkgname: str, nodename: str, name: str) -> int:
         """Return 0 and write nothing.
 
-        Whoever runs the ``.cfg`` file takes the description from here.
+        The program that runs the ``.cfg`` file takes the description from here.
 
         Returns:
             0, which ``.cfg`` files give to ``exit``.
@@ -148,7 +148,7 @@ class Group:
             paramtype: ``int_t``, ``double_t``, ``str_t`` or ``bool_t``.
             level: Bits for the callback when it is changed.
             description: What it is.
-            default: Its value if nobody sets it.
+            default: Its value by default.
             min: The least value of a number.
             max: The greatest value of a number.
             edit_method: What `ParameterGenerator.enum` returned.

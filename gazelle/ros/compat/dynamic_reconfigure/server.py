@@ -1,4 +1,4 @@
-"""Lets others change the parameters of this node."""
+"""Server for changes of this node's parameters."""
 
 from __future__ import annotations
 

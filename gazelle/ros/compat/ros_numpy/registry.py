@@ -39,7 +39,7 @@ def numpify(msg: Any, *args: Any, **kwargs: Any) -> Any:
     """Return the array of a message, or of a list of messages of one type.
 
     Raises:
-        ValueError: Nobody said how, or the list is empty.
+        ValueError: No function is registered, or the list is empty.
     """
     if msg is None:
         return None
@@ -64,7 +64,7 @@ def msgify(msg_type: Any, numpy_obj: Any, *args: Any, **kwargs: Any) -> Any:
         kwargs: The same by name.
 
     Raises:
-        ValueError: Nobody said how.
+        ValueError: No function is registered.
     """
     plural = isinstance(msg_type, list | tuple)
     kind = msg_type[0] if plural else msg_type

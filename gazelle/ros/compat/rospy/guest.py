@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Guest:
-    """Somebody without a node: as much of `Node` as parameters and service calls need."""
+    """A user without a node: as much of `Node` as parameters and service calls need."""
 
     def __init__(self) -> None:
         self.name = names._own_name()  # noqa: SLF001  # a module of the same package

@@ -197,7 +197,7 @@ Log = Callable[..., None]
 
 def _caller() -> Any:
     """Return the position of the log function's caller: file, line and last instruction."""
-    frame = sys._getframe(2)  # noqa: SLF001  # the only way to tell call sites apart
+    frame = sys._getframe(2)  # noqa: SLF001  # the only way to distinguish call sites
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_HERE):
         frame = frame.f_back
     return frame.f_code.co_filename, frame.f_lineno, frame.f_lasti

@@ -22,7 +22,7 @@ class NotImplementedException(Exception):  # noqa: N818  # tf2_ros's name
 
 
 class TypeException(Exception):  # noqa: N818  # tf2_ros's name
-    """Nobody said how to transform or convert a type.
+    """No function transforms or converts a type.
 
     Args:
         errstr: The text.
@@ -144,7 +144,7 @@ class BufferInterface:
 
         Raises:
             TransformException: There is no transform; its class says why.
-            TypeException: Nobody said how to transform the type; import ``tf2_geometry_msgs``.
+            TypeException: No function transforms the type; import ``tf2_geometry_msgs``.
         """
         apply = self.registration.get(type(object_stamped))
         header = object_stamped.header
@@ -217,7 +217,7 @@ def convert(a: Any, b_type: Any) -> Any:
     """Return the value as another type.
 
     Raises:
-        TypeException: Nobody said how.
+        TypeException: No function converts the type.
     """
     known = ConvertRegistration()
     if type(a) is b_type:

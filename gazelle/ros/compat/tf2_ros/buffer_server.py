@@ -1,4 +1,4 @@
-"""Lets other nodes ask this node's buffer for transforms, by an action."""
+"""Server of this node's transforms, by an action."""
 
 from __future__ import annotations
 

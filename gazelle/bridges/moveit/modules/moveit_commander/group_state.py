@@ -135,7 +135,7 @@ class GroupState:
         return True
 
     def get_current_joint_values(self) -> list[float]:
-        """Return positions of the group's variables now; empty if nobody says them."""
+        """Return positions of the group's variables now; empty if unknown."""
         state = self._access.current()
         if state is None:
             return []
