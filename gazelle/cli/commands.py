@@ -52,6 +52,7 @@ COMMANDS = {
         Command("eval", "success, collision and time-out rates of a run", "learn", "evaluate"),
         Command("new", "a task of your own; controllers for a robot", "learn", "new"),
         Command("study", "many parameters and seeds, in one table", "learn", "study"),
+        Command("runs", "the training runs of a folder in one table", "learn", "runs"),
         Command("export", "a run's policy as ONNX or numpy arrays", "learn", "export"),
         Command("deploy", "let a policy drive a robot on a ROS 1 graph", "learn", "deploy"),
         Command("master", "run a ROS 1 master with parameters and rosout", "ROS 1", "master"),

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         recipe_for,
     )
     from gazelle.training.records import EpisodeRecord
+    from gazelle.training.run_list import RunSummary, list_runs
     from gazelle.training.runs import Run, RunConfig
     from gazelle.training.session import TrainResult, resume, train
     from gazelle.training.statistics import SuccessRate, wilson_interval
@@ -65,6 +66,7 @@ _HOMES = {
     "Recipe": "recipes",
     "Run": "runs",
     "RunConfig": "runs",
+    "RunSummary": "run_list",
     "Task": "tasks",
     "TrainResult": "session",
     "Trial": "claims",
@@ -73,6 +75,7 @@ _HOMES = {
     "evaluate": "evaluation",
     "export_policy": "policy_files",
     "find_task": "tasks",
+    "list_runs": "run_list",
     "list_tasks": "tasks",
     "listed_recipe": "recipe_choice",
     "load_actor": "actor",
@@ -105,6 +108,7 @@ __all__ = [
     "Recipe",
     "Run",
     "RunConfig",
+    "RunSummary",
     "Study",
     "StudyResult",
     "SuccessRate",
@@ -116,6 +120,7 @@ __all__ = [
     "evaluate",
     "export_policy",
     "find_task",
+    "list_runs",
     "list_tasks",
     "listed_recipe",
     "load_actor",

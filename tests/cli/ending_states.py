@@ -115,6 +115,7 @@ STATES: dict[str, list[State]] = {
     "tasks": [State("tasks", ATHWART)],
     "robots": [State("robots", ATHWART)],
     "worlds": [State("worlds", ATHWART)],
+    "runs": [State("runs FOLDER", ATHWART)],
     "doctor": [State("doctor", ATHWART)],
     "plugins": [State("plugins", ATHWART)],
     "controllers": [State("controllers", ATHWART)],
