@@ -61,3 +61,34 @@ def odd(srdf=""):
     """Return a robot with a slide, a continuous joint, a mimic, a branch and soft limits."""
     semantics = load_srdf_string(f'<robot name="odd">{srdf}</robot>')
     return RobotModel(load_model_string(ODD), semantics)
+
+
+NESTED = """<sdf version="1.9"><model name="nested"><pose>1 2 3 0.1 0.2 0.3</pose>
+  <link name="base">{inertial}</link>
+  <link name="upper"><pose>0.1 0.2 0.3 0.4 -0.5 0.6</pose>{inertial}</link>
+  <link name="bar"><pose>-0.4 0.2 0.1 0 0 0</pose>{inertial}</link>
+  <joint name="lift" type="prismatic"><parent>base</parent><child>upper</child>
+    <pose>0.1 0 -0.2 0.3 0 0.2</pose><axis><xyz>0.6 0 0.8</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis></joint>
+  <joint name="swing" type="revolute"><parent>base</parent><child>bar</child>
+    <axis><xyz>0 1 0</xyz></axis></joint>
+  <joint name="closing" type="revolute"><parent>upper</parent><child>bar</child>
+    <axis><xyz>0 1 0</xyz></axis></joint>
+  <model name="hand"><pose>0.5 0 0.2 0 0.7 0</pose>
+    <link name="palm">{inertial}</link>
+    <link name="finger"><pose>0.1 0 0.05 0 0 0</pose>{inertial}</link>
+    <joint name="grip" type="revolute"><parent>palm</parent><child>finger</child>
+      <pose>0 0.05 0 0 0 0.3</pose><axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>1</upper></limit></axis></joint>
+    <frame name="tip" attached_to="finger"><pose>0.1 0 0 0 0.2 0</pose></frame>
+  </model>
+  <joint name="wrist" type="revolute"><parent>upper</parent><child>hand::palm</child>
+    <pose>0.05 0.1 0 1 0 0</pose><axis><xyz>1 0 0</xyz></axis></joint>
+</model></sdf>""".format(
+    inertial="<inertial><mass>1</mass><inertia><ixx>0.1</ixx><iyy>0.1</iyy><izz>0.1</izz>"
+    "</inertia></inertial>"
+)
+
+
+def nested(srdf=""):
+    """A robot of SDF with a hand that is a model of its own, and a joint that closes a loop."""
+    semantics = load_srdf_string(f'<robot name="nested">{srdf}</robot>')
+    return RobotModel(load_model_string(NESTED), semantics)

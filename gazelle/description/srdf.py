@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from gazelle.description.joint import Joint
 from gazelle.description.mappings import HoldsMappings
-from gazelle.description.model import Model
 from gazelle.description.pose import Vector3
 from gazelle.description.source import Source
 from gazelle.errors import FormatError, did_you_mean
@@ -149,103 +147,3 @@ class Semantics(HoldsMappings):
         raise FormatError(
             f"the group '{group}' has no state '{name}'", source=self.source, hint=hint
         )
-
-    def joints_of(self, group: str, model: Model) -> tuple[Joint, ...]:
-        """Return the movable joints of a group, from the root outwards, in MoveIt's order.
-
-        Joints that mimic another are among them, passive ones too.
-
-        Args:
-            group: Its name.
-            model: The robot; links that went into others are found by their frames.
-
-        Raises:
-            FormatError: The group, or a joint or link that it names, is not there.
-        """
-        tree = _Tree(model)
-        names = set(self._names(group, tree, ()))
-        return tuple(joint for joint in tree.ordered() if joint.name in names)
-
-    def _names(self, name: str, tree: _Tree, outer: tuple[str, ...]) -> Iterator[str]:
-        group = self.group(name)
-        if name in outer:
-            raise FormatError(f"the group '{name}' is part of itself", source=group.source)
-        for joint in group.joints:
-            virtual = any(other.name == joint for other in self.virtual_joints)
-            if not virtual and tree.has_joint(joint, group):
-                yield joint
-        for link in group.links:
-            yield from tree.holding(link, group)
-        for base, tip in group.chains:
-            yield from tree.between(base, tip, group)
-        for inner in group.groups:
-            yield from self._names(inner, tree, (*outer, name))
-
-
-class _Tree:
-    """Joints of a model and the links they hold."""
-
-    def __init__(self, model: Model) -> None:
-        self._model = model
-        self._holder = {joint.child: joint for joint in model.joints}
-        self._links = {link.name for link in model.links}
-        self._frames = {frame.name: frame.attached_to for frame in model.frames}
-
-    def ordered(self) -> Iterator[Joint]:
-        """Yield the movable joints, depth first."""
-        below: dict[str, list[Joint]] = {}
-        for joint in self._model.joints:
-            below.setdefault(joint.parent, []).append(joint)
-        held = set(self._holder)
-        roots = [name for name in below if name not in held]
-        waiting = [joint for root in reversed(roots) for joint in reversed(below[root])]
-        while waiting:
-            joint = waiting.pop()
-            if joint.type != "fixed":
-                yield joint
-            waiting.extend(reversed(below.pop(joint.child, [])))
-
-    def has_joint(self, name: str, group: JointGroup) -> bool:
-        """Return whether a joint that a group names exists: a fixed one may have been lumped away."""
-        known = [joint.name for joint in self._model.joints]
-        if name in known:
-            return True
-        if name in self._frames:
-            return False
-        raise _unknown("joint", name, group, known)
-
-    def holding(self, link: str, group: JointGroup) -> Iterator[str]:
-        """Yield the joint that holds a link; none for the root and for one lumped into another."""
-        self._body(link, group)
-        if link in self._holder:
-            yield self._holder[link].name
-
-    def between(self, base: str, tip: str, group: JointGroup) -> Iterator[str]:
-        """Yield the joints on the way from one link to another."""
-        up = self._climb(self._body(base, group))
-        down = self._climb(self._body(tip, group))
-        shared = {joint.name for joint in up} & {joint.name for joint in down}
-        yield from (joint.name for joint in (*up, *down) if joint.name not in shared)
-
-    def _body(self, link: str, group: JointGroup) -> str:
-        """Return the link itself, or the one that it became part of."""
-        if link in self._links:
-            return link
-        if link in self._frames:
-            return self._frames[link]
-        raise _unknown("link", link, group, [*self._links, *self._frames])
-
-    def _climb(self, link: str) -> list[Joint]:
-        joints: list[Joint] = []
-        while link in self._holder and len(joints) <= len(self._holder):
-            joints.append(self._holder[link])
-            link = joints[-1].parent
-        return joints
-
-
-def _unknown(kind: str, name: str, group: JointGroup, known: list[str]) -> FormatError:
-    return FormatError(
-        f"the group '{group.name}' names the {kind} '{name}', which the robot does not have",
-        source=group.source,
-        hint=did_you_mean(name, known),
-    )

@@ -16,7 +16,7 @@ from gazelle.description import Joint, Model, Pose, World
 from gazelle.engines.motion import Motion, Placement
 from gazelle.engines.state import JointRow, JointRows, LinkRow, LinkRows
 from gazelle.engines.table import Table
-from gazelle.engines.tree import TreeLink, tree_of
+from gazelle.kinematics.tree import TreeLink, tree_of
 from gazelle.rotations import conjugate, cross, multiply, rotate
 
 

@@ -9,12 +9,10 @@ from typing import Any
 from gazelle.characters import can_be_written
 from gazelle.description import World
 from gazelle.errors import EngineError
+from gazelle.kinematics.tree import FARTHEST
 
 # Clocks count whole nanoseconds, and a step of weeks is a mistake [s].
 SHORTEST_STEP, LONGEST_STEP = 1e-9, 1e6
-
-# What is further off or faster is broken, for MuJoCo too [m, m/s or rad/s].
-FARTHEST = 1e10
 
 # More does not fit into the numbers that native code counts with.
 MOST = 2**31 - 1

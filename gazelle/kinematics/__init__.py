@@ -16,7 +16,7 @@ from gazelle.kinematics.inverse import IkSolutions, InverseKinematics
 from gazelle.kinematics.joint_group import JointModelGroup
 from gazelle.kinematics.pointing import Pointing
 from gazelle.kinematics.robot_model import RobotModel
-from gazelle.kinematics.tree_builder import LinkFrame
+from gazelle.kinematics.robot_tree import LinkFrame
 from gazelle.kinematics.variables import JointBounds, Variable
 
 __all__ = [

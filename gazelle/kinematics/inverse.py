@@ -17,8 +17,8 @@ from gazelle.description import Pose
 from gazelle.errors import PlanningError
 from gazelle.kinematics.chain_solver import ChainSolver
 from gazelle.kinematics.joint_group import JointModelGroup
+from gazelle.kinematics.joint_nodes import flat
 from gazelle.kinematics.robot_model import RobotModel
-from gazelle.kinematics.tree_builder import flat
 from gazelle.streams import seed_of
 
 Aim = Literal["pose", "position", "orientation"]

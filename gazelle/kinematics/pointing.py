@@ -51,8 +51,7 @@ class Pointing:
         self._robot, self._link = robot, robot.link(link).name
         self._axis = np.asarray(axis, float) / length
         self._columns = robot.columns(joints)
-        first = next(joint for joint in robot.model.joints if joint.name == joints[0])
-        self.base = first.parent
+        self.base = robot.joints[joints[0]].parent
         self._low, self._high = (bound[self._columns] for bound in robot.limits())
 
     def solve(self, place: ArrayLike, start: ArrayLike) -> tuple[Floats, float]:

@@ -11,14 +11,17 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
 from gazelle.description import (
     EndEffector,
+    Joint,
     JointGroup,
     Model,
     Pose,
     Semantics,
 )
 from gazelle.errors import PlanningError, did_you_mean
+from gazelle.kinematics.group_joints import GroupJoints
 from gazelle.kinematics.joint_group import JointModelGroup, ends_of
-from gazelle.kinematics.tree_builder import LinkFrame, TreeBuilder, flat
+from gazelle.kinematics.joint_nodes import flat
+from gazelle.kinematics.robot_tree import LinkFrame, RobotTree
 from gazelle.kinematics.variables import JointBounds
 
 
@@ -44,6 +47,9 @@ class RobotModel:
             virtual joint.
         variables: In the order of columns.
         links: By name; links that a description has made part of others are among them.
+        bodies: Links of the description with their places in the tree, by name.
+        joints: By name, from the root outwards, those that do not move too.
+        closing: Joints that close loops, which no state has.
         nodes: The joints that the variables move, parents first, one for each variable.
 
     Raises:
@@ -58,13 +64,15 @@ class RobotModel:
     ) -> None:
         self.model = model
         self.semantics = semantics or Semantics(model.name)
-        builder = TreeBuilder(model, self.semantics.virtual_joints, limits or {})
-        self.root, self.frame = builder.root, builder.frame
-        self.variables = tuple(builder.variables)
-        self.links = builder.links()
-        self.tree = builder.tree()
-        self.nodes = builder.nodes
-        self._sources = [builder.source(node) for node in builder.nodes]
+        tree = RobotTree(model, self.semantics.virtual_joints, limits or {})
+        self.root, self.frame, self.bodies = tree.root, tree.frame, tree.bodies
+        self.variables = tuple(tree.variables)
+        self.links, self._parts = tree.links(), tree.parts()
+        self.tree, self.nodes = tree.nodes.tree(), tree.nodes.nodes
+        self.joints = {joint.name: joint for joint in tree.graph.outwards(tree.root)}
+        self.closing = tree.closing
+        self._graph, self._group_joints = tree.graph, GroupJoints(self.semantics, tree)
+        self._sources = tree.nodes.sources()
         self._followers = [
             (column, *source) for column, source in enumerate(self._sources) if column != source[0]
         ]
@@ -124,13 +132,26 @@ class RobotModel:
             self._groups[name] = self._group(name)
         return self._groups[name]
 
+    def joints_of(self, group: str) -> tuple[Joint, ...]:
+        """Return the joints of a group that can move, from the root outwards.
+
+        Joints that mimic others and passive ones are among them.
+
+        Raises:
+            FormatError: The group, or a joint or link that it names, is not there.
+        """
+        names = set(self._group_joints.names(group))
+        return tuple(
+            joint for joint in self.joints.values() if joint.type != "fixed" and joint.name in names
+        )
+
     def _group(self, name: str) -> JointModelGroup:
         """Build a group from the SRDF, and derive its links, tips and base."""
-        joints = {joint.name for joint in self.semantics.joints_of(name, self.model)}
+        joints = {joint.name for joint in self.joints_of(name)}
         said = self._said(name)
         joints |= {joint for group in said for joint in group.joints}
         chains = [chain for group in said for chain in group.chains]
-        links = [joint.child for joint in self.model.joints if joint.name in joints]
+        links = [joint.child for joint in self.joints.values() if joint.name in joints]
         links += [link for group in said for link in group.links]
         links += [tip for _, tip in chains]
         ordered = [link for link in self.links if link in links]
@@ -145,8 +166,7 @@ class RobotModel:
 
     def _parents(self) -> dict[str, str]:
         """Return the parent of each link."""
-        held = {joint.child: joint.parent for joint in self.model.joints}
-        return held | {frame.name: frame.attached_to for frame in self.model.frames}
+        return {joint.child: joint.parent for joint in self.joints.values()} | self._parts
 
     def chain(self, base: str, tip: str, name: str = "chain") -> JointModelGroup:
         """Return a group of the joints between two links, without an SRDF.
@@ -154,15 +174,9 @@ class RobotModel:
         Raises:
             PlanningError: A link is not there.
         """
-        ends = []
-        for link in (base, tip):
-            node, way = self.link(link).joint, []
-            while node >= 0:
-                way.append(node)
-                node = self.nodes[node].parent
-            ends.append(way)
-        joints = {self.nodes[joint].name for joint in {*ends[0]} ^ {*ends[1]}}
-        links = [joint.child for joint in self.model.joints if joint.name in joints]
+        ends = self.link(base).body, self.link(tip).body
+        joints = {each.name for each in self._graph.between(*ends) if each.name in self._column}
+        links = [joint.child for joint in self.joints.values() if joint.name in joints]
         ordered = [link for link in self.links if link in (*links, tip)]
         return self._made(name, joints, tuple(ordered), (tip,), base)
 
@@ -173,7 +187,7 @@ class RobotModel:
             PlanningError: A joint is not there.
         """
         chosen = {self.variables[self.column(joint)].joint for joint in joints}
-        links = [joint.child for joint in self.model.joints if joint.name in chosen]
+        links = [joint.child for joint in self.joints.values() if joint.name in chosen]
         ordered = tuple(link for link in self.links if link in links)
         return self._made(name, chosen, ordered, ends_of(ordered, self._parents()), "")
 

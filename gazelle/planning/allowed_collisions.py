@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import Self
 
 from gazelle.argument_checks import checked
-from gazelle.description import Model, Semantics
 from gazelle.errors import PlanningError
+from gazelle.kinematics import RobotModel
 
 Pair = tuple[str, str]
 
@@ -24,9 +24,9 @@ class AllowedCollisionMatrix:
         self._names: dict[str, bool] = {}
 
     @classmethod
-    def of_robot(cls, model: Model, semantics: Semantics) -> Self:
+    def of_robot(cls, robot: RobotModel) -> Self:
         """Return the rules of an SRDF; without any pair there, adjacent links may touch."""
-        made = cls()
+        made, semantics = cls(), robot.semantics
         for link in semantics.unchecked_links:
             made.set_default(link, allowed=True)
         for pair in semantics.disabled_collisions:
@@ -35,11 +35,11 @@ class AllowedCollisionMatrix:
             made.set_pair(pair.link1, pair.link2, allowed=False)
         if not semantics.disabled_collisions and not semantics.unchecked_links:
             parts: dict[str, list[str]] = {}
-            for frame in model.frames:
-                parts.setdefault(frame.attached_to, []).append(frame.name)
-            for joint in model.joints:
-                for one in (joint.parent, *parts.get(joint.parent, ())):
-                    for other in (joint.child, *parts.get(joint.child, ())):
+            for each in robot.links.values():
+                parts.setdefault(each.body, []).append(each.name)
+            for joint in (*robot.joints.values(), *robot.closing):
+                for one in parts[joint.parent]:
+                    for other in parts[joint.child]:
                         made.set_pair(one, other, allowed=True)
         return made
 

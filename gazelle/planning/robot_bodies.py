@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
-from gazelle.description import Collision, Link, Pose
+from gazelle.description import Collision, Pose
 from gazelle.engines.collision import CollisionBody
 from gazelle.kinematics.robot_model import RobotModel
 from gazelle.planning.scene_objects import AttachedObject, scaled
@@ -53,18 +53,18 @@ def robot_bodies(
 def shapes_of(robot: RobotModel) -> dict[str, list[tuple[Collision, Pose]]]:
     """Return collisions by the link of the file, with their poses in its frame."""
     found: dict[str, list[tuple[Collision, Pose]]] = {name: [] for name in robot.links}
-    for link in robot.model.links:
-        for collision in link.collisions:
-            owner = _owner(collision, link, robot)
-            frame = robot.links[link.name].offset.inverse() * robot.links[owner].offset
+    for name, body in robot.bodies.items():
+        for collision in body.link.collisions:
+            owner = _owner(collision, name, robot)
+            frame = robot.links[name].offset.inverse() * robot.links[owner].offset
             found[owner].append((collision, frame.inverse() * collision.pose))
     return found
 
 
-def _owner(collision: Collision, link: Link, robot: RobotModel) -> str:
+def _owner(collision: Collision, link: str, robot: RobotModel) -> str:
     """Return the link of the file with a collision, where it was lumped into another's body."""
     element = collision.source.element if collision.source is not None else None
     match = _LINK.search(element or "")
-    named = match.group(1) if match else link.name
-    same = named in robot.links and robot.links[named].body == link.name
-    return named if same else link.name
+    named = match.group(1) if match else link
+    same = named in robot.links and robot.links[named].body == link
+    return named if same else link

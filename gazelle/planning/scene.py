@@ -76,7 +76,7 @@ class PlanningScene:
         self.state = robot.zero()
         self.objects: dict[str, SceneObject] = {}
         self.attached: dict[str, AttachedObject] = {}
-        self._allowed = AllowedCollisionMatrix.of_robot(robot.model, robot.semantics)
+        self._allowed = AllowedCollisionMatrix.of_robot(robot)
         self._padding: dict[str, float] = {}
         self._scale: dict[str, float] = {}
         self._models: dict[tuple[str, ...], CollisionModel] = {}

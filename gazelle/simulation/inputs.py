@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model
-from gazelle.engines.limits import FARTHEST, name_fault
+from gazelle.engines.limits import name_fault
 from gazelle.errors import SimulationError
+from gazelle.kinematics.tree import FARTHEST
 
 # Parameters of several numbers, which are not one an axis.
 VECTORS = ("gravity", "link_centre", "link_inertia", "wheel_slip")

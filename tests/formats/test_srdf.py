@@ -7,6 +7,7 @@ from gazelle import FormatError, formats
 from gazelle.description import DisabledCollision, EndEffector, VirtualJoint
 from gazelle.errors import FormatWarning
 from gazelle.formats import load_srdf, load_srdf_string
+from gazelle.kinematics import RobotModel
 
 LIMIT = "<limit lower='-1' upper='1' effort='1' velocity='1'/>"
 ARM = (
@@ -25,8 +26,8 @@ GROUPS = (
 
 
 def names(text, group):
-    semantics = load_srdf_string(robot(text))
-    return [joint.name for joint in semantics.joints_of(group, urdf(ARM))]
+    model = RobotModel(urdf(ARM), load_srdf_string(robot(text)))
+    return [joint.name for joint in model.joints_of(group)]
 
 
 def test_everything_is_read():
@@ -159,11 +160,12 @@ def test_panda(corpus):
     model = formats.load_model(
         folder / "panda_description/urdf/panda_arm_hand.urdf.xacro", paths=[corpus]
     )
-    arm = [joint.name for joint in semantics.joints_of("panda_arm", model)]
+    arm_model = RobotModel(model, semantics)
+    arm = [joint.name for joint in arm_model.joints_of("panda_arm")]
     assert arm == [f"panda_joint{i}" for i in range(1, 8)]
-    hand = [joint.name for joint in semantics.joints_of("hand", model)]
+    hand = [joint.name for joint in arm_model.joints_of("hand")]
     assert hand == ["panda_finger_joint1", "panda_finger_joint2"]
-    both = [joint.name for joint in semantics.joints_of("panda_arm_hand", model)]
+    both = [joint.name for joint in arm_model.joints_of("panda_arm_hand")]
     assert both == arm + hand
     assert set(semantics.state("panda_arm", "ready").joints) == set(arm)
     assert len(semantics.disabled_collisions) == 34
@@ -175,4 +177,4 @@ def test_ur5(corpus):
     folder = corpus / "ros-industrial__universal_robot"
     semantics = load_srdf(folder / "ur5_moveit_config/config/ur5.srdf")
     model = formats.load_model(folder / "ur_description/urdf/ur5.xacro", paths=[corpus])
-    assert len(semantics.joints_of("manipulator", model)) == 6
+    assert len(RobotModel(model, semantics).joints_of("manipulator")) == 6

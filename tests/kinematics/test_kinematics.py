@@ -20,7 +20,8 @@ def states(robot, count=20, seed=0):
 
 
 def robots():
-    return {name: arms.arm(name) for name in arms.ARMS} | {"odd": arms.odd()}
+    made = {name: arms.arm(name) for name in arms.ARMS}
+    return made | {"odd": arms.odd(), "nested": arms.nested()}
 
 
 class Physics:
@@ -56,11 +57,11 @@ class Physics:
         return both[:, [joint.dofadr[0] for joint in joints]]
 
 
-@pytest.mark.parametrize("name", [*arms.ARMS, "odd"])
+@pytest.mark.parametrize("name", [*arms.ARMS, "odd", "nested"])
 def test_links_are_where_mujoco_puts_them(name):
     robot = robots()[name]
     physics = Physics(robot)
-    bodies = [link.name for link in robot.model.links]
+    bodies = list(robot.bodies)
     drawn = states(robot)
     placed = robot.forward(drawn, bodies)
     for state, poses in zip(drawn, placed, strict=True):
@@ -69,13 +70,13 @@ def test_links_are_where_mujoco_puts_them(name):
         np.testing.assert_allclose(poses, expected, atol=1e-9)
 
 
-@pytest.mark.parametrize("name", arms.ARMS)
+@pytest.mark.parametrize("name", [*arms.ARMS, "nested"])
 def test_jacobians_are_those_of_mujoco(name):
     robot = robots()[name]
     physics = Physics(robot)
     physics.set(robot.zero())
     turned = physics.placed(robot.root)
-    link = robot.model.links[-1].name
+    link = list(robot.bodies)[-1]
     for state in states(robot, 5):
         physics.set(state)
         point = turned @ robot.forward(state, link) @ [0.1, -0.2, 0.3, 1.0]
@@ -87,7 +88,7 @@ def test_jacobians_are_those_of_mujoco(name):
         np.testing.assert_allclose(own[:, free], (back @ expected)[:, free], atol=1e-9)
 
 
-@pytest.mark.parametrize("name", [*arms.ARMS, "odd"])
+@pytest.mark.parametrize("name", [*arms.ARMS, "odd", "nested"])
 def test_jacobians_are_numeric_differences(name):
     robot = robots()[name]
     step = 1e-6
@@ -117,6 +118,25 @@ def test_a_batch_has_the_bits_of_its_parts():
         assert (robot.forward(state, "gripper_link") == poses[0]).all()
     jacobians = robot.jacobian(drawn, "gripper_link")
     assert (jacobians[7] == robot.jacobian(drawn[7], "gripper_link")).all()
+
+
+def test_models_inside_belong_to_the_robot_and_joints_that_close_loops_do_not():
+    srdf = (
+        "<group name='arm'><chain base_link='base' tip_link='hand::palm'/></group>"
+        "<group name='hand'><joint name='hand::grip'/><joint name='closing'/></group>"
+    )
+    robot = arms.nested(srdf)
+    assert robot.names == ("lift", "wrist", "hand::grip", "swing")
+    assert list(robot.bodies) == ["base", "upper", "hand::palm", "hand::finger", "bar"]
+    assert [joint.name for joint in robot.closing] == ["closing"]
+    assert (robot.group("arm").names, robot.group("arm").tip) == (("lift", "wrist"), "hand::palm")
+    assert robot.group("hand").names == ("hand::grip",)
+    frame = robot.links["hand::tip"]
+    assert (frame.body, robot.nodes[frame.joint].name) == ("hand::finger", "hand::grip")
+    state = robot.zero()
+    state[robot.column("hand::grip")] = 0.4
+    expected = robot.pose(state, "hand::finger") * Pose(0.1, 0.0, 0.0, pitch=0.2)
+    assert robot.pose(state, "hand::tip").is_close(expected)
 
 
 def test_the_root_does_not_move():

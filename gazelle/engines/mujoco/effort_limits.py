@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.engines.mujoco.state import StateViews
-from gazelle.engines.tree import TreeLink
+from gazelle.kinematics.tree import TreeLink
 
 
 @dataclass(frozen=True, slots=True)

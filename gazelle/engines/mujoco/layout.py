@@ -15,8 +15,8 @@ from gazelle.engines.mujoco.compiler.motors import MotorSlot, motor_slots
 from gazelle.engines.mujoco.compiler.spec import Compiled
 from gazelle.engines.mujoco.compiler.wheel_slip import TyreSlot, tyre_slot
 from gazelle.engines.mujoco.effort_limits import EffortLimits, effort_limits
-from gazelle.engines.tree import Closure, RootKind, TreeLink
 from gazelle.errors import EngineError, did_you_mean
+from gazelle.kinematics.tree import Closure, RootKind, TreeLink
 
 T = TypeVar("T")
 

@@ -27,8 +27,8 @@ from gazelle.engines.mujoco.penetration_recovery import Overlaps
 from gazelle.engines.mujoco.state import StateViews, rows_of
 from gazelle.engines.mujoco.state_transfer import carry_over
 from gazelle.engines.mujoco.step_hooks import Hooks
-from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineError
+from gazelle.kinematics.tree import TreeLink
 
 VELOCITY_STAGE = mujoco.mjtStage.mjSTAGE_VEL.value
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from gazelle.description import Model, Pose
 from gazelle.engines.planar.fleet import Body, Drive
-from gazelle.engines.planar.kinematics import Skeleton, skeleton_of
+from gazelle.engines.planar.kinematics import LinkTree, link_tree
 from gazelle.engines.sections import Levels, parts_of
 from gazelle.geometry.planar_part import PlanarPart
 
@@ -24,7 +24,7 @@ class ConvertedModel:
 
     Attributes:
         model: What it is.
-        skeleton: Its links.
+        tree: Its links and joints.
         yaw: Heading of its frame at first [rad].
         z: Height of its frame [m].
         tilt: How its frame leans.
@@ -33,7 +33,7 @@ class ConvertedModel:
     """
 
     model: Model
-    skeleton: Skeleton
+    tree: LinkTree
     yaw: float
     z: float
     tilt: Pose
@@ -71,7 +71,7 @@ class ConvertedModels(Mapping[str, ConvertedModel]):
         found = {}
         for name, model in self._models.items():
             if model.stage is None:
-                found.update(dict.fromkeys(self[name].skeleton.bones, name))
+                found.update(dict.fromkeys(self[name].tree.links, name))
             else:
                 found.update((f"{name}::{link.name}", name) for link in model.links)
         return found
@@ -97,32 +97,24 @@ def convert_model(model: Model, *, kinematic: bool) -> ConvertedModel:
     tilt = Pose()
     if pose.roll != 0.0 or pose.pitch != 0.0:
         tilt = Pose(yaw=-yaw) * Pose.from_quaternion((0.0, 0.0, 0.0), pose.quaternion)
-    skeleton = skeleton_of(model, tilt, kinematic=kinematic)
-    loose = not (model.static or kinematic or skeleton.held)
-    z = _grounded(model, skeleton, tilt) if loose else pose.z
-    return ConvertedModel(model, skeleton, yaw, z, tilt, model.static and not kinematic, loose)
+    tree = link_tree(model, tilt, kinematic=kinematic)
+    loose = not (model.static or kinematic or tree.held)
+    z = _grounded(model, tree, tilt) if loose else pose.z
+    return ConvertedModel(model, tree, yaw, z, tilt, model.static and not kinematic, loose)
 
 
-def _grounded(model: Model, skeleton: Skeleton, tilt: Pose) -> float:
+def _grounded(model: Model, tree: LinkTree, tilt: Pose) -> float:
     """Return the height at which a model stands on its wheels.
 
     Its initial height without wheels.
     """
     bottoms = [
-        (tilt * skeleton.bones[_child(skeleton, name)].rest).z - wheel.radius
-        for name, wheel in skeleton.wheels.items()
+        (tilt * tree.links[tree.hinges[name].child].rest).z - wheel.radius
+        for name, wheel in tree.wheels.items()
     ]
     if not bottoms or abs(model.pose.z + min(bottoms)) > _DROP:
         return model.pose.z
     return -min(bottoms)
-
-
-def _child(skeleton: Skeleton, joint: str) -> str:
-    return next(
-        name
-        for name, bone in skeleton.bones.items()
-        if bone.hinge is not None and bone.hinge.name == joint
-    )
 
 
 def levels_of(models: Iterable[ConvertedModel], more: Iterable[float]) -> Levels:
@@ -130,14 +122,14 @@ def levels_of(models: Iterable[ConvertedModel], more: Iterable[float]) -> Levels
     rays, lows, highs = set(more), [], []
     for each in models:
         frame = Pose(z=each.z) * each.tilt
-        for bone in each.skeleton.bones.values():
-            for sensor in bone.link.sensors:
+        for link in each.tree.links.values():
+            for sensor in link.link.sensors:
                 if sensor.lidar is not None:
-                    rays.add(round((frame * bone.rest * sensor.pose).z, 4))
-            if each.loose and each.skeleton.wheels:
-                for collision in bone.link.collisions:
+                    rays.add(round((frame * link.rest * sensor.pose).z, 4))
+            if each.loose and each.tree.wheels:
+                for collision in link.link.collisions:
                     lows.append(STEP)
-                    highs.append((frame * bone.rest * collision.pose).z)
+                    highs.append((frame * link.rest * collision.pose).z)
     low, high = min(lows, default=_HEIGHTS[0]), max(highs, default=_HEIGHTS[1])
     return Levels(tuple(sorted(rays)), low, max(high, low + STEP))
 
@@ -146,10 +138,10 @@ def statics_of(each: ConvertedModel, levels: Levels) -> list[PlanarPart]:
     """Return the parts of a static model, in the world."""
     return [
         part
-        for bone in each.skeleton.bones.values()
-        for collision in bone.link.collisions
+        for link in each.tree.links.values()
+        for collision in link.link.collisions
         for part in parts_of(
-            collision, each.model.pose * bone.rest * collision.pose, levels, moving=False
+            collision, each.model.pose * link.rest * collision.pose, levels, moving=False
         )
     ]
 
@@ -159,9 +151,9 @@ def body_of(each: ConvertedModel, levels: Levels) -> Body:
     own = levels.lowered(each.z)
     parts = [
         _lifted(part)
-        for bone in each.skeleton.bones.values()
-        for collision in bone.link.collisions
-        for part in parts_of(collision, each.tilt * bone.rest * collision.pose, own, moving=True)
+        for link in each.tree.links.values()
+        for collision in link.link.collisions
+        for part in parts_of(collision, each.tilt * link.rest * collision.pose, own, moving=True)
     ]
     place = (each.model.pose.x, each.model.pose.y, each.yaw)
     return Body(tuple(parts), place, each.z, Drive("omni") if each.loose else None)

@@ -234,7 +234,7 @@ class PlanarEngine:
         if model not in known:
             raise EngineError(f"there is no model '{model}'", hint=did_you_mean(model, known))
         kept = tuple(each for each in world.models if each.name != model)
-        gone = known[model].skeleton.hinges
+        gone = known[model].tree.hinges
         motors = {name: most for name, most in self._run.recipe.motors.items() if name not in gone}
         self._run.change(
             replace(

@@ -4,42 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Floats, Indices
 from gazelle.description import Joint, Link, Model, Pose
 from gazelle.engines.planar.wheels import Wheel, wheel_of
-from gazelle.engines.tree import TreeLink, tree_of
-from gazelle.rotations import cross, multiply, rotate
+from gazelle.kinematics.joint_nodes import JointNodes, flat
+from gazelle.kinematics.joint_tree import JointTree
+from gazelle.kinematics.tree import TreeLink, tree_of
+from gazelle.rotations import from_matrices
 
 Place = tuple[Floats, Floats]
 
-_MOVING = {"revolute", "continuous", "prismatic", "screw", "universal", "revolute2"}
+_MOVING = frozenset({"revolute", "continuous", "prismatic", "screw", "universal", "revolute2"})
 
 FROZEN = frozenset({"ball", "fixed", "floating", "planar", "screw"})
 """Joints that hold a link as it is when that is put somewhere: a screw turns only by itself."""
-
-
-@dataclass(frozen=True, slots=True)
-class Hinge:
-    """A joint that can move.
-
-    Attributes:
-        name: Scoped name.
-        joint: What it is.
-        column: Of its first axis among those of its model.
-    """
-
-    name: str
-    joint: Joint
-    column: int
-
-    @property
-    def is_sliding(self) -> bool:
-        """True if it slides instead of turning."""
-        return self.joint.type == "prismatic"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,159 +29,126 @@ class PlanarLink:
     """A link in its model.
 
     Attributes:
-        link: What it is.
-        parent: Scoped name of the link it hangs on; None for the model itself.
-        pose: In the parent's frame, or the model's, with joints at zero.
-        hinge: The joint it hangs by, if that can move.
+        link: The link of the description.
+        node: Index of the axis that it moves with, -1 for the model's frame.
+        offset: Pose in the frame of that axis.
         rest: Pose in the model's frame with all joints at zero.
-        fixed: Whether no joint between it and the model can move.
     """
 
     link: Link
-    parent: str | None
-    pose: Pose
-    hinge: Hinge | None
+    node: int
+    offset: Pose
     rest: Pose
-    fixed: bool
+
+    @property
+    def fixed(self) -> bool:
+        """True if no joint between it and the model can move."""
+        return self.node < 0
 
 
-@dataclass(frozen=True, slots=True)
-class Skeleton:
+class LinkTree:
     """All links of a model.
 
-    Attributes:
-        bones: By scoped name, parents first.
-        hinges: By scoped name.
+    Args:
+        nodes: Axes of its joints.
+        links: Links by scoped name, parents first.
+        hinges: Joints that can move, by scoped name.
         wheels: Joints that turn something round about a level axis.
         held: Whether a joint holds the model to the world.
-        width: Number of axes of all hinges.
+
+    Attributes:
+        width: Number of axes of all joints that can move.
     """
 
-    bones: Mapping[str, PlanarLink]
-    hinges: Mapping[str, Hinge]
-    wheels: Mapping[str, Wheel]
-    held: bool
-    width: int
+    def __init__(
+        self,
+        nodes: JointNodes,
+        links: Mapping[str, PlanarLink],
+        hinges: Mapping[str, Joint],
+        wheels: Mapping[str, Wheel],
+        *,
+        held: bool,
+    ) -> None:
+        self._nodes, self.width = nodes, len(nodes.nodes)
+        self._frames: dict[str, tuple[Indices, Floats]] = {}
+        self.links, self.hinges, self.wheels, self.held = links, hinges, wheels, held
+
+    @cached_property
+    def _tree(self) -> JointTree:
+        return self._nodes.tree()
+
+    def _frame(self, name: str) -> tuple[Indices, Floats]:
+        """Return the axis that a link moves with, shape (1,), and its pose there, shape (1, 12)."""
+        found = self._frames.get(name)
+        if found is None:
+            link = self.links[name]
+            found = self._frames[name] = np.array([link.node]), np.array([flat(link.offset)])
+        return found
 
     def place(self, name: str, angles: Floats) -> Place:
         """Return the pose of a link in the model's frame: positions (n, 3), quaternions (n, 4).
 
         Args:
             name: Scoped name of the link.
-            angles: Of all hinges, shape (n, width).
+            angles: Positions of all axes, shape (n, width).
         """
-        bone, count = self.bones[name], len(angles)
-        if bone.fixed:
+        link, count = self.links[name], len(angles)
+        if link.fixed:
             return (
-                np.tile(bone.rest.position, (count, 1)),
-                np.tile(bone.rest.quaternion, (count, 1)),
+                np.tile(link.rest.position, (count, 1)),
+                np.tile(link.rest.quaternion, (count, 1)),
             )
-        here = np.tile(bone.pose.position, (count, 1)), np.tile(bone.pose.quaternion, (count, 1))
-        if bone.hinge is not None:
-            here = _compose(here, _moved(bone.hinge, angles))
-        return here if bone.parent is None else _compose(self.place(bone.parent, angles), here)
+        poses = self._tree.forward(angles, *self._frame(name))[:, 0]
+        return poses[:, :3, 3], from_matrices(poses[:, :3, :3])
 
-    def columns_of(self, name: str) -> NDArray[np.intp]:
-        """Return columns of the hinges that a link hangs on, shape (n,); none if it is fixed."""
-        found: list[int] = []
-        above: str | None = name
-        while above is not None:
-            bone = self.bones[above]
-            if bone.hinge is not None:
-                first = bone.hinge.column
-                found += range(first, first + len(bone.hinge.joint.axes))
-            above = bone.parent
-        return np.array(sorted(found), np.intp)
+    def columns_of(self, name: str) -> Indices:
+        """Return columns of the axes that a link hangs on, shape (n,); none if it is fixed."""
+        return self._tree.path(self.links[name].node).astype(np.intp)
 
     def motion(self, name: str, angles: Floats, rates: Floats) -> Place:
         """Return the velocity of a link in the model's frame: linear (n, 3) and angular (n, 3)."""
-        bone, count = self.bones[name], len(angles)
-        linear, angular = np.zeros((count, 3)), np.zeros((count, 3))
-        if bone.fixed:
-            return linear, angular
-        end = self.place(name, angles)[0]
-        while bone is not None:
-            if bone.hinge is not None:
-                at, turned = _compose(
-                    self.place(name, angles), _placed(bone.hinge.joint.pose, count)
-                )
-                for number, axis in enumerate(bone.hinge.joint.axes):
-                    way = rotate(turned, np.asarray(axis.xyz))
-                    rate = rates[:, [bone.hinge.column + number]]
-                    if bone.hinge.is_sliding:
-                        linear += rate * way
-                    else:
-                        angular += rate * way
-                        linear += cross(rate * way, end - at)
-            if bone.parent is None:
-                break
-            name = bone.parent
-            bone = self.bones[name]
-        return linear, angular
+        link = self.links[name]
+        if link.fixed:
+            return np.zeros((len(angles), 3)), np.zeros((len(angles), 3))
+        jacobian = self._tree.jacobian(angles, link.node, self._frame(name)[1])
+        moved = (jacobian @ rates[:, :, None])[..., 0]
+        return moved[:, :3], moved[:, 3:]
 
 
-def skeleton_of(model: Model, tilt: Pose, *, kinematic: bool = False) -> Skeleton:
+def link_tree(model: Model, tilt: Pose, *, kinematic: bool = False) -> LinkTree:
     """Return the links and joints of a model.
 
     Args:
-        model: What it is.
+        model: The model.
         tilt: How its frame leans in the frame that moves in the plane.
         kinematic: Whether joints are frozen, as those of a static model are.
 
     Raises:
         EngineError: A joint names a link that is not there.
     """
-    bones: dict[str, PlanarLink] = {}
-    hinges: dict[str, Hinge] = {}
+    nodes = JointNodes(_MOVING, model.pose.inverse(), follow=False)
+    links: dict[str, PlanarLink] = {}
+    hinges: dict[str, Joint] = {}
     wheels: dict[str, Wheel] = {}
-    held, width = False, 0
-    back = model.pose.inverse()
+    held = False
     for body in tree_of(model, kinematic=kinematic).bodies:
-        hinge = _hinge_of(body, width)
-        above = None if body.parent is None else bones[body.parent]
-        pose = back * body.pose if above is None else body.pose
-        rest = pose if above is None else above.rest * pose
-        fixed = hinge is None and (above is None or above.fixed)
-        held = held or (above is None and body.joint is not None)
-        bones[body.name] = PlanarLink(body.link, body.parent, pose, hinge, rest, fixed)
-        if hinge is None:
+        nodes.add(body)
+        above = model.pose.inverse() if body.parent is None else links[body.parent].rest
+        rest = above * body.pose
+        held = held or (body.parent is None and body.joint is not None)
+        links[body.name] = PlanarLink(body.link, *nodes.frames[body.name], rest)
+        if body.joint is None or not nodes.moves(body.joint):
             continue
-        hinges[hinge.name] = hinge
-        width += len(hinge.joint.axes)
-        if len(hinge.joint.axes) == 1 and not hinge.is_sliding:
-            leaning = tilt * rest
-            axis = (leaning * hinge.joint.pose).rotate(hinge.joint.axes[0].xyz)
-            wheel = wheel_of(hinge.name, body.link, leaning, axis)
-            if wheel is not None:
-                wheels[hinge.name] = wheel
-    return Skeleton(bones, hinges, wheels, held, width)
+        hinges[body.joint_name] = body.joint
+        wheel = _wheel_of(body, body.joint, tilt * rest)
+        if wheel is not None:
+            wheels[body.joint_name] = wheel
+    return LinkTree(nodes, links, hinges, wheels, held=held)
 
 
-def _hinge_of(body: TreeLink, column: int) -> Hinge | None:
-    if body.joint is None or body.joint.type not in _MOVING or not body.joint.axes:
+def _wheel_of(body: TreeLink, joint: Joint, leaning: Pose) -> Wheel | None:
+    """Return the wheel that a joint of one axis turns, if it does."""
+    if len(joint.axes) != 1 or joint.type == "prismatic":
         return None
-    return Hinge(body.joint_name, body.joint, column)
-
-
-def _moved(hinge: Hinge, angles: Floats) -> Place:
-    """Return the displacement of a hinge's link, in the link's frame at zero."""
-    count, frame = len(angles), hinge.joint.pose
-    moved = _placed(frame, count)
-    for number, axis in enumerate(hinge.joint.axes):
-        value = angles[:, [hinge.column + number]]
-        way = np.asarray(axis.xyz)
-        if hinge.is_sliding:
-            step = value * way, np.tile((0.0, 0.0, 0.0, 1.0), (count, 1))
-        else:
-            turn = np.concatenate((np.sin(value / 2.0) * way, np.cos(value / 2.0)), axis=1)
-            step = np.zeros((count, 3)), turn
-        moved = _compose(moved, step)
-    return _compose(moved, _placed(frame.inverse(), count))
-
-
-def _placed(pose: Pose, count: int) -> Place:
-    return np.tile(pose.position, (count, 1)), np.tile(pose.quaternion, (count, 1))
-
-
-def _compose(a: Place, b: Place) -> Place:
-    return a[0] + rotate(a[1], b[0]), multiply(a[1], b[1])
+    axis = (leaning * joint.pose).rotate(joint.axes[0].xyz)
+    return wheel_of(body.joint_name, body.link, leaning, axis)

@@ -140,7 +140,7 @@ def rolling_bases(layout: PlanarLayout, motors: Iterable[str]) -> list[RollingBa
         if name not in owners:
             continue
         own = layout.models[name]
-        wheels = driven(own.skeleton.wheels, order) if own.loose else ()
+        wheels = driven(own.tree.wheels, order) if own.loose else ()
         if wheels:
             columns = np.array([layout.joints[wheel.joint][0] for wheel in wheels])
             bases.append(RollingBase(index, columns, rolling(wheels)))
@@ -159,9 +159,9 @@ def _layout_of(
     limits: list[tuple[float, float]] = []
     for name in jointed:
         columns[name] = len(limits)
-        for hinge in models[name].skeleton.hinges.values():
-            joints[hinge.name] = (len(limits), len(hinge.joint.axes))
-            limits += [(axis.lower, axis.upper) for axis in hinge.joint.axes]
+        for scoped, joint in models[name].tree.hinges.items():
+            joints[scoped] = (len(limits), len(joint.axes))
+            limits += [(axis.lower, axis.upper) for axis in joint.axes]
     bodies = {name: index for index, name in enumerate(movers)}
     bounds = np.array(limits).reshape(-1, 2).T.copy()
     return PlanarLayout(models, bodies, models.owners(), joints, columns, levels, bounds, stage)

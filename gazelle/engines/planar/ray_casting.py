@@ -56,7 +56,7 @@ class PlanarRays:
             return kept if kept.of is origins else replace(kept, of=origins, along=directions)
         caster = caster_of(self._run.fleet, self.rays_on_body(rays))
         model = self._run.owner(link)
-        columns = self._run.layout.columns[model] + self._run.model(model).skeleton.columns_of(link)
+        columns = self._run.layout.columns[model] + self._run.model(model).tree.columns_of(link)
         angles = self._run.angles[:, columns].copy() if len(columns) else self._run.angles[:0]
         kept = self._casters[key] = KeptCaster(caster, columns, angles, origins, directions)
         return kept
@@ -67,8 +67,8 @@ class PlanarRays:
             found = self.rays_on_body(rays)
         except EngineError:
             return None
-        skeleton = self._run.model(self._run.owner(rays.link)).skeleton
-        if len(found.mounts) > 1 or len(skeleton.columns_of(rays.link)):
+        tree = self._run.model(self._run.owner(rays.link)).tree
+        if len(found.mounts) > 1 or len(tree.columns_of(rays.link)):
             return None
         return found.fan, found.begin
 
@@ -82,13 +82,12 @@ class PlanarRays:
         model = self._run.owner(link)
         each = self._run.model(model)
         own = self._run.own(model, None)[0]
-        bone = each.skeleton.bones[link]
-        if not bone.fixed and np.ptp(own, axis=0).any():
+        if not each.tree.links[link].fixed and np.ptp(own, axis=0).any():
             raise EngineError(
                 f"'{link}' hangs on joints that differ between worlds; rays cannot start there",
                 hint="use the engine mujoco",
             )
-        at, turned = each.skeleton.place(link, own[:1])
+        at, turned = each.tree.place(link, own[:1])
         tilt = np.asarray(each.tilt.quaternion)
         turned = multiply(tilt[None], turned)
         start = rotate(tilt, at)[0] + rotate(turned, origins)

@@ -152,7 +152,7 @@ class RunningPlane:
     def own(self, model: str, worlds: Worlds | None) -> tuple[Floats, Floats]:
         """Return positions and velocities of a model's joints, shapes (n, axes)."""
         first = self.layout.columns[model]
-        columns = slice(first, first + self.layout.models[model].skeleton.width)
+        columns = slice(first, first + self.layout.models[model].tree.width)
         rows = rows_of(worlds)
         return self.angles[rows, columns], self.rates[rows, columns]
 

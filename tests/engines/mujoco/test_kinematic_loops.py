@@ -9,8 +9,8 @@ import scenes
 
 from gazelle.description import Inertia, Inertial, Joint, JointAxis, Link, Model, Pose, Source
 from gazelle.engines import make_engine
-from gazelle.engines.tree import tree_of
 from gazelle.errors import EngineError, EngineWarning
+from gazelle.kinematics.tree import tree_of
 
 X, Y = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
 CRANK, ROD = 0.2, 0.5

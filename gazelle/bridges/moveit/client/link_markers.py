@@ -26,16 +26,16 @@ def link_markers(robot: RobotModel, state: Floats, links: Sequence[str], now: in
         now: Stamp of the markers [ns].
     """
     made: Any = load_message("visualization_msgs/MarkerArray")()
-    for link in robot.model.links:
-        if link.name not in links or link.name not in robot.links:
+    for name, body in robot.bodies.items():
+        if name not in links:
             continue
-        pose = robot.pose(state, link.name)
-        for part in link.visuals or link.collisions:
+        pose = robot.pose(state, name)
+        for part in body.link.visuals or body.link.collisions:
             marker = _shape(part.geometry)
             if marker is None:
                 continue
             marker.header.frame_id, marker.header.stamp = robot.frame, Time(nsecs=now)
-            marker.ns, marker.id = link.name, len(made.markers)
+            marker.ns, marker.id = name, len(made.markers)
             marker.pose = pose_message(pose * part.pose)
             marker.color.r = marker.color.g = marker.color.b = _GREY
             marker.color.a = 1.0

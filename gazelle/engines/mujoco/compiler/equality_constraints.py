@@ -16,8 +16,8 @@ import numpy as np
 from gazelle.description import Inertial, Joint, Mimic, Pose
 from gazelle.engines.mujoco.compiler.inertia import inertia_of, possible
 from gazelle.engines.mujoco.compiler.joints import add_joint
-from gazelle.engines.tree import Closure, TreeLink, lost_in_loop
 from gazelle.errors import EngineError, EngineWarning, did_you_mean, located
+from gazelle.kinematics.tree import Closure, TreeLink, lost_in_loop
 
 # Time constant of a coupling, in physics steps, and its damping ratio.
 _STEPS, _DAMPING_RATIO = 3.0, 1.0

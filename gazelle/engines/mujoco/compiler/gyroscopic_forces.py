@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from gazelle.description import Inertial, World
-from gazelle.engines.tree import TreeLink
+from gazelle.kinematics.tree import TreeLink
 
 _FREE = int(mujoco.mjtJoint.mjJNT_FREE)
 _BALL = int(mujoco.mjtJoint.mjJNT_BALL)

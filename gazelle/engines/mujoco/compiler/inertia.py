@@ -15,9 +15,9 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.description import Inertial
 from gazelle.engines.mujoco.compiler.unsupported import LEAST_MOMENT
-from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineError
 from gazelle.formats.limits import HEAVIEST
+from gazelle.kinematics.tree import TreeLink
 
 _ROUNDING = 1e-9
 """Relative error of moments that is not worth a second compilation."""

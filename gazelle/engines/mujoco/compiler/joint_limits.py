@@ -13,7 +13,7 @@ from collections.abc import Iterable
 import mujoco
 
 from gazelle.description import JointAxis, JointPhysics
-from gazelle.engines.tree import TreeLink
+from gazelle.kinematics.tree import TreeLink
 
 # A spring is followed when its period with what it moves takes at least so many steps.
 _FEWEST_STEPS_A_PERIOD = 10.0

@@ -13,8 +13,8 @@ import mujoco
 
 from gazelle.description import Plane, Pose, Visual, World
 from gazelle.engines.mujoco.compiler.spec import VISUAL_GROUP, CompilerInput, Draft, draft_world
-from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineWarning
+from gazelle.kinematics.tree import TreeLink
 
 _EXACT = 17
 _GREY = (0.7, 0.7, 0.7, 1.0)

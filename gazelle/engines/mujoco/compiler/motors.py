@@ -19,8 +19,8 @@ from mujoco.batch import Batch
 from numpy.typing import ArrayLike
 
 from gazelle.engines.mujoco.compiler.joints import dry_friction
-from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineError
+from gazelle.kinematics.tree import TreeLink
 
 # How many axes of a joint can have a motor. The second of a screw follows from the first.
 AXES = {

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from gazelle.description import Box, Capsule, Collision, Cylinder, Geometry, Pose
-from gazelle.engines.tree import TreeLink
+from gazelle.kinematics.tree import TreeLink
 
 # A tenth of ODE's surface layer [m].
 _LAYER = 1e-4

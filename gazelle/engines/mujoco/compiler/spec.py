@@ -58,8 +58,8 @@ from gazelle.engines.mujoco.compiler.wheel_slip import (
 )
 from gazelle.engines.mujoco.compiler.world_geoms import WorldGeoms
 from gazelle.engines.mujoco.contact_laws import LawSelection, finish, prepare
-from gazelle.engines.tree import Closure, KinematicTree, TreeLink, tree_of
 from gazelle.errors import EngineError
+from gazelle.kinematics.tree import Closure, KinematicTree, TreeLink, tree_of
 
 COLLISION_GROUP = 0
 VISUAL_GROUP = 1

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from gazelle.description import Collision
-from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineWarning, located
+from gazelle.kinematics.tree import TreeLink
 
 LEAST_MOMENT = 1e-12
 """A moment of inertia that is less is taken for this; MuJoCo refuses 1e-15 [kg m²]."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import mujoco
 
-from gazelle.engines.tree import TreeLink
+from gazelle.kinematics.tree import TreeLink
 
 # A weld is as stiff as MuJoCo allows: a time constant of two physics steps would be the
 # limit of stability, three leave room for what hangs on it.

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.description import Capsule, Cylinder, Mesh
-from gazelle.engines.tree import TreeLink
+from gazelle.kinematics.tree import TreeLink
 
 # How far a tread may be from round, and from its axle, as a share of its radius.
 _ROUND = 0.05

@@ -36,8 +36,8 @@ from gazelle.description import (
     Sphere,
     TorsionalFriction,
 )
-from gazelle.engines.tree import TreeLink
 from gazelle.errors import EngineError, EngineWarning
+from gazelle.kinematics.tree import TreeLink
 
 # MuJoCo's bounds of an impedance.
 _LEAST, _MOST = 1e-4, 0.9999

@@ -48,7 +48,7 @@ class PlanarLinkRow:
         """Return the pose of the link."""
         model = self._run.owner(self._name)
         base = self._model(model).placement(worlds)
-        position, turned = self._run.model(model).skeleton.place(
+        position, turned = self._run.model(model).tree.place(
             self._name, self._run.own(model, worlds)[0]
         )
         return Placement(
@@ -59,10 +59,10 @@ class PlanarLinkRow:
         """Return the velocity of the link."""
         model = self._run.owner(self._name)
         base = self._model(model).placement(worlds)
-        skeleton = self._run.model(model).skeleton
+        tree = self._run.model(model).tree
         angles, rates = self._run.own(model, worlds)
-        inner = skeleton.motion(self._name, angles, rates)
-        arm = rotate(base.quaternion, skeleton.place(self._name, angles)[0])
+        inner = tree.motion(self._name, angles, rates)
+        arm = rotate(base.quaternion, tree.place(self._name, angles)[0])
         linear, spin = self._model(model).twist(worlds)
         linear = linear + cross(spin, arm) + rotate(base.quaternion, inner[0])
         return Motion(linear, spin + rotate(base.quaternion, inner[1]))
@@ -76,8 +76,8 @@ class PlanarLinkRow:
     def centre(self, worlds: Worlds | None = None) -> Floats:
         """Return the centre of mass [m], in the world frame, shape (n, 3)."""
         place = self.placement(worlds)
-        skeleton = self._run.model(self._run.owner(self._name)).skeleton
-        inertial = skeleton.bones[self._name].link.inertial
+        tree = self._run.model(self._run.owner(self._name)).tree
+        inertial = tree.links[self._name].link.inertial
         offset = Pose() if inertial is None else inertial.pose
         return place.position + rotate(place.quaternion, np.asarray(offset.position)[None])
 
@@ -98,8 +98,8 @@ class PlanarLinkRow:
     ) -> str:
         """Move the link's model, or its joint as far as that allows."""
         model = self._run.owner(self._name)
-        skeleton = self._run.model(model).skeleton
-        if skeleton.hinges:
+        tree = self._run.model(model).tree
+        if tree.hinges:
             here = self.placement(worlds)
             goal = Placement(
                 np.broadcast_to(np.asarray(position, np.float64), here.position.shape),
@@ -107,7 +107,7 @@ class PlanarLinkRow:
             )
             if joint := self._hanging.place(self._name, goal, worlds):
                 return joint
-        at, turned = skeleton.place(self._name, self._run.own(model, worlds)[0])
+        at, turned = tree.place(self._name, self._run.own(model, worlds)[0])
         frame = multiply(np.asarray(quaternion, np.float64), conjugate(turned))
         origin = np.asarray(position, np.float64) - rotate(frame, at)
         self._model(model).set_placement(origin, frame, worlds)
@@ -121,7 +121,7 @@ class PlanarLinkRow:
         arm = self.placement(worlds).position - self._model(model).placement(worlds).position
         spin = np.broadcast_to(np.asarray(angular, np.float64), arm.shape)
         speed = np.broadcast_to(np.asarray(linear, np.float64), arm.shape)
-        hinged = bool(self._run.model(model).skeleton.hinges)
+        hinged = bool(self._run.model(model).tree.hinges)
         if hinged and self._hanging.move(self._name, Motion(speed, spin), worlds):
             return
         origin = np.asarray(linear, np.float64) - cross(spin, arm)
@@ -164,17 +164,17 @@ class _LinkColumns:
         """
         owners = [run.owner(name) for name in names]
         models = [run.model(owner) for owner in owners]
-        bones = [model.skeleton.bones[name] for model, name in zip(models, names, strict=True)]
+        links = [model.tree.links[name] for model, name in zip(models, names, strict=True)]
         body = np.array([run.layout.bodies.get(owner, -1) for owner in owners], np.intp)
         moving = np.flatnonzero(body >= 0)
-        hinged = [i for i, bone in enumerate(bones) if not bone.fixed]
+        hinged = [i for i, link in enumerate(links) if not link.fixed]
         return cls(
             moving,
             body[moving],
             np.array([models[i].loose for i in moving], np.bool_),
             np.array([models[i].tilt.quaternion for i in moving]).reshape(-1, 4),
             _stacked([model.model.pose for model in models]),
-            _stacked([bone.rest for bone in bones]),
+            _stacked([link.rest for link in links]),
             tuple((i, owners[i], names[i]) for i in hinged),
         )
 
@@ -206,8 +206,8 @@ class PlanarLinkRows:
         base, inner, twist = self._base(worlds), self._in_model(worlds), self._twist(worlds)
         linear = twist.linear + cross(twist.angular, rotate(base.quaternion, inner.position))
         for number, owner, name in self._columns.within(self._run.layout).hinged:
-            skeleton, turn = self._run.model(owner).skeleton, base.quaternion[:, number]
-            swing = skeleton.motion(name, *self._run.own(owner, worlds))
+            tree, turn = self._run.model(owner).tree, base.quaternion[:, number]
+            swing = tree.motion(name, *self._run.own(owner, worlds))
             linear[:, number] += rotate(turn, swing[0])
             twist.angular[:, number] += rotate(turn, swing[1])
         return Motion(linear, twist.angular)
@@ -252,7 +252,7 @@ class PlanarLinkRows:
         turned = np.repeat(columns.rest.quaternion[None], len(angles), axis=0)
         for number, owner, name in columns.hinged:
             own = self._run.own(owner, worlds)[0]
-            at[:, number], turned[:, number] = self._run.model(owner).skeleton.place(name, own)
+            at[:, number], turned[:, number] = self._run.model(owner).tree.place(name, own)
         return Placement(at, turned)
 
 

@@ -85,7 +85,7 @@ class PlanarModelRow:
         It keeps the way it leans; a robot on wheels stays on the ground.
         """
         each = self._run.model(self._name)
-        if each.skeleton.held:
+        if each.tree.held:
             raise EngineError(
                 f"model '{self._name}' is fixed to the world by a joint and cannot be moved",
                 hint="the joint that holds it would have to go",
@@ -101,7 +101,7 @@ class PlanarModelRow:
         pose[:, :2], pose[:, 2] = place[:, :2], yaw
         body = self._run.layout.bodies[self._name]
         self._run.fleet.place(body, pose[0] if count == 1 else pose, worlds)
-        if not (each.loose and each.skeleton.wheels):
+        if not (each.loose and each.tree.wheels):
             self._run.fleet.rows[self._run.rows(body, worlds), c.Z] = place[:, 2]
 
     def set_motion(
@@ -130,7 +130,7 @@ class PlanarModelRow:
         self._run.fleet.velocity.reshape(-1, 3)[rows] = twist
         self._run.fleet.stalled.reshape(-1)[rows] = False
         first = self._run.layout.columns[self._name]
-        self._run.rates[rows_of(worlds), first : first + each.skeleton.width] = 0.0
+        self._run.rates[rows_of(worlds), first : first + each.tree.width] = 0.0
 
     def twist(self, worlds: Worlds | None) -> tuple[Floats, Floats]:
         """Return the velocity of the frame in the world: linear and angular, shapes (n, 3)."""
@@ -182,7 +182,7 @@ class _ModelColumns:
             np.array([each.loose for each in found], np.bool_),
             np.array([each.tilt.quaternion for each in found]).reshape(-1, 4),
             np.array([layout.columns.get(name, 0) for name in names], np.intp),
-            np.array([each.skeleton.width for each in found], np.intp),
+            np.array([each.tree.width for each in found], np.intp),
             np.array([each.model.pose.position for each in found]).reshape(-1, 3),
             np.array([each.model.pose.quaternion for each in found]).reshape(-1, 4),
         )

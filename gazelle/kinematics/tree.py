@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from gazelle.description import Joint, JointAxis, Link, Model, PlacedModel, Pose
-from gazelle.engines.limits import FARTHEST
 from gazelle.errors import EngineError, did_you_mean
 
 # Joints that two bodies held at points do not make.
@@ -16,6 +15,9 @@ _ONLY_IN_TREES = ("floating", "planar", "prismatic", "revolute2", "universal")
 
 # Limits so far off are none [m or rad].
 _FAR = 1e4
+
+FARTHEST = 1e10
+"""Largest coordinate of a pose, and largest speed, that physics can hold [m, m/s or rad/s]."""
 
 RootKind = Literal["free", "static", "kinematic"]
 
