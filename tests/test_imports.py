@@ -45,7 +45,6 @@ ORDER = (
 """Rooms; each may import those before it. Data and paths (assets) are at the bottom."""
 
 SIMULATION = {
-    "kinematics",
     "engines",
     "rendering",
     "sensors",
@@ -59,7 +58,7 @@ SIMULATION = {
 WIRE = {"ros", "bridges", "clients"}
 STRANGERS = {
     "assets": {"description"},
-    "ros": SIMULATION,
+    "ros": SIMULATION | {"kinematics"},
     # Motions are arithmetic on poses and velocities, whoever brings these.
     "clients": (SIMULATION - {"navigation"}) | {"bridges"},
     "builders": WIRE | SIMULATION,

@@ -19,6 +19,7 @@ from gazelle.builders.errors import BuildError
 from gazelle.builders.robots import add_plugin, add_transmissions
 from gazelle.builders.sensors import plugin
 from gazelle.description import Joint, Link, Model
+from gazelle.kinematics.joint_graph import JointGraph
 from gazelle.rotations import conjugate, rotate
 from gazelle.writing import write_text
 
@@ -182,21 +183,11 @@ def _moved_inertia(model: Model, joint: Joint) -> float:
     child = links[joint.child]
     placed = child.pose * joint.pose
     axis = rotate(np.array(placed.quaternion), np.array(joint.axes[0].xyz))
-    moved = [links[each] for each in _carried(model, joint.child) if each in links]
+    beyond = JointGraph(model.joints).outwards(joint.child)
+    moved = [links[each] for each in (joint.child, *(j.child for j in beyond)) if each in links]
     if joint.type == "prismatic":
         return sum(link.inertial.mass for link in moved if link.inertial is not None)
     return sum(_about(link, np.array(placed.position), axis) for link in moved)
-
-
-def _carried(model: Model, link: str) -> set[str]:
-    """Return a link and all that hang on it."""
-    found, edge = {link}, [link]
-    while edge:
-        at = edge.pop()
-        more = {each.child for each in model.joints if each.parent == at} - found
-        found |= more
-        edge += more
-    return found
 
 
 def _about(link: Link, point: Floats, axis: Floats) -> float:

@@ -12,6 +12,7 @@ from gazelle.errors import did_you_mean
 from gazelle.formats import values
 from gazelle.formats.lint.diagnostic import Diagnostic
 from gazelle.formats.urdf.tree import UrdfTree
+from gazelle.kinematics.joint_graph import JointGraph
 
 _NAMING: Mapping[str, Mapping[str, str]] = {
     "disable_collisions": {"link1": "link", "link2": "link"},
@@ -84,11 +85,8 @@ def _chain(node: Parameters, tree: UrdfTree) -> Iterator[Diagnostic]:
     base, tip = (node.attributes.get(key, "") for key in ("base_link", "tip_link"))
     if base not in tree.links or tip not in tree.links:
         return
-    above = {joint.child: joint.parent for joint in tree.joints.values()}
-    link = tip
-    while link != base and link in above:
-        link = above[link]
-    if link != base:
+    graph = JointGraph(tree.joints.values())
+    if base not in (tip, *(joint.parent for joint in graph.inwards(tip))):
         yield Diagnostic(
             "srdf-chain",
             f"the chain's tip '{tip}' does not hang on its base '{base}'",

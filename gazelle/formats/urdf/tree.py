@@ -16,6 +16,7 @@ from gazelle.formats.urdf.elements import read_inertial
 from gazelle.formats.urdf.extensions import Extensions
 from gazelle.formats.urdf.joint import UrdfJoint, read_joint
 from gazelle.formats.urdf.upright import upright
+from gazelle.kinematics.joint_graph import JointGraph
 
 WORLD = "world"
 ONLY_MACROS = "a xacro file that only defines macros is meant to be included by another"
@@ -100,10 +101,11 @@ def read_tree(root: Parameters, reading: Reading) -> UrdfTree:
         _refuse_twice(node, joint.name, joints)
         _refuse_missing(joint, links)
         joints[joint.name] = joint
-    below = _below(joints)
-    top = _root(root, links, joints)
-    _refuse_loops(top, links, joints, below)
-    return UrdfTree(links, joints, below, top)
+    graph = JointGraph(joints[name] for name in sorted(joints))
+    _refuse_second_holders(graph)
+    top = _root(root, links, graph)
+    _refuse_loops(top, links, graph)
+    return UrdfTree(links, joints, graph.below, top)
 
 
 def _refuse_twice(node: Parameters, name: str, known: object) -> None:
@@ -121,28 +123,20 @@ def _refuse_missing(joint: UrdfJoint, links: dict[str, UrdfLink]) -> None:
             )
 
 
-def _below(joints: dict[str, UrdfJoint]) -> dict[str, list[UrdfJoint]]:
-    below: dict[str, list[UrdfJoint]] = {}
-    holds: dict[str, UrdfJoint] = {}
-    for name in sorted(joints):
-        joint = joints[name]
-        other = holds.setdefault(joint.child, joint)
-        if other is not joint:
-            raise values.fail(
-                joint.node,
-                f"link '{joint.child}' is the child of two joints, '{other.name}' and "
-                f"'{name}': this is a joint loop, which URDF cannot hold",
-                hint="close the loop with an SDF <joint> inside a <gazebo>",
-            )
-        below.setdefault(joint.parent, []).append(joint)
-    return below
+def _refuse_second_holders(graph: JointGraph[UrdfJoint]) -> None:
+    for joint in graph.rest:
+        raise values.fail(
+            joint.node,
+            f"link '{joint.child}' is the child of two joints, "
+            f"'{graph.holders[joint.child].name}' and '{joint.name}': this is a joint loop, "
+            "which URDF cannot hold",
+            hint="close the loop with an SDF <joint> inside a <gazebo>",
+        )
 
 
-def _root(root: Parameters, links: dict[str, UrdfLink], joints: dict[str, UrdfJoint]) -> str:
-    children = {joint.child for joint in joints.values()}
-    tops = [name for name in links if name not in children]
-    used = {joint.parent for joint in joints.values()}
-    if WORLD in used and WORLD not in links:
+def _root(root: Parameters, links: dict[str, UrdfLink], graph: JointGraph[UrdfJoint]) -> str:
+    tops = graph.roots(links)
+    if WORLD in graph.below and WORLD not in links:
         tops.append(WORLD)
     if not tops:
         raise values.fail(root, "every link is the child of a joint: this is a joint loop")
@@ -155,19 +149,9 @@ def _root(root: Parameters, links: dict[str, UrdfLink], joints: dict[str, UrdfJo
     return tops[0]
 
 
-def _refuse_loops(
-    top: str,
-    links: dict[str, UrdfLink],
-    joints: dict[str, UrdfJoint],
-    below: dict[str, list[UrdfJoint]],
-) -> None:
-    reached = {top}
-    waiting = [top]
-    while waiting:
-        for joint in below.get(waiting.pop(), ()):
-            reached.add(joint.child)
-            waiting.append(joint.child)
-    for joint in joints.values():
+def _refuse_loops(top: str, links: dict[str, UrdfLink], graph: JointGraph[UrdfJoint]) -> None:
+    reached = {top, *(joint.child for joint in graph.outwards(top))}
+    for joint in graph.holders.values():
         if joint.child not in reached:
             circle = ", ".join(name for name in links if name not in reached)
             raise values.fail(joint.node, f"these links form a joint loop: {circle}")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import itertools
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gazelle.description import JointGroup, Semantics
+from gazelle.description import Semantics
 from gazelle.errors import PlanningError
+from gazelle.kinematics.joint_graph import JointGraph
 
 NO_VIRTUAL_JOINT = "ASSUMED_FIXED_ROOT_JOINT"
 """MoveIt's name of the root joint of a robot whose SRDF has none."""
@@ -57,12 +57,12 @@ class RobotNames:
         except ET.ParseError as error:
             raise PlanningError(f"robot_description is no URDF: {error}") from None
         self.robot = tree.get("name", "")
-        self.joints, self.root = _ordered(tree)
+        self._graph, self.root = _graph_of(tree)
+        self.joints = list(self._graph.outwards(self.root))
         self.links = [self.root, *(joint.child for joint in self.joints)]
         held = [each for each in semantics.virtual_joints if each.child_link == self.root]
         self.root_joint = held[0].name if held else NO_VIRTUAL_JOINT
         self._base = held[0].type if held else "fixed"
-        self._parents = {joint.child: joint for joint in self.joints}
         # MoveIt keeps them in a map.
         self.groups = sorted(group.name for group in semantics.groups)
 
@@ -148,64 +148,41 @@ class RobotNames:
 
     def _hangs_on(self, joint: NamedJoint, other: NamedJoint) -> bool:
         """Return whether a joint follows another one directly, except for fixed ones between."""
-        above = self._parents.get(joint.parent)
-        while above is not None and above.name != other.name and above.type == "fixed":
-            above = self._parents.get(above.parent)
-        return above is not None and above.name == other.name
+        for above in self._graph.inwards(joint.parent):
+            if above.name == other.name or above.type != "fixed":
+                return above.name == other.name
+        return False
 
     def _chosen(self, name: str, outer: tuple[str, ...]) -> set[str]:
         if name in outer or name not in self.groups:
             return set()
         group = self._semantics.group(name)
         found = set(group.joints)
-        found |= {self._parents[link].name for link in group.links if link in self._parents}
-        found |= self._between(group)
+        holders = self._graph.holders
+        found |= {holders[link].name for link in group.links if link in holders}
+        for ends in group.chains:
+            found |= {joint.name for joint in self._graph.between(*ends)}
         for inner in group.groups:
             found |= self._chosen(inner, (*outer, name))
         return found
 
-    def _between(self, group: JointGroup) -> set[str]:
-        """Return joints of a group's chains."""
-        found: set[str] = set()
-        for base, tip in group.chains:
-            up, down = self._climb(base), self._climb(tip)
-            found |= up ^ down
-        return found
 
-    def _climb(self, link: str) -> set[str]:
-        names: set[str] = set()
-        while link in self._parents:
-            names.add(self._parents[link].name)
-            link = self._parents[link].parent
-        return names
-
-
-def _ordered(tree: ET.Element) -> tuple[list[NamedJoint], str]:
-    """Return joints of a URDF depth first, and its root link."""
-    below: dict[str, list[NamedJoint]] = {}
-    held = set()
-    for element in sorted(tree.findall("joint"), key=lambda each: each.get("name", "")):
-        joint = NamedJoint(
+def _graph_of(tree: ET.Element) -> tuple[JointGraph[NamedJoint], str]:
+    """Return joints of a URDF by the alphabet, as urdfdom has them, and the root link."""
+    graph = JointGraph(
+        NamedJoint(
             element.get("name", ""),
             element.get("type", ""),
             _link_of(element, "parent"),
             _link_of(element, "child"),
             element.find("mimic") is not None,
         )
-        below.setdefault(joint.parent, []).append(joint)
-        held.add(joint.child)
-    roots = [name for link in tree.findall("link") if (name := link.get("name", "")) not in held]
+        for element in sorted(tree.findall("joint"), key=lambda each: each.get("name", ""))
+    )
+    roots = graph.roots(link.get("name", "") for link in tree.findall("link"))
     if len(roots) != 1:
         raise PlanningError(f"robot_description has {len(roots)} root links, not one")
-    return list(_walk(below, roots[0])), roots[0]
-
-
-def _walk(below: dict[str, list[NamedJoint]], root: str) -> Iterable[NamedJoint]:
-    waiting = list(reversed(below.get(root, [])))
-    while waiting:
-        joint = waiting.pop()
-        yield joint
-        waiting.extend(reversed(below.pop(joint.child, [])))
+    return graph, roots[0]
 
 
 def _link_of(joint: ET.Element, kind: str) -> str:

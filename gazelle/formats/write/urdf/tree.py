@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from gazelle.description import Joint, Link, Model, Pose
 from gazelle.errors import FormatError
 from gazelle.formats.write.writing import Writing
+from gazelle.kinematics.joint_graph import JointGraph
 
 WORLD = "world"
 
@@ -66,8 +67,6 @@ def tree_of(model: Model, writing: Writing) -> WrittenTree:
 
 def _holding(model: Model, links: Mapping[str, Link]) -> tuple[dict[str, Joint], list[Joint]]:
     """Return the joint that holds each link, and those that are left."""
-    held: dict[str, Joint] = {}
-    rest: list[Joint] = []
     for joint in model.joints:
         for name in (joint.parent, joint.child):
             if name not in links and name != WORLD:
@@ -75,16 +74,14 @@ def _holding(model: Model, links: Mapping[str, Link]) -> tuple[dict[str, Joint],
                     f"the joint '{joint.name}' holds '{name}', which is no link of this model",
                     source=joint.source,
                 )
-        if joint.child in held or joint.type not in _TYPES:
-            rest.append(joint)
-        else:
-            held[joint.child] = joint
+    graph = JointGraph(joint for joint in model.joints if joint.type in _TYPES)
+    rest = [joint for joint in model.joints if graph.holders.get(joint.child) is not joint]
     for joint in rest:
-        if joint.child not in held:
+        if joint.child not in graph.holders:
             raise FormatError(
                 f"URDF has no '{joint.type}' joint, as '{joint.name}' is", source=joint.source
             )
-    return held, rest
+    return graph.holders, rest
 
 
 def _join_roots(model: Model, tree: WrittenTree, writing: Writing) -> None:
@@ -109,16 +106,13 @@ def _join_roots(model: Model, tree: WrittenTree, writing: Writing) -> None:
 
 
 def _refuse_circles(tree: WrittenTree) -> None:
+    graph = JointGraph(tree.joints.values())
     for name in tree.links:
-        seen = {name}
-        joint = tree.joints.get(name)
-        while joint is not None:
-            if joint.parent in seen:
-                raise FormatError(
-                    f"the joints lead in a circle through '{joint.name}'", source=joint.source
-                )
-            seen.add(joint.parent)
-            joint = tree.joints.get(joint.parent)
+        joint = graph.ring(name)
+        if joint is not None:
+            raise FormatError(
+                f"the joints lead in a circle through '{joint.name}'", source=joint.source
+            )
 
 
 def _place(tree: WrittenTree) -> None:
