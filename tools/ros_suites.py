@@ -16,6 +16,7 @@ master; both; alone, nothing real. Exits with 1 if a stack passes fewer tests th
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import tempfile
 from pathlib import Path
@@ -30,6 +31,7 @@ from rossuites.moveit import MOVEIT  # noqa: E402
 from rossuites.running import Outcome, run  # noqa: E402
 
 ALL = (*SUITES, *CONTROL, *MOVEIT)
+SOURCES = "GAZELLE_ROS_SOURCES"
 
 
 def main() -> int:
@@ -46,7 +48,12 @@ def _parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--sources", type=Path, help="folder with the suites' sources")
+    parser.add_argument(
+        "--sources",
+        type=Path,
+        default=os.environ.get(SOURCES) and Path(os.environ[SOURCES]),
+        help=f"folder with the suites' sources (default: {SOURCES}, where that is set)",
+    )
     parser.add_argument("--build", type=Path, help="folder that keeps compiled clients")
     parser.add_argument("--fetch", action="store_true", help="fetch them from Debian")
     parser.add_argument("--stack", nargs="+", choices=stacks.STACKS, help="default: all but real")
