@@ -5,8 +5,8 @@ TurtleBot3. Needs no torch.
   gazelle deploy runs/TurtleBot3Stage1-ppo-20261105-140302 --arm --goal 1,0.5
   gazelle deploy policy.npz --max-linear 0.1 --log drive.jsonl odom:=/tb3/odom
 
-It hears scan, odom and move_base_simple/goal, sends cmd_vel; all names can be
-remapped. It stands still until the service /gazelle_policy/arm is called:
+It subscribes to scan, odom and move_base_simple/goal, and publishes cmd_vel;
+all names can be remapped. It stands still until the service /gazelle_policy/arm is called:
 
   gazelle service call /gazelle_policy/arm "data: true"
 

@@ -1,5 +1,5 @@
-"""Train a policy for a task on many copies of its world at once, or continue with a
-run that was stopped. Ctrl-C and SIGTERM save a checkpoint first.
+"""Train a policy for a task on many copies of its world at once, or resume a run
+that was stopped. Ctrl-C and SIGTERM save a checkpoint first.
 
   gazelle train TurtleBot3Stage1
   gazelle train TurtleBot3Stage4 --steps 2e6 --seed 3
