@@ -6,7 +6,8 @@ TurtleBot3. Needs no torch.
   gazelle deploy policy.npz --max-linear 0.1 --log drive.jsonl odom:=/tb3/odom
 
 It subscribes to scan, odom and move_base_simple/goal, and publishes cmd_vel;
-all names can be remapped. It stands still until the service /gazelle_policy/arm is called:
+all names can be remapped. It stands still until the service
+/gazelle_policy/arm is called:
 
   gazelle service call /gazelle_policy/arm "data: true"
 
