@@ -20,6 +20,7 @@ import numpy as np
 
 from gazelle.characters import can_be_written
 from gazelle.errors import Error
+from gazelle.path_texts import can_be_path
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
@@ -34,6 +35,7 @@ _TRUSTED = {"restore"}
 _ARRAY = re.compile(r"\b(ArrayLike|Floats\d*|Bools|Indices|Ints\d*)\b")
 _LENGTHS = {"Vector3": 3, "Vector": 3, "Range": 2, "Color": 4, "Quaternion": 4}
 """Numbers in a value of these annotations."""
+_MORE = re.compile(r"ArrayLike|\bPath(Like)?\b")
 _ROWS = re.compile(r"(?:Sequence|Iterable|list|tuple)\[(tuple\[.*?\])(?:, \.\.\.)?\]")
 _ROW = re.compile(r"tuple\[((?:float|int)(?:, (?:float|int))*)\]")
 
@@ -105,8 +107,8 @@ def _checking(function: Any, error: type[Error], most: float) -> Any:
 def _kind_of(annotation: str) -> str:
     """Return an annotation, if it says more of a value than that it is finite; else nothing."""
     rows = _ROWS.fullmatch(annotation)
-    more = _length(rows[1] if rows else annotation) is not None or "ArrayLike" in annotation
-    return annotation if more else ""
+    vector = _length(rows[1] if rows else annotation) is not None
+    return annotation if vector or _MORE.search(annotation) else ""
 
 
 def _is_endless(default: Any) -> bool:
@@ -186,6 +188,8 @@ def _fault_of(kind: str, value: Any) -> str | None:
     if length is not None:
         good = isinstance(value, tuple | list | np.ndarray) and len(value) == length
         return None if good and _is_floats(value) else f"{length} numbers"
+    if "Path" in kind and isinstance(value, str | Path):
+        return None if can_be_path(value) else "a path that a file can have"
     named = ("Mapping" in kind and isinstance(value, Mapping)) or (
         "str" in kind and isinstance(value, str)
     )

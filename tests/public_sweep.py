@@ -1,6 +1,6 @@
 """Calls of all that rooms export with wrong values.
 
-``python tests/public_sweep.py [ROOM ...]`` prints what ends in another error than Gazelle's, and
+``python tests/public_sweep.py [ROOM[.NAME] ...]`` prints what ends in another error than Gazelle's, and
 what takes NaN for a number.
 """
 
@@ -19,12 +19,14 @@ NOT_LOADED = {"GoToGoal"}
 """Plugins, whose methods a simulation calls after ``load``."""
 
 
-def sweep(room: str) -> Findings:
-    """Call what a room exports, and the methods of what its classes make."""
+def sweep(room: str, only: str = "") -> Findings:
+    """Call what a room exports, or one name of it, and the methods of what its classes make."""
     findings = Findings()
     with wrong_calls.limits():
         good = public_samples.Samples()
         for name, call in public_samples.public(room):
+            if only and name != only:
+                continue
             said = inspect.getdoc(call) or ""
             attempts = () if inspect.isabstract(call) else wrong_calls.calls(call, good)
             for parameter, value, positional, named in attempts:
@@ -60,6 +62,7 @@ def _of_owners(handle: Any, name: str) -> bool:
 
 
 if __name__ == "__main__":
-    for room in sys.argv[1:] or public_samples.ROOMS:
-        print(f"== {room}", flush=True)
-        sweep(room).show()
+    for each in sys.argv[1:] or public_samples.ROOMS:
+        print(f"== {each}", flush=True)
+        room, _, name = each.partition(".")
+        sweep(room, name).show()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -81,6 +82,19 @@ def place(
 def test_an_argument_that_cannot_be_is_named(wrong):
     with pytest.raises(PlanningError, match=f"'{next(iter(wrong))}' must be "):
         measure(**wrong)
+
+
+@checked(PlanningError)
+def read(file: str | Path, others: Sequence[str | Path] = ()):
+    """Return a name."""
+    return Path(file).name
+
+
+@pytest.mark.parametrize("path", ["a" * 256, "a/" * 3000, Path("a" * 300), "\x00", "\ud800"])
+def test_a_path_that_no_file_can_have_is_refused(path):
+    with pytest.raises(PlanningError, match="'file' must be"):
+        read(path)
+    assert read("a/b") == "b"
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,8 @@ from typing import Any
 
 import yaml
 
-from gazelle.errors import FormatError
+from gazelle.argument_checks import checked
+from gazelle.errors import FormatError, TaskError
 from gazelle.training.prediction import predicted_range
 from gazelle.training.statistics import SuccessRate
 
@@ -28,6 +29,7 @@ _HEAD = """\
 _LINE = 200
 
 
+@checked(TaskError)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Trial:
     """One training with a seed, and what its policy reached."""
@@ -67,6 +69,7 @@ class Trial:
         return SuccessRate(self.success, self.attempts, self.effective)
 
 
+@checked(TaskError)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Claim:
     """The success rate of one task, algorithm and evaluation, over seeds."""

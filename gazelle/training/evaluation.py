@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor, load_actor
@@ -99,6 +100,7 @@ class Evaluation:
         }
 
 
+@checked(TaskError)
 def evaluate(
     run_or_policy: str | Path | Actor,
     *,

@@ -14,10 +14,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats
 from gazelle.errors import TaskError
 
 
+@checked(TaskError)
 @dataclass(frozen=True, kw_only=True)
 class GoalReward:
     """Weights of the reward that the learner gets in place of the task's reward, or beside it."""

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import PluginWarning, TaskError, did_you_mean
+from gazelle.path_texts import can_be_path, shortened
 
 GROUP = "gazelle.tasks"
 """Entry points of this group name a module that registers tasks, or a function that does."""
@@ -39,6 +40,8 @@ class TaskModule:
         Raises:
             TaskError: There is no such module or file.
         """
+        if not can_be_path(text):
+            raise TaskError(f"'{shortened(text)}' is neither a module nor a file")
         if text.endswith(".py") or "/" in text:
             return _of_file(Path(text))
         here = Path.cwd()

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from gazelle.argument_checks import checked
 from gazelle.envs.contract import PolicyContract
 from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle.training.actor import Actor, load_actor
@@ -33,6 +34,7 @@ class PolicyFiles:
     """Contract of its observations and actions, as JSON; see `PolicyContract`."""
 
 
+@checked(TaskError)
 def export_policy(
     run: str | Path,
     format: str = "onnx",  # noqa: A002  # the word of the command line
@@ -95,6 +97,7 @@ def check_format(name: str) -> None:
         raise TaskError(f"there is no format '{name}' for policies", hint=hint)
 
 
+@checked(TaskError)
 def load_policy(
     source: str | Path, *, imports: Sequence[str] = (), trust: bool = False
 ) -> tuple[Path, PolicyContract]:

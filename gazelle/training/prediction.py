@@ -17,9 +17,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from gazelle.argument_checks import checked
+from gazelle.errors import TaskError
 from gazelle.training.statistics import Z_95, SuccessRate, student_quantile
 
 
+@checked(TaskError)
 def predicted_range(
     rates: Sequence[SuccessRate], episodes: float | None = None
 ) -> tuple[float, float] | None:
@@ -32,7 +35,12 @@ def predicted_range(
     Returns:
         Lower and upper end, within 0 and 1; None for fewer than two seeds, which do not show how
         much seeds differ.
+
+    Raises:
+        TaskError: The episodes are not above zero.
     """
+    if episodes is not None and not episodes > 0:
+        raise TaskError(f"a seed is evaluated in more than {episodes:g} episodes")
     seeds = len(rates)
     if seeds < 2:
         return None

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from gazelle.argument_checks import checked
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.training.bearing import Bearing, bearing_of
 from gazelle.training.goal_reward import GoalReward
@@ -32,6 +33,7 @@ LIBRARY_ALGORITHMS = {
 """More of them, of which the libraries' own settings are used: package and class."""
 
 
+@checked(TaskError)
 @dataclass(frozen=True, kw_only=True)
 class PPOSettings:
     """Settings specific to PPO (Schulman et al. 2017, arXiv 1707.06347)."""
@@ -61,6 +63,7 @@ class PPOSettings:
     """True if updates run beside the next rollout, on another processor."""
 
 
+@checked(TaskError)
 @dataclass(frozen=True, kw_only=True)
 class OffPolicySettings:
     """Settings shared by DQN, DDPG, TD3 and SAC."""

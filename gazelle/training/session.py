@@ -12,6 +12,7 @@ from typing import Any
 
 import torch
 
+from gazelle.argument_checks import checked
 from gazelle.errors import TaskError, TaskWarning
 from gazelle.interrupts import stopping
 from gazelle.training.callback import StopRequested, TrainingCallback
@@ -64,6 +65,7 @@ class TrainResult:
     """Means over the latest episodes: ``return``, ``length``, ``success_rate`` ..."""
 
 
+@checked(TaskError)
 def train(
     task: str,
     *,
@@ -151,6 +153,7 @@ def train(
         session.close()
 
 
+@checked(TaskError)
 def resume(
     run: str | Path,
     *,

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.argument_checks import checked
+from gazelle.errors import TaskError
 from gazelle.training.episodes import Episodes
 
 Z_95 = 1.959963984540054
@@ -39,6 +41,7 @@ class SuccessRate:
         return wilson_interval(self.value * size, size)
 
 
+@checked(TaskError)
 def wilson_interval(count: float, total: float, z: float = Z_95) -> tuple[float, float]:
     """Return the confidence interval of a share, valid near 0 and 1 too.
 
@@ -52,7 +55,12 @@ def wilson_interval(count: float, total: float, z: float = Z_95) -> tuple[float,
 
     Returns:
         Lower and upper end, within 0 and 1.
+
+    Raises:
+        TaskError: The count is not within 0 and the total, or the quantile not above zero.
     """
+    if not 0 <= count <= total or not z > 0:
+        raise TaskError(f"there is no share of {count:g} in {total:g} with a quantile of {z:g}")
     if total == 0:
         return 0.0, 1.0
     share = count / total

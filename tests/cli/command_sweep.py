@@ -40,6 +40,7 @@ WAITING = {
     *("topic-bw", "topic-delay", "topic-echo", "topic-hz", "topic-pub", "view"),
 }
 """Commands that end when they are ended, or with what they wait for."""
+_ERROR = re.compile(r"\berror\b", re.IGNORECASE)
 LEFT_OUT = {"bench"}
 """Commands of a source checkout."""
 GOOD = {
