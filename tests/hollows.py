@@ -8,13 +8,13 @@ from collections.abc import Callable
 import numpy as np
 import trimesh
 
-from gazelle.array_types import Floats
+from gazelle.array_types import Bools, Floats
 from gazelle.formats.convex import ConvexPieces
 from gazelle.formats.hull import convex_hull
 from gazelle.formats.mesh import MeshData
 from gazelle.formats.mujoco_geometry import first_hits
 from gazelle.formats.probing import spread
-from gazelle.formats.surface import WeldedSurface, clean
+from gazelle.formats.surface import WeldedSurface, clean, components
 
 _WAYS = np.array([[0.577, 0.211, 0.788], [-0.3, 0.9, -0.32], [0.1, -0.5, 0.86]])
 _PAIRS = 400_000
@@ -133,6 +133,22 @@ def thin_bowl() -> trimesh.Trimesh:
     return revolved(np.concatenate([1.01 * way, way[::-1]]))
 
 
+def spoked_wheel(spokes: int = 5, *, rods: bool = False) -> trimesh.Trimesh:
+    """Return a rim, a hub and spokes that reach into both, as bodies that overlap."""
+    rim = trimesh.creation.annulus(0.9 if rods else 0.85, 1.0, 0.3, sections=48)
+    parts = [rim, trimesh.creation.cylinder(0.25, 0.35, sections=24)]
+    lying = trimesh.transformations.rotation_matrix(math.pi / 2.0, [0, 1, 0])
+    for turn in np.arange(spokes) * 2.0 * math.pi / spokes:
+        spoke = trimesh.creation.box((0.8, 0.12, 0.1))
+        if rods:
+            spoke = trimesh.creation.cylinder(0.05, 0.8, sections=12, transform=lying)
+        spoke.apply_translation((0.52, 0.0, 0.0))
+        parts.append(
+            spoke.apply_transform(trimesh.transformations.rotation_matrix(turn, [0, 0, 1]))
+        )
+    return trimesh.util.concatenate(parts)
+
+
 SHAPES: dict[str, Callable[[], trimesh.Trimesh]] = {
     "car body": car,
     "sleeve": lambda: trimesh.creation.annulus(0.3, 0.4, 0.8, sections=64),
@@ -156,6 +172,8 @@ SHAPES: dict[str, Callable[[], trimesh.Trimesh]] = {
     ),
     "crate": crate,
     "involute gear": involute_gear,
+    "spoked wheel": spoked_wheel,
+    "wheel of rods": lambda: spoked_wheel(9, rods=True),
 }
 
 
@@ -176,10 +194,26 @@ def protrusion(data: MeshData, pieces: ConvexPieces, count: int = 4000) -> float
     hulls = [_surface(piece.vertices) for piece in pieces.solids]
     area = sum(float(hull.areas.sum()) for hull in hulls)
     places = np.concatenate([spread(hull, math.sqrt(area / count))[0] for hull in hulls])
-    within = sum(
-        first_hits(surface, places, np.tile(way, (len(places), 1)))[1].astype(int) for way in _WAYS
-    )
-    return float(distances(surface, places[within < 2]).max(initial=0.0))
+    return float(distances(surface, places[~inside(surface, places)]).max(initial=0.0))
+
+
+def inside(surface: WeldedSurface, places: Floats) -> Bools:
+    """Return a mask of the places inside a mesh whose closed parts may overlap, shape (n,).
+
+    From within two of them the first face that a ray meets may be an outer one, so parts are looked at
+    one by one. A cavity takes from the body around it.
+    """
+    number = components(surface)
+    winding = np.zeros(len(places), int)
+    for part in (surface.part(number == each) for each in range(number.max() + 1)):
+        sign = 1 if part.volume > 0.0 else -1
+        outwards = clean(part.vertices, part.faces[:, ::sign])
+        behind = sum(
+            first_hits(outwards, places, np.tile(way, (len(places), 1)))[1].astype(int)
+            for way in _WAYS
+        )
+        winding += sign * (behind >= 2)
+    return winding != 0
 
 
 def uncovered(data: MeshData, pieces: ConvexPieces, count: int = 2000) -> float:

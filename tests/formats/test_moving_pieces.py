@@ -47,6 +47,48 @@ def test_pieces_keep_to_the_triangles(name, size):
     assert 1 < len(pieces.solids) < 600
 
 
+def overlapping(seed):
+    """Return some bodies of all kinds, each through others."""
+    chance, parts = np.random.default_rng(seed), []
+    for kind in chance.integers(0, 4, 8):
+        a, b, c = chance.uniform(0.1, 0.5, 3)
+        part = (
+            trimesh.creation.box((2.0 * a, b, c)),
+            trimesh.creation.cylinder(a, b + c, sections=16),
+            trimesh.creation.annulus(a, a + 0.1, b, sections=24),
+            hollows.extruded(a * np.array([(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]), b),
+        )[kind]
+        part.apply_transform(trimesh.transformations.random_rotation_matrix(chance.random(3)))
+        parts.append(part.apply_translation(chance.uniform(-0.3, 0.3, 3)))
+    return data(*parts)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("size", [0.1, 0.5, 2.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_bodies_that_overlap_keep_to_the_bound(seed, size):
+    mesh = overlapping(seed)
+    mesh = MeshData(mesh.vertices * size / np.linalg.norm(np.ptp(mesh.bounds, axis=0)), mesh.faces)
+    pieces = decompose(mesh, static=False)
+    assert pieces.gap == pytest.approx(min(0.005, 0.01 * size))
+    assert hollows.protrusion(mesh, pieces) <= pieces.gap
+
+
+def test_places_within_several_bodies_of_a_mesh_are_inside_it():
+    cavity = trimesh.creation.box((0.4, 0.4, 0.4))
+    cavity.invert()
+    mesh = data(
+        trimesh.creation.box((1, 1, 1)),
+        cavity,
+        trimesh.creation.box((2, 0.2, 0.2)).apply_translation((1.3, 0.0, 0.0)),
+    )
+    places = {(0.4, 0, 0): True, (0.1, 0.02, 0): False, (0.35, 0.3, 0): True, (1.5, 0, 0): True,
+              (1.5, 0.2, 0): False, (0.7, 0.3, 0.3): False}  # fmt: skip
+    surface = clean(mesh.vertices, mesh.faces)
+    found = hollows.inside(surface, np.array(list(places)) + np.array([0.0, 0.003, 0.007]))
+    assert found.tolist() == list(places.values())
+
+
 @pytest.mark.parametrize("name", ["car body", "finger", "bracket", "mug"])
 def test_a_mesh_turned_inside_out_is_the_same_body(name):
     mesh = hollows.made(name, 1.0)
