@@ -98,9 +98,8 @@ class AliasLoader(importlib.abc.Loader):
         """
         name = module.__spec__.name if module.__spec__ is not None else ""
         module.__spec__ = self._spec
-        kinds = {kind for kind in KINDS if has_definitions(name, kind)}
-        if kinds and not hasattr(module, "__getattr__"):
-            module.__dict__["__getattr__"] = importing(name, kinds)
+        if not hasattr(module, "__getattr__") and any(has_definitions(name, k) for k in KINDS):
+            module.__dict__["__getattr__"] = importing(name, name)
 
 
 class CopyLoader(importlib.abc.Loader):

@@ -4,13 +4,20 @@ from __future__ import annotations
 
 import importlib
 import importlib.abc
-from collections.abc import Callable, Collection
+import threading
+import weakref
+from collections.abc import Callable
 from importlib.machinery import ModuleSpec
 from types import ModuleType
 from typing import Any
 
 from gazelle.ros.messages.errors import UnknownTypeError
-from gazelle.ros.messages.registry import load_message, load_service, package_names
+from gazelle.ros.messages.registry import (
+    after_register,
+    load_message,
+    load_service,
+    package_names,
+)
 
 KINDS = ("msg", "srv")
 """Names of the modules of a package that hold its messages and its services."""
@@ -51,8 +58,24 @@ def _load(package: str, kind: str, name: str) -> Any:
     raise AttributeError(f"module '{package}.{kind}' has no attribute '{name}'")
 
 
+_lock = threading.Lock()
+_modules: weakref.WeakSet[DefinitionsModule] = weakref.WeakSet()
+
+
 class DefinitionsModule(ModuleType):
-    """A module whose classes are made when they are first asked for."""
+    """Module of classes that are made on first access, and again after `register`."""
+
+    def __init__(self, name: str, doc: str | None = None) -> None:
+        super().__init__(name, doc)
+        self._made: set[str] = set()
+        with _lock:
+            _modules.add(self)
+
+    def forget(self) -> None:
+        """Remove the classes; the next access asks the registry again."""
+        for name in self._made:
+            self.__dict__.pop(name, None)
+        self._made.clear()
 
     def __getattr__(self, name: str) -> Any:
         package, kind = self.__name__.split(".")[-2:]
@@ -60,8 +83,9 @@ class DefinitionsModule(ModuleType):
             return _class_names(package, kind)
         if name.startswith("_"):
             raise AttributeError(f"module '{self.__name__}' has no attribute '{name}'")
-        found = _load(package, kind, name)
-        setattr(self, name, found)
+        with _lock:
+            found = self.__dict__[name] = _load(package, kind, name)
+            self._made.add(name)
         return found
 
     def __dir__(self) -> list[str]:
@@ -115,16 +139,29 @@ class PackageLoader(importlib.abc.Loader):
     def exec_module(self, module: ModuleType) -> None:
         """Import ``msg`` and ``srv`` on access."""
         package = module.__name__.rpartition(".")[2]
-        kinds = {kind for kind in KINDS if has_definitions(package, kind)}
-        module.__dict__["__getattr__"] = importing(module.__name__, kinds)
+        module.__dict__["__getattr__"] = importing(module.__name__, package)
 
 
-def importing(package: str, kinds: Collection[str]) -> Callable[[str], ModuleType]:
-    """Return the ``__getattr__`` of a package whose definitions are no files beside it."""
+def importing(module: str, package: str) -> Callable[[str], ModuleType]:
+    """Return the ``__getattr__`` of a package whose definitions are no files beside it.
+
+    Args:
+        module: Full name of the Python package.
+        package: Name of the ROS package that has the definitions.
+    """
 
     def find(name: str) -> ModuleType:
-        if name not in kinds:
-            raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        return importlib.import_module(f"{package}.{name}")
+        if name not in KINDS or not has_definitions(package, name):
+            raise AttributeError(f"module {module!r} has no attribute {name!r}")
+        return importlib.import_module(f"{module}.{name}")
 
     return find
+
+
+def _forget_all() -> None:
+    with _lock:
+        for module in _modules:
+            module.forget()
+
+
+after_register.append(_forget_all)

@@ -203,6 +203,9 @@ _registry = Registry(_sources)
 load_message = _registry.message
 load_service = _registry.service
 
+after_register: list[Callable[[], None]] = []
+"""Functions called after each registration, to drop classes that they hold."""
+
 
 def register(package: str, name: str, text: str, kind: str | None = None) -> None:
     """Register a definition, before any other of this name.
@@ -229,6 +232,8 @@ def register(package: str, name: str, text: str, kind: str | None = None) -> Non
     _registered[package].add(kind, name, Definition(text))
     for each in {name, *(set(_registered[package].messages) - before)}:
         _registry.forget(f"{package}/{each}")
+    for forget in after_register:
+        forget()
 
 
 def definitions(kind: str = "msg") -> list[str]:

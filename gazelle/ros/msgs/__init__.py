@@ -28,6 +28,12 @@ from gazelle.ros.messages.modules import KINDS, MessageLoader, PackageLoader, ha
 _PREFIX = f"{__name__}."
 
 
+def _is_package(name: str) -> bool:
+    if name in bundled_packages():  # definitions are read when a class is made
+        return True
+    return any(has_definitions(name, kind) for kind in KINDS)
+
+
 class _Finder(importlib.abc.MetaPathFinder):
     """Finder of the modules below this package."""
 
@@ -46,7 +52,7 @@ class _Finder(importlib.abc.MetaPathFinder):
         kind, _, member = rest.partition(".")
         if kind in KINDS and has_definitions(package, kind):
             return ModuleSpec(fullname, MessageLoader(_PREFIX), is_package=not member)
-        if not rest and any(has_definitions(package, each) for each in KINDS):
+        if not rest and _is_package(package):
             return ModuleSpec(fullname, PackageLoader(), is_package=True)
         hint = "" if rest else did_you_mean(package, bundled_packages())
         raise ModuleNotFoundError(

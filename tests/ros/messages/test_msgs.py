@@ -8,6 +8,7 @@ import pytest
 
 import gazelle.ros.msgs
 from gazelle.ros import load_message, load_service
+from gazelle.ros.messages import register
 from gazelle.ros.messages.library import bundled, bundled_packages
 from gazelle.ros.msgs import geometry_msgs, std_msgs, std_srvs
 
@@ -42,6 +43,33 @@ def test_packages_on_the_path_can_be_imported(tmp_path, monkeypatch):
     from gazelle.ros.msgs import my_msgs
 
     assert my_msgs.msg.Ping(count=3).count == 3
+
+
+def test_modules_follow_new_definitions():
+    register("freshly_msgs", "Part", "int32 a")
+    register("freshly_msgs", "Whole", "Part part")
+    register("freshly_msgs", "Ask", "Part part\n---\n")
+    from gazelle.ros.msgs import freshly_msgs
+
+    assert freshly_msgs.msg.Whole().part == freshly_msgs.msg.Part(a=0)
+    old = freshly_msgs.srv.AskRequest
+    register("freshly_msgs", "Part", "int32 a\nint32 b")
+    assert freshly_msgs.msg.Part(a=1, b=2).b == 2
+    assert freshly_msgs.msg.Whole(part=freshly_msgs.msg.Part(b=3)).part.b == 3
+    assert freshly_msgs.srv.AskRequest is not old
+    assert freshly_msgs.srv.AskRequest is load_service("freshly_msgs/Ask")._request_class
+    register("freshly_msgs", "Later", "int32 c")
+    assert freshly_msgs.msg.Later(c=1).c == 1
+
+
+def test_importing_a_package_reads_no_definitions():
+    code = (
+        "from gazelle.ros.messages.library import bundled;"
+        "from gazelle.ros.msgs import geometry_msgs, std_srvs;"
+        "assert bundled.cache_info().currsize == 0; geometry_msgs.msg.Twist();"
+        "assert bundled.cache_info().currsize == 1"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 @pytest.mark.parametrize(
