@@ -55,7 +55,7 @@ def annotation(field: Field, local: str) -> str:
         return element
     if field.base in OCTETS:
         return "bytes"
-    if element in {"int", "float", "bool"}:
+    if element in {"int", "float"}:
         return f"_Sequence[{element}] | _NDArray[_Any]"
     return f"list[{element}]"
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from gazelle.bridges import message_kinds
 from gazelle.control.measurements import JointStates, Odometry, Transforms, TruePose, WrenchValue
 from gazelle.engines import Motion, Placement
 from gazelle.errors import RosError
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs, tf2_msgs
 from gazelle.ros.tf.naming import resolve_frame
 from gazelle.ros.time import Time
 
@@ -64,34 +64,52 @@ class Decoder:
     read: Callable[[Any], Any]
 
 
-def set_point(target: Any, values: Any) -> None:
+class Triple(Protocol):
+    """Point or vector."""
+
+    x: float
+    y: float
+    z: float
+
+
+class Stamped(Protocol):
+    """Message with a header."""
+
+    header: std_msgs.msg.Header
+
+
+def set_point(target: Triple, values: Iterable[float]) -> None:
     """Fill x, y and z."""
     target.x, target.y, target.z = (float(value) for value in values)
 
 
-def set_quaternion(target: Any, values: Any) -> None:
+def set_quaternion(target: geometry_msgs.msg.Quaternion, values: Iterable[float]) -> None:
     """Fill x, y, z and w."""
     target.x, target.y, target.z, target.w = (float(value) for value in values)
 
 
-def set_pose(target: Any, position: Any, quaternion: Any) -> None:
+def set_pose(
+    target: geometry_msgs.msg.Pose, position: Iterable[float], quaternion: Iterable[float]
+) -> None:
     """Fill a ``geometry_msgs/Pose``."""
     set_point(target.position, position)
     set_quaternion(target.orientation, quaternion)
 
 
-def set_twist(target: Any, linear: Any, angular: Any) -> None:
+def set_twist(
+    target: geometry_msgs.msg.Twist, linear: Iterable[float], angular: Iterable[float]
+) -> None:
     """Fill a ``geometry_msgs/Twist``."""
     set_point(target.linear, linear)
     set_point(target.angular, angular)
 
 
-def point(message: Any) -> tuple[float, float, float]:
+def point(message: Triple) -> tuple[float, float, float]:
     """Return x, y and z of a point or vector."""
     return (message.x, message.y, message.z)
 
 
-def quaternion(message: Any) -> tuple[float, float, float, float]:
+def quaternion(message: geometry_msgs.msg.Quaternion) -> tuple[float, float, float, float]:
     """Return x, y, z and w, normalised; all zero is the identity, as in Gazebo."""
     values = np.array([message.x, message.y, message.z, message.w])
     length = float(np.linalg.norm(values))
@@ -103,19 +121,19 @@ def quaternion(message: Any) -> tuple[float, float, float, float]:
 
 
 def set_header(
-    message: Any, view: ConversionContext, nanoseconds: int, frame: str | None = None
+    message: Stamped, view: ConversionContext, nanoseconds: int, frame: str | None = None
 ) -> None:
     """Fill a header; the port's frame if None."""
     message.header.stamp = view.stamp(nanoseconds)
     message.header.frame_id = view.resolved(view.frame if frame is None else frame)
 
 
-def set_plain_header(message: Any, view: ConversionContext, nanoseconds: int) -> None:
+def set_plain_header(message: Stamped, view: ConversionContext, nanoseconds: int) -> None:
     """Set the header for sensors whose plugins in Gazebo use the frame as it is written."""
     message.header.stamp, message.header.frame_id = view.stamp(nanoseconds), view.frame
 
 
-def _odometry(message: Any, value: Odometry, view: ConversionContext) -> None:
+def _odometry(message: nav_msgs.msg.Odometry, value: Odometry, view: ConversionContext) -> None:
     set_header(message, view, value.stamp, value.frame)
     message.child_frame_id = view.resolved(value.child_frame)
     set_pose(message.pose.pose, value.position[view.world], value.quaternion[view.world])
@@ -124,7 +142,7 @@ def _odometry(message: Any, value: Odometry, view: ConversionContext) -> None:
     message.twist.covariance = _diagonal(value.twist_variance)
 
 
-def _true_pose(message: Any, value: TruePose, view: ConversionContext) -> None:
+def _true_pose(message: nav_msgs.msg.Odometry, value: TruePose, view: ConversionContext) -> None:
     _odometry(message, value, view)
     message.child_frame_id = value.child_frame
 
@@ -133,7 +151,9 @@ def _diagonal(values: Any) -> list[float]:
     return [float(x) for x in np.diag(np.asarray(values, np.float64)).ravel()]
 
 
-def _joint_states(message: Any, value: JointStates, view: ConversionContext) -> None:
+def _joint_states(
+    message: sensor_msgs.msg.JointState, value: JointStates, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp)
     message.name = list(value.names)
     message.position = value.position[view.world].tolist()
@@ -142,8 +162,10 @@ def _joint_states(message: Any, value: JointStates, view: ConversionContext) -> 
         message.effort = value.effort[view.world].tolist()
 
 
-def _transforms(message: Any, value: Transforms, view: ConversionContext) -> None:
-    stamped: Any = load_message("geometry_msgs/TransformStamped")
+def _transforms(
+    message: tf2_msgs.msg.TFMessage, value: Transforms, view: ConversionContext
+) -> None:
+    stamped = geometry_msgs.msg.TransformStamped
     for each in value.transforms:
         one = stamped()
         set_header(one, view, value.stamp, each.frame)
@@ -153,17 +175,19 @@ def _transforms(message: Any, value: Transforms, view: ConversionContext) -> Non
         message.transforms.append(one)
 
 
-def _wrench(message: Any, value: WrenchValue, view: ConversionContext) -> None:
+def _wrench(
+    message: geometry_msgs.msg.WrenchStamped, value: WrenchValue, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp)
     set_point(message.wrench.force, value.force[view.world])
     set_point(message.wrench.torque, value.torque[view.world])
 
 
-def _placement(message: Any, value: Placement, view: ConversionContext) -> None:
+def _placement(message: geometry_msgs.msg.Pose, value: Placement, view: ConversionContext) -> None:
     set_pose(message, value.position[view.world], value.quaternion[view.world])
 
 
-def _motion(message: Any, value: Motion, view: ConversionContext) -> None:
+def _motion(message: geometry_msgs.msg.Twist, value: Motion, view: ConversionContext) -> None:
     set_twist(message, value.linear[view.world], value.angular[view.world])
 
 

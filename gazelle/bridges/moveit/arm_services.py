@@ -18,6 +18,7 @@ from gazelle.errors import PlanningError
 from gazelle.planning import PlanOutcome
 from gazelle.ros.builtin.arguments import parse_arguments, spin
 from gazelle.ros.messages import load_service
+from gazelle.ros.msgs import fetch_train
 from gazelle.ros.node import Node
 
 _GOOD = "Everything went OK"
@@ -62,14 +63,14 @@ class ArmServices:
         for name, kind, act in served:
             node.serve(name, load_service(f"fetch_train/{kind}"), act)
 
-    def _go_to_pose(self, request: Any) -> dict[str, Any]:
+    def _go_to_pose(self, request: fetch_train.srv.EeTrajRequest) -> dict[str, Any]:
         place, turn = request.pose.position, request.pose.orientation
         rest = [turn.x, turn.y, turn.z] if self._whole else [0.0, 0.0, 0.0]
         with self._one:
             self._group.set_pose_target([place.x, place.y, place.z, *rest, turn.w])
             return self._go()
 
-    def _go_to_joints(self, request: Any) -> dict[str, Any]:
+    def _go_to_joints(self, request: fetch_train.srv.JointTrajRequest) -> dict[str, Any]:
         names = self._group.get_variables()
         values = list(request.point.positions)[: len(names)]
         if len(values) < len(names):
@@ -91,11 +92,11 @@ class ArmServices:
             return {"success": False, "message": "the plan was not carried out to its end"}
         return {"success": True, "message": _GOOD}
 
-    def _pose(self, _request: Any) -> dict[str, Any]:
+    def _pose(self, _request: fetch_train.srv.EePoseRequest) -> dict[str, Any]:
         self._needs_state()
         return {"pose": self._group.get_current_pose().pose}
 
-    def _rpy(self, _request: Any) -> dict[str, Any]:
+    def _rpy(self, _request: fetch_train.srv.EeRpyRequest) -> dict[str, Any]:
         """Return roll, pitch and yaw; like the original, pitch as ``y`` and yaw as ``p``."""
         self._needs_state()
         roll, pitch, yaw = self._group.get_current_rpy()

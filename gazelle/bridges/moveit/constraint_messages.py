@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from gazelle.array_types import Floats
 from gazelle.bridges.conversions import point, quaternion
 from gazelle.bridges.moveit.frames import PlanningFrames, pose_of_message
@@ -17,13 +15,16 @@ from gazelle.planning import (
     PositionConstraint,
 )
 from gazelle.planning.constraints import Region
+from gazelle.ros.msgs import moveit_msgs, shape_msgs
 
 _BOX, _SPHERE, _CYLINDER = 1, 2, 3
 _ROTATION_VECTOR = 1
 _NO_WEIGHT = 2.3e-16
 
 
-def constraints_of_message(message: Any, frames: PlanningFrames, state: Floats) -> ConstraintSet:
+def constraints_of_message(
+    message: moveit_msgs.msg.Constraints, frames: PlanningFrames, state: Floats
+) -> ConstraintSet:
     """Convert a ``moveit_msgs/Constraints``.
 
     Args:
@@ -47,7 +48,9 @@ def constraints_of_message(message: Any, frames: PlanningFrames, state: Floats) 
     )  # fmt: skip
 
 
-def _position(message: Any, frames: PlanningFrames, state: Floats) -> PositionConstraint:
+def _position(
+    message: moveit_msgs.msg.PositionConstraint, frames: PlanningFrames, state: Floats
+) -> PositionConstraint:
     region = message.constraint_region
     count = len(region.primitives)
     if region.meshes or not count or len(region.primitive_poses) != count:
@@ -66,7 +69,7 @@ def _position(message: Any, frames: PlanningFrames, state: Floats) -> PositionCo
     return PositionConstraint(message.link_name, shape, pose, offset, tuple(others))
 
 
-def _region(primitive: Any) -> Region:
+def _region(primitive: shape_msgs.msg.SolidPrimitive) -> Region:
     lengths = tuple(primitive.dimensions)
     if primitive.type == _BOX and len(lengths) == 3:
         return Box((lengths[0], lengths[1], lengths[2]))
@@ -81,7 +84,9 @@ def _region(primitive: Any) -> Region:
     )
 
 
-def _orientation(message: Any, frames: PlanningFrames, state: Floats) -> OrientationConstraint:
+def _orientation(
+    message: moveit_msgs.msg.OrientationConstraint, frames: PlanningFrames, state: Floats
+) -> OrientationConstraint:
     base = frames.find(message.header.frame_id, state)
     turned = base * Pose.from_quaternion((0, 0, 0), quaternion(message.orientation))
     tolerances = (
@@ -95,7 +100,7 @@ def _orientation(message: Any, frames: PlanningFrames, state: Floats) -> Orienta
     )
 
 
-def weights_of_message(message: Any) -> list[float]:
+def weights_of_message(message: moveit_msgs.msg.Constraints) -> list[float]:
     """Return weights of a ``Constraints``, in the order of a ``ConstraintSet``; 1 by default."""
     parts = (
         message.joint_constraints,

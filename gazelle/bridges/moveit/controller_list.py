@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.errors import PlanningError, RosError
-from gazelle.ros.messages import load_service
+from gazelle.ros.msgs import controller_manager_msgs
 from gazelle.ros.node import Node
 
 _LOG = logging.getLogger("gazelle.planning")
@@ -98,7 +98,7 @@ def _entry(given: Mapping[str, Any]) -> ActionController:
 
 def _running(node: Node) -> dict[str, ActionController]:
     service = "controller_manager/list_controllers"
-    listing = load_service("controller_manager_msgs/ListControllers")
+    listing = controller_manager_msgs.srv.ListControllers
     try:
         answer = node.client(service, listing).call(listing._request_class(), timeout=_TIMEOUT_S)
     except RosError as error:

@@ -12,7 +12,7 @@ from gazelle.array_types import Floats
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanOutcome
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import sensor_msgs, trajectory_msgs
 from gazelle.ros.time import Time
 
 _RATE = 10.0
@@ -30,7 +30,7 @@ class FakeMotion:
     def __init__(self, context: PlanningContext) -> None:
         self._context = context
         node = context.node
-        self._kind = load_message("sensor_msgs/JointState")
+        self._kind = sensor_msgs.msg.JointState
         self._sender = node.advertise(
             "~fake_controller_joint_states", self._kind, queue_size=100, latch=True
         )
@@ -50,7 +50,9 @@ class FakeMotion:
         if found:
             self._say(found)
 
-    def play(self, kind: str, trajectory: Any, stop: Callable[[], bool]) -> None:
+    def play(
+        self, kind: str, trajectory: trajectory_msgs.msg.JointTrajectory, stop: Callable[[], bool]
+    ) -> None:
         """Play a ``trajectory_msgs/JointTrajectory`` to its end.
 
         Args:
@@ -83,7 +85,7 @@ class FakeMotion:
             pause.wait(_LOOK_S)
 
     def _say(self, positions: Mapping[str, float]) -> None:
-        message: Any = self._kind(name=[*positions], position=[*positions.values()])
+        message = self._kind(name=[*positions], position=[*positions.values()])
         message.header.stamp = Time(nsecs=self._context.now())
         self._sender.publish(message)
 

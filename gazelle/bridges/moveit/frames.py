@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
 
 from gazelle.array_types import Floats
 from gazelle.bridges.conversions import point, quaternion, set_pose
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanningScene, PlanOutcome
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, tf2_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.ros.time import Time
@@ -30,7 +29,7 @@ class PlanningFrames:
         held = robot.semantics.virtual_joints
         still = {each.parent_frame for each in held if each.type == "fixed"}
         self._same = {"", robot.frame} | {name.lstrip("/") for name in still}
-        kind = load_message("tf2_msgs/TFMessage")
+        kind = tf2_msgs.msg.TFMessage
         for topic, static in (("/tf", False), ("/tf_static", True)):
             take = partial(take_transforms, self._tree, authority="move_group", static=static)
             node.subscribe(topic, kind, take)
@@ -60,26 +59,26 @@ class PlanningFrames:
             ) from None
         return Pose.from_quaternion(found.translation, found.rotation)
 
-    def pose(self, stamped: Any, state: Floats) -> Pose:
+    def pose(self, stamped: geometry_msgs.msg.PoseStamped, state: Floats) -> Pose:
         """Return a ``geometry_msgs/PoseStamped`` in the planning frame; see ``find``."""
         return self.find(stamped.header.frame_id, state) * pose_of_message(stamped.pose)
 
 
-def pose_of_message(message: Any) -> Pose:
+def pose_of_message(message: geometry_msgs.msg.Pose) -> Pose:
     """Convert a ``geometry_msgs/Pose``."""
     return Pose.from_quaternion(point(message.position), quaternion(message.orientation))
 
 
-def pose_message(pose: Pose) -> Any:
+def pose_message(pose: Pose) -> geometry_msgs.msg.Pose:
     """Return a ``geometry_msgs/Pose``."""
-    message: Any = load_message("geometry_msgs/Pose")()
+    message = geometry_msgs.msg.Pose()
     set_pose(message, pose.position, pose.quaternion)
     return message
 
 
-def stamped_message(pose: Pose, frame: str, now: int) -> Any:
+def stamped_message(pose: Pose, frame: str, now: int) -> geometry_msgs.msg.PoseStamped:
     """Return a ``geometry_msgs/PoseStamped`` at a time [ns]."""
-    message: Any = load_message("geometry_msgs/PoseStamped")()
+    message = geometry_msgs.msg.PoseStamped()
     message.header.frame_id, message.header.stamp = frame, Time(nsecs=now)
     message.pose = pose_message(pose)
     return message

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from gazelle.array_types import Floats
 from gazelle.bridges.moveit.planning_context import PlanningContext
@@ -19,7 +18,7 @@ from gazelle.planning import (
     PlaceLocation,
     PlanOutcome,
 )
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs, trajectory_msgs
 
 
 class GraspReader:
@@ -35,7 +34,7 @@ class GraspReader:
         self._context, self._state = context, state
         self._moving = context.robot.moving(group.columns)
 
-    def grasp(self, message: Any) -> Grasp:
+    def grasp(self, message: moveit_msgs.msg.Grasp) -> Grasp:
         """Convert a ``moveit_msgs/Grasp``.
 
         Raises:
@@ -54,7 +53,7 @@ class GraspReader:
             name=message.id,
         )
 
-    def place(self, message: Any, *, of_tip: bool) -> PlaceLocation:
+    def place(self, message: moveit_msgs.msg.PlaceLocation, *, of_tip: bool) -> PlaceLocation:
         """Convert a ``moveit_msgs/PlaceLocation``; see ``grasp``."""
         return PlaceLocation(
             self._context.frames.pose(message.place_pose, self._state),
@@ -67,7 +66,7 @@ class GraspReader:
             name=message.id,
         )
 
-    def _translation(self, message: Any) -> GripperTranslation:
+    def _translation(self, message: moveit_msgs.msg.GripperTranslation) -> GripperTranslation:
         vector, frame = message.direction.vector, message.direction.header.frame_id.lstrip("/")
         direction: Vector3 = (vector.x, vector.y, vector.z)
         if not any(direction) and message.desired_distance == 0.0:
@@ -82,7 +81,7 @@ class GraspReader:
         except PlanningError as error:
             raise NoPlanError(error.message, PlanOutcome.INVALID_GOAL_CONSTRAINTS) from None
 
-    def _posture(self, message: Any) -> Mapping[str, float]:
+    def _posture(self, message: trajectory_msgs.msg.JointTrajectory) -> Mapping[str, float]:
         """Return the last point of a ``trajectory_msgs/JointTrajectory``."""
         if not message.points:
             return {}
@@ -95,14 +94,14 @@ class GraspReader:
         return dict(zip(message.joint_names, message.points[-1].positions, strict=False))
 
 
-def stage_message(stage: ManipulationStage, frame: str) -> Any:
+def stage_message(stage: ManipulationStage, frame: str) -> moveit_msgs.msg.RobotTrajectory:
     """Return a stage as ``moveit_msgs/RobotTrajectory``; of a gripper it is one point."""
     if stage.motion is not None:
         return trajectory_message(stage.motion, frame)
-    message: Any = load_message("moveit_msgs/RobotTrajectory")()
+    message = moveit_msgs.msg.RobotTrajectory()
     joints = message.joint_trajectory
     joints.header.frame_id, joints.joint_names = frame, [*stage.posture]
-    point = load_message("trajectory_msgs/JointTrajectoryPoint")
+    point = trajectory_msgs.msg.JointTrajectoryPoint
     effort = [stage.effort] * len(stage.posture) if stage.effort else []
     joints.points = [point(positions=[*stage.posture.values()], effort=effort)]
     return message

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from gazelle.array_types import Floats
 from gazelle.bridges.moveit.frames import PlanningFrames
 from gazelle.bridges.moveit.object_messages import object_of_message
 from gazelle.errors import Error, PlanningError
 from gazelle.planning import OCTOMAP, AttachedObject, NoPlanError, PlanningScene, PlanOutcome
+from gazelle.ros.msgs import moveit_msgs
 
 _REMOVE = 1
 
 
-def change_held(scene: PlanningScene, frames: PlanningFrames, message: Any) -> None:
+def change_held(
+    scene: PlanningScene, frames: PlanningFrames, message: moveit_msgs.msg.AttachedCollisionObject
+) -> None:
     """Apply an ``AttachedCollisionObject``; the robot is in the scene's state.
 
     Raises:
@@ -27,7 +28,7 @@ def change_held(scene: PlanningScene, frames: PlanningFrames, message: Any) -> N
 
 
 def scene_in_state(
-    scene: PlanningScene, frames: PlanningFrames, message: Any, state: Floats
+    scene: PlanningScene, frames: PlanningFrames, message: moveit_msgs.msg.RobotState, state: Floats
 ) -> PlanningScene:
     """Return a scene with the attached objects of a ``RobotState``; the same if there are none.
 
@@ -63,7 +64,7 @@ def refuse_reserved(name: str) -> None:
         raise PlanningError(f"an object cannot be named '{OCTOMAP}'; that is the scene's octomap")
 
 
-def _leave(scene: PlanningScene, message: Any) -> None:
+def _leave(scene: PlanningScene, message: moveit_msgs.msg.AttachedCollisionObject) -> None:
     """Detach one object, or all of a link, or all, at its present pose."""
     if message.object.id:
         scene.detach(message.object.id)
@@ -73,7 +74,9 @@ def _leave(scene: PlanningScene, message: Any) -> None:
             scene.detach(name)
 
 
-def _attach(scene: PlanningScene, frames: PlanningFrames, message: Any) -> None:
+def _attach(
+    scene: PlanningScene, frames: PlanningFrames, message: moveit_msgs.msg.AttachedCollisionObject
+) -> None:
     thing = message.object
     if not (thing.primitives or thing.meshes or thing.planes):
         scene.attach(thing.id, message.link_name, message.touch_links)

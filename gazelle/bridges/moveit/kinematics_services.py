@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
+from functools import partial
 
 from gazelle.array_types import Floats
 from gazelle.bridges.conversions import set_point
@@ -24,7 +23,7 @@ from gazelle.planning import (
 )
 from gazelle.planning.goal_states import GoalStates
 from gazelle.planning.state_validity import StateValidity
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import geometry_msgs, moveit_msgs
 from gazelle.ros.time import Time
 
 _LINK, _OBJECT, _ATTACHED = 0, 1, 2
@@ -41,24 +40,24 @@ class KinematicsServices:
 
     def __init__(self, context: PlanningContext) -> None:
         self._context = context
-        for name, kind, act in (
-            ("compute_ik", "GetPositionIK", self._inverse),
-            ("compute_fk", "GetPositionFK", self._forward),
-        ):
-            context.serve(name, load_service(f"moveit_msgs/{kind}"), self._coded(kind, act))
-        validity = load_service("moveit_msgs/GetStateValidity")
-        context.serve("check_state_validity", validity, self._validity)
-
-    def _coded(self, kind: str, act: Callable[[Any, Any], None]) -> Callable[[Any], Any]:
-        made = load_service(f"moveit_msgs/{kind}")._response_class
-        what = kind.removeprefix("Get")
-        return lambda request: self._context.answer(
-            made(), lambda response: act(request, response), what
-        )
+        srv = moveit_msgs.srv
+        context.serve("compute_ik", srv.GetPositionIK, self._answer_inverse)
+        context.serve("compute_fk", srv.GetPositionFK, self._answer_forward)
+        context.serve("check_state_validity", srv.GetStateValidity, self._validity)
 
     # -- inverse -------------------------------------------------------------------------
 
-    def _inverse(self, request: Any, response: Any) -> None:
+    def _answer_inverse(
+        self, request: moveit_msgs.srv.GetPositionIKRequest
+    ) -> moveit_msgs.srv.GetPositionIKResponse:
+        response = moveit_msgs.srv.GetPositionIKResponse()
+        return self._context.answer(response, partial(self._inverse, request), "PositionIK")
+
+    def _inverse(
+        self,
+        request: moveit_msgs.srv.GetPositionIKRequest,
+        response: moveit_msgs.srv.GetPositionIKResponse,
+    ) -> None:
         asked, context = request.ik_request, self._context
         group = context.group(asked.group_name)
         state = context.state(asked.robot_state)
@@ -76,7 +75,12 @@ class KinematicsServices:
         response.solution = state_message(context.robot, context.robot.complete(state))
 
     def _alone(
-        self, validity: StateValidity, state: Floats, link: str | None, stamped: Any, timeout: float
+        self,
+        validity: StateValidity,
+        state: Floats,
+        link: str | None,
+        stamped: geometry_msgs.msg.PoseStamped,
+        timeout: float,
     ) -> Floats:
         """Return positions of a group with one link at its pose."""
         pose = self._context.frames.pose(stamped, state)
@@ -90,7 +94,10 @@ class KinematicsServices:
         return found
 
     def _together(
-        self, validity: StateValidity, state: Floats, targets: list[tuple[str | None, Any]]
+        self,
+        validity: StateValidity,
+        state: Floats,
+        targets: list[tuple[str | None, geometry_msgs.msg.PoseStamped]],
     ) -> Floats:
         """Return positions of a group with several links at their poses.
 
@@ -119,7 +126,17 @@ class KinematicsServices:
 
     # -- forward -------------------------------------------------------------------------
 
-    def _forward(self, request: Any, response: Any) -> None:
+    def _answer_forward(
+        self, request: moveit_msgs.srv.GetPositionFKRequest
+    ) -> moveit_msgs.srv.GetPositionFKResponse:
+        response = moveit_msgs.srv.GetPositionFKResponse()
+        return self._context.answer(response, partial(self._forward, request), "PositionFK")
+
+    def _forward(
+        self,
+        request: moveit_msgs.srv.GetPositionFKRequest,
+        response: moveit_msgs.srv.GetPositionFKResponse,
+    ) -> None:
         context, robot = self._context, self._context.robot
         if not request.fk_link_names:
             raise NoPlanError("no links are named", PlanOutcome.INVALID_LINK_NAME)
@@ -136,8 +153,10 @@ class KinematicsServices:
 
     # -- validity ------------------------------------------------------------------------
 
-    def _validity(self, request: Any) -> Any:
-        response: Any = load_service("moveit_msgs/GetStateValidity")._response_class()
+    def _validity(
+        self, request: moveit_msgs.srv.GetStateValidityRequest
+    ) -> moveit_msgs.srv.GetStateValidityResponse:
+        response = moveit_msgs.srv.GetStateValidityResponse()
         context = self._context
         try:
             with context.lock:
@@ -147,7 +166,11 @@ class KinematicsServices:
             response.valid = False
         return response
 
-    def _judge_state(self, request: Any, response: Any) -> None:
+    def _judge_state(
+        self,
+        request: moveit_msgs.srv.GetStateValidityRequest,
+        response: moveit_msgs.srv.GetStateValidityResponse,
+    ) -> None:
         context = self._context
         group = context.group(request.group_name) if request.group_name else None
         state = context.state(request.robot_state)
@@ -155,7 +178,7 @@ class KinematicsServices:
         scene = context.scene_in(request.robot_state, state)
         contacts = scene.contacts(state, group)
         response.contacts = [self._contact(each, scene) for each in contacts]
-        made = load_message("moveit_msgs/ConstraintEvalResult")
+        made = moveit_msgs.msg.ConstraintEvalResult
         for part, weight in zip(
             constraints.all, weights_of_message(request.constraints), strict=True
         ):
@@ -164,8 +187,10 @@ class KinematicsServices:
             response.constraint_result.append(made(result=kept, distance=away))
         response.valid = not contacts and all(each.result for each in response.constraint_result)
 
-    def _contact(self, contact: SceneContact, scene: PlanningScene) -> Any:
-        message: Any = load_message("moveit_msgs/ContactInformation")()
+    def _contact(
+        self, contact: SceneContact, scene: PlanningScene
+    ) -> moveit_msgs.msg.ContactInformation:
+        message = moveit_msgs.msg.ContactInformation()
         message.header.frame_id = self._context.robot.frame
         message.header.stamp = Time(nsecs=self._context.now())
         set_point(message.position, contact.point)
@@ -184,7 +209,9 @@ def _kind(name: str, scene: PlanningScene) -> int:
     return _ATTACHED if name in scene.attached else _OBJECT
 
 
-def _targets(asked: Any) -> list[tuple[str | None, Any]]:
+def _targets(
+    asked: moveit_msgs.msg.PositionIKRequest,
+) -> list[tuple[str | None, geometry_msgs.msg.PoseStamped]]:
     """Return the links and poses of a request.
 
     Raises:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Any
+from typing import TYPE_CHECKING
 
 from gazelle.bridges.moveit.path_monitor import PathMonitor
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
@@ -15,7 +15,10 @@ from gazelle.bridges.moveit.trajectory_messages import trajectory_message
 from gazelle.errors import PlanningError
 from gazelle.planning import MotionPlan, NoPlanError, PlanOutcome
 from gazelle.ros.actions import SimpleActionServer
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs
+
+if TYPE_CHECKING:
+    from gazelle.bridges.moveit.error_codes import ActionResult
 
 _BLOCKED = PlanOutcome.MOTION_PLAN_INVALIDATED_BY_ENVIRONMENT_CHANGE
 _RECOVERABLE = (PlanOutcome.PLANNING_FAILED, PlanOutcome.INVALID_MOTION_PLAN, _BLOCKED)
@@ -43,15 +46,15 @@ class MoveGroupAction:
     ) -> None:
         self._context, self._planning, self._executor = context, planning, executor
         self._scene = scene
-        shown = load_message("moveit_msgs/DisplayTrajectory")
+        shown = moveit_msgs.msg.DisplayTrajectory
         self._shown = context.node.advertise(
             "~display_planned_path", shown, queue_size=10, latch=True
         )
-        kind = load_message("moveit_msgs/MoveGroupAction")
+        kind = moveit_msgs.msg.MoveGroupAction
         self._server = SimpleActionServer(context.node, "move_group", kind, self._work)
 
-    def _work(self, goal: Any) -> None:
-        result: Any = load_message("moveit_msgs/MoveGroupResult")()
+    def _work(self, goal: moveit_msgs.msg.MoveGroupGoal) -> None:
+        result = moveit_msgs.msg.MoveGroupResult()
         self._say("PLANNING")
         only = goal.planning_options.plan_only or not self._executor.allowed
         text = ""
@@ -64,7 +67,13 @@ class MoveGroupAction:
         self._say("IDLE")
         finish(self._server, result, text)
 
-    def _try_often(self, goal: Any, result: Any, *, only: bool) -> None:
+    def _try_often(
+        self,
+        goal: moveit_msgs.msg.MoveGroupGoal,
+        result: moveit_msgs.msg.MoveGroupResult,
+        *,
+        only: bool,
+    ) -> None:
         """Plan and go, and plan again as often as the goal allows where that may help."""
         options = goal.planning_options
         left = (options.replan_attempts or _REPLANS) if options.replan else 1
@@ -81,7 +90,13 @@ class MoveGroupAction:
             else:
                 return
 
-    def _try(self, goal: Any, result: Any, *, only: bool) -> None:
+    def _try(
+        self,
+        goal: moveit_msgs.msg.MoveGroupGoal,
+        result: moveit_msgs.msg.MoveGroupResult,
+        *,
+        only: bool,
+    ) -> None:
         seen = self._scene.revision
         plan = self._plan(goal, result, from_here=not only)
         if self._preempted():
@@ -106,7 +121,13 @@ class MoveGroupAction:
     def _preempted(self) -> bool:
         return self._server.is_preempt_requested()
 
-    def _plan(self, goal: Any, result: Any, *, from_here: bool) -> MotionPlan:
+    def _plan(
+        self,
+        goal: moveit_msgs.msg.MoveGroupGoal,
+        result: moveit_msgs.msg.MoveGroupResult,
+        *,
+        from_here: bool,
+    ) -> MotionPlan:
         context, request = self._context, goal.request
         change = goal.planning_options.planning_scene_diff
         start = request.start_state
@@ -120,7 +141,7 @@ class MoveGroupAction:
         result.planned_trajectory = trajectory_message(plan, context.robot.frame)
         result.planning_time = plan.seconds
         self._shown.publish(
-            load_message("moveit_msgs/DisplayTrajectory")(
+            moveit_msgs.msg.DisplayTrajectory(
                 model_id=context.robot.model.name,
                 trajectory=[result.planned_trajectory],
                 trajectory_start=result.trajectory_start,
@@ -129,7 +150,7 @@ class MoveGroupAction:
         return plan
 
     def _say(self, state: str) -> None:
-        feedback = load_message("moveit_msgs/MoveGroupFeedback")(state=state)
+        feedback = moveit_msgs.msg.MoveGroupFeedback(state=state)
         self._server.publish_feedback(feedback)
 
 
@@ -143,11 +164,11 @@ class ExecuteTrajectoryAction:
 
     def __init__(self, context: PlanningContext, executor: TrajectoryExecutor) -> None:
         self._executor = executor
-        kind = load_message("moveit_msgs/ExecuteTrajectoryAction")
+        kind = moveit_msgs.msg.ExecuteTrajectoryAction
         self._server = SimpleActionServer(context.node, "execute_trajectory", kind, self._work)
 
-    def _work(self, goal: Any) -> None:
-        result: Any = load_message("moveit_msgs/ExecuteTrajectoryResult")()
+    def _work(self, goal: moveit_msgs.msg.ExecuteTrajectoryGoal) -> None:
+        result = moveit_msgs.msg.ExecuteTrajectoryResult()
         text = ""
         try:
             if not self._executor.allowed:
@@ -164,7 +185,7 @@ class ExecuteTrajectoryAction:
         finish(self._server, result, text)
 
     def _say(self, state: str) -> None:
-        feedback = load_message("moveit_msgs/ExecuteTrajectoryFeedback")(state=state)
+        feedback = moveit_msgs.msg.ExecuteTrajectoryFeedback(state=state)
         self._server.publish_feedback(feedback)
 
 
@@ -174,7 +195,7 @@ def outcome_of(error: PlanningError) -> int:
     return int(outcome)
 
 
-def finish(server: SimpleActionServer, result: Any, text: str) -> None:
+def finish(server: SimpleActionServer, result: ActionResult, text: str) -> None:
     """End the active goal as its error code says."""
     if result.error_code.val == PlanOutcome.SUCCESS:
         server.set_succeeded(result, text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,15 +16,16 @@ from gazelle.errors import PlanningError
 from gazelle.formats import MeshData
 from gazelle.planning import SceneObject
 from gazelle.planning.scene_objects import object_of
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
 
+_T = TypeVar("_T")
 _BOX, _SPHERE, _CYLINDER, _CONE = 1, 2, 3, 4
 _LENGTHS = {_BOX: 3, _SPHERE: 1, _CYLINDER: 2, _CONE: 2}
 
 Shapes = tuple[tuple[Shape, Pose], ...]
 
 
-def object_of_message(message: Any, frame: Pose) -> SceneObject:
+def object_of_message(message: moveit_msgs.msg.CollisionObject, frame: Pose) -> SceneObject:
     """Convert a ``CollisionObject``.
 
     An object without a pose of its own and with one shape is where that is, as in MoveIt.
@@ -50,24 +51,26 @@ def object_of_message(message: Any, frame: Pose) -> SceneObject:
     return replace(made, type=message.type.key, frames=frames)
 
 
-def shapes_of_message(message: Any) -> Shapes:
+def shapes_of_message(message: moveit_msgs.msg.CollisionObject) -> Shapes:
     """Return shapes of a ``CollisionObject`` at poses in its own frame.
 
     Raises:
         PlanningError: One is not known.
     """
     found: list[tuple[Shape, Pose]] = []
-    for each, pose in _placed(message.primitives, message.primitive_poses):
-        found.append((_primitive(each), pose))
-    for each, pose in _placed(message.meshes, message.mesh_poses):
-        found.append((_mesh(each), pose))
+    for primitive, pose in _placed(message.primitives, message.primitive_poses):
+        found.append((_primitive(primitive), pose))
+    for mesh, pose in _placed(message.meshes, message.mesh_poses):
+        found.append((_mesh(mesh), pose))
     for each, pose in _placed(message.planes, message.plane_poses):
         plane, offset = _plane(each)
         found.append((plane, pose * offset))
     return tuple(found)
 
 
-def object_message(thing: SceneObject, frame: str, *, shapes: bool = True) -> Any:
+def object_message(
+    thing: SceneObject, frame: str, *, shapes: bool = True
+) -> moveit_msgs.msg.CollisionObject:
     """Return a ``CollisionObject``.
 
     Args:
@@ -75,7 +78,7 @@ def object_message(thing: SceneObject, frame: str, *, shapes: bool = True) -> An
         frame: That its pose is in.
         shapes: Whether to say more than its name and type.
     """
-    message: Any = load_message("moveit_msgs/CollisionObject")()
+    message = moveit_msgs.msg.CollisionObject()
     message.header.frame_id, message.id, message.type.key = frame, thing.name, thing.type
     message.pose = pose_message(thing.pose)
     for shape, pose in thing.shapes if shapes else ():
@@ -84,7 +87,7 @@ def object_message(thing: SceneObject, frame: str, *, shapes: bool = True) -> An
             message.mesh_poses.append(pose_message(pose))
         elif isinstance(shape, Plane):
             coefficients = [*map(float, shape.normal), 0.0]
-            message.planes.append(load_message("shape_msgs/Plane")(coef=coefficients))
+            message.planes.append(shape_msgs.msg.Plane(coef=coefficients))
             message.plane_poses.append(pose_message(pose))
         else:
             message.primitives.append(_primitive_message(thing.name, shape))
@@ -95,19 +98,19 @@ def object_message(thing: SceneObject, frame: str, *, shapes: bool = True) -> An
     return message
 
 
-def _placed(shapes: Sequence[Any], poses: Sequence[Any]) -> list[tuple[Any, Pose]]:
+def _placed(shapes: Sequence[_T], poses: Sequence[geometry_msgs.msg.Pose]) -> list[tuple[_T, Pose]]:
     """Return shapes with their poses; those without a pose are at the origin."""
     known = [pose_of_message(pose) for pose in poses]
     known += [Pose()] * (len(shapes) - len(known))
     return list(zip(shapes, known, strict=False))
 
 
-def _is_empty(pose: Any) -> bool:
+def _is_empty(pose: geometry_msgs.msg.Pose) -> bool:
     place, turn = pose.position, pose.orientation
     return not any((place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w))
 
 
-def _primitive(message: Any) -> Shape:
+def _primitive(message: shape_msgs.msg.SolidPrimitive) -> Shape:
     lengths = list(message.dimensions)
     if len(lengths) != _LENGTHS.get(message.type):
         raise PlanningError(
@@ -123,8 +126,8 @@ def _primitive(message: Any) -> Shape:
     return Cone(radius=lengths[1], length=lengths[0])
 
 
-def _primitive_message(name: str, shape: Shape) -> Any:
-    made: Any = load_message("shape_msgs/SolidPrimitive")
+def _primitive_message(name: str, shape: Shape) -> shape_msgs.msg.SolidPrimitive:
+    made = shape_msgs.msg.SolidPrimitive
     if isinstance(shape, Box):
         return made(type=_BOX, dimensions=list(shape.size))
     if isinstance(shape, Sphere):
@@ -136,7 +139,7 @@ def _primitive_message(name: str, shape: Shape) -> Any:
     raise PlanningError(f"a shape of '{name}' has no message: {type(shape).__name__}")
 
 
-def _plane(message: Any) -> tuple[Plane, Pose]:
+def _plane(message: shape_msgs.msg.Plane) -> tuple[Plane, Pose]:
     """Convert the plane ax + by + cz + d = 0 to one through an origin."""
     *normal, offset = message.coef
     length = float(np.linalg.norm(normal))
@@ -147,7 +150,7 @@ def _plane(message: Any) -> tuple[Plane, Pose]:
     return Plane((a, b, c)), Pose(a * away, b * away, c * away)
 
 
-def _mesh(message: Any) -> MeshData:
+def _mesh(message: shape_msgs.msg.Mesh) -> MeshData:
     corners = [(point.x, point.y, point.z) for point in message.vertices]
     faces = [tuple(triangle.vertex_indices) for triangle in message.triangles]
     if any(index >= len(corners) for face in faces for index in face):
@@ -155,13 +158,13 @@ def _mesh(message: Any) -> MeshData:
     return MeshData(np.array(corners).reshape(-1, 3), np.array(faces, int).reshape(-1, 3))
 
 
-def mesh_message(mesh: MeshData) -> Any:
+def mesh_message(mesh: MeshData) -> shape_msgs.msg.Mesh:
     """Return a ``shape_msgs/Mesh``."""
-    message: Any = load_message("shape_msgs/Mesh")()
-    triangle, point = load_message("shape_msgs/MeshTriangle"), load_message("geometry_msgs/Point")
+    message = shape_msgs.msg.Mesh()
+    triangle, point = shape_msgs.msg.MeshTriangle, geometry_msgs.msg.Point
     message.triangles = [triangle(vertex_indices=face) for face in mesh.faces.tolist()]
     for corner in mesh.vertices.tolist():
-        made: Any = point()
+        made = point()
         set_point(made, corner)
         message.vertices.append(made)
     return message

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from gazelle.bridges.moveit.frames import pose_message, pose_of_message
 from gazelle.description import Pose
 from gazelle.formats import Octree
 from gazelle.planning import OCTOMAP, PlanningScene, SceneObject, octree_object
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import octomap_msgs
 
 
-def octomap_of_message(message: Any, frame: Pose) -> SceneObject | None:
+def octomap_of_message(
+    message: octomap_msgs.msg.OctomapWithPose, frame: Pose
+) -> SceneObject | None:
     """Convert an octomap; None if it has no data, which clears the present one.
 
     Args:
@@ -32,9 +32,9 @@ def octomap_of_message(message: Any, frame: Pose) -> SceneObject | None:
     return octree_object(octree, frame * pose_of_message(message.origin))
 
 
-def octomap_message(scene: PlanningScene) -> Any:
+def octomap_message(scene: PlanningScene) -> octomap_msgs.msg.OctomapWithPose:
     """Return the ``OctomapWithPose`` of a scene, in the planning frame; empty without one."""
-    message: Any = load_message("octomap_msgs/OctomapWithPose")()
+    message = octomap_msgs.msg.OctomapWithPose()
     message.header.frame_id = scene.robot.frame
     known = scene.objects.get(OCTOMAP)
     if known is not None and known.octree is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Generic, TypeVar
 
 from gazelle.array_types import Floats
 from gazelle.bridges.moveit.grasp_messages import GraspReader, stage_message
@@ -16,6 +16,7 @@ from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
 from gazelle.errors import PlanningError
 from gazelle.kinematics import JointModelGroup
 from gazelle.planning import (
+    ConstraintSet,
     ContactRules,
     ManipulationPlan,
     ManipulationStage,
@@ -25,13 +26,15 @@ from gazelle.planning import (
     PlanOutcome,
 )
 from gazelle.ros.actions import SimpleActionServer
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs
 
+_GoalT = TypeVar("_GoalT", "moveit_msgs.msg.PickupGoal", "moveit_msgs.msg.PlaceGoal")
+_ResultT = TypeVar("_ResultT", "moveit_msgs.msg.PickupResult", "moveit_msgs.msg.PlaceResult")
 _TIME = 5.0
 """To plan, where a goal gives none [s]."""
 
 
-class ManipulationAction:
+class ManipulationAction(Generic[_GoalT, _ResultT]):
     """Common base of ``pickup`` and ``place``: plan, then do one stage after another.
 
     Args:
@@ -61,27 +64,27 @@ class ManipulationAction:
             scene,
             executor,
         )
-        action = load_message(f"moveit_msgs/{self.kind}Action")
+        action = getattr(moveit_msgs.msg, f"{self.kind}Action")
         self._server = SimpleActionServer(context.node, self.name, action, self._work)
 
     def make(
-        self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
+        self, goal: _GoalT, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
     ) -> ManipulationPlan:
         """Return a plan for a goal; its start is the scene's state."""
         raise NotImplementedError
 
-    def choose(self, goal: Any, result: Any, number: int) -> None:
+    def choose(self, goal: _GoalT, result: _ResultT, number: int) -> None:
         """Store the chosen grasp or place in the result."""
         raise NotImplementedError
 
-    def group_of(self, goal: Any) -> tuple[JointModelGroup, str]:
+    def group_of(self, goal: _GoalT) -> tuple[JointModelGroup, str]:
         """Return the group, and the name of the end effector or an empty text."""
         return self.context.group(goal.group_name), ""
 
     # -- the action ----------------------------------------------------------------------
 
-    def _work(self, goal: Any) -> None:
-        result: Any = load_message(f"moveit_msgs/{self.kind}Result")()
+    def _work(self, goal: _GoalT) -> None:
+        result: _ResultT = getattr(moveit_msgs.msg, f"{self.kind}Result")()
         self._say("PLANNING")
         only, text = goal.planning_options.plan_only or not self._executor.allowed, ""
         try:
@@ -98,7 +101,7 @@ class ManipulationAction:
         self._say("IDLE")
         finish(self._server, result, text)
 
-    def _plan(self, goal: Any, result: Any) -> ManipulationPlan:
+    def _plan(self, goal: _GoalT, result: _ResultT) -> ManipulationPlan:
         context = self.context
         group, effector = self.group_of(goal)
         context.refresh()
@@ -124,7 +127,7 @@ class ManipulationAction:
         self.choose(goal, result, plan.choice)
         return plan
 
-    def _options(self, goal: Any, group: str) -> PlanOptions:
+    def _options(self, goal: _GoalT, group: str) -> PlanOptions:
         settings = self._planning.settings
         return PlanOptions(
             planner=settings.planner(goal.planner_id, group),
@@ -132,7 +135,9 @@ class ManipulationAction:
             segment=settings.segment(group),
         )
 
-    def _do(self, plan: ManipulationPlan, messages: Sequence[Any]) -> None:
+    def _do(
+        self, plan: ManipulationPlan, messages: Sequence[moveit_msgs.msg.RobotTrajectory]
+    ) -> None:
         for stage, message in zip(plan.stages, messages, strict=True):
             stop = self._server.is_preempt_requested
             try:
@@ -161,16 +166,18 @@ class ManipulationAction:
         return {"attach": attach, "detach": detach}.get(stage.then)
 
     def _say(self, state: str) -> None:
-        feedback = load_message(f"moveit_msgs/{self.kind}Feedback")(state=state)
+        feedback = getattr(moveit_msgs.msg, f"{self.kind}Feedback")(state=state)
         self._server.publish_feedback(feedback)
 
 
-class PickupAction(ManipulationAction):
+class PickupAction(
+    ManipulationAction["moveit_msgs.msg.PickupGoal", "moveit_msgs.msg.PickupResult"]
+):
     """Takes a thing of the scene by one of the grasps of the goal."""
 
     name, kind = "pickup", "Pickup"
 
-    def group_of(self, goal: Any) -> tuple[JointModelGroup, str]:
+    def group_of(self, goal: moveit_msgs.msg.PickupGoal) -> tuple[JointModelGroup, str]:
         """Return the named group; else the one that carries the end effector."""
         name = goal.group_name
         if not name and goal.end_effector:
@@ -184,25 +191,35 @@ class PickupAction(ManipulationAction):
         return self.context.group(name), goal.end_effector
 
     def make(
-        self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
+        self,
+        goal: moveit_msgs.msg.PickupGoal,
+        planner: PickPlacePlanner,
+        reader: GraspReader,
+        rules: ContactRules,
     ) -> ManipulationPlan:
         """Return a plan to pick an object up."""
         grasps = [reader.grasp(each) for each in goal.possible_grasps]
         held = _constraints(self.context, goal)
         return planner.pick(goal.target_name, grasps, rules=rules, constraints=held)
 
-    def choose(self, goal: Any, result: Any, number: int) -> None:
+    def choose(
+        self, goal: moveit_msgs.msg.PickupGoal, result: moveit_msgs.msg.PickupResult, number: int
+    ) -> None:
         """Store the grasp in the result."""
         result.grasp = goal.possible_grasps[number]
 
 
-class PlaceAction(ManipulationAction):
+class PlaceAction(ManipulationAction["moveit_msgs.msg.PlaceGoal", "moveit_msgs.msg.PlaceResult"]):
     """Puts down a thing that is held, at one of the places of the goal."""
 
     name, kind = "place", "Place"
 
     def make(
-        self, goal: Any, planner: PickPlacePlanner, reader: GraspReader, rules: ContactRules
+        self,
+        goal: moveit_msgs.msg.PlaceGoal,
+        planner: PickPlacePlanner,
+        reader: GraspReader,
+        rules: ContactRules,
     ) -> ManipulationPlan:
         """Return a plan to place an object."""
         name, held = goal.attached_object_name, [*self.context.scene.attached]
@@ -212,11 +229,13 @@ class PlaceAction(ManipulationAction):
         constraints = _constraints(self.context, goal)
         return planner.place(name, places, rules=rules, constraints=constraints)
 
-    def choose(self, goal: Any, result: Any, number: int) -> None:
+    def choose(
+        self, goal: moveit_msgs.msg.PlaceGoal, result: moveit_msgs.msg.PlaceResult, number: int
+    ) -> None:
         """Store the place in the result."""
         result.place_location = goal.place_locations[number]
 
 
-def _constraints(context: PlanningContext, goal: Any) -> Any:
+def _constraints(context: PlanningContext, goal: _GoalT) -> ConstraintSet | None:
     state: Floats = context.scene.state
     return context.constraints(goal.path_constraints, state) or None

@@ -11,12 +11,15 @@ from gazelle.array_types import Floats
 from gazelle.bridges.moveit.capabilities import Capabilities
 from gazelle.bridges.moveit.constraint_messages import constraints_of_message
 from gazelle.bridges.moveit.description import margins_of_parameters, robot_of_parameters
+from gazelle.bridges.moveit.error_codes import CodedT
 from gazelle.bridges.moveit.frames import PlanningFrames
 from gazelle.bridges.moveit.held_objects import scene_in_state
 from gazelle.bridges.moveit.robot_states import JointStateMonitor, state_of_message
 from gazelle.errors import Error, PlanningError
 from gazelle.kinematics import JointModelGroup, RobotModel
 from gazelle.planning import ConstraintSet, NoPlanError, PlanningScene, PlanOutcome
+from gazelle.ros.messages import ServiceDefinition
+from gazelle.ros.msgs import moveit_msgs
 from gazelle.ros.node import Node
 
 LOG = logging.getLogger("gazelle.planning")
@@ -54,7 +57,7 @@ class PlanningContext:
         self.monitor = JointStateMonitor(node, self.robot)
         self.frames = PlanningFrames(node, self.scene)
 
-    def serve(self, name: str, kind: Any, act: Callable[[Any], Any]) -> None:
+    def serve(self, name: str, kind: type[ServiceDefinition], act: Callable[[Any], Any]) -> None:
         """Advertise a service, if it is one of the capabilities."""
         if name in self.capabilities:
             self.node.serve(name, kind, act)
@@ -76,7 +79,7 @@ class PlanningContext:
         self.scene.state = state.copy()
         return state
 
-    def state(self, message: Any) -> Floats:
+    def state(self, message: moveit_msgs.msg.RobotState) -> Floats:
         """Convert a ``moveit_msgs/RobotState``; missing values are the present ones.
 
         Raises:
@@ -84,7 +87,7 @@ class PlanningContext:
         """
         return state_of_message(self.robot, message, self.current())
 
-    def scene_in(self, message: Any, state: Floats) -> PlanningScene:
+    def scene_in(self, message: moveit_msgs.msg.RobotState, state: Floats) -> PlanningScene:
         """Return the scene with attached objects of a ``moveit_msgs/RobotState``; hold ``lock``.
 
         Raises:
@@ -103,7 +106,7 @@ class PlanningContext:
         except PlanningError as error:
             raise NoPlanError(error.message, PlanOutcome.INVALID_GROUP_NAME, error.hint) from None
 
-    def constraints(self, message: Any, state: Floats) -> ConstraintSet:
+    def constraints(self, message: moveit_msgs.msg.Constraints, state: Floats) -> ConstraintSet:
         """Convert a ``moveit_msgs/Constraints``, whose links and joints must exist.
 
         Raises:
@@ -117,17 +120,17 @@ class PlanningContext:
             raise NoPlanError(error.message, outcome, error.hint) from None
         return made
 
-    def answer(self, response: Any, act: Callable[[Any], None], what: str) -> Any:
+    def answer(self, response: CodedT, act: Callable[[CodedT], None], what: str) -> CodedT:
         """Fill a response that has an error code, holding ``lock``; see ``coded``."""
 
-        def hold(found: Any) -> None:
+        def hold(found: CodedT) -> None:
             with self.lock:
                 act(found)
 
         return self.coded(response, hold, what)
 
     @staticmethod
-    def coded(response: Any, act: Callable[[Any], None], what: str) -> Any:
+    def coded(response: CodedT, act: Callable[[CodedT], None], what: str) -> CodedT:
         """Fill a response that has an error code; what goes wrong becomes that code.
 
         Args:

@@ -25,7 +25,8 @@ from gazelle.planning import (
     PlanOptions,
     PlanOutcome,
 )
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.messages import load_service
+from gazelle.ros.msgs import moveit_msgs
 
 _TIME = 1.0
 """To plan, where a request gives none, as in MoveIt [s]."""
@@ -41,9 +42,9 @@ class PlanningServices:
     def __init__(self, context: PlanningContext) -> None:
         self._context = context
         self.settings = PlannerSettings(context.node)
-        plan = load_service("moveit_msgs/GetMotionPlan")
-        query = load_service("moveit_msgs/QueryPlannerInterfaces")
-        straight = load_service("moveit_msgs/GetCartesianPath")
+        plan = moveit_msgs.srv.GetMotionPlan
+        query = moveit_msgs.srv.QueryPlannerInterfaces
+        straight = moveit_msgs.srv.GetCartesianPath
         context.serve("plan_kinematic_path", plan, self._plan)
         context.serve("query_planner_interface", query, self._query)
         context.serve("compute_cartesian_path", straight, self._cartesian)
@@ -57,7 +58,7 @@ class PlanningServices:
 
     def plan(
         self,
-        request: Any,
+        request: moveit_msgs.msg.MotionPlanRequest,
         *,
         from_here: bool = False,
         scene: AbstractContextManager[None] | None = None,
@@ -84,7 +85,9 @@ class PlanningServices:
                 context.planned.follow(shown)
             return self._search(request, group, state, goals, held, failure)
 
-    def _goals(self, request: Any, state: Floats) -> tuple[list[ConstraintSet], NoPlanError | None]:
+    def _goals(
+        self, request: moveit_msgs.msg.MotionPlanRequest, state: Floats
+    ) -> tuple[list[ConstraintSet], NoPlanError | None]:
         """Return valid goals, and the error of the first invalid one."""
         goals: list[ConstraintSet] = []
         failure: NoPlanError | None = None
@@ -97,7 +100,7 @@ class PlanningServices:
 
     def _search(
         self,
-        request: Any,
+        request: moveit_msgs.msg.MotionPlanRequest,
         group: JointModelGroup,
         state: Floats,
         goals: list[ConstraintSet],
@@ -122,7 +125,7 @@ class PlanningServices:
                 return slowed(plan, self._context.robot, link, request.max_cartesian_speed)
         raise failure or NoPlanError("there is no goal", PlanOutcome.INVALID_GOAL_CONSTRAINTS)
 
-    def _options(self, request: Any, group: str) -> PlanOptions:
+    def _options(self, request: moveit_msgs.msg.MotionPlanRequest, group: str) -> PlanOptions:
         return PlanOptions(
             planner=self.settings.planner(request.planner_id, group),
             time=request.allowed_planning_time if request.allowed_planning_time > 0.0 else _TIME,
@@ -131,12 +134,14 @@ class PlanningServices:
             segment=self.settings.segment(group),
         )
 
-    def _plan(self, request: Any) -> Any:
-        made: Any = load_service("moveit_msgs/GetMotionPlan")._response_class()
+    def _plan(
+        self, request: moveit_msgs.srv.GetMotionPlanRequest
+    ) -> moveit_msgs.srv.GetMotionPlanResponse:
+        made = moveit_msgs.srv.GetMotionPlanResponse()
         response, context = made.motion_plan_response, self._context
         response.group_name = request.motion_plan_request.group_name
 
-        def act(answer: Any) -> None:
+        def act(answer: moveit_msgs.msg.MotionPlanResponse) -> None:
             plan = self.plan(request.motion_plan_request)
             answer.group_name = request.motion_plan_request.group_name
             answer.trajectory_start = state_message(context.robot, plan.start)
@@ -146,20 +151,20 @@ class PlanningServices:
         context.coded(response, act, "plan_kinematic_path")
         return made
 
-    def _query(self, _request: Any) -> Any:
+    def _query(self, _request: moveit_msgs.srv.QueryPlannerInterfacesRequest) -> dict[str, Any]:
         groups = [group.name for group in self._context.robot.semantics.groups]
-        made: Any = load_message("moveit_msgs/PlannerInterfaceDescription")
+        made = moveit_msgs.msg.PlannerInterfaceDescription
         own = made(name="OMPL", pipeline_id=PIPELINE, planner_ids=self.settings.names(groups))
         return {"planner_interfaces": [own]}
 
-    def _get_parameters(self, request: Any) -> dict[str, Any]:
+    def _get_parameters(self, request: moveit_msgs.srv.GetPlannerParamsRequest) -> dict[str, Any]:
         found = self.settings.parameters(request.planner_config, request.group)
-        made = load_message("moveit_msgs/PlannerParams")(
+        made = moveit_msgs.msg.PlannerParams(
             keys=[*found], values=[*found.values()], descriptions=[""] * len(found)
         )
         return {"params": made}
 
-    def _set_parameters(self, request: Any) -> dict[str, Any]:
+    def _set_parameters(self, request: moveit_msgs.srv.SetPlannerParamsRequest) -> dict[str, Any]:
         given = dict(zip(request.params.keys, request.params.values, strict=False))
         self.settings.set_parameters(
             request.planner_config, request.group, given, replace=request.replace
@@ -168,13 +173,19 @@ class PlanningServices:
 
     # -- straight ways -------------------------------------------------------------------
 
-    def _cartesian(self, request: Any) -> Any:
-        made: Any = load_service("moveit_msgs/GetCartesianPath")._response_class()
+    def _cartesian(
+        self, request: moveit_msgs.srv.GetCartesianPathRequest
+    ) -> moveit_msgs.srv.GetCartesianPathResponse:
+        made = moveit_msgs.srv.GetCartesianPathResponse()
         return self._context.coded(
             made, lambda answer: self._follow(request, answer), "compute_cartesian_path"
         )
 
-    def _follow(self, request: Any, response: Any) -> None:
+    def _follow(
+        self,
+        request: moveit_msgs.srv.GetCartesianPathRequest,
+        response: moveit_msgs.srv.GetCartesianPathResponse,
+    ) -> None:
         context = self._context
         context.refresh()
         with context.planning:
@@ -188,8 +199,8 @@ class PlanningServices:
 
     def _straight(
         self,
-        request: Any,
-        response: Any,
+        request: moveit_msgs.srv.GetCartesianPathRequest,
+        response: moveit_msgs.srv.GetCartesianPathResponse,
         group: JointModelGroup,
         state: Floats,
         base: Pose,

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 import threading
 import time
-from typing import Any
 
 from gazelle.array_types import Floats
 from gazelle.kinematics import RobotModel
 from gazelle.planning import NoPlanError, PlanOutcome
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs, sensor_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
@@ -36,9 +35,9 @@ class JointStateMonitor:
         self._positions = robot.zero()
         self._unknown = {each.name for each in robot.variables if not each.mimics}
         self._news = threading.Condition()
-        node.subscribe(topic, load_message("sensor_msgs/JointState"), self._hear)
+        node.subscribe(topic, sensor_msgs.msg.JointState, self._hear)
 
-    def _hear(self, message: Any) -> None:
+    def _hear(self, message: sensor_msgs.msg.JointState) -> None:
         columns = {name: column for column, name in enumerate(self._robot.names)}
         with self._news:
             for name, position in zip(message.name, message.position, strict=False):
@@ -89,7 +88,9 @@ class JointStateMonitor:
                 self._news.wait_for(lambda: self._stamp >= moment, wait)
 
 
-def state_of_message(robot: RobotModel, message: Any, current: Floats) -> Floats:
+def state_of_message(
+    robot: RobotModel, message: moveit_msgs.msg.RobotState, current: Floats
+) -> Floats:
     """Convert a ``moveit_msgs/RobotState`` to positions; other joints stay as they are.
 
     Args:
@@ -114,9 +115,9 @@ def state_of_message(robot: RobotModel, message: Any, current: Floats) -> Floats
     return robot.complete(state)
 
 
-def state_message(robot: RobotModel, state: Floats, now: int = 0) -> Any:
+def state_message(robot: RobotModel, state: Floats, now: int = 0) -> moveit_msgs.msg.RobotState:
     """Return a ``moveit_msgs/RobotState`` of all variables, shape (variables,), at a time [ns]."""
-    message: Any = load_message("moveit_msgs/RobotState")()
+    message = moveit_msgs.msg.RobotState()
     message.joint_state.header.frame_id = robot.frame
     message.joint_state.header.stamp = Time(nsecs=now)
     message.joint_state.name = list(robot.names)

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from gazelle.bridges.moveit.object_messages import object_message
 from gazelle.bridges.moveit.octomap_messages import octomap_message
 from gazelle.bridges.moveit.robot_states import state_message
 from gazelle.planning import OCTOMAP, AllowedCollisionMatrix, PlanningScene
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs, std_msgs
 
 STATE, ATTACHED, NAMES, GEOMETRY, MAP, ALLOWED, PADDING, COLORS = 2, 4, 8, 16, 32, 128, 256, 512
 """Of ``moveit_msgs/PlanningSceneComponents``."""
 
 
-def scene_message(scene: PlanningScene, parts: int, colors: Mapping[str, Any]) -> Any:
+def scene_message(
+    scene: PlanningScene, parts: int, colors: Mapping[str, std_msgs.msg.ColorRGBA]
+) -> moveit_msgs.msg.PlanningScene:
     """Return a scene.
 
     Args:
@@ -23,13 +24,13 @@ def scene_message(scene: PlanningScene, parts: int, colors: Mapping[str, Any]) -
         parts: Which of it: a sum of the components' numbers.
         colors: ``std_msgs/ColorRGBA`` by object or link.
     """
-    message: Any = load_message("moveit_msgs/PlanningScene")()
+    message = moveit_msgs.msg.PlanningScene()
     message.robot_model_name = scene.robot.model.name
     frame = scene.robot.frame
     if parts & STATE:
         message.robot_state = state_message(scene.robot, scene.state)
     if parts & ATTACHED:
-        made = load_message("moveit_msgs/AttachedCollisionObject")
+        made = moveit_msgs.msg.AttachedCollisionObject
         message.robot_state.attached_collision_objects = [
             made(
                 link_name=held.link,
@@ -51,8 +52,8 @@ def scene_message(scene: PlanningScene, parts: int, colors: Mapping[str, Any]) -
         message.allowed_collision_matrix = matrix_message(scene.allowed)
     if parts & PADDING:
         padding, scale = (
-            load_message("moveit_msgs/LinkPadding"),
-            load_message("moveit_msgs/LinkScale"),
+            moveit_msgs.msg.LinkPadding,
+            moveit_msgs.msg.LinkScale,
         )
         links = scene.robot.links
         message.link_padding = [
@@ -62,17 +63,17 @@ def scene_message(scene: PlanningScene, parts: int, colors: Mapping[str, Any]) -
             scale(link_name=link, scale=scene.scale.get(link, 1.0)) for link in links
         ]
     if parts & COLORS:
-        color = load_message("moveit_msgs/ObjectColor")
+        color = moveit_msgs.msg.ObjectColor
         message.object_colors = [color(id=name, color=value) for name, value in colors.items()]
     return message
 
 
-def matrix_message(matrix: AllowedCollisionMatrix) -> Any:
+def matrix_message(matrix: AllowedCollisionMatrix) -> moveit_msgs.msg.AllowedCollisionMatrix:
     """Return an ``AllowedCollisionMatrix``; unlisted pairs may not touch."""
     pairs, defaults = matrix.pairs, matrix.defaults
     names = sorted({name for pair in pairs for name in pair})
-    entry = load_message("moveit_msgs/AllowedCollisionEntry")
-    return load_message("moveit_msgs/AllowedCollisionMatrix")(
+    entry = moveit_msgs.msg.AllowedCollisionEntry
+    return moveit_msgs.msg.AllowedCollisionMatrix(
         entry_names=names,
         entry_values=[
             entry(enabled=[pairs.get((min(a, b), max(a, b)), False) for b in names]) for a in names
@@ -82,7 +83,7 @@ def matrix_message(matrix: AllowedCollisionMatrix) -> Any:
     )
 
 
-def matrix_of_message(message: Any) -> AllowedCollisionMatrix:
+def matrix_of_message(message: moveit_msgs.msg.AllowedCollisionMatrix) -> AllowedCollisionMatrix:
     """Convert an ``AllowedCollisionMatrix``; defaults of names hold for pairs not allowed."""
     made = AllowedCollisionMatrix()
     defaults = dict(zip(message.default_entry_names, message.default_entry_values, strict=False))

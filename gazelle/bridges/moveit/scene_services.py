@@ -15,7 +15,7 @@ from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.scene_messages import matrix_of_message, scene_message
 from gazelle.errors import Error, PlanningError
 from gazelle.planning import OCTOMAP, NoPlanError, PlanOutcome
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import moveit_msgs, octomap_msgs, std_msgs, std_srvs
 
 _ALL = 1023
 _ADD, _REMOVE, _APPEND, _MOVE = 0, 1, 2, 3
@@ -34,13 +34,13 @@ class SceneServices:
     def __init__(self, context: PlanningContext) -> None:
         self.revision = 0
         self._context, self._scene = context, context.scene
-        self._colors: dict[str, Any] = {}
+        self._colors: dict[str, std_msgs.msg.ColorRGBA] = {}
         node = context.node
-        whole = load_message("moveit_msgs/PlanningScene")
+        whole = moveit_msgs.msg.PlanningScene
         self._shown = node.advertise("~monitored_planning_scene", whole, queue_size=100, latch=True)
-        world = load_message("moveit_msgs/PlanningSceneWorld")
-        thing = load_message("moveit_msgs/CollisionObject")
-        held = load_message("moveit_msgs/AttachedCollisionObject")
+        world = moveit_msgs.msg.PlanningSceneWorld
+        thing = moveit_msgs.msg.CollisionObject
+        held = moveit_msgs.msg.AttachedCollisionObject
         for topic, kind, take in (
             ("planning_scene", whole, self._take),
             ("planning_scene_world", world, self._replace),
@@ -48,13 +48,13 @@ class SceneServices:
             ("attached_collision_object", held, self._hold),
         ):
             node.subscribe(topic, kind, self._listener(take))
-        context.serve("get_planning_scene", load_service("moveit_msgs/GetPlanningScene"), self._get)
+        context.serve("get_planning_scene", moveit_msgs.srv.GetPlanningScene, self._get)
         context.serve(
             "apply_planning_scene",
-            load_service("moveit_msgs/ApplyPlanningScene"),
+            moveit_msgs.srv.ApplyPlanningScene,
             lambda request: {"success": self.change(lambda: self._take(request.scene))},
         )
-        context.serve("clear_octomap", load_service("std_srvs/Empty"), self._clear_octomap)
+        context.serve("clear_octomap", std_srvs.srv.Empty, self._clear_octomap)
         self.change(lambda: True)
 
     def _listener(self, take: Callable[[Any], bool]) -> Callable[[Any], None]:
@@ -63,15 +63,15 @@ class SceneServices:
 
         return hear
 
-    def _get(self, request: Any) -> dict[str, Any]:
+    def _get(self, request: moveit_msgs.srv.GetPlanningSceneRequest) -> dict[str, Any]:
         with self._context.lock:
             self._context.current()
             return {"scene": self._message(request.components.components or _ALL)}
 
-    def _message(self, parts: int) -> Any:
+    def _message(self, parts: int) -> moveit_msgs.msg.PlanningScene:
         return scene_message(self._scene, parts, self._colors)
 
-    def _clear_octomap(self, _request: Any) -> dict[str, Any]:
+    def _clear_octomap(self, _request: std_srvs.srv.EmptyRequest) -> dict[str, Any]:
         self.change(self._forget_octomap)
         return {}
 
@@ -99,7 +99,7 @@ class SceneServices:
     # -- whole scenes --------------------------------------------------------------------
 
     @contextmanager
-    def changed(self, message: Any) -> Iterator[None]:
+    def changed(self, message: moveit_msgs.msg.PlanningScene) -> Iterator[None]:
         """Apply the change of a ``PlanningScene`` while it lasts; hold the context's lock.
 
         Raises:
@@ -128,7 +128,7 @@ class SceneServices:
             scene.set_scale(scale)
             scene.allowed = allowed
 
-    def _take(self, message: Any) -> bool:
+    def _take(self, message: moveit_msgs.msg.PlanningScene) -> bool:
         """Apply a ``PlanningScene``, or a change of it."""
         scene = self._scene
         if not message.is_diff:
@@ -138,7 +138,7 @@ class SceneServices:
                 scene.drop(name)
         return self._merge(message)
 
-    def _merge(self, message: Any) -> bool:
+    def _merge(self, message: moveit_msgs.msg.PlanningScene) -> bool:
         """Apply the parts of a ``PlanningScene``; the rest stays."""
         scene, done = self._scene, True
         if message.allowed_collision_matrix.entry_names or (
@@ -156,12 +156,12 @@ class SceneServices:
             done &= self._hold(each)
         return done
 
-    def _replace(self, world: Any) -> bool:
+    def _replace(self, world: moveit_msgs.msg.PlanningSceneWorld) -> bool:
         """Replace the world by a ``PlanningSceneWorld``."""
         self._scene.clear()
         return self._place(world)
 
-    def _place(self, world: Any) -> bool:
+    def _place(self, world: moveit_msgs.msg.PlanningSceneWorld) -> bool:
         """Apply a ``PlanningSceneWorld``; its octomap, if any, replaces the present one."""
         done = True
         for each in world.collision_objects:
@@ -170,7 +170,7 @@ class SceneServices:
             done &= self._try(lambda: self._map(world.octomap))
         return done
 
-    def _map(self, message: Any) -> None:
+    def _map(self, message: octomap_msgs.msg.OctomapWithPose) -> None:
         frame = self._context.frames.find(message.header.frame_id, self._scene.state)
         made = octomap_of_message(message, frame)
         if made is None:
@@ -185,7 +185,7 @@ class SceneServices:
 
     # -- things --------------------------------------------------------------------------
 
-    def _object(self, message: Any) -> bool:
+    def _object(self, message: moveit_msgs.msg.CollisionObject) -> bool:
         """Apply a ``CollisionObject``."""
         actions = {
             _ADD: self._add, _REMOVE: self._remove, _APPEND: self._append, _MOVE: self._move,
@@ -199,17 +199,17 @@ class SceneServices:
 
         return self._try(act)
 
-    def _add(self, message: Any) -> None:
+    def _add(self, message: moveit_msgs.msg.CollisionObject) -> None:
         frame = self._context.frames.find(message.header.frame_id, self._scene.state)
         self._scene.add_object(object_of_message(message, frame))
 
-    def _remove(self, message: Any) -> None:
+    def _remove(self, message: moveit_msgs.msg.CollisionObject) -> None:
         for name in [message.id] if message.id else [*self._scene.objects]:
             if name != OCTOMAP:
                 self._scene.remove(name)
                 self._colors.pop(name, None)
 
-    def _append(self, message: Any) -> None:
+    def _append(self, message: moveit_msgs.msg.CollisionObject) -> None:
         if message.id not in self._scene.objects:
             self._add(message)
             return
@@ -219,23 +219,23 @@ class SceneServices:
         added = tuple((shape, own * pose) for shape, pose in shapes_of_message(message))
         self._scene.add_object(replace(known, shapes=known.shapes + added))
 
-    def _move(self, message: Any) -> None:
+    def _move(self, message: moveit_msgs.msg.CollisionObject) -> None:
         frame = self._context.frames.find(message.header.frame_id, self._scene.state)
         self._scene.move(message.id, frame * pose_of_message(message.pose))
 
     # -- what links hold -----------------------------------------------------------------
 
-    def _hold(self, message: Any) -> bool:
+    def _hold(self, message: moveit_msgs.msg.AttachedCollisionObject) -> bool:
         """Apply an ``AttachedCollisionObject``."""
         return self._try(lambda: change_held(self._scene, self._context.frames, message))
 
 
-def _has_octomap(world: Any) -> bool:
+def _has_octomap(world: moveit_msgs.msg.PlanningSceneWorld) -> bool:
     """Return whether a ``PlanningSceneWorld`` sets the octomap; one without data clears it."""
     return bool(world.octomap.octomap.id or world.octomap.octomap.data)
 
 
-def _says_something(message: Any) -> bool:
+def _says_something(message: moveit_msgs.msg.PlanningScene) -> bool:
     """Return whether a ``PlanningScene`` would change anything."""
     rules = message.allowed_collision_matrix
     return bool(

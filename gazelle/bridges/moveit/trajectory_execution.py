@@ -25,6 +25,7 @@ from gazelle.planning.group import START_TOLERANCE
 from gazelle.ros.actions import GoalStatus, SimpleActionClient
 from gazelle.ros.errors import NodeClosedError
 from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import control_msgs, moveit_msgs, std_msgs, trajectory_msgs
 
 _LOOK_S = 0.01
 _SERVER_S = 5.0
@@ -58,14 +59,20 @@ class TrajectoryExecutor:
             self._fake = FakeMotion(context)
         self._one = threading.Lock()
         self._stopped = threading.Event()
-        kind = load_message("std_msgs/String")
+        kind = std_msgs.msg.String
         node.subscribe("trajectory_execution_event", kind, self._event)
 
-    def _event(self, message: Any) -> None:
+    def _event(self, message: std_msgs.msg.String) -> None:
         if message.data == "stop":
             self._stopped.set()
 
-    def execute(self, message: Any, stop: Callable[[], bool], *, may_stall: bool = False) -> None:
+    def execute(
+        self,
+        message: moveit_msgs.msg.RobotTrajectory,
+        stop: Callable[[], bool],
+        *,
+        may_stall: bool = False,
+    ) -> None:
         """Follow a ``moveit_msgs/RobotTrajectory`` to its end.
 
         Args:
@@ -101,7 +108,7 @@ class TrajectoryExecutor:
             spare = _GRIPPER_S if GRIPPER in kinds else 0.0
             self._wait(clients, trajectory, stop, lenient, spare)
 
-    def _check_start(self, trajectory: Any) -> None:
+    def _check_start(self, trajectory: trajectory_msgs.msg.JointTrajectory) -> None:
         """Check that the robot is at the start of the trajectory."""
         robot = self._context.robot
         columns = robot.columns(trajectory.joint_names)
@@ -127,7 +134,7 @@ class TrajectoryExecutor:
     # -- goals ---------------------------------------------------------------------------
 
     def _begin(
-        self, controllers: list[ActionController], trajectory: Any
+        self, controllers: list[ActionController], trajectory: trajectory_msgs.msg.JointTrajectory
     ) -> list[SimpleActionClient]:
         """Send each its part; when one is not there, the others are stopped."""
         clients: list[SimpleActionClient] = []
@@ -140,7 +147,9 @@ class TrajectoryExecutor:
             raise
         return clients
 
-    def _send(self, controller: ActionController, trajectory: Any) -> SimpleActionClient:
+    def _send(
+        self, controller: ActionController, trajectory: trajectory_msgs.msg.JointTrajectory
+    ) -> SimpleActionClient:
         action = load_message(f"control_msgs/{controller.kind}Action")
         if controller.action not in self._clients:
             made = SimpleActionClient(self._context.node, controller.action, action)
@@ -156,15 +165,17 @@ class TrajectoryExecutor:
         client.send_goal(goal)
         return client
 
-    def _part(self, controller: ActionController, trajectory: Any) -> Any:
+    def _part(
+        self, controller: ActionController, trajectory: trajectory_msgs.msg.JointTrajectory
+    ) -> trajectory_msgs.msg.JointTrajectory:
         """Return the part for a controller's joints; its joints that are missing are held in place."""
-        made: Any = load_message("trajectory_msgs/JointTrajectory")()
+        made = trajectory_msgs.msg.JointTrajectory()
         made.joint_names = list(controller.joints)
         own = {name: number for number, name in enumerate(trajectory.joint_names)}
         robot, here = self._context.robot, self._context.monitor.current()
         held = {name: float(here[robot.column(name)]) for name in made.joint_names
                 if name not in own}  # fmt: skip
-        kind = load_message("trajectory_msgs/JointTrajectoryPoint")
+        kind = trajectory_msgs.msg.JointTrajectoryPoint
         for point in trajectory.points:
             parts = {
                 field: [
@@ -180,7 +191,7 @@ class TrajectoryExecutor:
     def _wait(
         self,
         clients: list[SimpleActionClient],
-        trajectory: Any,
+        trajectory: trajectory_msgs.msg.JointTrajectory,
         stop: Callable[[], bool],
         lenient: list[bool],
         spare: float,
@@ -237,7 +248,11 @@ def _failure_of(client: SimpleActionClient) -> NoPlanError | None:
     return _failed(f"'{name}' failed: {said}")
 
 
-def _fill_gripper(command: Any, controller: ActionController, trajectory: Any) -> None:
+def _fill_gripper(
+    command: control_msgs.msg.GripperCommand,
+    controller: ActionController,
+    trajectory: trajectory_msgs.msg.JointTrajectory,
+) -> None:
     """Set a gripper's target: the sum of the last positions of the joints it commands."""
     last, named = trajectory.points[-1], list(trajectory.joint_names)
     told = [named.index(name) for name in controller.told if name in named] or [

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from gazelle.planning import MotionPlan, TimedPath
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs, trajectory_msgs
 from gazelle.ros.time import Duration
 
 
-def trajectory_message(plan: MotionPlan, frame: str) -> Any:
+def trajectory_message(plan: MotionPlan, frame: str) -> moveit_msgs.msg.RobotTrajectory:
     """Return a plan as a message: positions, velocities and accelerations at each time.
 
     Args:
         plan: The plan.
         frame: That it was planned in.
     """
-    message: Any = load_message("moveit_msgs/RobotTrajectory")()
+    message = moveit_msgs.msg.RobotTrajectory()
     joints = message.joint_trajectory
     joints.header.frame_id = frame
     joints.joint_names = list(plan.names)
@@ -24,9 +22,9 @@ def trajectory_message(plan: MotionPlan, frame: str) -> Any:
     return message
 
 
-def points_of(timed: TimedPath) -> list[Any]:
+def points_of(timed: TimedPath) -> list[trajectory_msgs.msg.JointTrajectoryPoint]:
     """Return a trajectory as ``trajectory_msgs/JointTrajectoryPoint`` messages."""
-    made = load_message("trajectory_msgs/JointTrajectoryPoint")
+    made = trajectory_msgs.msg.JointTrajectoryPoint
     return [
         made(
             positions=positions,

@@ -470,7 +470,7 @@ def test_conversions(moveit):
     copy = load_message("geometry_msgs/Pose")()
     conversions.msg_from_string(copy, conversions.msg_to_string(pose))
     assert copy == pose
-    assert unpacked("geometry_msgs/Pose", packed(pose)) == pose
+    assert unpacked(load_message("geometry_msgs/Pose"), packed(pose)) == pose
 
 
 def test_a_script_without_rospy_has_a_node_of_its_own(moveit, monkeypatch):

@@ -38,7 +38,7 @@ def robot(made):
 
 def message(kind, data):
     assert isinstance(data, bytes)
-    return unpacked(kind, data)
+    return unpacked(load_message(kind), data)
 
 
 def pose(x, y, z):

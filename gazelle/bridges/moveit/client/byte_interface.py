@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from gazelle.bridges.moveit.client.session import LOG, packed, unpacked
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.errors import did_you_mean
-from gazelle.ros.messages import DeserializationError, Message
+from gazelle.ros.messages import DeserializationError, Message, load_message
 
 
 class ByteInterface:
@@ -65,7 +65,7 @@ class ByteInterface:
 def _read(kind: str, value: Any) -> Any:
     """Return messages of bytes, also in a list; all else as it is."""
     if isinstance(value, bytes):
-        return unpacked(kind, value)
+        return unpacked(load_message(kind), value)
     if isinstance(value, list | tuple):
         return [_read(kind, each) for each in value]
     return value

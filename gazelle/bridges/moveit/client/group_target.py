@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from gazelle.bridges.moveit.client.session import LOG
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
 from gazelle.kinematics import InverseKinematics
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs
 
 
 class GroupTarget:
@@ -126,10 +125,10 @@ class GroupTarget:
             self.state[self._robot.column(name)] = value
         self.state = self._robot.complete(self.state)
 
-    def constraints(self, tolerance: float) -> Any:
+    def constraints(self, tolerance: float) -> moveit_msgs.msg.Constraints:
         """Return a ``moveit_msgs/Constraints`` with one joint constraint for each variable."""
-        made: Any = load_message("moveit_msgs/Constraints")()
-        joint = load_message("moveit_msgs/JointConstraint")
+        made = moveit_msgs.msg.Constraints()
+        joint = moveit_msgs.msg.JointConstraint
         made.joint_constraints = [
             joint(
                 joint_name=name,

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from gazelle.array_types import Floats
 from gazelle.bridges.moveit.frames import pose_message
 from gazelle.description import Box, Cylinder, Mesh, Sphere
+from gazelle.description.geometry import Geometry
 from gazelle.kinematics import RobotModel
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import visualization_msgs
 from gazelle.ros.time import Time
 
 _BOX, _SPHERE, _CYLINDER, _MESH = 1, 2, 3, 10
 _GREY = 0.5
 
 
-def link_markers(robot: RobotModel, state: Floats, links: Sequence[str], now: int) -> Any:
+def link_markers(
+    robot: RobotModel, state: Floats, links: Sequence[str], now: int
+) -> visualization_msgs.msg.MarkerArray:
     """Return a ``MarkerArray`` of each link's visuals, or its collisions without visuals.
 
     Args:
@@ -25,7 +27,7 @@ def link_markers(robot: RobotModel, state: Floats, links: Sequence[str], now: in
         links: Which; others are left out.
         now: Stamp of the markers [ns].
     """
-    made: Any = load_message("visualization_msgs/MarkerArray")()
+    made = visualization_msgs.msg.MarkerArray()
     for name, body in robot.bodies.items():
         if name not in links:
             continue
@@ -43,9 +45,9 @@ def link_markers(robot: RobotModel, state: Floats, links: Sequence[str], now: in
     return made
 
 
-def _shape(geometry: Any) -> Any:
+def _shape(geometry: Geometry) -> visualization_msgs.msg.Marker | None:
     """Return a marker of a shape; None for shapes that markers lack."""
-    marker: Any = load_message("visualization_msgs/Marker")()
+    marker = visualization_msgs.msg.Marker()
     if isinstance(geometry, Box):
         marker.type, lengths = _BOX, geometry.size
     elif isinstance(geometry, Sphere):

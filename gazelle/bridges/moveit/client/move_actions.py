@@ -10,7 +10,8 @@ from gazelle.bridges.moveit.client.session import LOG
 from gazelle.planning import PlanOutcome
 from gazelle.ros import names
 from gazelle.ros.actions import GoalStatus, SimpleActionClient, TerminalState
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.messages import Message, load_message, load_service
+from gazelle.ros.msgs import moveit_msgs, std_msgs
 from gazelle.ros.node import Node
 
 _ACTIONS = {
@@ -37,11 +38,11 @@ class MoveActions:
     def __init__(self, node: Node, namespace: str, wait: float) -> None:
         self.node, self._namespace = node, namespace
         self._stops = node.advertise(
-            self._name("trajectory_execution_event"), load_message("std_msgs/String"), queue_size=1
+            self._name("trajectory_execution_event"), std_msgs.msg.String, queue_size=1
         )
         self._attaching = node.advertise(
             self._name("attached_collision_object"),
-            load_message("moveit_msgs/AttachedCollisionObject"),
+            moveit_msgs.msg.AttachedCollisionObject,
             queue_size=10,
         )
         self._clients = {
@@ -67,11 +68,11 @@ class MoveActions:
     def _name(self, name: str) -> str:
         return names.join(self._namespace, name)
 
-    def send(self, action: str, goal: Any) -> None:
+    def send(self, action: str, goal: Message) -> None:
         """Send a goal, and do not wait."""
         self._clients[action].send_goal(goal)
 
-    def run(self, action: str, goal: Any) -> Any:
+    def run(self, action: str, goal: Message) -> Any:
         """Send a goal and wait for its result; its error code says how it went."""
         client = self._clients[action]
         client.send_goal(goal)
@@ -98,8 +99,8 @@ class MoveActions:
 
     def stop(self) -> None:
         """Stop what is moving."""
-        self._stops.publish(load_message("std_msgs/String")(data="stop"))
+        self._stops.publish(std_msgs.msg.String(data="stop"))
 
-    def attach(self, message: Any) -> None:
+    def attach(self, message: moveit_msgs.msg.AttachedCollisionObject) -> None:
         """Publish an ``AttachedCollisionObject``."""
         self._attaching.publish(message)

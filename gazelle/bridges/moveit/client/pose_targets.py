@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Literal
 
 from gazelle.bridges.moveit.client.session import LOG
 from gazelle.bridges.moveit.frames import pose_message
 from gazelle.description import Pose
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
 
 TargetKind = Literal["joint", "pose", "position", "orientation"]
 _SPHERE = 2
@@ -29,9 +29,9 @@ def pose_of_list(values: Sequence[float]) -> Pose | None:
     return Pose.from_quaternion(given[:3], given[3:]) if any(given[3:]) else Pose(*given[:3])
 
 
-def stamped(pose: Any, frame: str) -> Any:
+def stamped(pose: geometry_msgs.msg.Pose | None, frame: str) -> geometry_msgs.msg.PoseStamped:
     """Return a ``geometry_msgs/PoseStamped`` without a time, which is the newest known one."""
-    made: Any = load_message("geometry_msgs/PoseStamped")(pose=pose)
+    made = geometry_msgs.msg.PoseStamped(pose=pose)
     made.header.frame_id = frame
     return made
 
@@ -47,9 +47,9 @@ class PoseTargets:
 
     def __init__(self, link: str, frame: str) -> None:
         self.link, self.frame = link, frame
-        self.by_link: dict[str, list[Any]] = {}
+        self.by_link: dict[str, list[geometry_msgs.msg.PoseStamped]] = {}
 
-    def set(self, poses: Sequence[Any], link: str) -> bool:
+    def set(self, poses: Sequence[geometry_msgs.msg.PoseStamped], link: str) -> bool:
         """Set ``PoseStamped`` messages for a link; False if there is no link or no pose."""
         if not poses:
             LOG.error("No pose specified as goal target")
@@ -61,15 +61,15 @@ class PoseTargets:
         self.by_link[name] = [stamped(each.pose, each.header.frame_id) for each in poses]
         return True
 
-    def get(self, link: str) -> Any:
+    def get(self, link: str) -> geometry_msgs.msg.PoseStamped:
         """Return the first target of a link; an empty message without one."""
         found = self.by_link.get(link or self.link)
         if found:
             return found[0]
         LOG.error("Pose for end-effector '%s' not known.", link or self.link)
-        return load_message("geometry_msgs/PoseStamped")()
+        return geometry_msgs.msg.PoseStamped()
 
-    def begun(self, link: str) -> Any:
+    def begun(self, link: str) -> geometry_msgs.msg.PoseStamped:
         """Return the target of a link that is to be changed in part: a new one without a target.
 
         Position and orientation are set one after the other; a target in another frame than the
@@ -80,7 +80,9 @@ class PoseTargets:
             return stamped(found[0].pose, self.frame)
         return stamped(pose_message(Pose()), self.frame)
 
-    def constraints(self, kind: TargetKind, position: float, orientation: float) -> list[Any]:
+    def constraints(
+        self, kind: TargetKind, position: float, orientation: float
+    ) -> list[moveit_msgs.msg.Constraints]:
         """Return ``moveit_msgs/Constraints``, one for each of several goals; links share them.
 
         Args:
@@ -89,7 +91,7 @@ class PoseTargets:
             orientation: Tolerance about each axis [rad].
         """
         count = max(map(len, self.by_link.values()), default=0)
-        made: list[Any] = [load_message("moveit_msgs/Constraints")() for _ in range(count)]
+        made = [moveit_msgs.msg.Constraints() for _ in range(count)]
         for link, poses in self.by_link.items():
             for goal, pose in zip(made, poses, strict=False):
                 if kind != "orientation":
@@ -100,20 +102,24 @@ class PoseTargets:
         return made
 
 
-def position_constraint(link: str, target: Any, tolerance: float) -> Any:
+def position_constraint(
+    link: str, target: geometry_msgs.msg.PoseStamped, tolerance: float
+) -> moveit_msgs.msg.PositionConstraint:
     """Return a ``PositionConstraint``: the link's origin within a sphere."""
-    made: Any = load_message("moveit_msgs/PositionConstraint")(link_name=link, weight=1.0)
+    made = moveit_msgs.msg.PositionConstraint(link_name=link, weight=1.0)
     made.header = target.header
-    shape = load_message("shape_msgs/SolidPrimitive")(type=_SPHERE, dimensions=[tolerance])
-    place: Any = pose_message(Pose())
+    shape = shape_msgs.msg.SolidPrimitive(type=_SPHERE, dimensions=[tolerance])
+    place = pose_message(Pose())
     place.position = target.pose.position
     made.constraint_region.primitives, made.constraint_region.primitive_poses = [shape], [place]
     return made
 
 
-def orientation_constraint(link: str, target: Any, tolerance: float) -> Any:
+def orientation_constraint(
+    link: str, target: geometry_msgs.msg.PoseStamped, tolerance: float
+) -> moveit_msgs.msg.OrientationConstraint:
     """Return an ``OrientationConstraint``."""
-    made: Any = load_message("moveit_msgs/OrientationConstraint")(
+    made = moveit_msgs.msg.OrientationConstraint(
         link_name=link,
         orientation=target.pose.orientation,
         absolute_x_axis_tolerance=tolerance,

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from gazelle.bridges.moveit.client.session import LOG
 from gazelle.bridges.moveit.description import DESCRIPTION, find_parameter
 from gazelle.real_numbers import real
 from gazelle.ros import names
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs
 from gazelle.ros.node import Node
 
 _FACTOR = 0.1
@@ -49,10 +47,10 @@ class RequestSettings:
         self.factors = {kind: self._default(kind) for kind in ("velocity", "acceleration")}
         self.time, self.attempts = 5.0, 1
         self.pipeline = self.planner = self.support = ""
-        self.start: Any = here()
-        self.workspace: Any = load_message("moveit_msgs/WorkspaceParameters")()
-        self.path: Any = None
-        self.trajectory: Any = None
+        self.start = here()
+        self.workspace = moveit_msgs.msg.WorkspaceParameters()
+        self.path: moveit_msgs.msg.Constraints | None = None
+        self.trajectory: moveit_msgs.msg.TrajectoryConstraints | None = None
         self.look = self.replan = False
         self.fastest: tuple[str, float] = ("", 0.0)
 
@@ -75,7 +73,7 @@ class RequestSettings:
 
     def set_workspace(self, corners: tuple[float, ...], frame: str) -> None:
         """Set the box within which a robot that drives may be: three lower and three upper ends [m]."""
-        self.workspace = load_message("moveit_msgs/WorkspaceParameters")()
+        self.workspace = moveit_msgs.msg.WorkspaceParameters()
         self.workspace.header.frame_id = frame
         for corner, values in (
             (self.workspace.min_corner, corners[:3]),
@@ -83,9 +81,11 @@ class RequestSettings:
         ):
             corner.x, corner.y, corner.z = values
 
-    def request(self, goals: list[Any]) -> Any:
+    def request(
+        self, goals: list[moveit_msgs.msg.Constraints]
+    ) -> moveit_msgs.msg.MotionPlanRequest:
         """Return a ``moveit_msgs/MotionPlanRequest`` for any of some goals."""
-        made: Any = load_message("moveit_msgs/MotionPlanRequest")(
+        made = moveit_msgs.msg.MotionPlanRequest(
             group_name=self.group,
             num_planning_attempts=self.attempts,
             max_velocity_scaling_factor=self.factors["velocity"],
@@ -104,9 +104,9 @@ class RequestSettings:
             made.trajectory_constraints = self.trajectory
         return made
 
-    def options(self, *, plan_only: bool) -> Any:
+    def options(self, *, plan_only: bool) -> moveit_msgs.msg.PlanningOptions:
         """Return ``moveit_msgs/PlanningOptions`` that leave the scene unchanged."""
-        made: Any = load_message("moveit_msgs/PlanningOptions")(
+        made = moveit_msgs.msg.PlanningOptions(
             plan_only=plan_only,
             look_around=self.look,
             replan=self.replan,
@@ -119,8 +119,8 @@ class RequestSettings:
 _REPLAN_DELAY_S = 2.0
 
 
-def here() -> Any:
+def here() -> moveit_msgs.msg.RobotState:
     """Return the ``RobotState`` that stands for the robot's present state."""
-    made: Any = load_message("moveit_msgs/RobotState")()
+    made = moveit_msgs.msg.RobotState()
     made.is_diff = True
     return made

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-from typing import Any
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from gazelle.errors import PlanningError
 from gazelle.kinematics import RobotModel
 from gazelle.planning import PathLimits, parameterize
 from gazelle.planning.time_parameterization import TimeAlgorithm
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs
 
 _ALGORITHMS: dict[str, TimeAlgorithm] = {
     "iterative_time_parameterization": "iterative parabolic",
@@ -24,8 +23,12 @@ _ALGORITHMS: dict[str, TimeAlgorithm] = {
 
 
 def retimed(
-    robot: RobotModel, message: Any, velocity: float, acceleration: float, algorithm: str
-) -> Any:
+    robot: RobotModel,
+    message: moveit_msgs.msg.RobotTrajectory,
+    velocity: float,
+    acceleration: float,
+    algorithm: str,
+) -> moveit_msgs.msg.RobotTrajectory:
     """Return a ``moveit_msgs/RobotTrajectory`` along the same path, within limits.
 
     Args:
@@ -39,7 +42,7 @@ def retimed(
         The trajectory; an empty one, with a word in the log, if there is no such algorithm or the
         trajectory is of other joints.
     """
-    empty: Any = load_message("moveit_msgs/RobotTrajectory")()
+    empty = moveit_msgs.msg.RobotTrajectory()
     if algorithm not in _ALGORITHMS:
         LOG.error("Unknown time parameterization algorithm: %s", algorithm)
         return empty

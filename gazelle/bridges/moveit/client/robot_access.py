@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 
@@ -20,7 +19,7 @@ from gazelle.bridges.moveit.description import (
 from gazelle.bridges.moveit.robot_states import JointStateMonitor
 from gazelle.errors import Error
 from gazelle.ros import names
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs
 from gazelle.ros.node import Node
 
 _WAIT_S = 1.0
@@ -86,7 +85,7 @@ class RobotAccess:
             )
         return self._monitor.current()
 
-    def with_message(self, message: Any, state: Floats) -> Floats | None:
+    def with_message(self, message: moveit_msgs.msg.RobotState, state: Floats) -> Floats | None:
         """Return a ``moveit_msgs/RobotState`` over a state; None, logged, if it is invalid."""
         joints = message.joint_state
         if (
@@ -105,9 +104,9 @@ class RobotAccess:
                 made[self.robot.column(name)] = position
         return self.robot.complete(made)
 
-    def message(self, state: Floats) -> Any:
+    def message(self, state: Floats) -> moveit_msgs.msg.RobotState:
         """Return a ``moveit_msgs/RobotState`` of all variables, without a time."""
-        made: Any = load_message("moveit_msgs/RobotState")()
+        made = moveit_msgs.msg.RobotState()
         made.joint_state.header.frame_id = self.robot.frame
         made.multi_dof_joint_state.header.frame_id = self.robot.frame
         ordered = self.ordered()

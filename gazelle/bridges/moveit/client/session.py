@@ -8,12 +8,14 @@ import io
 import logging
 import threading
 from collections.abc import Iterable
-from typing import Any
+from typing import TypeVar
 
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.compat.rospy.state import process
-from gazelle.ros.messages import Message, load_message
+from gazelle.ros.messages import Message
 from gazelle.ros.node import Node
+
+MessageT = TypeVar("MessageT", bound=Message)
 
 LOG = logging.getLogger("rosout")
 """As rospy logs: on the screen, and on /rosout where the node is rospy's."""
@@ -71,19 +73,19 @@ def packed(message: Message) -> bytes:
     return buffer.getvalue()
 
 
-def unpacked(kind: str, data: bytes) -> Any:
+def unpacked(kind: type[MessageT], data: bytes) -> MessageT:
     """Deserialise a message.
 
     Args:
-        kind: Its type, such as ``moveit_msgs/RobotState``.
+        kind: Its class.
         data: The bytes.
 
     Raises:
         DeserializationError: They are no such message.
     """
-    return load_message(kind)().deserialize(data)
+    return kind().deserialize(data)
 
 
-def copied(kind: str, message: Message | None) -> Any:
+def copied(kind: type[MessageT], message: MessageT | None) -> MessageT:
     """Return a message's copy with the values that it has on the wire; an empty one of None."""
-    return load_message(kind)() if message is None else unpacked(kind, packed(message))
+    return kind() if message is None else unpacked(kind, packed(message))

@@ -1,7 +1,4 @@
 # Written by tools/message_stubs.py from the bundled definitions; not to be edited.
-from collections.abc import Sequence as _Sequence
-from typing import Any as _Any
-from numpy.typing import NDArray as _NDArray
 from gazelle.ros.messages import Message as _Message
 from gazelle.ros.msgs.std_msgs import msg as _std_msgs
 
@@ -35,6 +32,6 @@ class Gripper(_Message):
     header: _std_msgs.Header
     paddles: float
     lift: float
-    beams: _Sequence[bool] | _NDArray[_Any]
+    beams: list[bool]
     carried: str
-    def __init__(self, header: _std_msgs.Header | None = ..., paddles: float | None = ..., lift: float | None = ..., beams: _Sequence[bool] | _NDArray[_Any] | None = ..., carried: str | None = ...) -> None: ...
+    def __init__(self, header: _std_msgs.Header | None = ..., paddles: float | None = ..., lift: float | None = ..., beams: list[bool] | None = ..., carried: str | None = ...) -> None: ...

@@ -73,12 +73,12 @@ class ControllerInfo(_Message):
     d_gain: float
     def __init__(self, type: int | None = ..., p_gain: float | None = ..., i_gain: float | None = ..., d_gain: float | None = ...) -> None: ...
 class DigitalInputEvent(_Message):
-    values: _Sequence[bool] | _NDArray[_Any]
-    def __init__(self, values: _Sequence[bool] | _NDArray[_Any] | None = ...) -> None: ...
+    values: list[bool]
+    def __init__(self, values: list[bool] | None = ...) -> None: ...
 class DigitalOutput(_Message):
-    values: _Sequence[bool] | _NDArray[_Any]
-    mask: _Sequence[bool] | _NDArray[_Any]
-    def __init__(self, values: _Sequence[bool] | _NDArray[_Any] | None = ..., mask: _Sequence[bool] | _NDArray[_Any] | None = ...) -> None: ...
+    values: list[bool]
+    mask: list[bool]
+    def __init__(self, values: list[bool] | None = ..., mask: list[bool] | None = ...) -> None: ...
 class DockInfraRed(_Message):
     NEAR_LEFT: _ClassVar[int]
     NEAR_CENTER: _ClassVar[int]

@@ -15,14 +15,14 @@ from gazelle.ros.msgs.std_msgs import msg as _std_msgs
 from gazelle.ros.msgs.trajectory_msgs import msg as _trajectory_msgs
 
 class AllowedCollisionEntry(_Message):
-    enabled: _Sequence[bool] | _NDArray[_Any]
-    def __init__(self, enabled: _Sequence[bool] | _NDArray[_Any] | None = ...) -> None: ...
+    enabled: list[bool]
+    def __init__(self, enabled: list[bool] | None = ...) -> None: ...
 class AllowedCollisionMatrix(_Message):
     entry_names: list[str]
     entry_values: list[AllowedCollisionEntry]
     default_entry_names: list[str]
-    default_entry_values: _Sequence[bool] | _NDArray[_Any]
-    def __init__(self, entry_names: list[str] | None = ..., entry_values: list[AllowedCollisionEntry] | None = ..., default_entry_names: list[str] | None = ..., default_entry_values: _Sequence[bool] | _NDArray[_Any] | None = ...) -> None: ...
+    default_entry_values: list[bool]
+    def __init__(self, entry_names: list[str] | None = ..., entry_values: list[AllowedCollisionEntry] | None = ..., default_entry_names: list[str] | None = ..., default_entry_values: list[bool] | None = ...) -> None: ...
 class AttachedCollisionObject(_Message):
     link_name: str
     object: CollisionObject

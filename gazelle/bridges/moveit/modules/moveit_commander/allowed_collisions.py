@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import moveit_msgs
 
 
-def set_default(matrix: Any, obj: str, allow: bool) -> None:  # noqa: FBT001  # MoveIt's interface
+def set_default(matrix: moveit_msgs.msg.AllowedCollisionMatrix, obj: str, allow: bool) -> None:  # noqa: FBT001  # MoveIt's interface
     """Set the default for collisions of an object with others."""
     if obj in matrix.default_entry_names:
         matrix.default_entry_values[matrix.default_entry_names.index(obj)] = allow
@@ -16,7 +16,12 @@ def set_default(matrix: Any, obj: str, allow: bool) -> None:  # noqa: FBT001  # 
         matrix.default_entry_values.append(allow)
 
 
-def set_allowed(matrix: Any, obj: str, other: str | None = None, allow: bool = True) -> None:  # noqa: FBT001, FBT002
+def set_allowed(
+    matrix: moveit_msgs.msg.AllowedCollisionMatrix,
+    obj: str,
+    other: str | None = None,
+    allow: bool = True,  # noqa: FBT001, FBT002
+) -> None:
     """Set whether an object may touch another, or all others by default.
 
     Raises:
@@ -30,7 +35,7 @@ def set_allowed(matrix: Any, obj: str, other: str | None = None, allow: bool = T
         matrix.entry_names.append(obj)
         for entry in matrix.entry_values:
             entry.enabled.append(False)
-        row = load_message("moveit_msgs/AllowedCollisionEntry")
+        row = moveit_msgs.msg.AllowedCollisionEntry
         matrix.entry_values.append(row(enabled=[False] * len(matrix.entry_names)))
     first = matrix.entry_names.index(obj)
     matrix.entry_values[first].enabled[second] = allow
@@ -39,5 +44,5 @@ def set_allowed(matrix: Any, obj: str, other: str | None = None, allow: bool = T
 
 def extend_messages() -> None:
     """Add both methods to the message class."""
-    kind: Any = load_message("moveit_msgs/AllowedCollisionMatrix")
+    kind: Any = moveit_msgs.msg.AllowedCollisionMatrix
     kind.set_default, kind.set_allowed = set_default, set_allowed

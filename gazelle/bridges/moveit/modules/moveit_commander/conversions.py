@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
+from gazelle.bridges.conversions import Triple
 from gazelle.bridges.moveit.client.session import packed
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.description import Pose
 from gazelle.ros.compat.rospy.rostime import Time
-from gazelle.ros.messages import Message, load_message
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import geometry_msgs
 
 __all__ = [
     "list_to_pose",
@@ -32,17 +33,17 @@ def msg_from_string(msg: Message, data: bytes) -> None:
     msg.deserialize(data)
 
 
-def pose_to_list(pose_msg: Any) -> list[float]:
+def pose_to_list(pose_msg: geometry_msgs.msg.Pose) -> list[float]:
     """Return ``[x, y, z, qx, qy, qz, qw]`` of a pose."""
     return _numbers(pose_msg.position, pose_msg.orientation)
 
 
-def transform_to_list(trf_msg: Any) -> list[float]:
+def transform_to_list(trf_msg: geometry_msgs.msg.Transform) -> list[float]:
     """Return ``[x, y, z, qx, qy, qz, qw]`` of a transform."""
     return _numbers(trf_msg.translation, trf_msg.rotation)
 
 
-def list_to_pose(pose_list: Sequence[float]) -> Any:
+def list_to_pose(pose_list: Sequence[float]) -> geometry_msgs.msg.Pose:
     """Convert seven numbers, or six (x, y, z, roll, pitch, yaw), to a ``geometry_msgs/Pose``.
 
     Raises:
@@ -55,28 +56,30 @@ def list_to_pose(pose_list: Sequence[float]) -> Any:
     turn = [float(value) for value in pose_list[3:]]
     if len(turn) == 3:
         turn = list(Pose(0.0, 0.0, 0.0, *turn).quaternion)
-    made: Any = load_message("geometry_msgs/Pose")()
+    made = geometry_msgs.msg.Pose()
     _fill(made.position, made.orientation, [*pose_list[:3], *turn])
     return made
 
 
-def list_to_pose_stamped(pose_list: Sequence[float], target_frame: str) -> Any:
+def list_to_pose_stamped(
+    pose_list: Sequence[float], target_frame: str
+) -> geometry_msgs.msg.PoseStamped:
     """Return a ``PoseStamped`` of now; see `list_to_pose`."""
-    made: Any = load_message("geometry_msgs/PoseStamped")(pose=list_to_pose(pose_list))
+    made = geometry_msgs.msg.PoseStamped(pose=list_to_pose(pose_list))
     made.header.frame_id, made.header.stamp = target_frame, Time.now()
     return made
 
 
-def list_to_transform(trf_list: Sequence[float]) -> Any:
+def list_to_transform(trf_list: Sequence[float]) -> geometry_msgs.msg.Transform:
     """Convert seven numbers to a ``geometry_msgs/Transform``."""
-    made: Any = load_message("geometry_msgs/Transform")()
+    made = geometry_msgs.msg.Transform()
     _fill(made.translation, made.rotation, trf_list)
     return made
 
 
-def _numbers(place: Any, turn: Any) -> list[float]:
+def _numbers(place: Triple, turn: geometry_msgs.msg.Quaternion) -> list[float]:
     return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
 
 
-def _fill(place: Any, turn: Any, values: Sequence[float]) -> None:
+def _fill(place: Triple, turn: geometry_msgs.msg.Quaternion, values: Sequence[float]) -> None:
     place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w = values

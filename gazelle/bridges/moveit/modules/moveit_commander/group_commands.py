@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from gazelle.bridges.moveit.modules.moveit_commander import conversions
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.bridges.moveit.modules.moveit_commander.move_group import MoveGroupCommander
 from gazelle.planning import PlanOutcome
+from gazelle.ros.msgs import moveit_msgs
 
 __all__ = ["MoveGroupInfoLevel"]
 
@@ -276,7 +276,9 @@ def rotate(group: MoveGroupCommander, *words: str) -> Answer:
     )
 
 
-def plan(group: MoveGroupCommander, name: str) -> tuple[Answer, Any]:
+def plan(
+    group: MoveGroupCommander, name: str
+) -> tuple[Answer, moveit_msgs.msg.RobotTrajectory | None]:
     """Plan to a posture, as `go`; the answer, and a ``RobotTrajectory``, or None."""
     if name in RANDOM:
         values = group.get_random_joint_values()

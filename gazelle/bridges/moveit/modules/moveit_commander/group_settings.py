@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from gazelle.bridges.moveit.client.session import LOG, copied
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.bridges.moveit.modules.moveit_commander.group_targets import GroupTargets
+from gazelle.ros.msgs import moveit_msgs
 
 _FLAT, _SOLID = 4, 6
 
@@ -100,11 +100,11 @@ class GroupSettings(GroupTargets):
 
     # -- constraints ---------------------------------------------------------------------
 
-    def get_path_constraints(self) -> Any:
+    def get_path_constraints(self) -> moveit_msgs.msg.Constraints:
         """Return the ``Constraints`` that hold all along."""
-        return copied("moveit_msgs/Constraints", self._settings.path)
+        return copied(moveit_msgs.msg.Constraints, self._settings.path)
 
-    def set_path_constraints(self, value: Any) -> None:
+    def set_path_constraints(self, value: moveit_msgs.msg.Constraints | str | None) -> None:
         """Set ``Constraints`` that hold all along, none, or those of a name in a database.
 
         Raises:
@@ -113,20 +113,22 @@ class GroupSettings(GroupTargets):
         if value is None:
             self.clear_path_constraints()
         elif not isinstance(value, str):
-            self._settings.path = copied("moveit_msgs/Constraints", value)
+            self._settings.path = copied(moveit_msgs.msg.Constraints, value)
         elif not self._use_stored(value):
             raise MoveItCommanderException(f"no path constraints are stored as {value}")
 
-    def get_trajectory_constraints(self) -> Any:
+    def get_trajectory_constraints(self) -> moveit_msgs.msg.TrajectoryConstraints:
         """Return the ``TrajectoryConstraints``."""
-        return copied("moveit_msgs/TrajectoryConstraints", self._settings.trajectory)
+        return copied(moveit_msgs.msg.TrajectoryConstraints, self._settings.trajectory)
 
-    def set_trajectory_constraints(self, value: Any) -> None:
+    def set_trajectory_constraints(
+        self, value: moveit_msgs.msg.TrajectoryConstraints | None
+    ) -> None:
         """Set ``TrajectoryConstraints``, or none."""
         if value is None:
             self.clear_trajectory_constraints()
         else:
-            self._settings.trajectory = copied("moveit_msgs/TrajectoryConstraints", value)
+            self._settings.trajectory = copied(moveit_msgs.msg.TrajectoryConstraints, value)
 
     def clear_path_constraints(self) -> None:
         """Remove the path constraints."""

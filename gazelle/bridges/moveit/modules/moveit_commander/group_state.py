@@ -17,7 +17,8 @@ from gazelle.bridges.moveit.client.session import LOG, session
 from gazelle.bridges.moveit.modules.moveit_commander import conversions
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.description import Pose
-from gazelle.ros.messages import DeserializationError, load_message
+from gazelle.ros.messages import DeserializationError
+from gazelle.ros.msgs import geometry_msgs, moveit_msgs
 
 
 class GroupState:
@@ -96,10 +97,10 @@ class GroupState:
         """Set the frame of poses that name none."""
         self._poses.frame = frame
 
-    def get_interface_description(self) -> Any:
+    def get_interface_description(self) -> moveit_msgs.msg.PlannerInterfaceDescription:
         """Return a ``PlannerInterfaceDescription``: which planners there are."""
         answer = self._actions.ask("query_planner_interface", "QueryPlannerInterfaces")
-        kind = load_message("moveit_msgs/PlannerInterfaceDescription")
+        kind = moveit_msgs.msg.PlannerInterfaceDescription
         return answer.planner_interfaces[0] if answer.planner_interfaces else kind()
 
     # -- named and remembered postures ---------------------------------------------------
@@ -146,14 +147,14 @@ class GroupState:
         """Return positions of the group's variables drawn between their limits."""
         return self._joints.random()
 
-    def get_current_pose(self, end_effector_link: str = "") -> Any:
+    def get_current_pose(self, end_effector_link: str = "") -> geometry_msgs.msg.PoseStamped:
         """Return a ``PoseStamped``: where a link is now, the end effector's by default."""
         self._needs_link(
             end_effector_link, "the group has no end effector whose pose this could be"
         )
         return self._stamped(self._current_pose(end_effector_link))
 
-    def get_random_pose(self, end_effector_link: str = "") -> Any:
+    def get_random_pose(self, end_effector_link: str = "") -> geometry_msgs.msg.PoseStamped:
         """Return a ``PoseStamped`` that the group can reach."""
         self._needs_link(
             end_effector_link, "the group has no end effector whose pose this could be"
@@ -167,22 +168,24 @@ class GroupState:
         )
         return self._current_rpy(end_effector_link)
 
-    def get_current_state(self) -> Any:
+    def get_current_state(self) -> moveit_msgs.msg.RobotState:
         """Return a ``RobotState`` of the whole robot now; without joints if that is not known."""
         state = self._access.current()
         if state is None:
-            return load_message("moveit_msgs/RobotState")()
+            return moveit_msgs.msg.RobotState()
         return self._access.message(state)
 
-    def get_current_state_bounded(self) -> Any:
+    def get_current_state_bounded(self) -> moveit_msgs.msg.RobotState:
         """Return a ``RobotState`` of now, joints within their limits."""
-        made: Any = load_message("moveit_msgs/RobotState")()
+        made = moveit_msgs.msg.RobotState()
         positions = self._bounded_positions()
         made.joint_state.header.frame_id = self.get_planning_frame()
         made.joint_state.name, made.joint_state.position = [*positions], [*positions.values()]
         return made
 
-    def enforce_bounds(self, robot_state_msg: Any) -> Any:
+    def enforce_bounds(
+        self, robot_state_msg: moveit_msgs.msg.RobotState
+    ) -> moveit_msgs.msg.RobotState | None:
         """Return a ``RobotState`` with joints moved to their limits.
 
         Raises:
@@ -225,7 +228,7 @@ class GroupState:
         if not link and not self.has_end_effector_link():
             raise MoveItCommanderException(words)
 
-    def _stamped(self, pose: Sequence[float]) -> Any:
+    def _stamped(self, pose: Sequence[float]) -> geometry_msgs.msg.PoseStamped:
         return conversions.list_to_pose_stamped(pose, self.get_planning_frame())
 
     # -- what MoveIt's C++ class gives -----------------------------------------------------
@@ -257,7 +260,7 @@ class GroupState:
         made = self._access.message(self._access.bounded(state)).joint_state
         return dict(zip(made.name, made.position, strict=True))
 
-    def _read(self, message: Any) -> Floats:
+    def _read(self, message: moveit_msgs.msg.RobotState) -> Floats:
         """Return the state that a ``RobotState`` says.
 
         Raises:

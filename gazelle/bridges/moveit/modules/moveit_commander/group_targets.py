@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gazelle.bridges.moveit.client.pose_targets import TargetKind, pose_of_list, stamped
 from gazelle.bridges.moveit.client.request_settings import here
@@ -13,6 +13,10 @@ from gazelle.bridges.moveit.modules.moveit_commander import conversions
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.bridges.moveit.modules.moveit_commander.group_state import GroupState
 from gazelle.description import Pose
+from gazelle.ros.msgs import geometry_msgs, moveit_msgs, sensor_msgs
+
+if TYPE_CHECKING:
+    AnyPose = geometry_msgs.msg.Pose | geometry_msgs.msg.PoseStamped | Sequence[float]
 
 _BOUNDS = "these joint values are no goal: a joint is unknown, or beyond its limits"
 _TURNS, _AXES = 3, 6
@@ -76,7 +80,9 @@ class GroupTargets(GroupState):
         if not done:
             raise MoveItCommanderException(_BOUNDS)
 
-    def _set_by_pose(self, pose: Any, *more: Any) -> None:
+    def _set_by_pose(
+        self, pose: geometry_msgs.msg.Pose | geometry_msgs.msg.PoseStamped, *more: object
+    ) -> None:
         link, approximate = "", False
         for each in more:
             if isinstance(each, bool):
@@ -87,7 +93,8 @@ class GroupTargets(GroupState):
                 raise MoveItCommanderException(
                     f"expected a link or whether to approximate, not {type(each).__name__}"
                 )
-        setter = self._set_joints_by_stamped if hasattr(pose, "header") else self._set_joints_by
+        stamped_pose = hasattr(pose, "header")
+        setter: Any = self._set_joints_by_stamped if stamped_pose else self._set_joints_by
         if not setter(pose, link, approximate):
             raise MoveItCommanderException(
                 "inverse kinematics finds no joint values near that pose"
@@ -106,7 +113,7 @@ class GroupTargets(GroupState):
                 f"no posture '{name}' is known, or it is beyond the limits of a joint"
             )
 
-    def set_pose_target(self, pose: Any, end_effector_link: str = "") -> None:
+    def set_pose_target(self, pose: AnyPose, end_effector_link: str = "") -> None:
         """Set a ``Pose``, a ``PoseStamped``, or a list of six or seven numbers for a link.
 
         Raises:
@@ -123,7 +130,7 @@ class GroupTargets(GroupState):
         if not done:
             raise MoveItCommanderException("that pose is no goal: is there a link to bring to it?")
 
-    def set_pose_targets(self, poses: Sequence[Any], end_effector_link: str = "") -> None:
+    def set_pose_targets(self, poses: Sequence[AnyPose], end_effector_link: str = "") -> None:
         """Set several poses, any of which will do."""
         self._needs_link(end_effector_link, "which link? The group has no end effector")
         if not self._set_each_pose([listed(pose) for pose in poses], end_effector_link):
@@ -185,9 +192,9 @@ class GroupTargets(GroupState):
 
     # -- start ---------------------------------------------------------------------------
 
-    def set_start_state(self, msg: Any) -> None:
+    def set_start_state(self, msg: moveit_msgs.msg.RobotState) -> None:
         """Set a ``RobotState`` as start of plans."""
-        self._settings.start = copied("moveit_msgs/RobotState", msg)
+        self._settings.start = copied(moveit_msgs.msg.RobotState, msg)
 
     def set_start_state_to_current_state(self) -> None:
         """Set the robot's present state as start of plans."""
@@ -213,18 +220,23 @@ class GroupTargets(GroupState):
             return self._joints.set_named(target)
         return self._joints.set_all(target)
 
-    def _set_joint_state(self, message: Any) -> bool:
+    def _set_joint_state(self, message: sensor_msgs.msg.JointState) -> bool:
         """Set what a ``sensor_msgs/JointState`` says."""
         if len(message.name) != len(message.position):
             LOG.error("sizes of name and position arrays do not match")
             return False
         return self._set_joints(dict(zip(message.name, message.position, strict=True)))
 
-    def _set_joints_by(self, pose: Any, eef: str, approx: bool) -> bool:  # noqa: FBT001  # MoveIt's interface
+    def _set_joints_by(self, pose: geometry_msgs.msg.Pose, eef: str, approx: bool) -> bool:  # noqa: FBT001  # MoveIt's interface
         """Set joints that bring a link to a ``geometry_msgs/Pose``; False if there are none."""
         return self._solve(pose_of_message(pose), eef, approximate=approx)
 
-    def _set_joints_by_stamped(self, pose: Any, eef: str, approx: bool) -> bool:  # noqa: FBT001
+    def _set_joints_by_stamped(
+        self,
+        pose: geometry_msgs.msg.PoseStamped,
+        eef: str,
+        approx: bool,  # noqa: FBT001
+    ) -> bool:
         """Set joints by a ``PoseStamped`` likewise, in the frame of a link of the robot."""
         frame = pose.header.frame_id.lstrip("/")
         robot = self._access.robot
@@ -298,12 +310,12 @@ class GroupTargets(GroupState):
         turn.x, turn.y, turn.z, turn.w = float(x), float(y), float(z), float(w)
         return self._set_part(target, end_effector_link, "orientation")
 
-    def _set_part(self, target: Any, link: str, kind: TargetKind) -> bool:
+    def _set_part(self, target: geometry_msgs.msg.PoseStamped, link: str, kind: TargetKind) -> bool:
         found = self._poses.set([target], link)
         self._kind = kind
         return found
 
-    def _goals(self) -> list[Any]:
+    def _goals(self) -> list[moveit_msgs.msg.Constraints]:
         """Return the goal as constraints, any of which will do."""
         tolerances = self._settings.tolerances
         if self._kind == "joint":
@@ -313,7 +325,7 @@ class GroupTargets(GroupState):
         )
 
 
-def listed(pose: Any) -> Any:
+def listed(pose: AnyPose) -> list[float]:
     """Return the numbers of a ``Pose`` or ``PoseStamped``; a list as it is."""
-    found = getattr(pose, "pose", pose)
+    found: Any = getattr(pose, "pose", pose)
     return conversions.pose_to_list(found) if hasattr(found, "orientation") else list(found)

@@ -6,7 +6,7 @@ import logging
 import sys
 from collections.abc import Callable, KeysView
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from gazelle.bridges.moveit.modules.moveit_commander import conversions, group_commands
 from gazelle.bridges.moveit.modules.moveit_commander.assignments import assignment
@@ -28,6 +28,7 @@ from gazelle.bridges.moveit.modules.moveit_commander.planning_scene_interface im
 )
 from gazelle.bridges.moveit.modules.moveit_commander.robot import RobotCommander
 from gazelle.errors import Error
+from gazelle.ros.msgs import moveit_msgs
 from gazelle.writing import write_text
 
 __all__ = ["MoveGroupCommandInterpreter", "MoveGroupInfoLevel"]
@@ -57,7 +58,7 @@ class MoveGroupCommandInterpreter:
         self._name = self._before = ""
         self._scene = PlanningSceneInterface()
         self._robot = RobotCommander()
-        self._last_plan: Any = None
+        self._last_plan: moveit_msgs.msg.RobotTrajectory | None = None
         self._trace = False
         self._loading: set[Path] = set()
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gazelle.bridges.moveit.client.pose_targets import pose_of_list, stamped
 from gazelle.bridges.moveit.client.retiming import retimed
@@ -14,8 +14,16 @@ from gazelle.bridges.moveit.modules.moveit_commander.group_settings import Group
 from gazelle.bridges.moveit.modules.moveit_commander.group_targets import listed
 from gazelle.planning import PlanOutcome
 from gazelle.ros.errors import RosError
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, moveit_msgs, trajectory_msgs
 from gazelle.ros.time import Time
+
+if TYPE_CHECKING:
+    from gazelle.bridges.moveit.error_codes import Coded
+    from gazelle.bridges.moveit.modules.moveit_commander.group_targets import AnyPose
+
+    AnyTrajectory = (
+        moveit_msgs.msg.RobotTrajectory | trajectory_msgs.msg.JointTrajectory | tuple[Any, ...]
+    )
 
 __all__ = ["MoveGroupCommander"]
 
@@ -50,7 +58,9 @@ class MoveGroupCommander(GroupSettings):
         self._set_any(joints)
         return self.move() if wait else self.async_move()
 
-    def plan(self, joints: Any = None) -> tuple[bool, Any, float, Any]:
+    def plan(
+        self, joints: Any = None
+    ) -> tuple[bool, moveit_msgs.msg.RobotTrajectory, float, moveit_msgs.msg.MoveItErrorCodes]:
         """Return a plan to the targets, as for `go`.
 
         Returns:
@@ -71,21 +81,21 @@ class MoveGroupCommander(GroupSettings):
         else:
             self.set_joint_value_target(target)
 
-    def execute(self, plan_msg: Any, wait: bool = True) -> bool:  # noqa: FBT001, FBT002
+    def execute(self, plan_msg: AnyTrajectory, wait: bool = True) -> bool:  # noqa: FBT001, FBT002
         """Execute a ``RobotTrajectory``, a ``JointTrajectory`` or the result of `plan`."""
-        found = plan_msg[1] if isinstance(plan_msg, tuple) else plan_msg
+        found: Any = plan_msg[1] if isinstance(plan_msg, tuple) else plan_msg
         if not hasattr(found, "joint_trajectory"):
-            found = load_message("moveit_msgs/RobotTrajectory")(joint_trajectory=found)
+            found = moveit_msgs.msg.RobotTrajectory(joint_trajectory=found)
         return self._execute(found) if wait else self._async_execute(found)
 
     def compute_cartesian_path(
         self,
-        waypoints: Sequence[Any],
+        waypoints: Sequence[AnyPose],
         eef_step: float,
         jump_threshold: Any = 0.0,
         avoid_collisions: Any = True,  # noqa: FBT002
-        path_constraints: Any = None,
-    ) -> tuple[Any, float]:
+        path_constraints: moveit_msgs.msg.Constraints | None = None,
+    ) -> tuple[moveit_msgs.msg.RobotTrajectory, float]:
         """Return a ``RobotTrajectory`` along straight ways of the end effector.
 
         Args:
@@ -121,7 +131,7 @@ class MoveGroupCommander(GroupSettings):
         }
         if path_constraints:
             fields["path_constraints"] = path_constraints
-        nothing = load_message("moveit_msgs/RobotTrajectory")()
+        nothing = moveit_msgs.msg.RobotTrajectory()
         try:
             answer = self._actions.ask("compute_cartesian_path", "GetCartesianPath", **fields)
         except RosError as error:
@@ -133,12 +143,12 @@ class MoveGroupCommander(GroupSettings):
 
     def retime_trajectory(
         self,
-        ref_state_in: Any,
-        traj_in: Any,
+        ref_state_in: moveit_msgs.msg.RobotState,
+        traj_in: moveit_msgs.msg.RobotTrajectory,
         velocity_scaling_factor: float = 1.0,
         acceleration_scaling_factor: float = 1.0,
         algorithm: str = "iterative_time_parameterization",
-    ) -> Any:
+    ) -> moveit_msgs.msg.RobotTrajectory | None:
         """Return a ``RobotTrajectory`` along the same path with other times.
 
         Args:
@@ -160,9 +170,9 @@ class MoveGroupCommander(GroupSettings):
             algorithm,
         )
 
-    def construct_motion_plan_request(self) -> Any:
+    def construct_motion_plan_request(self) -> moveit_msgs.msg.MotionPlanRequest:
         """Return a ``MotionPlanRequest`` of all that is set."""
-        return copied("moveit_msgs/MotionPlanRequest", self._settings.request(self._goals()))
+        return copied(moveit_msgs.msg.MotionPlanRequest, self._settings.request(self._goals()))
 
     def move(self) -> bool:
         """Plan and go there; whether it arrived."""
@@ -191,7 +201,7 @@ class MoveGroupCommander(GroupSettings):
         if not holder:
             LOG.error("No known link to attach object '%s' to", object_name)
             return False
-        message: Any = load_message("moveit_msgs/AttachedCollisionObject")(
+        message = moveit_msgs.msg.AttachedCollisionObject(
             link_name=holder, touch_links=list(touch_links) or [holder]
         )
         message.object.id = object_name
@@ -201,12 +211,12 @@ class MoveGroupCommander(GroupSettings):
     def detach_object(self, name: str = "") -> bool:
         """Detach an object, all of a link, or all of the group."""
         links = self._access.names.group_links(self._name)
-        kind = load_message("moveit_msgs/AttachedCollisionObject")
+        kind = moveit_msgs.msg.AttachedCollisionObject
         chosen = [("", name)] if name and name not in links else [
             (link, "") for link in ([name] if name else links)
         ]  # fmt: skip
         for link, thing in chosen:
-            message: Any = kind(link_name=link)
+            message = kind(link_name=link)
             message.object.id, message.object.operation = thing, _REMOVE
             self._actions.attach(message)
         return True
@@ -218,8 +228,8 @@ class MoveGroupCommander(GroupSettings):
         """
         if isinstance(grasp, bool):
             grasp, plan_only = (), grasp
-        given = [grasp] if isinstance(grasp, load_message("moveit_msgs/Grasp")) else list(grasp)
-        goal: Any = load_message("moveit_msgs/PickupGoal")(
+        given = [grasp] if isinstance(grasp, moveit_msgs.msg.Grasp) else list(grasp)
+        goal = moveit_msgs.msg.PickupGoal(
             target_name=object_name, end_effector=self._end_effector(), possible_grasps=given
         )
         return int(self._handle("pickup", goal, plan_only=plan_only).error_code.val)
@@ -235,12 +245,12 @@ class MoveGroupCommander(GroupSettings):
         """
         if isinstance(location, bool):
             location, plan_only = None, location
-        goal: Any = load_message("moveit_msgs/PlaceGoal")(
+        goal = moveit_msgs.msg.PlaceGoal(
             attached_object_name=object_name, place_locations=self._locations(location)
         )
         return _good(self._handle("place", goal, plan_only=plan_only))
 
-    def _locations(self, location: Any) -> list[Any]:
+    def _locations(self, location: Any) -> list[moveit_msgs.msg.PlaceLocation] | None:
         """Return ``PlaceLocation`` messages; none for anywhere."""
         if not location:
             return []
@@ -259,7 +269,13 @@ class MoveGroupCommander(GroupSettings):
             "expected a Pose or PoseStamped to place at, a PlaceLocation, or a list of the latter two"
         )
 
-    def _handle(self, action: str, goal: Any, *, plan_only: bool) -> Any:
+    def _handle(
+        self,
+        action: str,
+        goal: moveit_msgs.msg.PickupGoal | moveit_msgs.msg.PlaceGoal,
+        *,
+        plan_only: bool,
+    ) -> Coded:
         """Send a goal of ``pickup`` or ``place`` with what is set."""
         settings = self._settings
         goal.group_name, goal.planner_id = self._name, settings.planner
@@ -269,7 +285,8 @@ class MoveGroupCommander(GroupSettings):
         if settings.path is not None:
             goal.path_constraints = settings.path
         goal.planning_options = settings.options(plan_only=plan_only)
-        return self._actions.run(action, goal)
+        result: Coded = self._actions.run(action, goal)
+        return result
 
     def _end_effector(self) -> str:
         """Return the end effector that holds the link which poses are of."""
@@ -279,9 +296,9 @@ class MoveGroupCommander(GroupSettings):
                 return each.name
         return ""
 
-    def _location(self, target: Any) -> Any:
+    def _location(self, target: geometry_msgs.msg.PoseStamped) -> moveit_msgs.msg.PlaceLocation:
         """Return a ``PlaceLocation``: from above, and away along the end effector, as MoveIt fills it."""
-        made: Any = load_message("moveit_msgs/PlaceLocation")(place_pose=target)
+        made = moveit_msgs.msg.PlaceLocation(place_pose=target)
         down, away = made.pre_place_approach, made.post_place_retreat
         down.direction.header.frame_id = self.get_planning_frame()
         down.direction.vector.z, down.min_distance, down.desired_distance = -1.0, 0.1, 0.2
@@ -292,30 +309,36 @@ class MoveGroupCommander(GroupSettings):
 
     # -- what MoveIt's C++ class does ------------------------------------------------------
 
-    def _goal(self, *, plan_only: bool) -> Any:
-        made: Any = load_message("moveit_msgs/MoveGroupGoal")()
+    def _goal(self, *, plan_only: bool) -> moveit_msgs.msg.MoveGroupGoal:
+        made = moveit_msgs.msg.MoveGroupGoal()
         made.request = self._settings.request(self._goals())
         made.planning_options = self._settings.options(plan_only=plan_only)
         return made
 
-    def _plan(self) -> tuple[Any, Any, float]:
+    def _plan(
+        self,
+    ) -> tuple[moveit_msgs.msg.MoveItErrorCodes, moveit_msgs.msg.RobotTrajectory, float]:
         """Plan; a ``MoveItErrorCodes``, a ``RobotTrajectory``, and how long it took [s]."""
-        result = self._actions.run("move_group", self._goal(plan_only=True))
+        result: moveit_msgs.msg.MoveGroupResult = self._actions.run(
+            "move_group", self._goal(plan_only=True)
+        )
         return result.error_code, result.planned_trajectory, result.planning_time
 
-    def _execute(self, trajectory: Any) -> bool:
+    def _execute(self, trajectory: moveit_msgs.msg.RobotTrajectory) -> bool:
         """Execute a ``RobotTrajectory``; returns whether it arrived."""
         return _good(self._actions.run("execute_trajectory", _to_execute(trajectory)))
 
-    def _async_execute(self, trajectory: Any) -> bool:
+    def _async_execute(self, trajectory: moveit_msgs.msg.RobotTrajectory) -> bool:
         """Start executing a ``RobotTrajectory``, without a wait."""
         self._actions.send("execute_trajectory", _to_execute(trajectory))
         return True
 
 
-def _good(result: Any) -> bool:
+def _good(result: Coded) -> bool:
     return bool(result.error_code.val == PlanOutcome.SUCCESS)
 
 
-def _to_execute(trajectory: Any) -> Any:
-    return load_message("moveit_msgs/ExecuteTrajectoryGoal")(trajectory=trajectory)
+def _to_execute(
+    trajectory: moveit_msgs.msg.RobotTrajectory,
+) -> moveit_msgs.msg.ExecuteTrajectoryGoal:
+    return moveit_msgs.msg.ExecuteTrajectoryGoal(trajectory=trajectory)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from gazelle.bridges.moveit.client.session import LOG, session
 from gazelle.bridges.moveit.frames import pose_of_message
@@ -18,7 +17,9 @@ from gazelle.formats import load_mesh
 from gazelle.ros import names
 from gazelle.ros.compat.rospy.topics import Publisher
 from gazelle.ros.errors import RosError, RosTimeoutError
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.messages import ServiceDefinition
+from gazelle.ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
+from gazelle.ros.services import ServiceClient
 
 __all__ = ["PlanningSceneInterface"]
 
@@ -39,23 +40,23 @@ class PlanningSceneInterface:
 
     def __init__(self, ns: str = "", synchronous: bool = True) -> None:  # noqa: FBT001, FBT002  # MoveIt's interface
         self._node = session.node()
-        self._get = self._client(ns, "get_planning_scene", "GetPlanningScene")
-        self._apply = self._client(ns, "apply_planning_scene", "ApplyPlanningScene")
+        self._get = self._client(ns, "get_planning_scene", moveit_msgs.srv.GetPlanningScene)
+        self._apply = self._client(ns, "apply_planning_scene", moveit_msgs.srv.ApplyPlanningScene)
         self._synchronous = synchronous
         if not synchronous:
             thing, held = "collision_object", "attached_collision_object"
             self._pub_co = Publisher(
-                names.join(ns, thing), load_message("moveit_msgs/CollisionObject"), queue_size=100
+                names.join(ns, thing), moveit_msgs.msg.CollisionObject, queue_size=100
             )
             self._pub_aco = Publisher(
                 names.join(ns, held),
-                load_message("moveit_msgs/AttachedCollisionObject"),
+                moveit_msgs.msg.AttachedCollisionObject,
                 queue_size=100,
             )
 
     # -- things --------------------------------------------------------------------------
 
-    def add_object(self, collision_object: Any) -> None:
+    def add_object(self, collision_object: moveit_msgs.msg.CollisionObject) -> None:
         """Add a ``CollisionObject``."""
         if not self._synchronous:
             self._pub_co.publish(collision_object)
@@ -64,45 +65,57 @@ class PlanningSceneInterface:
         scene.world.collision_objects = [collision_object]
         self.apply_planning_scene(scene)
 
-    def add_box(self, name: str, pose: Any, size: Sequence[float] = (1, 1, 1)) -> None:
+    def add_box(
+        self, name: str, pose: geometry_msgs.msg.PoseStamped, size: Sequence[float] = (1, 1, 1)
+    ) -> None:
         """Add a box at a ``PoseStamped``; lengths along x, y, z [m]."""
         self.add_object(self.make_box(name, pose, size))
 
-    def add_sphere(self, name: str, pose: Any, radius: float = 1) -> None:
+    def add_sphere(self, name: str, pose: geometry_msgs.msg.PoseStamped, radius: float = 1) -> None:
         """Add a sphere [m]."""
         self.add_object(self.make_sphere(name, pose, radius))
 
-    def add_cylinder(self, name: str, pose: Any, height: float, radius: float) -> None:
+    def add_cylinder(
+        self, name: str, pose: geometry_msgs.msg.PoseStamped, height: float, radius: float
+    ) -> None:
         """Add a cylinder along z [m]."""
         self.add_object(self.make_cylinder(name, pose, height, radius))
 
-    def add_cone(self, name: str, pose: Any, height: float, radius: float) -> None:
+    def add_cone(
+        self, name: str, pose: geometry_msgs.msg.PoseStamped, height: float, radius: float
+    ) -> None:
         """Add a cone along z [m]."""
         self.add_object(self.make_cone(name, pose, height, radius))
 
     def add_mesh(
-        self, name: str, pose: Any, filename: str, size: Sequence[float] = (1, 1, 1)
+        self,
+        name: str,
+        pose: geometry_msgs.msg.PoseStamped,
+        filename: str,
+        size: Sequence[float] = (1, 1, 1),
     ) -> None:
         """Add the mesh of a file, times factors."""
         self.add_object(self.make_mesh(name, pose, filename, size))
 
     def add_plane(
-        self, name: str, pose: Any, normal: Sequence[float] = (0, 0, 1), offset: float = 0
+        self,
+        name: str,
+        pose: geometry_msgs.msg.PoseStamped,
+        normal: Sequence[float] = (0, 0, 1),
+        offset: float = 0,
     ) -> None:
         """Add the plane ``normal * x + offset = 0``."""
         self.add_object(self.make_plane(name, pose, normal, offset))
 
     def remove_world_object(self, name: str | None = None) -> None:
         """Remove a thing, or all if none is named."""
-        self.add_object(
-            load_message("moveit_msgs/CollisionObject")(id=name or "", operation=_REMOVE)
-        )
+        self.add_object(moveit_msgs.msg.CollisionObject(id=name or "", operation=_REMOVE))
 
     # -- what links hold -----------------------------------------------------------------
 
     def attach_object(
         self,
-        object: Any,  # noqa: A002  # MoveIt's interface
+        object: moveit_msgs.msg.CollisionObject | moveit_msgs.msg.AttachedCollisionObject | str,  # noqa: A002  # MoveIt's interface
         link: str | None = None,
         touch_links: Sequence[str] | None = None,
     ) -> None:
@@ -117,15 +130,15 @@ class PlanningSceneInterface:
         """
         if isinstance(object, str):
             object = _existing(object)  # noqa: A001
-        kind = load_message("moveit_msgs/AttachedCollisionObject")
-        held: Any = object if isinstance(object, kind) else kind(object=object)
+        kind = moveit_msgs.msg.AttachedCollisionObject
+        held = object if isinstance(object, kind) else kind(object=object)
         if link is not None:
             held.link_name = link
         held.touch_links = [held.link_name] if touch_links is None else list(touch_links)
         self._hold(held)
 
     def attach_box(
-        self, link: str, name: str, pose: Any = None, size: Sequence[float] = (1, 1, 1),
+        self, link: str, name: str, pose: geometry_msgs.msg.PoseStamped | None = None, size: Sequence[float] = (1, 1, 1),
         touch_links: Sequence[str] | None = None,
     ) -> None:  # fmt: skip
         """Attach a box to a link, or a known object if no pose is given."""
@@ -133,7 +146,7 @@ class PlanningSceneInterface:
         self.attach_object(made, link, touch_links)
 
     def attach_sphere(
-        self, link: str, name: str, pose: Any = None, radius: float = 1,
+        self, link: str, name: str, pose: geometry_msgs.msg.PoseStamped | None = None, radius: float = 1,
         touch_links: Sequence[str] | None = None,
     ) -> None:  # fmt: skip
         """Attach a sphere to a link; see `attach_box`."""
@@ -141,7 +154,7 @@ class PlanningSceneInterface:
         self.attach_object(made, link, touch_links)
 
     def attach_cylinder(
-        self, link: str, name: str, pose: Any = None, height: float = 1, radius: float = 1,
+        self, link: str, name: str, pose: geometry_msgs.msg.PoseStamped | None = None, height: float = 1, radius: float = 1,
         touch_links: Sequence[str] | None = None,
     ) -> None:  # fmt: skip
         """Attach a cylinder to a link; see `attach_box`."""
@@ -149,21 +162,22 @@ class PlanningSceneInterface:
         self.attach_object(made, link, touch_links)
 
     def attach_mesh(
-        self, link: str, name: str, pose: Any = None, filename: str = "",
+        self, link: str, name: str, pose: geometry_msgs.msg.PoseStamped | None = None, filename: str = "",
         size: Sequence[float] = (1, 1, 1), touch_links: Sequence[str] | None = None,
     ) -> None:  # fmt: skip
         """Attach the mesh of a file to a link; see `attach_box`."""
-        known = pose is None or not filename
-        made = _existing(name) if known else self.make_mesh(name, pose, filename, size)
+        made = _existing(name)
+        if pose is not None and filename:
+            made = self.make_mesh(name, pose, filename, size)
         self.attach_object(made, link, touch_links)
 
     def remove_attached_object(self, link: str | None = None, name: str | None = None) -> None:
         """Detach an object, all of a link, or all; they stay in the scene."""
-        held: Any = load_message("moveit_msgs/AttachedCollisionObject")(link_name=link or "")
+        held = moveit_msgs.msg.AttachedCollisionObject(link_name=link or "")
         held.object.id, held.object.operation = name or "", _REMOVE
         self._hold(held)
 
-    def _hold(self, held: Any) -> None:
+    def _hold(self, held: moveit_msgs.msg.AttachedCollisionObject) -> None:
         if not self._synchronous:
             self._pub_aco.publish(held)
             return
@@ -201,17 +215,21 @@ class PlanningSceneInterface:
                 found.append(each.id)
         return found
 
-    def get_object_poses(self, object_ids: Sequence[str]) -> dict[str, Any]:
+    def get_object_poses(self, object_ids: Sequence[str]) -> dict[str, geometry_msgs.msg.Pose]:
         """Return ``geometry_msgs/Pose`` by name, of the named objects."""
         things = self._scene(GEOMETRY).world.collision_objects
         return {each.id: each.pose for each in things if each.id in object_ids}
 
-    def get_objects(self, object_ids: Sequence[str] = ()) -> dict[str, Any]:
+    def get_objects(
+        self, object_ids: Sequence[str] = ()
+    ) -> dict[str, moveit_msgs.msg.CollisionObject]:
         """Return ``CollisionObject`` by name, of the named objects, or of all by default."""
         things = self._scene(GEOMETRY).world.collision_objects
         return {each.id: each for each in things if not object_ids or each.id in object_ids}
 
-    def get_attached_objects(self, object_ids: Sequence[str] = ()) -> dict[str, Any]:
+    def get_attached_objects(
+        self, object_ids: Sequence[str] = ()
+    ) -> dict[str, moveit_msgs.msg.AttachedCollisionObject]:
         """Return ``AttachedCollisionObject`` by name, of the named objects or of all."""
         held = self._scene(ATTACHED).robot_state.attached_collision_objects
         return {
@@ -220,15 +238,16 @@ class PlanningSceneInterface:
 
     # -- whole scenes --------------------------------------------------------------------
 
-    def get_planning_scene(self, components: int) -> Any:
+    def get_planning_scene(self, components: int) -> moveit_msgs.msg.PlanningScene:
         """Return the parts of a ``PlanningScene`` that a sum of ``PlanningSceneComponents`` names."""
         return self._scene(int(components))
 
-    def apply_planning_scene(self, planning_scene_message: Any) -> bool:
+    def apply_planning_scene(self, planning_scene_message: moveit_msgs.msg.PlanningScene) -> bool:
         """Apply a ``PlanningScene``; whether all of it could be done."""
-        kind = load_service("moveit_msgs/ApplyPlanningScene")
         try:
-            answer = self._apply.call(kind._request_class(scene=planning_scene_message))
+            answer = self._apply.call(
+                moveit_msgs.srv.ApplyPlanningSceneRequest(scene=planning_scene_message)
+            )
         except RosError as error:
             LOG.warning("Failed to call ApplyPlanningScene service: %s", error)
             return False
@@ -238,22 +257,23 @@ class PlanningSceneInterface:
         """Remove all things, also those that links hold."""
         message, thing = _change(), _existing("")
         thing.operation = _REMOVE
-        held: Any = load_message("moveit_msgs/AttachedCollisionObject")(object=thing)
+        held = moveit_msgs.msg.AttachedCollisionObject(object=thing)
         message.robot_state.attached_collision_objects = [held]
         message.world.collision_objects = [thing]
         return self.apply_planning_scene(message)
 
-    def _scene(self, components: int) -> Any:
+    def _scene(self, components: int) -> moveit_msgs.msg.PlanningScene:
         """Return a ``PlanningScene``; an empty one, with a word in the log, if there is no answer."""
-        request: Any = load_service("moveit_msgs/GetPlanningScene")._request_class()
+        request = moveit_msgs.srv.GetPlanningSceneRequest()
         request.components.components = components
         try:
-            return self._get.call(request).scene
+            scene: moveit_msgs.msg.PlanningScene = self._get.call(request).scene
         except RosError as error:
             LOG.warning("Could not call planning scene service: %s", error)
-            return load_message("moveit_msgs/PlanningScene")()
+            return moveit_msgs.msg.PlanningScene()
+        return scene
 
-    def _client(self, namespace: str, name: str, kind: str) -> Any:
+    def _client(self, namespace: str, name: str, kind: type[ServiceDefinition]) -> ServiceClient:
         full = names.join(namespace, name)
         while True:
             try:
@@ -261,32 +281,45 @@ class PlanningSceneInterface:
                 break
             except RosTimeoutError:
                 LOG.warning("service '%s' not advertised yet. Continue waiting...", full)
-        return self._node.client(full, load_service(f"moveit_msgs/{kind}"))
+        return self._node.client(full, kind)
 
     # -- messages ------------------------------------------------------------------------
 
     @staticmethod
-    def make_box(name: str, pose: Any, size: Sequence[float]) -> Any:
+    def make_box(
+        name: str, pose: geometry_msgs.msg.PoseStamped, size: Sequence[float]
+    ) -> moveit_msgs.msg.CollisionObject:
         """Return a ``CollisionObject``: a box at a ``PoseStamped``."""
         return _primitive(name, pose, _BOX, size)
 
     @staticmethod
-    def make_sphere(name: str, pose: Any, radius: float) -> Any:
+    def make_sphere(
+        name: str, pose: geometry_msgs.msg.PoseStamped, radius: float
+    ) -> moveit_msgs.msg.CollisionObject:
         """Return a ``CollisionObject``: a sphere."""
         return _primitive(name, pose, _SPHERE, [radius])
 
     @staticmethod
-    def make_cylinder(name: str, pose: Any, height: float, radius: float) -> Any:
+    def make_cylinder(
+        name: str, pose: geometry_msgs.msg.PoseStamped, height: float, radius: float
+    ) -> moveit_msgs.msg.CollisionObject:
         """Return a ``CollisionObject``: a cylinder."""
         return _primitive(name, pose, _CYLINDER, [height, radius])
 
     @staticmethod
-    def make_cone(name: str, pose: Any, height: float, radius: float) -> Any:
+    def make_cone(
+        name: str, pose: geometry_msgs.msg.PoseStamped, height: float, radius: float
+    ) -> moveit_msgs.msg.CollisionObject:
         """Return a ``CollisionObject``: a cone."""
         return _primitive(name, pose, _CONE, [height, radius])
 
     @staticmethod
-    def make_mesh(name: str, pose: Any, filename: str, scale: Sequence[float] = (1, 1, 1)) -> Any:
+    def make_mesh(
+        name: str,
+        pose: geometry_msgs.msg.PoseStamped,
+        filename: str,
+        scale: Sequence[float] = (1, 1, 1),
+    ) -> moveit_msgs.msg.CollisionObject:
         """Return a ``CollisionObject``: the mesh of a file.
 
         Raises:
@@ -303,34 +336,39 @@ class PlanningSceneInterface:
 
     @staticmethod
     def make_plane(
-        name: str, pose: Any, normal: Sequence[float] = (0, 0, 1), offset: float = 0
-    ) -> Any:
+        name: str,
+        pose: geometry_msgs.msg.PoseStamped,
+        normal: Sequence[float] = (0, 0, 1),
+        offset: float = 0,
+    ) -> moveit_msgs.msg.CollisionObject:
         """Return a ``CollisionObject``: a plane."""
-        made: Any = load_message("moveit_msgs/CollisionObject")(id=name, header=pose.header)
+        made = moveit_msgs.msg.CollisionObject(id=name, header=pose.header)
         coefficients = [*map(float, normal), float(offset)]
-        made.planes = [load_message("shape_msgs/Plane")(coef=coefficients)]
+        made.planes = [shape_msgs.msg.Plane(coef=coefficients)]
         made.plane_poses = [pose.pose]
         return made
 
 
-def _placed(name: str, pose: Any) -> Any:
-    return load_message("moveit_msgs/CollisionObject")(id=name, header=pose.header, pose=pose.pose)
+def _placed(name: str, pose: geometry_msgs.msg.PoseStamped) -> moveit_msgs.msg.CollisionObject:
+    return moveit_msgs.msg.CollisionObject(id=name, header=pose.header, pose=pose.pose)
 
 
-def _primitive(name: str, pose: Any, kind: int, lengths: Sequence[float]) -> Any:
+def _primitive(
+    name: str, pose: geometry_msgs.msg.PoseStamped, kind: int, lengths: Sequence[float]
+) -> moveit_msgs.msg.CollisionObject:
     made = _placed(name, pose)
     sizes = [float(length) for length in lengths]
-    made.primitives = [load_message("shape_msgs/SolidPrimitive")(type=kind, dimensions=sizes)]
+    made.primitives = [shape_msgs.msg.SolidPrimitive(type=kind, dimensions=sizes)]
     return made
 
 
-def _existing(name: str) -> Any:
+def _existing(name: str) -> moveit_msgs.msg.CollisionObject:
     """Return a collision object that refers to an existing one by its name."""
-    return load_message("moveit_msgs/CollisionObject")(id=name)
+    return moveit_msgs.msg.CollisionObject(id=name)
 
 
-def _change() -> Any:
+def _change() -> moveit_msgs.msg.PlanningScene:
     """Return a ``PlanningScene`` that changes nothing yet."""
-    made: Any = load_message("moveit_msgs/PlanningScene")(is_diff=True)
+    made = moveit_msgs.msg.PlanningScene(is_diff=True)
     made.robot_state.is_diff = True
     return made

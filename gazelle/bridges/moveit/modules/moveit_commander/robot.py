@@ -13,6 +13,7 @@ from gazelle.bridges.moveit.modules.moveit_commander import conversions
 from gazelle.bridges.moveit.modules.moveit_commander.exception import MoveItCommanderException
 from gazelle.bridges.moveit.modules.moveit_commander.move_group import MoveGroupCommander
 from gazelle.errors import did_you_mean
+from gazelle.ros.msgs import geometry_msgs, moveit_msgs, visualization_msgs
 
 __all__ = ["RobotCommander"]
 
@@ -77,7 +78,7 @@ class CommanderLink:
         """Return the link's name."""
         return self._name
 
-    def pose(self) -> Any:
+    def pose(self) -> geometry_msgs.msg.PoseStamped:
         """Return a ``PoseStamped``: where it is now."""
         found = self._robot.get_link_pose(self._name)
         return conversions.list_to_pose_stamped(found, self._robot.get_planning_frame())
@@ -250,7 +251,7 @@ class RobotCommander:
         """Return positions of all variables now, by name."""
         return dict(zip(self._robot.names, self._access.known().tolist(), strict=True))
 
-    def get_current_state(self) -> Any:
+    def get_current_state(self) -> moveit_msgs.msg.RobotState:
         """Return a ``RobotState`` of now."""
         return self._access.message(self._access.known())
 
@@ -263,7 +264,9 @@ class RobotCommander:
 
     # -- markers -------------------------------------------------------------------------
 
-    def get_robot_markers(self, state: Any = None, links: Any = None) -> Any:
+    def get_robot_markers(
+        self, state: Any = None, links: Any = None
+    ) -> visualization_msgs.msg.MarkerArray:
         """Return a ``MarkerArray`` of links.
 
         Args:
@@ -291,7 +294,9 @@ class RobotCommander:
         chosen = self._names.links if links is None else links
         return link_markers(self._robot, here, chosen, self._access.node.clock.now())
 
-    def get_group_markers(self, group: str, values: Mapping[str, float] | None = None) -> Any:
+    def get_group_markers(
+        self, group: str, values: Mapping[str, float] | None = None
+    ) -> visualization_msgs.msg.MarkerArray:
         """Return a ``MarkerArray`` of a group's links, now or with positions by joint."""
         return self.get_robot_markers(values or {}, self._names.group_links(group))
 
