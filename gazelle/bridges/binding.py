@@ -19,6 +19,7 @@ from gazelle.bridges.listening import HeardTopic
 from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.errors import RosError, SimulationError, SimulationWarning
 from gazelle.ros import load_message, load_service
+from gazelle.ros.msgs import geometry_msgs
 from gazelle.ros.tf.naming import FramePrefixes
 from gazelle.simulation import (
     FramePrefix,
@@ -189,7 +190,7 @@ class Binding:
     def _subscribe(self, port: TwistInput | Input[Any]) -> None:
         if isinstance(port, TwistInput):
             subscriber = self._node.subscribe(
-                port.topic, load_message("geometry_msgs/Twist"), self._twist_into(port), 1
+                port.topic, geometry_msgs.msg.Twist, self._twist_into(port), 1
             )
         else:
             decoder = decoder_of(port.kind)
@@ -205,7 +206,7 @@ class Binding:
         self._closing.append(subscriber.close)
 
     def _twist_into(self, port: TwistInput) -> Callable[[Any], None]:
-        def receive(message: Any) -> None:
+        def receive(message: geometry_msgs.msg.Twist) -> None:
             linear, angular = message.linear, message.angular
             forward = np.array([[linear.x, linear.y, linear.z]])
             turning = np.array([[angular.x, angular.y, angular.z]])

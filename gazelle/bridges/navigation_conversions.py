@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from gazelle.bridges.conversions import (
@@ -17,11 +15,11 @@ from gazelle.bridges.conversions import (
     set_pose,
 )
 from gazelle.navigation.values import GoalPose, Path
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, nav_msgs
 from gazelle.rotations import from_yaw, yaw_of
 
 
-def _goal(message: Any) -> GoalPose:
+def _goal(message: geometry_msgs.msg.PoseStamped) -> GoalPose:
     """Convert a goal; one without an orientation may be reached with any heading."""
     turned = message.pose.orientation
     heading = None
@@ -31,8 +29,8 @@ def _goal(message: Any) -> GoalPose:
     return GoalPose(at.x, at.y, heading, message.header.frame_id)
 
 
-def _path(message: Any, value: Path, view: ConversionContext) -> None:
-    stamped: Any = load_message("geometry_msgs/PoseStamped")
+def _path(message: nav_msgs.msg.Path, value: Path, view: ConversionContext) -> None:
+    stamped = geometry_msgs.msg.PoseStamped
     set_header(message, view, value.stamp, value.frame)
     for x, y, yaw in value.poses[view.world].tolist():
         one = stamped(header=message.header)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from typing import Any
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from gazelle.bridges.conversions import (
     add_encoder,
     set_header,
 )
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import sensor_msgs
 from gazelle.simulation.values import (
     CameraInfoValue,
     CompressedImageValue,
@@ -36,7 +35,7 @@ _POINT = np.dtype(
 _QUALITY = 80  # of JPEG, as compressed_image_transport's default
 
 
-def _image(message: Any, value: ImageValue, view: ConversionContext) -> None:
+def _image(message: sensor_msgs.msg.Image, value: ImageValue, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     pixels = np.ascontiguousarray(value.pixels[view.world])
     message.height, message.width = pixels.shape[:2]
@@ -45,7 +44,9 @@ def _image(message: Any, value: ImageValue, view: ConversionContext) -> None:
     message.data = pixels.astype(pixels.dtype.newbyteorder("<"), copy=False).tobytes()
 
 
-def _compressed(message: Any, value: CompressedImageValue, view: ConversionContext) -> None:
+def _compressed(
+    message: sensor_msgs.msg.CompressedImage, value: CompressedImageValue, view: ConversionContext
+) -> None:
     from PIL import Image
 
     set_header(message, view, value.stamp)
@@ -56,7 +57,9 @@ def _compressed(message: Any, value: CompressedImageValue, view: ConversionConte
     message.data = written.getvalue()
 
 
-def _info(message: Any, value: CameraInfoValue, view: ConversionContext) -> None:
+def _info(
+    message: sensor_msgs.msg.CameraInfo, value: CameraInfoValue, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp)
     f, (cx, cy) = value.focal_length, value.center
     message.height, message.width = value.height, value.width
@@ -66,13 +69,15 @@ def _info(message: Any, value: CameraInfoValue, view: ConversionContext) -> None
     message.P = [f, 0.0, cx, -f * value.baseline, 0.0, f, cy, 0.0, 0.0, 0.0, 1.0, 0.0]
 
 
-def _points(message: Any, value: PixelPoints, view: ConversionContext) -> None:
+def _points(
+    message: sensor_msgs.msg.PointCloud2, value: PixelPoints, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp)
     points, color = value.points[view.world], value.color[view.world]
     packed = np.zeros(points.shape[:2], _POINT)
     packed["x"], packed["y"], packed["z"] = np.moveaxis(points, -1, 0)
     packed["rgb"] = color
-    field: Any = load_message("sensor_msgs/PointField")
+    field = sensor_msgs.msg.PointField
     message.fields = [field(name, offset, _FLOAT32, 1) for name, offset in _FIELDS]
     message.height, message.width = packed.shape
     message.point_step, message.row_step = _POINT.itemsize, _POINT.itemsize * packed.shape[1]

@@ -18,6 +18,13 @@ from gazelle.bridges.conversions import (
     point,
     quaternion,
 )
+from gazelle.ros.msgs import (
+    gazebo_msgs,
+    gazebo_ros_link_attacher,
+    geometry_msgs,
+    std_msgs,
+    trajectory_msgs,
+)
 from gazelle.simulation.values import (
     DriveCommand,
     EmergencyStop,
@@ -33,17 +40,17 @@ from gazelle.simulation.values import (
 )
 
 
-def _push(message: Any) -> Push:
+def _push(message: geometry_msgs.msg.Wrench) -> Push:
     return Push(point(message.force), point(message.torque))
 
 
-def _link_pair(request: Any) -> LinkPair:
+def _link_pair(request: gazebo_ros_link_attacher.srv.AttachRequest) -> LinkPair:
     return LinkPair(
         request.model_name_1, request.link_name_1, request.model_name_2, request.link_name_2
     )
 
 
-def _path(message: Any) -> JointPath:
+def _path(message: trajectory_msgs.msg.JointTrajectory) -> JointPath:
     """Convert a path; points without positions are left out."""
     count = len(message.joint_names)
     points = [each for each in message.points if len(each.positions) == count]
@@ -55,7 +62,7 @@ def _path(message: Any) -> JointPath:
     )
 
 
-def _path_request(request: Any) -> PathRequest:
+def _path_request(request: gazebo_msgs.srv.SetJointTrajectoryRequest) -> PathRequest:
     path = _path(request.joint_trajectory)
     if not request.set_model_pose:
         return PathRequest(path)
@@ -67,7 +74,7 @@ def _outcome(answer: ServiceOutcome) -> dict[str, Any]:
     return {"success": answer.success, "status_message": answer.text}
 
 
-def _flags(message: Any, value: Flags, view: ConversionContext) -> None:
+def _flags(message: std_msgs.msg.Bool, value: Flags, view: ConversionContext) -> None:
     message.data = bool(value.values[view.world])
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from gazelle.ros import Node, load_message, load_service
+from gazelle.ros import Node
+from gazelle.ros.msgs import dynamic_reconfigure
 
 _LISTS = {bool: "bools", int: "ints", str: "strs", float: "doubles"}
 _MESSAGES = {
@@ -70,14 +71,16 @@ class ReconfigureServer:
     def __init__(self, node: Node, namespace: str, tuning: Tuned) -> None:
         self._tuning, self._node, self._namespace = tuning, node, namespace
         self._descriptions = node.advertise(
-            f"{namespace}/parameter_descriptions", _message("ConfigDescription"), latch=True
+            f"{namespace}/parameter_descriptions",
+            dynamic_reconfigure.msg.ConfigDescription,
+            latch=True,
         )
         self._updates = node.advertise(
-            f"{namespace}/parameter_updates", _message("Config"), latch=True
+            f"{namespace}/parameter_updates", dynamic_reconfigure.msg.Config, latch=True
         )
         self._service = node.serve(
             f"{namespace}/set_parameters",
-            load_service("dynamic_reconfigure/Reconfigure"),
+            dynamic_reconfigure.srv.Reconfigure,
             self._set,
         )
         self._descriptions.publish(self._describe())
@@ -89,7 +92,9 @@ class ReconfigureServer:
         self._descriptions.close()
         self._updates.close()
 
-    def _set(self, request: Any) -> Any:
+    def _set(
+        self, request: dynamic_reconfigure.srv.ReconfigureRequest
+    ) -> dict[str, dynamic_reconfigure.msg.Config]:
         """Set known values; other names are ignored, as by the original."""
         wanted = {
             each.name: each.value
@@ -99,17 +104,17 @@ class ReconfigureServer:
         }
         return {"config": self._tell(self._tuning.send(**wanted))}
 
-    def _tell(self, values: Values) -> Any:
+    def _tell(self, values: Values) -> dynamic_reconfigure.msg.Config:
         config = _config(values)
         self._updates.publish(config)
         for name, value in values.items():
             self._node.set_param(f"{self._namespace}/{name}", value)
         return config
 
-    def _describe(self) -> Any:
-        description = _message("ConfigDescription")()
-        group = _message("Group")(name="Default", type="", parent=0, id=0)
-        describe = _message("ParamDescription")
+    def _describe(self) -> dynamic_reconfigure.msg.ConfigDescription:
+        description = dynamic_reconfigure.msg.ConfigDescription()
+        group = dynamic_reconfigure.msg.Group(name="Default", type="", parent=0, id=0)
+        describe = dynamic_reconfigure.msg.ParamDescription
         for parameter in self._tuning.tunables.values():
             group.parameters.append(
                 describe(
@@ -128,14 +133,14 @@ class ReconfigureServer:
         return description
 
 
-def _message(name: str) -> Any:
-    return load_message(f"dynamic_reconfigure/{name}")
-
-
-def _config(values: Values) -> Any:
-    config = _message("Config")()
+def _config(values: Values) -> dynamic_reconfigure.msg.Config:
+    config = dynamic_reconfigure.msg.Config()
     for name, value in values.items():
         kind = next(each for each in _LISTS if isinstance(value, each))
-        getattr(config, _LISTS[kind]).append(_message(_MESSAGES[kind])(name=name, value=value))
-    config.groups.append(_message("GroupState")(name="Default", state=True, id=0, parent=0))
+        getattr(config, _LISTS[kind]).append(
+            getattr(dynamic_reconfigure.msg, _MESSAGES[kind])(name=name, value=value)
+        )
+    config.groups.append(
+        dynamic_reconfigure.msg.GroupState(name="Default", state=True, id=0, parent=0)
+    )
     return config

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.array_types import Floats
 from gazelle.bridges.conversions import (
     ConversionContext,
     Encoder,
@@ -16,12 +17,12 @@ from gazelle.bridges.conversions import (
     set_point,
     set_quaternion,
 )
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import gazebo_msgs, geometry_msgs, sensor_msgs
 from gazelle.sensors import ImuReading, LaserScan
 from gazelle.simulation.values import RangeValue, Touches
 
 
-def _scan(message: Any, value: LaserScan, view: ConversionContext) -> None:
+def _scan(message: sensor_msgs.msg.LaserScan, value: LaserScan, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     message.angle_min, message.angle_max = value.angle_min, value.angle_max
     message.angle_increment = value.angle_increment
@@ -30,7 +31,7 @@ def _scan(message: Any, value: LaserScan, view: ConversionContext) -> None:
     message.intensities = [0.0] * len(message.ranges)
 
 
-def _imu(message: Any, value: ImuReading, view: ConversionContext) -> None:
+def _imu(message: sensor_msgs.msg.Imu, value: ImuReading, view: ConversionContext) -> None:
     set_plain_header(message, view, value.stamp)
     set_quaternion(message.orientation, value.orientation[view.world])
     set_point(message.angular_velocity, value.angular_velocity[view.world])
@@ -41,20 +42,22 @@ def _imu(message: Any, value: ImuReading, view: ConversionContext) -> None:
     message.linear_acceleration_covariance = covariance
 
 
-def _touches(message: Any, value: Touches, view: ConversionContext) -> None:
+def _touches(
+    message: gazebo_msgs.msg.ContactsState, value: Touches, view: ConversionContext
+) -> None:
     """Add one ``ContactState`` for each pair of collisions, as Gazebo groups them."""
     set_header(message, view, value.stamp)
     contacts = value.contacts[view.world]
     pairs: dict[tuple[str, str], Any] = {}
-    state: Any = load_message("gazebo_msgs/ContactState")
-    vector: Any = load_message("geometry_msgs/Vector3")
+    state = gazebo_msgs.msg.ContactState
+    vector = geometry_msgs.msg.Vector3
     for i, pair in enumerate(zip(contacts.collisions, contacts.others, strict=True)):
-        one = pairs.get(pair)
+        one: Any = pairs.get(pair)
         if one is None:
             one = pairs[pair] = state(collision1_name=pair[0], collision2_name=pair[1])
             one.info = f"{pair[0]} touches {pair[1]}"
             message.states.append(one)
-        wrench: Any = load_message("geometry_msgs/Wrench")()
+        wrench = geometry_msgs.msg.Wrench()
         set_point(wrench.force, contacts.force[i])
         set_point(wrench.torque, contacts.torque[i])
         one.wrenches.append(wrench)
@@ -64,13 +67,13 @@ def _touches(message: Any, value: Touches, view: ConversionContext) -> None:
         _add(one.total_wrench, contacts.force[i], contacts.torque[i])
 
 
-def _add(wrench: Any, force: Any, torque: Any) -> None:
+def _add(wrench: geometry_msgs.msg.Wrench, force: Floats, torque: Floats) -> None:
     total, turning = point(wrench.force), point(wrench.torque)
     set_point(wrench.force, np.add(total, force))
     set_point(wrench.torque, np.add(turning, torque))
 
 
-def _range(message: Any, value: RangeValue, view: ConversionContext) -> None:
+def _range(message: sensor_msgs.msg.Range, value: RangeValue, view: ConversionContext) -> None:
     set_header(message, view, value.stamp)
     message.radiation_type = 0 if value.ultrasound else 1
     message.field_of_view = value.field_of_view

@@ -23,7 +23,14 @@ from gazelle.bridges.conversions import (
     set_plain_header,
     set_point,
 )
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import (
+    geometry_msgs,
+    hector_gazebo_plugins,
+    hector_uav_msgs,
+    kobuki_msgs,
+    sensor_msgs,
+    tf2_msgs,
+)
 from gazelle.rotations import yaw_of
 from gazelle.sensors import ImuReading
 from gazelle.simulation.values import (
@@ -59,14 +66,16 @@ _FIELDS = (
 _POINT = np.dtype([(name, kind) for name, _, _, kind in _FIELDS])
 
 
-def _point_cloud2(message: Any, value: LaserPoints, view: ConversionContext) -> None:
+def _point_cloud2(
+    message: sensor_msgs.msg.PointCloud2, value: LaserPoints, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp)
     kept = value.kept[view.world]
     points = value.points[view.world][kept]
     packed = np.zeros(len(points), _POINT)
     packed["x"], packed["y"], packed["z"] = points.T
     packed["intensity"], packed["ring"] = value.intensities[kept], value.rings[kept]
-    field: Any = load_message("sensor_msgs/PointField")
+    field = sensor_msgs.msg.PointField
     message.fields = [field(name, offset, kind, 1) for name, offset, kind, _ in _FIELDS]
     message.height, message.width = 1, len(points)
     message.point_step, message.row_step = _POINT.itemsize, _POINT.itemsize * len(points)
@@ -74,16 +83,18 @@ def _point_cloud2(message: Any, value: LaserPoints, view: ConversionContext) -> 
     message.data = packed.tobytes()
 
 
-def _point_cloud(message: Any, value: ChannelPoints, view: ConversionContext) -> None:
+def _point_cloud(
+    message: sensor_msgs.msg.PointCloud, value: ChannelPoints, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp)
     kept = value.kept[view.world]
-    place: Any = load_message("geometry_msgs/Point32")
+    place = geometry_msgs.msg.Point32
     message.points = [place(*xyz) for xyz in value.points[view.world][kept].tolist()]
-    channel: Any = load_message("sensor_msgs/ChannelFloat32")
+    channel = sensor_msgs.msg.ChannelFloat32
     message.channels = [channel("intensities", value.intensities[kept].tolist())]
 
 
-def _unsure_imu(message: Any, value: UnsureImu, view: ConversionContext) -> None:
+def _unsure_imu(message: sensor_msgs.msg.Imu, value: UnsureImu, view: ConversionContext) -> None:
     encoder_of(ImuReading).fill(message, value.reading, view)
     message.orientation_covariance = _three(value.orientation_variance)
     message.angular_velocity_covariance = _three(value.rate_variance)
@@ -94,7 +105,7 @@ def _three(variance: Any) -> list[float]:
     return [float(x) for x in np.diag(variance).ravel()]
 
 
-def _fix(message: Any, value: Fix, view: ConversionContext) -> None:
+def _fix(message: sensor_msgs.msg.NavSatFix, value: Fix, view: ConversionContext) -> None:
     set_plain_header(message, view, value.stamp)
     message.status.status, message.status.service = value.status, value.service
     message.latitude = float(value.latitude[view.world])
@@ -104,34 +115,42 @@ def _fix(message: Any, value: Fix, view: ConversionContext) -> None:
     message.position_covariance_type = 2  # only the diagonal is known
 
 
-def _vector(message: Any, value: VectorValue, view: ConversionContext) -> None:
+def _vector(
+    message: geometry_msgs.msg.Vector3Stamped, value: VectorValue, view: ConversionContext
+) -> None:
     set_plain_header(message, view, value.stamp)
     set_point(message.vector, value.values[view.world])
 
 
-def _magnetic(message: Any, value: MagneticValue, view: ConversionContext) -> None:
+def _magnetic(
+    message: sensor_msgs.msg.MagneticField, value: MagneticValue, view: ConversionContext
+) -> None:
     set_plain_header(message, view, value.stamp)
     set_point(message.magnetic_field, value.values[view.world])
 
 
-def _place(message: Any, value: PointValue, view: ConversionContext) -> None:
+def _place(
+    message: geometry_msgs.msg.PointStamped, value: PointValue, view: ConversionContext
+) -> None:
     set_plain_header(message, view, value.stamp)
     set_point(message.point, value.values[view.world])
 
 
-def _altimeter(message: Any, value: AltimeterValue, view: ConversionContext) -> None:
+def _altimeter(
+    message: hector_uav_msgs.msg.Altimeter, value: AltimeterValue, view: ConversionContext
+) -> None:
     set_plain_header(message, view, value.stamp)
     message.altitude = float(value.altitude[view.world])
     message.pressure = float(value.pressure[view.world])
     message.qnh = value.sea_level
 
 
-def _sonar(message: Any, value: SonarValue, view: ConversionContext) -> None:
+def _sonar(message: sensor_msgs.msg.Range, value: SonarValue, view: ConversionContext) -> None:
     encoder_of(RangeValue).fill(message, value, view)
     set_plain_header(message, view, value.stamp)
 
 
-def _reference(request: Any) -> GeoReference:
+def _reference(request: hector_gazebo_plugins.srv.SetReferenceGeoPoseRequest) -> GeoReference:
     position = request.geo_pose.position
     turn = np.asarray(quaternion(request.geo_pose.orientation))
     # A yaw counts from east to north, a heading from north to east.
@@ -160,12 +179,14 @@ add_service(
 )
 
 
-def _cliff(message: Any, value: CliffValue, view: ConversionContext) -> None:
+def _cliff(message: kobuki_msgs.msg.CliffEvent, value: CliffValue, view: ConversionContext) -> None:
     message.sensor, message.state = value.place, int(value.deep[view.world])
     message.bottom = int(value.reading[view.world])
 
 
-def _bump(message: Any, value: BumperValue, view: ConversionContext) -> None:
+def _bump(
+    message: kobuki_msgs.msg.BumperEvent, value: BumperValue, view: ConversionContext
+) -> None:
     message.bumper, message.state = value.place, int(value.pressed[view.world])
 
 
@@ -175,7 +196,7 @@ add_decoder(MotorPower, Decoder("kobuki_msgs/MotorPower", lambda m: MotorPower(b
 add_decoder(Trigger, Decoder("std_msgs/Empty", lambda _message: Trigger()))
 
 
-def _read_transforms(message: Any) -> Transforms:
+def _read_transforms(message: tf2_msgs.msg.TFMessage) -> Transforms:
     """Convert transforms; of different stamps in one message the latest counts."""
     frames = tuple(
         Transform(

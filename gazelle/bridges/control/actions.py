@@ -25,6 +25,8 @@ from gazelle.errors import ControlError, RosError
 from gazelle.ros import load_message
 from gazelle.ros.actions import ActionServer, GoalStatus, ServerGoalHandle
 from gazelle.ros.errors import NodeClosedError
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import control_msgs
 from gazelle.ros.serial_queue import SerialQueue
 
 Fill = Callable[[Any, Any, ConversionContext], None]
@@ -49,11 +51,17 @@ class ActionCodec:
     refusal: Callable[[str], Any] = lambda _text: None
 
 
-def _trajectory_result(message: Any, value: TrajectoryResult, _view: ConversionContext) -> None:
+def _trajectory_result(
+    message: control_msgs.msg.FollowJointTrajectoryResult,
+    value: TrajectoryResult,
+    _view: ConversionContext,
+) -> None:
     message.error_code, message.error_string = value.error_code, value.error_string
 
 
-def _gripper(message: Any, value: GripperResult, _view: ConversionContext) -> None:
+def _gripper(
+    message: control_msgs.msg.GripperCommandResult, value: GripperResult, _view: ConversionContext
+) -> None:
     message.position, message.effort = float(value.position), float(value.effort)
     message.stalled, message.reached_goal = bool(value.stalled), bool(value.reached_goal)
 
@@ -180,8 +188,8 @@ class ActionBridge:
             self._goals.pop(handle, None)
             end(self._result(result), text)
 
-    def _result(self, value: Any) -> Any:
-        message = self._server.types.result()
+    def _result(self, value: Any) -> Message:
+        message: Message = self._server.types.result()
         if value is not None:
             self._codec.result(message, value, self._view)
         return message
@@ -195,6 +203,6 @@ class ActionBridge:
         return tell
 
     @staticmethod
-    def _publish(handle: ServerGoalHandle, message: Any) -> None:
+    def _publish(handle: ServerGoalHandle, message: Message) -> None:
         with contextlib.suppress(NodeClosedError):
             handle.publish_feedback(message)

@@ -23,6 +23,7 @@ from gazelle.control.values import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
+from gazelle.ros.msgs import control_msgs, four_wheel_steering_msgs, geometry_msgs, trajectory_msgs
 from gazelle.ros.time import Time
 
 Read = Callable[[Any, TimedGraph], Any]
@@ -60,7 +61,7 @@ def simulated(stamp: Time, graph: TimedGraph) -> int:
     return graph.own_ns(stamp) if stamp else 0
 
 
-def trajectory(message: Any, graph: TimedGraph) -> JointTrajectory:
+def trajectory(message: trajectory_msgs.msg.JointTrajectory, graph: TimedGraph) -> JointTrajectory:
     """Convert a ``trajectory_msgs/JointTrajectory``."""
     return JointTrajectory(
         tuple(message.joint_names),
@@ -69,7 +70,7 @@ def trajectory(message: Any, graph: TimedGraph) -> JointTrajectory:
     )
 
 
-def _point(message: Any) -> TrajectoryPoint:
+def _point(message: trajectory_msgs.msg.JointTrajectoryPoint) -> TrajectoryPoint:
     return TrajectoryPoint(
         message.time_from_start.to_sec(),
         tuple(message.positions),
@@ -79,7 +80,9 @@ def _point(message: Any) -> TrajectoryPoint:
     )
 
 
-def trajectory_goal(message: Any, graph: TimedGraph) -> TrajectoryGoal:
+def trajectory_goal(
+    message: control_msgs.msg.FollowJointTrajectoryGoal, graph: TimedGraph
+) -> TrajectoryGoal:
     """Convert a ``control_msgs/FollowJointTrajectoryGoal``."""
     return TrajectoryGoal(
         trajectory(message.trajectory, graph),
@@ -96,16 +99,18 @@ def _tolerances(messages: Iterable[Any]) -> tuple[JointTolerance, ...]:
     )
 
 
-def gripper_goal(message: Any, _graph: TimedGraph) -> GripperGoal:
+def gripper_goal(message: control_msgs.msg.GripperCommandGoal, _graph: TimedGraph) -> GripperGoal:
     """Convert a ``control_msgs/GripperCommandGoal``."""
     return GripperGoal(message.command.position, message.command.max_effort)
 
 
-def _twist(message: Any, _graph: TimedGraph) -> BaseTwist:
+def _twist(message: geometry_msgs.msg.Twist, _graph: TimedGraph) -> BaseTwist:
     return BaseTwist(point(message.linear), point(message.angular))
 
 
-def _four_wheels(message: Any, _graph: TimedGraph) -> FourWheelCommand:
+def _four_wheels(
+    message: four_wheel_steering_msgs.msg.FourWheelSteering, _graph: TimedGraph
+) -> FourWheelCommand:
     return FourWheelCommand(
         message.front_steering_angle, message.rear_steering_angle, message.speed
     )

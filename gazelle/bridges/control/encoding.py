@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from gazelle.array_types import Floats
 from gazelle.bridges.conversions import (
     ConversionContext,
@@ -24,10 +22,23 @@ from gazelle.control.values import (
     StampedWrench,
     TrajectoryState,
 )
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import (
+    control_msgs,
+    four_wheel_steering_msgs,
+    geometry_msgs,
+    sensor_msgs,
+    trajectory_msgs,
+)
 from gazelle.ros.time import Duration
 
 
-def trajectory_state(message: Any, value: TrajectoryState, view: ConversionContext) -> None:
+def trajectory_state(
+    message: control_msgs.msg.FollowJointTrajectoryFeedback
+    | control_msgs.msg.JointTrajectoryControllerState,
+    value: TrajectoryState,
+    view: ConversionContext,
+) -> None:
     """Fill a ``JointTrajectoryControllerState``, or the feedback of a trajectory: the same fields."""
     set_header(message, view, value.stamp)
     message.joint_names = list(value.names)
@@ -38,14 +49,20 @@ def trajectory_state(message: Any, value: TrajectoryState, view: ConversionConte
         point.time_from_start = since
 
 
-def _sample(point: Any, value: JointSample, world: int) -> None:
+def _sample(
+    point: trajectory_msgs.msg.JointTrajectoryPoint, value: JointSample, world: int
+) -> None:
     point.positions = value.positions[world].tolist()
     point.velocities = value.velocities[world].tolist()
     if value.accelerations is not None:
         point.accelerations = value.accelerations[world].tolist()
 
 
-def _joint_state(message: Any, value: JointControlState, view: ConversionContext) -> None:
+def _joint_state(
+    message: control_msgs.msg.JointControllerState,
+    value: JointControlState,
+    view: ConversionContext,
+) -> None:
     set_header(message, view, value.stamp)
     message.time_step = value.time_step
     _fill(message, value, view, ("set_point", "process_value", "process_value_dot", "error"))
@@ -53,7 +70,9 @@ def _joint_state(message: Any, value: JointControlState, view: ConversionContext
     message.antiwindup = value.antiwindup
 
 
-def _pid_status(message: Any, value: PidStatus, view: ConversionContext) -> None:
+def _pid_status(
+    message: control_msgs.msg.PidState, value: PidStatus, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp)
     message.timestep = Duration.from_sec(value.time_step)
     for quantity in ("error", "term"):
@@ -61,7 +80,9 @@ def _pid_status(message: Any, value: PidStatus, view: ConversionContext) -> None
     _fill(message, value, view, ("error", "error_dot", "i_max", "i_min", "output"))
 
 
-def _fill(message: Any, value: object, view: ConversionContext, fields: tuple[str, ...]) -> None:
+def _fill(
+    message: Message, value: object, view: ConversionContext, fields: tuple[str, ...]
+) -> None:
     """Copy numbers: those of the graph's world, or those that hold in all worlds."""
     for field in fields:
         found: Floats | float = getattr(value, field)
@@ -70,12 +91,18 @@ def _fill(message: Any, value: object, view: ConversionContext, fields: tuple[st
         )
 
 
-def _stamped_twist(message: Any, value: StampedTwist, view: ConversionContext) -> None:
+def _stamped_twist(
+    message: geometry_msgs.msg.TwistStamped, value: StampedTwist, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp, value.frame)
     set_twist(message.twist, value.linear[view.world], value.angular[view.world])
 
 
-def _four_wheels(message: Any, value: FourWheelOdometry, view: ConversionContext) -> None:
+def _four_wheels(
+    message: four_wheel_steering_msgs.msg.FourWheelSteeringStamped,
+    value: FourWheelOdometry,
+    view: ConversionContext,
+) -> None:
     set_header(message, view, value.stamp)
     data = message.data
     data.front_steering_angle = float(value.front_angle[view.world])
@@ -83,7 +110,7 @@ def _four_wheels(message: Any, value: FourWheelOdometry, view: ConversionContext
     data.speed = float(value.speed[view.world])
 
 
-def _imu(message: Any, value: ImuSample, view: ConversionContext) -> None:
+def _imu(message: sensor_msgs.msg.Imu, value: ImuSample, view: ConversionContext) -> None:
     set_header(message, view, value.stamp, value.frame)
     set_quaternion(message.orientation, value.quaternion[view.world])
     set_point(message.angular_velocity, value.angular_velocity[view.world])
@@ -93,7 +120,9 @@ def _imu(message: Any, value: ImuSample, view: ConversionContext) -> None:
     message.linear_acceleration_covariance = list(value.linear_acceleration_covariance)
 
 
-def _wrench(message: Any, value: StampedWrench, view: ConversionContext) -> None:
+def _wrench(
+    message: geometry_msgs.msg.WrenchStamped, value: StampedWrench, view: ConversionContext
+) -> None:
     set_header(message, view, value.stamp, value.frame)
     set_point(message.wrench.force, value.force[view.world])
     set_point(message.wrench.torque, value.torque[view.world])

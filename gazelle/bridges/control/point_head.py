@@ -21,7 +21,7 @@ from gazelle.kinematics import RobotModel
 from gazelle.kinematics.pointing import Pointing
 from gazelle.ros.actions import SimpleActionServer
 from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import control_msgs, geometry_msgs, tf2_msgs, trajectory_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.ros.time import Duration
@@ -62,35 +62,33 @@ class HeadPointer:
         self._node, self._robot, self._tree = node, RobotModel(model), FrameTree()
         self._link = str(node.get_param("~tilt_link", "head_tilt_link"))
         self._threshold = float(node.get_param("~success_angle_threshold", 0.1))
-        self._state: Any = None
+        self._state: control_msgs.msg.JointTrajectoryControllerState | None = None
         self._news = threading.Condition()
-        frames = load_message("tf2_msgs/TFMessage")
+        frames = tf2_msgs.msg.TFMessage
         for topic, static in (("/tf", False), ("/tf_static", True)):
             node.subscribe(topic, frames, partial(self._place, static=static))
-        node.subscribe(
-            "state", load_message("control_msgs/JointTrajectoryControllerState"), self._hear
-        )
-        self._kind = load_message("trajectory_msgs/JointTrajectory")
+        node.subscribe("state", control_msgs.msg.JointTrajectoryControllerState, self._hear)
+        self._kind = trajectory_msgs.msg.JointTrajectory
         self._command = node.advertise("command", self._kind, queue_size=1)
-        self._feedback = load_message("control_msgs/PointHeadFeedback")
-        action = load_message("control_msgs/PointHeadAction")
+        self._feedback = control_msgs.msg.PointHeadFeedback
+        action = control_msgs.msg.PointHeadAction
         self._server = SimpleActionServer(node, node.name, action, self._work)
 
-    def _place(self, message: Any, *, static: bool) -> None:
+    def _place(self, message: tf2_msgs.msg.TFMessage, *, static: bool) -> None:
         take_transforms(self._tree, message, authority="point_head_action", static=static)
 
-    def _hear(self, state: Any) -> None:
+    def _hear(self, state: control_msgs.msg.JointTrajectoryControllerState) -> None:
         with self._news:
             self._state = state
             self._news.notify_all()
 
-    def _work(self, goal: Any) -> None:
+    def _work(self, goal: control_msgs.msg.PointHeadGoal) -> None:
         try:
             self._look(goal)
         except Error as error:
             self._server.set_aborted(text=error.message)
 
-    def _look(self, goal: Any) -> None:
+    def _look(self, goal: control_msgs.msg.PointHeadGoal) -> None:
         """Point the head to a goal.
 
         Raises:
@@ -126,7 +124,9 @@ class HeadPointer:
                 why = "its joints' limits" if left > self._threshold else "its controller"
                 raise ControlError(f"the head is {angle:.3f} rad off, for {why}")
 
-    def _next(self, known: Any) -> Any:
+    def _next(
+        self, known: control_msgs.msg.JointTrajectoryControllerState | None
+    ) -> control_msgs.msg.JointTrajectoryControllerState:
         """Return the controller's state that follows a known one.
 
         Raises:
@@ -142,7 +142,7 @@ class HeadPointer:
         name = self._node.resolve("state")
         raise ControlError(f"no trajectory controller says on '{name}' where the head is")
 
-    def _in_frame(self, base: str, target: Any) -> Floats:
+    def _in_frame(self, base: str, target: geometry_msgs.msg.PointStamped) -> Floats:
         """Return a point in the frame of a link.
 
         Raises:
@@ -158,7 +158,12 @@ class HeadPointer:
         moved: Floats = rotate(np.array(found.rotation), place) + np.array(found.translation)
         return moved
 
-    def _shortest(self, state: Any, change: Floats, goal: Any) -> float:
+    def _shortest(
+        self,
+        state: control_msgs.msg.JointTrajectoryControllerState,
+        change: Floats,
+        goal: control_msgs.msg.PointHeadGoal,
+    ) -> float:
         """Return the least duration of a motion [s], by the limits of joints and goal."""
         bounds = {variable.name: variable.bounds.velocity for variable in self._robot.variables}
         most = np.array([bounds.get(name) or _SPEED for name in state.joint_names])
@@ -167,9 +172,14 @@ class HeadPointer:
             most = np.minimum(most, goal.max_velocity)
         return float((np.abs(change) / most).max())
 
-    def _send(self, state: Any, positions: Floats, seconds: float) -> None:
+    def _send(
+        self,
+        state: control_msgs.msg.JointTrajectoryControllerState,
+        positions: Floats,
+        seconds: float,
+    ) -> None:
         message: Any = self._kind(joint_names=list(state.joint_names))
-        made: Any = load_message("trajectory_msgs/JointTrajectoryPoint")(
+        made = trajectory_msgs.msg.JointTrajectoryPoint(
             positions=positions.tolist(), velocities=[0.0] * len(positions)
         )
         made.time_from_start = Duration.from_sec(max(seconds, 0.01))

@@ -17,7 +17,8 @@ from gazelle.control import (
     cpp_name,
 )
 from gazelle.errors import ControlError
-from gazelle.ros import Node, load_message, load_service
+from gazelle.ros import Node, load_service
+from gazelle.ros.msgs import controller_manager_msgs
 
 LOG = logging.getLogger("gazelle.control")
 _LOOK_S = 0.005
@@ -65,14 +66,16 @@ class ManagerServices:
 
         return handle
 
-    def _list(self, _request: Any) -> dict[str, Any]:
+    def _list(self, _request: controller_manager_msgs.srv.ListControllersRequest) -> dict[str, Any]:
         return {"controller": [_state_of(entry) for entry in self._manager.loaded]}
 
-    def _list_types(self, _request: Any) -> dict[str, Any]:
+    def _list_types(
+        self, _request: controller_manager_msgs.srv.ListControllerTypesRequest
+    ) -> dict[str, Any]:
         types = self._manager.types()
         return {"types": types, "base_classes": [BASE_CLASS] * len(types)}
 
-    def _load(self, request: Any) -> dict[str, Any]:
+    def _load(self, request: controller_manager_msgs.srv.LoadControllerRequest) -> dict[str, Any]:
         name = request.name
 
         def load() -> None:
@@ -84,10 +87,14 @@ class ManagerServices:
 
         return {"ok": _done(load)}
 
-    def _unload(self, request: Any) -> dict[str, Any]:
+    def _unload(
+        self, request: controller_manager_msgs.srv.UnloadControllerRequest
+    ) -> dict[str, Any]:
         return {"ok": _done(lambda: self._manager.unload(request.name))}
 
-    def _switch(self, request: Any) -> dict[str, Any]:
+    def _switch(
+        self, request: controller_manager_msgs.srv.SwitchControllerRequest
+    ) -> dict[str, Any]:
         timeout = float(request.timeout)
 
         def switch() -> None:
@@ -116,7 +123,9 @@ class ManagerServices:
         if switch.failed:
             raise ControlError(f"the robot did not switch for {', '.join(sorted(switch.failed))}")
 
-    def _reload(self, request: Any) -> dict[str, Any]:
+    def _reload(
+        self, request: controller_manager_msgs.srv.ReloadControllerLibrariesRequest
+    ) -> dict[str, Any]:
         done = self._manager.reload(force_kill=bool(request.force_kill))
         if not done:
             LOG.error(
@@ -136,12 +145,12 @@ def _done(act: Callable[[], None]) -> bool:
     return True
 
 
-def _state_of(entry: LoadedController) -> Any:
+def _state_of(entry: LoadedController) -> controller_manager_msgs.msg.ControllerState:
     """Return a ``ControllerState`` with all interfaces, including those without claims."""
     controller = entry.controller
     claims = dict.fromkeys(controller.interfaces, ()) | controller.claimed
-    made: Any = load_message("controller_manager_msgs/HardwareInterfaceResources")
-    return load_message("controller_manager_msgs/ControllerState")(
+    made = controller_manager_msgs.msg.HardwareInterfaceResources
+    return controller_manager_msgs.msg.ControllerState(
         name=controller.name,
         state=entry.state,
         type=controller.type,

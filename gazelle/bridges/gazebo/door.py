@@ -198,7 +198,7 @@ class GazeboDoor(Closeable):
         world = WorldServices(self.context)
         self._offer("spawn_sdf_model", "SpawnModel", models.spawn, wait=False)
         self._offer("spawn_urdf_model", "SpawnModel", models.spawn_urdf, wait=False)
-        for name, handler in {
+        handlers: dict[str, Handler] = {
             "delete_model": models.delete,
             "delete_light": lights.delete,
             "get_model_properties": models.get_properties,
@@ -218,7 +218,8 @@ class GazeboDoor(Closeable):
             "set_link_state": links.set_state,
             "apply_body_wrench": links.apply_wrench,
             "apply_joint_effort": joints.apply_effort,
-        }.items():
+        }
+        for name, handler in handlers.items():
             self._offer(name, "".join(part.title() for part in name.split("_")), handler)
         self._offer("clear_joint_forces", "JointRequest", joints.clear_efforts)
         self._offer("clear_body_wrenches", "BodyRequest", links.clear_wrenches)

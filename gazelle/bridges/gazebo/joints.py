@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.errors import Error
+from gazelle.ros.msgs import gazebo_msgs
 from gazelle.simulation import JointHandle
 
 
@@ -25,7 +26,7 @@ class JointServices:
         self._context = context
         self._entities = context.entities
 
-    def get_properties(self, request: Any) -> Answer:
+    def get_properties(self, request: gazebo_msgs.srv.GetJointPropertiesRequest) -> Answer:
         """Answer ``get_joint_properties``; as in Gazebo the type is always 0 and damping empty."""
         found = self._entities.joint(request.joint_name)
         if found is None:
@@ -47,7 +48,7 @@ class JointServices:
             **yes("GetJointProperties: got properties"),
         }
 
-    def set_properties(self, request: Any) -> Answer:
+    def set_properties(self, request: gazebo_msgs.srv.SetJointPropertiesRequest) -> Answer:
         """Answer ``set_joint_properties``: each list that is not empty changes something.
 
         Damping, limits and the motor's ``fmax`` and ``vel`` act. ODE's other numbers have no
@@ -87,7 +88,7 @@ class JointServices:
         if speeds:
             joint.drive(_filled(speeds, np.zeros_like(known))[None], worlds)
 
-    def apply_effort(self, request: Any) -> Answer:
+    def apply_effort(self, request: gazebo_msgs.srv.ApplyJointEffortRequest) -> Answer:
         """Answer ``apply_joint_effort``."""
         found = self._entities.joint(request.joint_name)
         if found is None:
@@ -107,7 +108,7 @@ class JointServices:
             return no(f"ApplyJointEffort: {error}")
         return yes("ApplyJointEffort: effort set")
 
-    def clear_efforts(self, request: Any) -> Answer:
+    def clear_efforts(self, request: gazebo_msgs.srv.JointRequestRequest) -> Answer:
         """Answer ``clear_joint_forces``; unknown joints are ignored."""
         found = self._entities.joint(request.joint_name)
         if found is not None:
@@ -121,5 +122,5 @@ def _filled(values: Sequence[float], rest: NDArray[np.float64]) -> NDArray[np.fl
     return np.concatenate((np.asarray(values[:count], np.float64), rest[count:]))
 
 
-def _first(values: Any) -> float | None:
+def _first(values: Sequence[float] | NDArray[Any]) -> float | None:
     return float(values[0]) if len(values) else None

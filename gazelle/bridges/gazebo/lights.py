@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 from gazelle.bridges.conversions import point, quaternion
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.description import Light, Pose
-from gazelle.ros import load_message
+from gazelle.ros.msgs import gazebo_msgs, std_msgs
 
 
 class LightServices:
@@ -25,7 +24,7 @@ class LightServices:
         self._keep((*self._simulation.world.lights, light))
         return True
 
-    def delete(self, request: Any) -> Answer:
+    def delete(self, request: gazebo_msgs.srv.DeleteLightRequest) -> Answer:
         """Answer ``delete_light``."""
         if self._find(request.light_name) is None:
             # Gazebo writes this over the better reason.
@@ -34,20 +33,20 @@ class LightServices:
         self._keep(tuple(light for light in lights if light.name != request.light_name))
         return yes("DeleteLight: " + request.light_name + " successfully deleted")
 
-    def get(self, request: Any) -> Answer:
+    def get(self, request: gazebo_msgs.srv.GetLightPropertiesRequest) -> Answer:
         """Answer ``get_light_properties``."""
         light = self._find(request.light_name)
         if light is None:
             return no("getLightProperties: Requested light " + request.light_name + " not found!")
         return {
-            "diffuse": load_message("std_msgs/ColorRGBA")(*light.diffuse),
+            "diffuse": std_msgs.msg.ColorRGBA(*light.diffuse),
             "attenuation_constant": light.attenuation.constant,
             "attenuation_linear": light.attenuation.linear,
             "attenuation_quadratic": light.attenuation.quadratic,
             **yes(""),
         }
 
-    def set(self, request: Any) -> Answer:
+    def set(self, request: gazebo_msgs.srv.SetLightPropertiesRequest) -> Answer:
         """Answer ``set_light_properties``."""
         light = self._find(request.light_name)
         if light is None:
@@ -77,5 +76,5 @@ class LightServices:
         engine.update_world(replace(self._simulation.world, lights=lights))
 
 
-def _colour(message: Any) -> tuple[float, float, float, float]:
+def _colour(message: std_msgs.msg.ColorRGBA) -> tuple[float, float, float, float]:
     return (message.r, message.g, message.b, message.a)

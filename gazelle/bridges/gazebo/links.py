@@ -12,6 +12,8 @@ from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.gazebo.entities import State, is_world
 from gazelle.bridges.gazebo.models import read_state
 from gazelle.errors import Error
+from gazelle.ros.msgs import gazebo_msgs
+from gazelle.ros.time import Duration
 from gazelle.rotations import cross, rotate
 from gazelle.simulation import LinkHandle
 
@@ -26,7 +28,7 @@ class LinkServices:
         self._entities = context.entities
         self._engine = context.simulation.engine
 
-    def get_properties(self, request: Any) -> Answer:
+    def get_properties(self, request: gazebo_msgs.srv.GetLinkPropertiesRequest) -> Answer:
         """Answer ``get_link_properties``."""
         link = self._entities.link(request.link_name)
         if link is None:
@@ -44,7 +46,7 @@ class LinkServices:
         response.status_message = "GetLinkProperties: got properties"
         return response
 
-    def set_properties(self, request: Any) -> Answer:
+    def set_properties(self, request: gazebo_msgs.srv.SetLinkPropertiesRequest) -> Answer:
         """Answer ``set_link_properties``; the orientation of ``com`` has no meaning here."""
         link = self._entities.link(request.link_name)
         if link is None:
@@ -62,7 +64,7 @@ class LinkServices:
             return no(f"SetLinkProperties: {error}")
         return yes("SetLinkProperties: properties set")
 
-    def get_state(self, request: Any) -> Answer:
+    def get_state(self, request: gazebo_msgs.srv.GetLinkStateRequest) -> Answer:
         """Answer ``get_link_state``."""
         link = self._entities.link(request.link_name)
         if link is None:
@@ -84,11 +86,11 @@ class LinkServices:
         response.status_message = "GetLinkState: got state"
         return response
 
-    def set_state(self, request: Any) -> Answer:
+    def set_state(self, request: gazebo_msgs.srv.SetLinkStateRequest) -> Answer:
         """Answer ``set_link_state``."""
         return self.set_state_of(request.link_state)
 
-    def set_state_of(self, wanted: Any) -> Answer:
+    def set_state_of(self, wanted: gazebo_msgs.msg.LinkState) -> Answer:
         """Apply a ``gazebo_msgs/LinkState`` of the service or the topic."""
         link = self._entities.link(wanted.link_name)
         if link is None:
@@ -107,7 +109,7 @@ class LinkServices:
             return no(f"SetLinkState: failed: {error}")
         return yes(f"SetLinkState: success{', but ' if missed else ''}{missed}")
 
-    def apply_wrench(self, request: Any) -> Answer:
+    def apply_wrench(self, request: gazebo_msgs.srv.ApplyBodyWrenchRequest) -> Answer:
         """Answer ``apply_body_wrench``.
 
         As in Gazebo the force acts at the centre of mass, and the torque of the force at
@@ -133,7 +135,9 @@ class LinkServices:
             return no(f"ApplyBodyWrench: {error}")
         return yes("")
 
-    def _wrench(self, request: Any, link: LinkHandle, frame: State) -> tuple[Any, Any]:
+    def _wrench(
+        self, request: gazebo_msgs.srv.ApplyBodyWrenchRequest, link: LinkHandle, frame: State
+    ) -> tuple[Any, Any]:
         force = rotate(frame.quaternion, np.array(point(request.wrench.force)))
         torque = rotate(frame.quaternion, np.array(point(request.wrench.torque)))
         lever = rotate(frame.quaternion, np.array(point(request.reference_point)))
@@ -142,7 +146,7 @@ class LinkServices:
         torque = torque + cross(lever, force)
         return force, torque
 
-    def clear_wrenches(self, request: Any) -> Answer:
+    def clear_wrenches(self, request: gazebo_msgs.srv.BodyRequestRequest) -> Answer:
         """Answer ``clear_body_wrenches``; unknown bodies are ignored."""
         link = self._entities.link(request.body_name)
         if link is not None:
@@ -153,7 +157,7 @@ class LinkServices:
         return self._engine.parameter(kind, link.name, self._entities.worlds)[0]
 
 
-def _duration(duration: Any) -> float | None:
+def _duration(duration: Duration) -> float | None:
     """Return seconds; None for negative ones, which mean for ever."""
     seconds = duration.to_sec()
     return None if seconds < 0.0 else seconds

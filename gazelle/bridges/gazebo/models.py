@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -27,6 +26,7 @@ from gazelle.bridges.gazebo.spawning import (
 from gazelle.description import Light, Model, Pose
 from gazelle.errors import EngineError, Error
 from gazelle.ros.errors import ServiceError
+from gazelle.ros.msgs import gazebo_msgs, geometry_msgs
 from gazelle.simulation import Robot
 
 _NO_FRAME = "reference reference_frame not found, did you forget to scope the link by model name?"
@@ -42,7 +42,7 @@ class ModelServices:
         self._simulation = context.simulation
         self._calls: Counter[str] = Counter()
 
-    def spawn_urdf(self, request: Any) -> Answer:
+    def spawn_urdf(self, request: gazebo_msgs.srv.SpawnModelRequest) -> Answer:
         """Answer ``spawn_urdf_model``.
 
         Raises:
@@ -52,7 +52,7 @@ class ModelServices:
             raise ServiceError("SpawnModel: Failure - entity format is invalid.")
         return self.spawn(request)
 
-    def spawn(self, request: Any) -> Answer:
+    def spawn(self, request: gazebo_msgs.srv.SpawnModelRequest) -> Answer:
         """Answer ``spawn_sdf_model``: a model, or a light, from SDF or URDF.
 
         The text is read beside the running simulation; only what follows waits for its turn.
@@ -61,7 +61,9 @@ class ModelServices:
         with self._simulation.lock:
             return self._put(found, request)
 
-    def _put(self, found: Model | Light | str, request: Any) -> Answer:
+    def _put(
+        self, found: Model | Light | str, request: gazebo_msgs.srv.SpawnModelRequest
+    ) -> Answer:
         """Spawn what was found in the text, if anything; frames come first, as in Gazebo."""
         pose = self._pose(request)
         if pose is None:
@@ -72,7 +74,7 @@ class ModelServices:
             return self._spawn_light(replace(found, pose=pose * found.pose))
         return self._spawn(found, pose, request)
 
-    def _pose(self, request: Any) -> Pose | None:
+    def _pose(self, request: gazebo_msgs.srv.SpawnModelRequest) -> Pose | None:
         """Return the pose that a request gives its model; None if there is no such frame."""
         frame = self._entities.frame(request.reference_frame)
         if frame is None:
@@ -87,7 +89,9 @@ class ModelServices:
             return no(TAKEN)
         return yes("SpawnModel: Successfully spawned entity")
 
-    def _spawn(self, model: Model, pose: Pose, request: Any) -> Answer:
+    def _spawn(
+        self, model: Model, pose: Pose, request: gazebo_msgs.srv.SpawnModelRequest
+    ) -> Answer:
         if model.name in self._simulation.robots:
             return no(TAKEN)
         # What scripts send by default means the simulator's own namespace.
@@ -99,7 +103,7 @@ class ModelServices:
             return no(failure(error))
         return yes("SpawnModel: Successfully spawned entity")
 
-    def delete(self, request: Any) -> Answer:
+    def delete(self, request: gazebo_msgs.srv.DeleteModelRequest) -> Answer:
         """Answer ``delete_model``."""
         if request.model_name not in self._simulation.robots:
             return no("DeleteModel: model does not exist")
@@ -107,7 +111,7 @@ class ModelServices:
         self._calls.pop(request.model_name, None)
         return yes("DeleteModel: successfully deleted model")
 
-    def get_properties(self, request: Any) -> Answer:
+    def get_properties(self, request: gazebo_msgs.srv.GetModelPropertiesRequest) -> Answer:
         """Answer ``get_model_properties``."""
         robot = self._entities.model(request.model_name)
         if robot is None:
@@ -122,7 +126,7 @@ class ModelServices:
             **yes("GetModelProperties: got properties"),
         }
 
-    def get_state(self, request: Any) -> Answer:
+    def get_state(self, request: gazebo_msgs.srv.GetModelStateRequest) -> Answer:
         """Answer ``get_model_state``."""
         robot = self._entities.model(request.model_name)
         if robot is None:
@@ -146,11 +150,11 @@ class ModelServices:
         response.status_message = "GetModelState: got properties"
         return response
 
-    def set_state(self, request: Any) -> Answer:
+    def set_state(self, request: gazebo_msgs.srv.SetModelStateRequest) -> Answer:
         """Answer ``set_model_state``."""
         return self.set_state_of(request.model_state)
 
-    def set_state_of(self, wanted: Any) -> Answer:
+    def set_state_of(self, wanted: gazebo_msgs.msg.ModelState) -> Answer:
         """Apply a ``gazebo_msgs/ModelState`` of the service or the topic."""
         robot = self._entities.model(wanted.model_name)
         if robot is None:
@@ -175,7 +179,7 @@ class ModelServices:
             engine.models[robot.name].set_motion(state.linear, state.angular, worlds)
         return missed
 
-    def set_configuration(self, request: Any) -> Answer:
+    def set_configuration(self, request: gazebo_msgs.srv.SetModelConfigurationRequest) -> Answer:
         """Answer ``set_model_configuration``: set joint positions, and keep velocities."""
         robot = self._entities.model(request.model_name)
         if robot is None:
@@ -198,13 +202,13 @@ class ModelServices:
             engine.joints[joint].set_position(positions, worlds)
 
 
-def read_pose(wanted: Any) -> State:
+def read_pose(wanted: geometry_msgs.msg.Pose) -> State:
     """Convert a ``geometry_msgs/Pose``, at rest."""
     place = np.array(point(wanted.position)), np.array(quaternion(wanted.orientation))
     return State(*place, np.zeros(3), np.zeros(3))
 
 
-def read_state(wanted: Any) -> State:
+def read_state(wanted: gazebo_msgs.msg.ModelState | gazebo_msgs.msg.LinkState) -> State:
     """Convert pose and twist of a ``ModelState`` or ``LinkState``."""
     linear, angular = np.array(point(wanted.twist.linear)), np.array(point(wanted.twist.angular))
     return replace(read_pose(wanted.pose), linear=linear, angular=angular)

@@ -13,7 +13,7 @@ from gazelle.array_types import Worlds
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.outbox import Outbox
 from gazelle.engines import Motion, Placement
-from gazelle.ros import load_message
+from gazelle.ros.msgs import gazebo_msgs, rosgraph_msgs
 from gazelle.simulation import BasePlugin, LinkHandle, Robot
 
 # How often the performance is published, in simulated time [Hz].
@@ -34,7 +34,7 @@ class ClockPublisher(BasePlugin):
         self.update_rate = rate
         self._context = context
         self._publisher = context.node.advertise(
-            "/clock", load_message("rosgraph_msgs/Clock"), 10, on_connect=self._greet
+            "/clock", rosgraph_msgs.msg.Clock, 10, on_connect=self._greet
         )
         self._outbox = Outbox(self._publisher)
 
@@ -78,12 +78,8 @@ class StatesPublisher(BasePlugin):
 
     def __init__(self, context: GazeboContext) -> None:
         self._context = context
-        self._models = context.node.advertise(
-            "~model_states", load_message("gazebo_msgs/ModelStates"), 10
-        )
-        self._links = context.node.advertise(
-            "~link_states", load_message("gazebo_msgs/LinkStates"), 10
-        )
+        self._models = context.node.advertise("~model_states", gazebo_msgs.msg.ModelStates, 10)
+        self._links = context.node.advertise("~link_states", gazebo_msgs.msg.LinkStates, 10)
         self._outboxes = Outbox(self._models), Outbox(self._links)
         self._tables: tuple[SerializedStates, SerializedStates] | None = None
         events = context.simulation.events
@@ -180,7 +176,7 @@ class PerformancePublisher(BasePlugin):
     def __init__(self, context: GazeboContext) -> None:
         self._context = context
         self._publisher = context.node.advertise(
-            "~performance_metrics", load_message("gazebo_msgs/PerformanceMetrics"), 10
+            "~performance_metrics", gazebo_msgs.msg.PerformanceMetrics, 10
         )
         self._wall = time.monotonic()
         self._simulated = context.simulation.time
@@ -210,7 +206,7 @@ class PerformancePublisher(BasePlugin):
         message = self._publisher.message_class()
         message.header.stamp = self._context.now()
         message.real_time_factor = passed / real if real > 0.0 else 0.0
-        one = load_message("gazebo_msgs/SensorPerformanceMetric")
+        one = gazebo_msgs.msg.SensorPerformanceMetric
         for robot in self._context.simulation.robots.values():
             for unit in robot.sensors.values():
                 rate = unit.schedule.rate if unit.awake else 0.0

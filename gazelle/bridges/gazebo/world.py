@@ -10,6 +10,8 @@ from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.pacing import ACCEPTED, read_factor
 from gazelle.errors import Error
+from gazelle.ros.msgs import gazebo_msgs, gazelle_msgs, std_srvs
+from gazelle.simulation.physics import PhysicsProperties
 
 _MOST_STEPS = 10_000_000
 
@@ -21,27 +23,27 @@ class WorldServices:
         self._context = context
         self._simulation = context.simulation
 
-    def pause(self, _request: Any) -> Answer:
+    def pause(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Answer ``pause_physics``: no step is made once this is answered."""
         self._simulation.pause()
         return {}
 
-    def unpause(self, _request: Any) -> Answer:
+    def unpause(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Answer ``unpause_physics``."""
         self._simulation.unpause()
         return {}
 
-    def reset_simulation(self, _request: Any) -> Answer:
+    def reset_simulation(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Answer ``reset_simulation``: everything, and time."""
         self._simulation.reset()
         return {}
 
-    def reset_world(self, _request: Any) -> Answer:
+    def reset_world(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Answer ``reset_world``: everything but time."""
         self._simulation.reset(time=False)
         return {}
 
-    def get_properties(self, _request: Any) -> Answer:
+    def get_properties(self, _request: gazebo_msgs.srv.GetWorldPropertiesRequest) -> Answer:
         """Answer ``get_world_properties``."""
         return {
             "sim_time": self._context.now().to_sec(),
@@ -50,7 +52,7 @@ class WorldServices:
             **yes("GetWorldProperties: got properties"),
         }
 
-    def get_physics(self, _request: Any) -> Answer:
+    def get_physics(self, _request: gazebo_msgs.srv.GetPhysicsPropertiesRequest) -> Answer:
         """Answer ``get_physics_properties``."""
         physics = self._simulation.physics
         response = self._context.response("GetPhysicsProperties")
@@ -71,7 +73,7 @@ class WorldServices:
         response.status_message = "GetPhysicsProperties: got properties"
         return response
 
-    def set_physics(self, request: Any) -> Answer:
+    def set_physics(self, request: gazebo_msgs.srv.SetPhysicsPropertiesRequest) -> Answer:
         """Answer ``set_physics_properties``."""
         ode = request.ode_config
         try:
@@ -100,7 +102,7 @@ class WorldServices:
         if changed:
             physics.set(**changed)
 
-    def step(self, request: Any) -> Answer:
+    def step(self, request: gazelle_msgs.srv.StepRequest) -> Answer:
         """Answer ``/gazelle/step``: advance a paused world, and answer when the steps are made."""
         if not self._simulation.paused:
             return {"time": self._context.now(), **no("Step: the simulation is not paused")}
@@ -109,16 +111,16 @@ class WorldServices:
         self._simulation.step(request.steps)
         return {"time": self._context.now(), **yes("Step: steps made")}
 
-    def seed(self, request: Any) -> Answer:
+    def seed(self, request: gazelle_msgs.srv.SeedRequest) -> Answer:
         """Answer ``/gazelle/seed``: reset everything with another seed."""
         self._simulation.reset(seed=request.seed)
         return yes("Seed: the simulation is reset")
 
-    def snapshot(self, _request: Any) -> Answer:
+    def snapshot(self, _request: gazelle_msgs.srv.SnapshotRequest) -> Answer:
         """Answer ``/gazelle/snapshot``."""
         return {"state": self._simulation.snapshot(), **yes("Snapshot: taken")}
 
-    def restore(self, request: Any) -> Answer:
+    def restore(self, request: gazelle_msgs.srv.RestoreRequest) -> Answer:
         """Answer ``/gazelle/restore``."""
         try:
             self._simulation.restore(bytes(request.state))
@@ -126,7 +128,7 @@ class WorldServices:
             return no(f"Restore: {error}")
         return yes("Restore: done")
 
-    def set_real_time_factor(self, request: Any) -> Answer:
+    def set_real_time_factor(self, request: gazelle_msgs.srv.SetRealTimeFactorRequest) -> Answer:
         """Answer ``/gazelle/set_real_time_factor``: a number, or ``max``."""
         factor = read_factor(request.real_time_factor)
         if factor is None:
@@ -138,7 +140,7 @@ class WorldServices:
         return yes("SetRealTimeFactor: done")
 
 
-def _now(physics: Any, name: str) -> Any:
+def _now(physics: PhysicsProperties, name: str) -> Any:
     """Return a property as a request would give it."""
     value = getattr(physics, name)
     return bool(value) if name == "auto_disable" else value

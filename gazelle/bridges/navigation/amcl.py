@@ -30,7 +30,7 @@ from gazelle.navigation.planners.planar import between, composed
 from gazelle.real_numbers import finite
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.map_server import grid_of_message
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_srvs
 from gazelle.ros.node import Node
 from gazelle.ros.tf import StampedTransform
 from gazelle.ros.time import Time
@@ -78,18 +78,18 @@ class AmclNode:
             self._maps = MapListener(node, "map", once=once)
         self._saved_at = 0
         self.frames = GraphFrames(node)
-        self._scans = ScanQueue(node, "scan", load_message("sensor_msgs/LaserScan"))
+        self._scans = ScanQueue(node, "scan", sensor_msgs.msg.LaserScan)
         self.frames.tree.on_change(self._scans.wake)
-        covariant = load_message("geometry_msgs/PoseWithCovarianceStamped")
+        covariant = geometry_msgs.msg.PoseWithCovarianceStamped
         self._poses = node.advertise("amcl_pose", covariant, queue_size=2, latch=True)
         self._clouds = node.advertise(
-            "particlecloud", load_message("geometry_msgs/PoseArray"), queue_size=2, latch=True
+            "particlecloud", geometry_msgs.msg.PoseArray, queue_size=2, latch=True
         )
         node.subscribe("initialpose", covariant, self._begin)
-        empty = load_service("std_srvs/Empty")
+        empty = std_srvs.srv.Empty
         node.serve("global_localization", empty, self._begin_anywhere)
         node.serve("request_nomotion_update", empty, self._force)
-        node.serve("set_map", load_service("nav_msgs/SetMap"), self._set_map)
+        node.serve("set_map", nav_msgs.srv.SetMap, self._set_map)
         self._tuning = ReconfigureServer(node, node.name, _Tuning(self))
         self._diagnosis = StartDiagnosis(node, self._missing)
 
@@ -164,7 +164,7 @@ class AmclNode:
 
     # Topics and services ------------------------------------------------------------------
 
-    def _begin(self, message: Any) -> None:
+    def _begin(self, message: geometry_msgs.msg.PoseWithCovarianceStamped) -> None:
         """Set an initial pose, advanced by the odometry since its time."""
         frame = message.header.frame_id.strip("/")
         if frame not in {"", self._whole}:
@@ -190,7 +190,7 @@ class AmclNode:
 
         self._do(begin)
 
-    def _begin_anywhere(self, request: Any) -> list[Any]:
+    def _begin_anywhere(self, request: std_srvs.srv.EmptyRequest) -> list[Any]:
         """Start global localisation.
 
         The answer says that this has begun, so it waits for a map that a service is to give. One of
@@ -203,19 +203,19 @@ class AmclNode:
                 self._changed.wait(_LOOK_S)
         return []
 
-    def _force(self, request: Any) -> list[Any]:
+    def _force(self, request: std_srvs.srv.EmptyRequest) -> list[Any]:
         del request
         with self._lock:
             if self._localizer is not None:
                 self._localizer.force_update()
         return []
 
-    def _set_map(self, request: Any) -> list[Any]:
+    def _set_map(self, request: nav_msgs.srv.SetMapRequest) -> list[Any]:
         self._take_map(grid_of_message(request.map))
         self._begin(request.initial_pose)
         return [True]
 
-    def _find(self, message: Any) -> tuple[StampedTransform, Pose2] | None:
+    def _find(self, message: sensor_msgs.msg.LaserScan) -> tuple[StampedTransform, Pose2] | None:
         """Return the poses of laser and robot; None if transforms, or a map, are not available yet."""
         mounted = self.frames.find(self._base, message.header.frame_id.strip("/"))
         odom = self.frames.pose(self._odom, self._base, message.header.stamp.to_nsec())
@@ -223,7 +223,9 @@ class AmclNode:
             return None
         return mounted, odom
 
-    def _use(self, message: Any, found: tuple[StampedTransform, Pose2]) -> None:
+    def _use(
+        self, message: sensor_msgs.msg.LaserScan, found: tuple[StampedTransform, Pose2]
+    ) -> None:
         """Process a scan."""
         mounted, odom = found
         stamp = message.header.stamp.to_nsec()
@@ -254,7 +256,7 @@ class AmclNode:
         estimate = localizer.estimate
         if estimate is None:
             return
-        message: Any = load_message("geometry_msgs/PoseWithCovarianceStamped")()
+        message = geometry_msgs.msg.PoseWithCovarianceStamped()
         message.header.frame_id, message.header.stamp = self._whole, Time(nsecs=stamp)
         x, y, yaw = estimate.pose.tolist()
         fill_pose(message.pose.pose, (x, y, yaw))
@@ -266,9 +268,9 @@ class AmclNode:
         if self._clouds.num_connections:
             self._clouds.publish(self._cloud(localizer, stamp))
 
-    def _cloud(self, localizer: Localizer, stamp: int) -> Any:
-        kind: Any = load_message("geometry_msgs/Pose")
-        message: Any = load_message("geometry_msgs/PoseArray")()
+    def _cloud(self, localizer: Localizer, stamp: int) -> geometry_msgs.msg.PoseArray:
+        kind = geometry_msgs.msg.Pose
+        message = geometry_msgs.msg.PoseArray()
         message.header.frame_id, message.header.stamp = self._whole, Time(nsecs=stamp)
         poses = []
         for x, y, yaw in localizer.filter.poses.tolist():

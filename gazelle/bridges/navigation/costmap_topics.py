@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -17,8 +18,13 @@ from gazelle.navigation.costmap.parameters import SensorTopic
 from gazelle.navigation.costmap.values import Window, shown
 from gazelle.navigation.following import Pose2
 from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, map_msgs, nav_msgs, sensor_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
+
+if TYPE_CHECKING:
+    Cloud = sensor_msgs.msg.PointCloud | sensor_msgs.msg.PointCloud2
+    Measurement = sensor_msgs.msg.LaserScan | Cloud
 
 _SECOND = 1_000_000_000
 _PATIENCE_NS = _SECOND
@@ -45,7 +51,7 @@ class CostmapTopics:
         self.costmap = setup.costmap
         self.pose: Pose2 | None = None
         self.sensor_frame = ""
-        self._inbox: list[tuple[SensorTopic, Any]] = []
+        self._inbox: list[tuple[SensorTopic, Measurement]] = []
         self._lock = threading.Lock()
         self._updated_ns = self._published_ns = -(1 << 62)
         self._drawn = False
@@ -53,26 +59,26 @@ class CostmapTopics:
         for sensor in setup.sensors:
             kind = load_message(f"sensor_msgs/{sensor.kind}")
             node.subscribe(sensor.topic, kind, self._listener(sensor), queue_size=50)
-        grid = load_message("nav_msgs/OccupancyGrid")
+        grid = nav_msgs.msg.OccupancyGrid
         self._full_wanted = True
         self._grids = node.advertise(
             f"~{name}/costmap", grid, queue_size=1, on_connect=self._want_full
         )
         self._updates = node.advertise(
-            f"~{name}/costmap_updates", load_message("map_msgs/OccupancyGridUpdate"), queue_size=1
+            f"~{name}/costmap_updates", map_msgs.msg.OccupancyGridUpdate, queue_size=1
         )
-        polygon = load_message("geometry_msgs/PolygonStamped")
+        polygon = geometry_msgs.msg.PolygonStamped
         self._outlines = node.advertise(f"~{name}/footprint", polygon, queue_size=1)
         topic = str(node.get_param(f"~{name}/footprint_topic", ""))
         if topic:
-            node.subscribe(topic, load_message("geometry_msgs/Polygon"), self._take_footprint)
+            node.subscribe(topic, geometry_msgs.msg.Polygon, self._take_footprint)
 
     def _want_full(self, peer: str) -> None:
         del peer
         self._full_wanted = True
 
-    def _listener(self, sensor: SensorTopic) -> Any:
-        def take(message: Any) -> None:
+    def _listener(self, sensor: SensorTopic) -> Callable[[Measurement], None]:
+        def take(message: Measurement) -> None:
             with self._lock:
                 self._inbox.append((sensor, message))
                 del self._inbox[:-_MOST_WAITING]
@@ -145,7 +151,7 @@ class CostmapTopics:
         with self._lock:
             self._inbox = fresh + self._inbox
 
-    def _observe(self, sensor: SensorTopic, message: Any) -> bool:
+    def _observe(self, sensor: SensorTopic, message: Measurement) -> bool:
         """Process a measurement of a sensor; False if its transform is missing yet."""
         frame = message.header.frame_id.strip("/")
         self.sensor_frame = sensor.sensor_frame or frame
@@ -155,16 +161,17 @@ class CostmapTopics:
         if found is None or eye is None:
             return False
         if sensor.kind == "LaserScan":
-            points = scan_points(message, inf_is_valid=sensor.inf_is_valid)
+            scan = cast("sensor_msgs.msg.LaserScan", message)
+            points = scan_points(scan, inf_is_valid=sensor.inf_is_valid)
         else:
-            points = cloud_points(message)
+            points = cloud_points(cast("Cloud", message))
         layer = next(each for each in self.costmap.layers if each.name == sensor.layer)
         if isinstance(layer, ObstacleLayer):
             origin = np.array(eye.translation)
             layer.observe(sensor.source, stamp / _SECOND, origin, applied(found, points))
         return True
 
-    def _take_footprint(self, message: Any) -> None:
+    def _take_footprint(self, message: geometry_msgs.msg.Polygon) -> None:
         corners = [[each.x, each.y] for each in message.points]
         try:
             self.costmap.set_footprint(footprint_of(corners, padding=self._setup.padding))
@@ -184,8 +191,8 @@ class CostmapTopics:
         else:
             self._updates.publish(self._update(self.costmap.updated, now))
 
-    def _grid(self, now: int) -> Any:
-        message: Any = load_message("nav_msgs/OccupancyGrid")()
+    def _grid(self, now: int) -> nav_msgs.msg.OccupancyGrid:
+        message = nav_msgs.msg.OccupancyGrid()
         message.header.frame_id, message.header.stamp = self.costmap.frame, Time(nsecs=now)
         info, cells = message.info, self.costmap.cells
         info.resolution = self.costmap.resolution
@@ -195,17 +202,17 @@ class CostmapTopics:
         message.data = shown(cells).ravel().tolist()
         return message
 
-    def _update(self, window: Window, now: int) -> Any:
-        message: Any = load_message("map_msgs/OccupancyGridUpdate")()
+    def _update(self, window: Window, now: int) -> map_msgs.msg.OccupancyGridUpdate:
+        message = map_msgs.msg.OccupancyGridUpdate()
         message.header.frame_id, message.header.stamp = self.costmap.frame, Time(nsecs=now)
         message.x, message.y = window.x0, window.y0
         message.width, message.height = window.x1 - window.x0, window.y1 - window.y0
         message.data = shown(self.costmap.cells[window.slices]).ravel().tolist()
         return message
 
-    def _outline(self, pose: Pose2, now: int) -> Any:
-        point: Any = load_message("geometry_msgs/Point32")
-        message: Any = load_message("geometry_msgs/PolygonStamped")()
+    def _outline(self, pose: Pose2, now: int) -> geometry_msgs.msg.PolygonStamped:
+        point = geometry_msgs.msg.Point32
+        message = geometry_msgs.msg.PolygonStamped()
         message.header.frame_id, message.header.stamp = self.costmap.frame, Time(nsecs=now)
         message.polygon.points = [
             point(x=x, y=y, z=0.0) for x, y in placed(self.costmap.footprint, *pose).tolist()

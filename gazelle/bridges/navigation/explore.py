@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Bytes
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
@@ -21,7 +22,7 @@ from gazelle.navigation.frontiers import Frontier, find_frontiers
 from gazelle.ros.actions import GoalStatus, SimpleActionClient
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.clock import Rate
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, map_msgs, move_base_msgs, nav_msgs, visualization_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
@@ -66,14 +67,14 @@ class ExploreNode:
         self.frames = GraphFrames(node)
         topic = value_of(values, "costmap_topic", "costmap")
         self._topic = node.resolve(topic)
-        node.subscribe(topic, load_message("nav_msgs/OccupancyGrid"), self._take_map)
+        node.subscribe(topic, nav_msgs.msg.OccupancyGrid, self._take_map)
         updates = value_of(values, "costmap_updates_topic", "costmap_updates")
-        node.subscribe(updates, load_message("map_msgs/OccupancyGridUpdate"), self._take_update)
+        node.subscribe(updates, map_msgs.msg.OccupancyGridUpdate, self._take_update)
         self._shown = None
         if value_of(values, "visualize", False):
-            kind = load_message("visualization_msgs/MarkerArray")
+            kind = visualization_msgs.msg.MarkerArray
             self._shown = node.advertise("~frontiers", kind, queue_size=10)
-        action = load_message("move_base_msgs/MoveBaseAction")
+        action = move_base_msgs.msg.MoveBaseAction
         self._client = SimpleActionClient(node, "move_base", action)
         self._diagnosis = StartDiagnosis(node, self._missing)
 
@@ -119,7 +120,7 @@ class ExploreNode:
             self._send(goal.place, frame, now)
 
     def _send(self, place: Place, frame: str, now: int) -> None:
-        goal: Any = load_message("move_base_msgs/MoveBaseGoal")()
+        goal = move_base_msgs.msg.MoveBaseGoal()
         goal.target_pose = stamped((*place, 0.0), frame, now)
 
         def end(status: int, result: object) -> None:
@@ -131,7 +132,7 @@ class ExploreNode:
 
     # What comes ---------------------------------------------------------------------------
 
-    def _take_map(self, message: Any) -> None:
+    def _take_map(self, message: nav_msgs.msg.OccupancyGrid) -> None:
         cells = np.array(message.data, np.int8)
         shape = message.info.height, message.info.width
         if cells.size != shape[0] * shape[1]:
@@ -140,7 +141,7 @@ class ExploreNode:
         with self._lock:
             self._grid, self._costs = message, _costs_of(cells).reshape(shape)
 
-    def _take_update(self, message: Any) -> None:
+    def _take_update(self, message: map_msgs.msg.OccupancyGridUpdate) -> None:
         cells = np.array(message.data, np.int8)
         x, y, wide, high = message.x, message.y, message.width, message.height
         with self._lock:
@@ -164,8 +165,8 @@ class ExploreNode:
 
     def _show(self, frontiers: Sequence[Frontier], frame: str, now: int) -> None:
         """Publish markers: blue where it may go, red where it gave up."""
-        kind: Any = load_message("visualization_msgs/Marker")
-        point: Any = load_message("geometry_msgs/Point")
+        kind = visualization_msgs.msg.Marker
+        point = geometry_msgs.msg.Point
         markers = [kind(action=_DELETE_ALL)]
         for number, frontier in enumerate(frontiers):
             marker = kind(ns="frontiers", id=number, type=_POINTS, action=_ADD)
@@ -178,9 +179,9 @@ class ExploreNode:
         for marker in markers:
             marker.header.frame_id, marker.header.stamp = frame, Time(nsecs=now)
         if self._shown is not None:
-            self._shown.publish(load_message("visualization_msgs/MarkerArray")(markers=markers))
+            self._shown.publish(visualization_msgs.msg.MarkerArray(markers=markers))
 
 
-def _costs_of(cells: Any) -> Bytes:
+def _costs_of(cells: NDArray[np.int8]) -> Bytes:
     """Return costs of a published map: unknown, free, or neither, shape of ``cells``."""
     return np.where(cells < 0, NO_INFORMATION, np.where(cells == 0, 0, LETHAL)).astype(np.uint8)

@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.navigation.following import Pose2
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, tf2_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.tf import FrameTree, StampedTransform, TransformException, take_transforms
 from gazelle.ros.time import Time
@@ -31,14 +31,14 @@ class GraphFrames:
     def __init__(self, node: Node) -> None:
         self._node = node
         self.tree = FrameTree()
-        self._kind = load_message("tf2_msgs/TFMessage")
-        self._stamped = load_message("geometry_msgs/TransformStamped")
+        self._kind = tf2_msgs.msg.TFMessage
+        self._stamped = geometry_msgs.msg.TransformStamped
         self._sender = node.advertise("/tf", self._kind, queue_size=100)
         self._latest = 0
         node.subscribe("/tf", self._kind, lambda message: self._take(message, static=False))
         node.subscribe("/tf_static", self._kind, lambda message: self._take(message, static=True))
 
-    def _take(self, message: Any, *, static: bool) -> None:
+    def _take(self, message: tf2_msgs.msg.TFMessage, *, static: bool) -> None:
         now = self._node.clock.now()
         if now < self._latest - _BACK_NS:
             self.tree.clear()

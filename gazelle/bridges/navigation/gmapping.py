@@ -13,7 +13,7 @@ from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping import GmappingSettings, GridSlam
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import sensor_msgs, std_msgs
 from gazelle.ros.node import Node
 
 
@@ -43,7 +43,7 @@ class GmappingNode(MappingNode):
         interval = value_of(values, "map_update_interval", 5.0)
         ahead = value_of(values, "tf_delay", period)
         super().__init__(node, "base_link", "scan", interval, period, ahead)
-        self._entropies = node.advertise("~entropy", load_message("std_msgs/Float64"), latch=True)
+        self._entropies = node.advertise("~entropy", std_msgs.msg.Float64, latch=True)
 
     def place(self) -> Pose2 | None:
         """Return the pose of the odometry frame on the map."""
@@ -54,7 +54,12 @@ class GmappingNode(MappingNode):
         return self.slam.map()
 
     def take(
-        self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
+        self,
+        message: sensor_msgs.msg.LaserScan,
+        ranges: Floats,
+        angles: Floats,
+        laser: Pose2,
+        odom: Pose2 | None,
     ) -> bool:
         """Process a scan; returns whether the map has changed."""
         stamp = message.header.stamp.to_nsec()
@@ -65,7 +70,7 @@ class GmappingNode(MappingNode):
         most = float(message.range_max)
         changed = self.slam.update(stamp / SECOND, odom, ranges, angles, most, laser)
         if changed:
-            entropy: Any = load_message("std_msgs/Float64")()
+            entropy = std_msgs.msg.Float64()
             entropy.data = self.slam.entropy()
             self._entropies.publish(entropy)
         return changed

@@ -17,8 +17,9 @@ from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.hector import HectorSettings, HectorSlam
 from gazelle.navigation.planners.planar import composed, inverse
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import geometry_msgs, sensor_msgs, std_msgs, std_srvs
 from gazelle.ros.node import Node
+from gazelle.ros.time import Time
 from gazelle.rotations import from_yaw, yaw_of
 
 
@@ -55,16 +56,16 @@ class HectorNode(MappingNode):
         name = "tf_map_scanmatch_transform_frame_name"
         self._match_frame = value_of(values, name, "scanmatcher_frame").strip("/")
         self._from_tf = value_of(values, "use_tf_pose_start_estimate", False)
-        covariant = load_message("geometry_msgs/PoseWithCovarianceStamped")
+        covariant = geometry_msgs.msg.PoseWithCovarianceStamped
         topic = value_of(values, "pose_update_topic", "poseupdate")
         self._updates = node.advertise(topic, covariant, queue_size=1)
-        self._stamped = load_message("geometry_msgs/PoseStamped")
+        self._stamped = geometry_msgs.msg.PoseStamped
         self._poses = node.advertise("slam_out_pose", self._stamped, queue_size=1)
         commands = value_of(values, "sys_msg_topic", "syscommand")
-        node.subscribe(commands, load_message("std_msgs/String"), self._command)
+        node.subscribe(commands, std_msgs.msg.String, self._command)
         node.subscribe("initialpose", covariant, self._begin)
-        node.serve("reset_map", load_service("std_srvs/Trigger"), self._reset)
-        node.serve("pause_mapping", load_service("std_srvs/SetBool"), self._pause)
+        node.serve("reset_map", std_srvs.srv.Trigger, self._reset)
+        node.serve("pause_mapping", std_srvs.srv.SetBool, self._pause)
 
     def place(self) -> Pose2 | None:
         """Return the pose of the odometry frame on the map."""
@@ -75,7 +76,12 @@ class HectorNode(MappingNode):
         return self.slam.map()
 
     def take(
-        self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
+        self,
+        message: sensor_msgs.msg.LaserScan,
+        ranges: Floats,
+        angles: Floats,
+        laser: Pose2,
+        odom: Pose2 | None,
     ) -> bool:
         """Process a scan; returns whether the map has changed."""
         stamp = message.header.stamp.to_nsec()
@@ -90,16 +96,16 @@ class HectorNode(MappingNode):
         self._say(message.header.stamp, stamp, odom)
         return changed
 
-    def _say(self, stamp: Any, at: int, odom: Pose2 | None) -> None:
+    def _say(self, stamp: Time, at: int, odom: Pose2 | None) -> None:
         """Publish the pose, and the transforms that were asked for."""
-        pose: Any = self._stamped()
+        pose = self._stamped()
         pose.header.frame_id, pose.header.stamp = self._whole, stamp
         x, y, heading = self.slam.pose
         pose.pose.position.x, pose.pose.position.y = x, y
         turn = pose.pose.orientation
         turn.x, turn.y, turn.z, turn.w = from_yaw(np.array(heading)).tolist()
         self._poses.publish(pose)
-        update: Any = load_message("geometry_msgs/PoseWithCovarianceStamped")()
+        update = geometry_msgs.msg.PoseWithCovarianceStamped()
         update.header, update.pose.pose = pose.header, pose.pose
         self._updates.publish(update)
         if odom is not None and self._place is not None:
@@ -111,11 +117,11 @@ class HectorNode(MappingNode):
         found = super()._missing()
         return found if self.needs_odometry else [each for each in found if "drive" not in each]
 
-    def _command(self, message: Any) -> None:
+    def _command(self, message: std_msgs.msg.String) -> None:
         if message.data == "reset":
             self.slam.reset()
 
-    def _begin(self, message: Any) -> None:
+    def _begin(self, message: geometry_msgs.msg.PoseWithCovarianceStamped) -> None:
         """Continue from another pose on the map."""
         found = self.frames.find(self._whole, message.header.frame_id.strip("/") or self._whole)
         frame = (0.0, 0.0, 0.0) if found is None else flat(found)
@@ -123,11 +129,11 @@ class HectorNode(MappingNode):
         heading = float(yaw_of(np.array([turn.x, turn.y, turn.z, turn.w])))
         self._start = composed(frame, (place.x, place.y, heading))
 
-    def _reset(self, request: Any) -> list[Any]:
+    def _reset(self, request: std_srvs.srv.TriggerRequest) -> list[Any]:
         del request
         self.slam.reset()
         return [True, ""]
 
-    def _pause(self, request: Any) -> list[Any]:
+    def _pause(self, request: std_srvs.srv.SetBoolRequest) -> list[Any]:
         self._paused = bool(request.data)
         return [True, ""]

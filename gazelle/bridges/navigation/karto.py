@@ -15,6 +15,7 @@ from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.karto import KartoSettings, KartoSlam
 from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.msgs import sensor_msgs
 from gazelle.ros.node import Node
 
 
@@ -54,7 +55,12 @@ class KartoNode(MappingNode):
         return self.slam.map()
 
     def take(
-        self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
+        self,
+        message: sensor_msgs.msg.LaserScan,
+        ranges: Floats,
+        angles: Floats,
+        laser: Pose2,
+        odom: Pose2 | None,
     ) -> bool:
         """Process a scan; returns whether the map has changed."""
         if odom is None:

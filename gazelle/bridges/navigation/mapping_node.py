@@ -18,7 +18,7 @@ from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.ros.builtin.map_server import grid_message
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import nav_msgs, sensor_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.tf import StampedTransform
 
@@ -53,12 +53,12 @@ class MappingNode(ABC):
         self._lock = threading.Lock()
         self._message: Any = None
         self.frames = GraphFrames(node)
-        self._scans = ScanQueue(node, scans, load_message("sensor_msgs/LaserScan"))
+        self._scans = ScanQueue(node, scans, sensor_msgs.msg.LaserScan)
         self.frames.tree.on_change(self._scans.wake)
-        grid, info = load_message("nav_msgs/OccupancyGrid"), load_message("nav_msgs/MapMetaData")
+        grid, info = nav_msgs.msg.OccupancyGrid, nav_msgs.msg.MapMetaData
         self._maps = node.advertise("map", grid, queue_size=1, latch=True)
         self._infos = node.advertise("map_metadata", info, queue_size=1, latch=True)
-        node.serve("dynamic_map", load_service("nav_msgs/GetMap"), self._dynamic_map)
+        node.serve("dynamic_map", nav_msgs.srv.GetMap, self._dynamic_map)
         self._topic = scans
         self._diagnosis = StartDiagnosis(node, self._missing)
 
@@ -71,7 +71,12 @@ class MappingNode(ABC):
 
     @abstractmethod
     def take(
-        self, message: Any, ranges: Floats, angles: Floats, laser: Pose2, odom: Pose2 | None
+        self,
+        message: sensor_msgs.msg.LaserScan,
+        ranges: Floats,
+        angles: Floats,
+        laser: Pose2,
+        odom: Pose2 | None,
     ) -> bool:
         """Process a scan; returns whether the map has changed.
 
@@ -100,7 +105,9 @@ class MappingNode(ABC):
             found.append(f"scans on {self._node.resolve(self._topic)} (a laser sends them)")
         return found
 
-    def _find(self, message: Any) -> tuple[StampedTransform, Pose2 | None] | None:
+    def _find(
+        self, message: sensor_msgs.msg.LaserScan
+    ) -> tuple[StampedTransform, Pose2 | None] | None:
         """Return the poses of laser and robot; None if transforms are not available yet."""
         mounted = self.frames.find(self._base, message.header.frame_id.strip("/"))
         odom = None
@@ -110,7 +117,9 @@ class MappingNode(ABC):
             return None
         return mounted, odom
 
-    def _use(self, message: Any, found: tuple[StampedTransform, Pose2 | None]) -> None:
+    def _use(
+        self, message: sensor_msgs.msg.LaserScan, found: tuple[StampedTransform, Pose2 | None]
+    ) -> None:
         """Process a scan."""
         mounted, odom = found
         self._count += 1
@@ -142,8 +151,8 @@ class MappingNode(ABC):
             self._sent_ns = now
             self.frames.send(self._whole, self._odom, now + self._ahead_ns, place)
 
-    def _dynamic_map(self, request: Any) -> list[Any]:
+    def _dynamic_map(self, request: nav_msgs.srv.GetMapRequest) -> list[nav_msgs.msg.OccupancyGrid]:
         del request
         with self._lock:
             found = self._message
-        return [load_message("nav_msgs/OccupancyGrid")() if found is None else found]
+        return [nav_msgs.msg.OccupancyGrid() if found is None else found]

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import RosError
 from gazelle.ros.builtin.map_server import grid_of_message
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import nav_msgs
 from gazelle.ros.node import Node
 
 _AGAIN_S = 0.5
@@ -17,7 +17,7 @@ _AGAIN_S = 0.5
 
 def map_of_service(node: Node, stopped: Callable[[], bool]) -> OccupancyMap | None:
     """Call ``static_map`` until there is a map; None if the node ends before."""
-    service = load_service("nav_msgs/GetMap")
+    service = nav_msgs.srv.GetMap
     while not stopped():
         with contextlib.suppress(RosError):
             node.wait_for_service("static_map", _AGAIN_S)
@@ -41,9 +41,9 @@ class MapListener:
         self._once = once
         self._fresh: OccupancyMap | None = None
         self._had = False
-        node.subscribe(topic, load_message("nav_msgs/OccupancyGrid"), self._take)
+        node.subscribe(topic, nav_msgs.msg.OccupancyGrid, self._take)
 
-    def _take(self, message: object) -> None:
+    def _take(self, message: nav_msgs.msg.OccupancyGrid) -> None:
         with self._lock:
             if not (self._once and self._had):
                 self._fresh, self._had = grid_of_message(message), True

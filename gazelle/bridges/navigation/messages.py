@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.navigation.following import Pose2
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
 from gazelle.ros.time import Time
 from gazelle.rotations import from_yaw, yaw_of
 
 _LEAST_LENGTH = 1e-6
 
 
-def pose_of(message: Any) -> Pose2:
+def pose_of(message: geometry_msgs.msg.Pose) -> Pose2:
     """Convert a ``geometry_msgs/Pose``, projected to the plane."""
     place, turn = message.position, message.orientation
     return place.x, place.y, float(yaw_of(np.array([turn.x, turn.y, turn.z, turn.w])))
 
 
-def fill_pose(message: Any, pose: Pose2) -> None:
+def fill_pose(message: geometry_msgs.msg.Pose, pose: Pose2) -> None:
     """Write a ``geometry_msgs/Pose``."""
     message.position.x, message.position.y = float(pose[0]), float(pose[1])
     x, y, z, w = from_yaw(np.array(pose[2])).tolist()
@@ -30,23 +29,23 @@ def fill_pose(message: Any, pose: Pose2) -> None:
     turn.x, turn.y, turn.z, turn.w = x, y, z, w
 
 
-def stamped(pose: Pose2, frame: str, stamp: int) -> Any:
+def stamped(pose: Pose2, frame: str, stamp: int) -> geometry_msgs.msg.PoseStamped:
     """Return a ``geometry_msgs/PoseStamped``."""
-    message: Any = load_message("geometry_msgs/PoseStamped")()
+    message = geometry_msgs.msg.PoseStamped()
     message.header.frame_id, message.header.stamp = frame, Time(nsecs=stamp)
     fill_pose(message.pose, pose)
     return message
 
 
-def path_message(poses: Floats, frame: str, stamp: int) -> Any:
+def path_message(poses: Floats, frame: str, stamp: int) -> nav_msgs.msg.Path:
     """Return a ``nav_msgs/Path`` of poses, shape (n, 3)."""
-    message: Any = load_message("nav_msgs/Path")()
+    message = nav_msgs.msg.Path()
     message.header.frame_id, message.header.stamp = frame, Time(nsecs=stamp)
     message.poses = [stamped((x, y, yaw), frame, stamp) for x, y, yaw in poses.tolist()]
     return message
 
 
-def wrong_quaternion(turn: Any) -> str | None:
+def wrong_quaternion(turn: geometry_msgs.msg.Quaternion) -> str | None:
     """Return the reason why an orientation is invalid, in move_base's words; None if valid."""
     values = np.array([turn.x, turn.y, turn.z, turn.w])
     if not np.isfinite(values).all():
@@ -64,14 +63,14 @@ def wrong_quaternion(turn: Any) -> str | None:
     return None
 
 
-def twist_message(velocity: tuple[float, float, float]) -> Any:
+def twist_message(velocity: tuple[float, float, float]) -> geometry_msgs.msg.Twist:
     """Return a ``geometry_msgs/Twist``."""
-    message: Any = load_message("geometry_msgs/Twist")()
+    message = geometry_msgs.msg.Twist()
     message.linear.x, message.linear.y, message.angular.z = (float(each) for each in velocity)
     return message
 
 
-def scan_points(message: Any, *, inf_is_valid: bool = False) -> Floats:
+def scan_points(message: sensor_msgs.msg.LaserScan, *, inf_is_valid: bool = False) -> Floats:
     """Return the ends of a ``sensor_msgs/LaserScan``'s beams in its frame, shape (n, 3) [m].
 
     Args:
@@ -89,7 +88,7 @@ def scan_points(message: Any, *, inf_is_valid: bool = False) -> Floats:
     return points
 
 
-def cloud_points(message: Any) -> Floats:
+def cloud_points(message: sensor_msgs.msg.PointCloud | sensor_msgs.msg.PointCloud2) -> Floats:
     """Return the points of a ``sensor_msgs/PointCloud`` or ``PointCloud2``, shape (n, 3) [m]."""
     if hasattr(message, "points"):
         rows = [(each.x, each.y, each.z) for each in message.points]
@@ -101,7 +100,7 @@ def cloud_points(message: Any) -> Floats:
     return points[np.isfinite(points).all(axis=1)]
 
 
-def beam_angles(message: Any) -> Floats:
+def beam_angles(message: sensor_msgs.msg.LaserScan) -> Floats:
     """Return angles of a scan's beams in its frame [rad], shape (n,)."""
     count = len(message.ranges)
     return np.asarray(message.angle_min + message.angle_increment * np.arange(count), np.float64)

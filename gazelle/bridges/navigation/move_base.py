@@ -27,7 +27,7 @@ from gazelle.navigation.planners.plugins import STOP, Velocity
 from gazelle.ros.actions import SimpleActionServer
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.clock import Rate
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import geometry_msgs, move_base_msgs, nav_msgs, std_srvs
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
@@ -66,27 +66,23 @@ class MoveBaseNode:
         self.frames = GraphFrames(node)
         self.whole = CostmapTopics(node, "global_costmap", self.stack.whole, self.frames)
         self.local = CostmapTopics(node, "local_costmap", self.stack.local, self.frames)
-        self._commands = node.advertise(
-            "cmd_vel", load_message("geometry_msgs/Twist"), queue_size=1
-        )
-        pose, path = load_message("geometry_msgs/PoseStamped"), load_message("nav_msgs/Path")
+        self._commands = node.advertise("cmd_vel", geometry_msgs.msg.Twist, queue_size=1)
+        pose, path = geometry_msgs.msg.PoseStamped, nav_msgs.msg.Path
         self._current = node.advertise("~current_goal", pose, queue_size=1)
-        self._recovery = node.advertise(
-            "~recovery_status", load_message("move_base_msgs/RecoveryStatus")
-        )
+        self._recovery = node.advertise("~recovery_status", move_base_msgs.msg.RecoveryStatus)
         planner, controller = self._law.planner.name, self._law.controller.name
         self._plans = node.advertise(f"~{planner}/plan", path, queue_size=1)
         self._whole_plans = node.advertise(f"~{controller}/global_plan", path, queue_size=1)
         self._local_plans = node.advertise(f"~{controller}/local_plan", path, queue_size=1)
         self._goals = node.advertise(
-            "move_base/goal", load_message("move_base_msgs/MoveBaseActionGoal"), queue_size=1
+            "move_base/goal", move_base_msgs.msg.MoveBaseActionGoal, queue_size=1
         )
         node.subscribe("move_base_simple/goal", pose, self._forward)
-        node.subscribe("odom", load_message("nav_msgs/Odometry"), self._hear)
-        node.serve("~make_plan", load_service("nav_msgs/GetPlan"), self._make_plan)
-        node.serve("~clear_costmaps", load_service("std_srvs/Empty"), self._clear)
+        node.subscribe("odom", nav_msgs.msg.Odometry, self._hear)
+        node.serve("~make_plan", nav_msgs.srv.GetPlan, self._make_plan)
+        node.serve("~clear_costmaps", std_srvs.srv.Empty, self._clear)
         self._server = SimpleActionServer(
-            node, "move_base", load_message("move_base_msgs/MoveBaseAction"), auto_start=False
+            node, "move_base", move_base_msgs.msg.MoveBaseAction, auto_start=False
         )
         self._diagnosis = StartDiagnosis(node, self._missing)
         self._started = False
@@ -140,15 +136,15 @@ class MoveBaseNode:
             return None
         return RobotState(whole, local, self._velocity)
 
-    def _hear(self, message: Any) -> None:
+    def _hear(self, message: nav_msgs.msg.Odometry) -> None:
         twist = message.twist.twist
         self._velocity = twist.linear.x, twist.linear.y, twist.angular.z
 
     # Goals --------------------------------------------------------------------------------
 
-    def _forward(self, message: Any) -> None:
+    def _forward(self, message: geometry_msgs.msg.PoseStamped) -> None:
         """Forward a simple goal to the action."""
-        goal: Any = load_message("move_base_msgs/MoveBaseActionGoal")()
+        goal = move_base_msgs.msg.MoveBaseActionGoal()
         goal.header.stamp = Time(nsecs=self._node.clock.now())
         goal.goal.target_pose = message
         self._goals.publish(goal)
@@ -180,7 +176,7 @@ class MoveBaseNode:
             server.set_preempted()
             self._drive(STOP)
 
-    def _in_whole(self, target: Any) -> Pose2 | None:
+    def _in_whole(self, target: geometry_msgs.msg.PoseStamped) -> Pose2 | None:
         """Convert a ``PoseStamped`` to the frame of the global costmap; None if unknown."""
         frame = target.header.frame_id.strip("/") or self.stack.whole.costmap.frame
         to_whole = self.frames.pose(self.stack.whole.costmap.frame, frame)
@@ -189,7 +185,7 @@ class MoveBaseNode:
     def _tell(self, step: MoveStep, state: RobotState, now: int) -> None:
         """Apply and publish the result of a step."""
         whole, local = self.stack.whole.costmap.frame, self.stack.local.costmap.frame
-        feedback: Any = load_message("move_base_msgs/MoveBaseFeedback")()
+        feedback = move_base_msgs.msg.MoveBaseFeedback()
         feedback.base_position = stamped(state.in_whole, whole, now)
         self._server.publish_feedback(feedback)
         if step.velocity is not None:
@@ -208,8 +204,10 @@ class MoveBaseNode:
         elif step.outcome is GoalOutcome.ABORTED:
             self._server.set_aborted(None, step.text)
 
-    def _status(self, recovery: tuple[int, str], pose: Any) -> Any:
-        status: Any = load_message("move_base_msgs/RecoveryStatus")()
+    def _status(
+        self, recovery: tuple[int, str], pose: geometry_msgs.msg.PoseStamped
+    ) -> move_base_msgs.msg.RecoveryStatus:
+        status = move_base_msgs.msg.RecoveryStatus()
         status.pose_stamped = pose
         status.current_recovery_number, status.recovery_behavior_name = recovery
         status.total_number_of_recoveries = len(self._law.recoveries)
@@ -220,7 +218,7 @@ class MoveBaseNode:
 
     # Services -----------------------------------------------------------------------------
 
-    def _make_plan(self, request: Any) -> list[Any]:
+    def _make_plan(self, request: nav_msgs.srv.GetPlanRequest) -> list[nav_msgs.msg.Path]:
         """Return a plan from a start, or from the robot; empty while it has a goal."""
         now, frame = self._node.clock.now(), self.stack.whole.costmap.frame
         with self._lock:
@@ -235,7 +233,7 @@ class MoveBaseNode:
             plan = self._law.make_plan(start, goal, float(request.tolerance))
         return [path_message(plan, frame, now)]
 
-    def _clear(self, request: Any) -> list[Any]:
+    def _clear(self, request: std_srvs.srv.EmptyRequest) -> list[Any]:
         del request
         with self._lock:
             self.whole.reset()

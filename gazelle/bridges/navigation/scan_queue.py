@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from gazelle.ros.msgs import sensor_msgs
 from gazelle.ros.node import Node
 
 _LOOK_S = 0.2
@@ -24,9 +25,9 @@ class ScanQueue:
         kind: Of the messages.
     """
 
-    def __init__(self, node: Node, topic: str, kind: Any) -> None:
+    def __init__(self, node: Node, topic: str, kind: type[sensor_msgs.msg.LaserScan]) -> None:
         self._node = node
-        self._waiting: deque[Any] = deque(maxlen=_KEPT)
+        self._waiting: deque[sensor_msgs.msg.LaserScan] = deque(maxlen=_KEPT)
         self._news = threading.Condition()
         self.seen = 0
         """Number of scans received."""
@@ -34,7 +35,7 @@ class ScanQueue:
         """Of the last one."""
         node.subscribe(topic, kind, self._take, queue_size=_KEPT)
 
-    def _take(self, message: Any) -> None:
+    def _take(self, message: sensor_msgs.msg.LaserScan) -> None:
         with self._news:
             self.seen += 1
             self.frame = message.header.frame_id.strip("/")
