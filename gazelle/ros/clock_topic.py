@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.ros.clock import SimulatedClock, TimeSource, WallClock
+from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.ros.topics import TopicNode
 
 
@@ -17,12 +18,10 @@ def node_clock(node: TopicNode) -> TimeSource:
 
 def follow_clock(node: TopicNode, topic: str = "/clock") -> SimulatedClock:
     """Return a clock that follows a topic of ``rosgraph_msgs/Clock``."""
-    from gazelle.ros.messages import load_message
-
     clock = SimulatedClock(topic)
 
     def tick(message: Any) -> None:
         clock.set(message.clock.to_nsec())
 
-    node.subscribe(topic, load_message("rosgraph_msgs/Clock"), tick, queue_size=10)
+    node.subscribe(topic, rosgraph_msgs.msg.Clock, tick, queue_size=10)
     return clock

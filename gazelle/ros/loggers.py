@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.ros.errors import ServiceError
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import roscpp
 from gazelle.ros.node import Node
 
 # ROS's names of levels; Python has no fatal of its own.
@@ -28,9 +28,9 @@ def serve_loggers(node: Node, root: str = "gazelle") -> Callable[[], None]:
         node: Serves.
         root: Loggers of this name and below are shown.
     """
-    get: Any = load_service("roscpp/GetLoggers")
-    change: Any = load_service("roscpp/SetLoggerLevel")
-    logger: Any = load_message("roscpp/Logger")
+    get = roscpp.srv.GetLoggers
+    change = roscpp.srv.SetLoggerLevel
+    logger = roscpp.msg.Logger
 
     def loggers(_request: Any) -> Any:
         known = [root, *(n for n in logging.root.manager.loggerDict if n.startswith(f"{root}."))]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from gazelle.errors import GazelleWarning
 from gazelle.ros.errors import NodeClosedError
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.ros.time import Time
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class RosoutLog(logging.Handler):
     def __init__(self, node: Node) -> None:
         super().__init__()
         self._node = node
-        self._kind: Any = load_message("rosgraph_msgs/Log")
+        self._kind = rosgraph_msgs.msg.Log
         self._kept: deque[Any] = deque(maxlen=_MOST_KEPT)
         self._inside = threading.local()
         self._publisher = node.advertise(TOPIC, self._kind, 100, on_connect=self._send)

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from gazelle.ros.clock import SECOND
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.ros.node_base import NodeBase
 from gazelle.ros.publishing import Publisher
 
@@ -139,4 +139,4 @@ def _set(value: Any, nanoseconds: int) -> None:
 
 def message_class() -> Any:
     """Return the class of the messages on `TOPIC`."""
-    return load_message("rosgraph_msgs/TopicStatistics")
+    return rosgraph_msgs.msg.TopicStatistics

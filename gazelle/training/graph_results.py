@@ -11,7 +11,8 @@ from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.logger import KVWriter
 
 from gazelle.errors import TaskError
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
+from gazelle.ros.msgs import std_msgs
 from gazelle.training.deploy.messages import floats_message
 from gazelle.training.export import export_actor
 
@@ -38,7 +39,7 @@ class GraphResults(BaseCallback):  # type: ignore[misc]  # untyped base
     def _on_training_start(self) -> None:
         namespace = os.environ.get("ROS_NAMESPACE", "/")
         self._node = Node("gazelle_training", namespace=namespace, anonymous=True)
-        kind = load_message("std_msgs/Float32MultiArray")
+        kind = std_msgs.msg.Float32MultiArray
         publisher = self._node.advertise("result", kind, 10)
         self.logger.output_formats.append(_ResultWriter(self.model, publisher, self._node))
 

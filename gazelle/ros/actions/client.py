@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle.ros.actions.spec import ActionTypes, goal_id, header, wait
 from gazelle.ros.actions.states import TRANSITIONS, CommState, GoalStatus, TerminalState, name_of
-from gazelle.ros.messages import load_message
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import actionlib_msgs
 from gazelle.ros.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -49,9 +50,7 @@ class GoalMachine:
         self._known = False
         """True if the server has reported it."""
         self.latest_result: Any = None
-        self.latest_status: Any = load_message("actionlib_msgs/GoalStatus")(
-            status=GoalStatus.PENDING
-        )
+        self.latest_status = actionlib_msgs.msg.GoalStatus(status=GoalStatus.PENDING)
         self._transition_cb = transition_cb
         self._feedback_cb = feedback_cb
 
@@ -66,7 +65,7 @@ class GoalMachine:
         if self._transition_cb is not None:
             self._transition_cb(ClientGoalHandle(self))
 
-    def update_status(self, status: Any) -> None:
+    def update_status(self, status: actionlib_msgs.msg.GoalStatus | None) -> None:
         """Process the server's status of the goal; None if it lists none."""
         with self.lock:
             if self.state in {CommState.DONE, CommState.LOST}:
@@ -180,7 +179,7 @@ class ActionClient:
         ActionException: `spec` is no action.
     """
 
-    def __init__(self, node: Node, name: str, spec: Any) -> None:
+    def __init__(self, node: Node, name: str, spec: type[Message]) -> None:
         self.node = node
         self.ns = name
         self.types = ActionTypes.of(spec)
@@ -188,10 +187,10 @@ class ActionClient:
         self._lock = threading.RLock()
         self._heard = threading.Condition()
         self._status_from = ""
-        self._goal_id = load_message("actionlib_msgs/GoalID")
+        self._goal_id = actionlib_msgs.msg.GoalID
         self._goal = node.advertise(f"{name}/goal", self.types.action_goal, _QUEUE)
         self._cancel = node.advertise(f"{name}/cancel", self._goal_id, _QUEUE)
-        statuses = load_message("actionlib_msgs/GoalStatusArray")
+        statuses = actionlib_msgs.msg.GoalStatusArray
         self._subscribers = (
             node.subscribe(f"{name}/status", statuses, self._take_status),
             node.subscribe(f"{name}/result", self.types.action_result, self._take_result),
@@ -210,7 +209,7 @@ class ActionClient:
 
     def send_goal(
         self,
-        goal: Any,
+        goal: Message,
         transition_cb: Callable[[ClientGoalHandle], Any] | None = None,
         feedback_cb: Callable[[ClientGoalHandle, Any], Any] | None = None,
     ) -> ClientGoalHandle:
@@ -266,7 +265,7 @@ class ActionClient:
         with self._lock:
             return list(self._machines)
 
-    def _take_status(self, message: Any) -> None:
+    def _take_status(self, message: actionlib_msgs.msg.GoalStatusArray) -> None:
         who = str(message._connection_header.get("callerid", "?"))
         with self._heard:
             self._status_from = who

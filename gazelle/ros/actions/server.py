@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 from gazelle.ros.actions.spec import ActionTypes, Now, goal_id, header, now
 from gazelle.ros.actions.states import FINAL, GoalStatus
 from gazelle.ros.errors import NodeClosedError
-from gazelle.ros.messages import load_message
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import actionlib_msgs
+from gazelle.ros.publishing import Publisher
 from gazelle.ros.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -40,12 +42,13 @@ class ServerGoalHandle:
     """
 
     def __init__(
-        self, server: ActionServer | None = None, status: Any = None, goal: Any = None
+        self,
+        server: ActionServer | None = None,
+        status: actionlib_msgs.msg.GoalStatus | None = None,
+        goal: Any = None,
     ) -> None:
         self._server = server
-        self.status: Any = status
-        if status is None:
-            self.status = load_message("actionlib_msgs/GoalStatus")()
+        self.status = actionlib_msgs.msg.GoalStatus() if status is None else status
         self.goal = goal
         self.finished = 0
         """When it ended [ns]; 0 before."""
@@ -56,11 +59,11 @@ class ServerGoalHandle:
         """Return the goal; None if only a cancel request came."""
         return None if self.goal is None else self.goal.goal
 
-    def get_goal_id(self) -> Any:
+    def get_goal_id(self) -> actionlib_msgs.msg.GoalID:
         """Return the ``GoalID``."""
         return self.status.goal_id
 
-    def get_goal_status(self) -> Any:
+    def get_goal_status(self) -> actionlib_msgs.msg.GoalStatus:
         """Return the ``GoalStatus``."""
         return self.status
 
@@ -76,7 +79,7 @@ class ServerGoalHandle:
         }
         return self._move("an active", "pending or recalling", table, text)
 
-    def set_canceled(self, result: Any = None, text: str = "") -> bool:
+    def set_canceled(self, result: Message | None = None, text: str = "") -> bool:
         """Report that it was cancelled on request; False if it cannot be."""
         table = {
             GoalStatus.PENDING: GoalStatus.RECALLED,
@@ -87,18 +90,18 @@ class ServerGoalHandle:
         words = "pending, recalling, active, or preempting"
         return self._move("a cancelled", words, table, text, result, over=True)
 
-    def set_rejected(self, result: Any = None, text: str = "") -> bool:
+    def set_rejected(self, result: Message | None = None, text: str = "") -> bool:
         """Reject the goal; False if it was accepted."""
         states = (GoalStatus.PENDING, GoalStatus.RECALLING)
         table = dict.fromkeys(states, GoalStatus.REJECTED)
         return self._move("a rejected", "pending or recalling", table, text, result, over=True)
 
-    def set_aborted(self, result: Any = None, text: str = "") -> bool:
+    def set_aborted(self, result: Message | None = None, text: str = "") -> bool:
         """Report that it failed; False if it was not accepted."""
         table = dict.fromkeys((GoalStatus.ACTIVE, GoalStatus.PREEMPTING), GoalStatus.ABORTED)
         return self._move("an aborted", "preempting or active", table, text, result, over=True)
 
-    def set_succeeded(self, result: Any = None, text: str = "") -> bool:
+    def set_succeeded(self, result: Message | None = None, text: str = "") -> bool:
         """Report success; False if it was not accepted."""
         table = dict.fromkeys((GoalStatus.ACTIVE, GoalStatus.PREEMPTING), GoalStatus.SUCCEEDED)
         return self._move("a succeeded", "preempting or active", table, text, result, over=True)
@@ -119,7 +122,7 @@ class ServerGoalHandle:
             self._server.publish_status()
             return True
 
-    def publish_feedback(self, feedback: Any) -> None:
+    def publish_feedback(self, feedback: Message) -> None:
         """Publish feedback."""
         if self._server is None:
             self._refuse()
@@ -138,7 +141,7 @@ class ServerGoalHandle:
         words: str,
         table: dict[int, int],
         text: str,
-        result: Any = None,
+        result: Message | None = None,
         *,
         over: bool = False,
     ) -> bool:
@@ -206,7 +209,7 @@ class ActionServer:
         self,
         node: Node,
         name: str,
-        spec: Any,
+        spec: type[Message],
         goal_cb: GoalCallback | None = None,
         cancel_cb: GoalCallback | None = None,
         *,
@@ -231,15 +234,15 @@ class ActionServer:
     def _open(self) -> None:
         node, name = self.node, self.ns
         size = int(node.get_param("actionlib_server_pub_queue_size", _QUEUE)) or None
-        self._goal_status = load_message("actionlib_msgs/GoalStatus")
-        self._status_array = load_message("actionlib_msgs/GoalStatusArray")
+        self._goal_status = actionlib_msgs.msg.GoalStatus
+        self._status_array = actionlib_msgs.msg.GoalStatusArray
         self.status_frequency = float(node.get_param(f"{name}/status_frequency", 5.0))
         timeout = float(node.get_param(f"{name}/status_list_timeout", 5.0))
         self.status_list_timeout = Duration.from_sec(timeout)
         self._status = node.advertise(f"{name}/status", self._status_array, size)
         self._result = node.advertise(f"{name}/result", self.types.action_result, size)
         self._feedback = node.advertise(f"{name}/feedback", self.types.action_feedback, size)
-        cancel = load_message("actionlib_msgs/GoalID")
+        cancel = actionlib_msgs.msg.GoalID
         # Clients wait for a first status; this way they need not wait for the next turn.
         self._status.on_connect = self._greet
         self._subscribers = [
@@ -305,12 +308,12 @@ class ActionServer:
             if not self.started:
                 return
             self._forget_old()
-            message: Any = self._status_array()
+            message = self._status_array()
             message.header = header(self.clock)
             message.status_list = [handle.status for handle in self.status_list]
             self._send(self._status, message)
 
-    def publish_result(self, status: Any, result: Any) -> None:
+    def publish_result(self, status: actionlib_msgs.msg.GoalStatus, result: Message | None) -> None:
         """Publish the result of a goal."""
         with self.lock:
             message = self.types.action_result(
@@ -319,7 +322,7 @@ class ActionServer:
             self._send(self._result, message)
             self.publish_status()
 
-    def publish_feedback(self, status: Any, feedback: Any) -> None:
+    def publish_feedback(self, status: actionlib_msgs.msg.GoalStatus, feedback: Message) -> None:
         """Publish feedback on a goal."""
         with self.lock:
             message = self.types.action_feedback(
@@ -327,7 +330,7 @@ class ActionServer:
             )
             self._send(self._feedback, message)
 
-    def _send(self, publisher: Any, message: Any) -> None:
+    def _send(self, publisher: Publisher, message: Message) -> None:
         try:
             publisher.publish(message)
         except NodeClosedError:
@@ -350,7 +353,7 @@ class ActionServer:
             if known is not None:
                 self._take_again(known)
                 return
-            status: Any = self._goal_status()
+            status = self._goal_status()
             status.goal_id = goal.goal_id
             if not status.goal_id.id:
                 status.goal_id = goal_id(self.node, clock=self.clock)
@@ -373,7 +376,7 @@ class ActionServer:
         if handle.status.status in FINAL:
             handle.finished = max(1, self.clock.now())
 
-    def _take_cancel(self, request: Any) -> None:
+    def _take_cancel(self, request: actionlib_msgs.msg.GoalID) -> None:
         with self.lock:
             if not self.started:
                 return
@@ -393,9 +396,9 @@ class ActionServer:
             if self.cancel_callback is not None:
                 self.cancel_callback(handle)
 
-    def _remember_cancel(self, request: Any) -> None:
+    def _remember_cancel(self, request: actionlib_msgs.msg.GoalID) -> None:
         """Store a cancel request, as its goal may come later."""
-        status: Any = self._goal_status()
+        status = self._goal_status()
         status.goal_id, status.status = request, GoalStatus.RECALLING
         handle = ServerGoalHandle(self, status, None)
         handle.finished = max(1, self.clock.now())

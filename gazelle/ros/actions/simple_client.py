@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gazelle.ros.actions.client import ActionClient, ClientGoalHandle
 from gazelle.ros.actions.spec import wait
 from gazelle.ros.actions.states import CommState, GoalStatus, SimpleGoalState
+from gazelle.ros.messages import Message
 from gazelle.ros.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class SimpleActionClient:
         ActionException: `spec` is no action.
     """
 
-    def __init__(self, node: Node, name: str, spec: Any) -> None:
+    def __init__(self, node: Node, name: str, spec: type[Message]) -> None:
         self.node = node
         self.action_client = ActionClient(node, name, spec)
         self.simple_state = SimpleGoalState.DONE
@@ -52,7 +53,7 @@ class SimpleActionClient:
 
     def send_goal(
         self,
-        goal: Any,
+        goal: Message,
         done_cb: Callable[[int, Any], Any] | None = None,
         active_cb: Callable[[], Any] | None = None,
         feedback_cb: Callable[[Any], Any] | None = None,
@@ -72,7 +73,7 @@ class SimpleActionClient:
 
     def send_goal_and_wait(
         self,
-        goal: Any,
+        goal: Message,
         execute_timeout: Timeout = _FOREVER,
         preempt_timeout: Timeout = _FOREVER,
     ) -> int:
@@ -164,6 +165,6 @@ class SimpleActionClient:
         with self.done_condition:
             self.done_condition.notify_all()
 
-    def _fed_back(self, handle: ClientGoalHandle, feedback: Any) -> None:
+    def _fed_back(self, handle: ClientGoalHandle, feedback: Message) -> None:
         if (self.gh is None or handle == self.gh) and self.feedback_cb is not None:
             self.feedback_cb(feedback)

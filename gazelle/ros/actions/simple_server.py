@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from gazelle.ros.actions.server import ActionServer, ServerGoalHandle
 from gazelle.ros.actions.states import GoalStatus
 from gazelle.ros.errors import report
-from gazelle.ros.messages import load_message
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import actionlib_msgs
 
 if TYPE_CHECKING:
     from gazelle.ros.node import Node
@@ -44,7 +45,7 @@ class SimpleActionServer:
         self,
         node: Node,
         name: str,
-        spec: Any,
+        spec: type[Message],
         execute_cb: Callable[[Any], Any] | None = None,
         *,
         auto_start: bool = True,
@@ -117,22 +118,22 @@ class SimpleActionServer:
             return False
         return self.current_goal.get_goal_status().status in _WORKED_ON
 
-    def set_succeeded(self, result: Any = None, text: str = "") -> None:
+    def set_succeeded(self, result: Message | None = None, text: str = "") -> None:
         """Report that the goal is reached."""
         with self.lock:
             self._current().set_succeeded(result or self.get_default_result(), text)
 
-    def set_aborted(self, result: Any = None, text: str = "") -> None:
+    def set_aborted(self, result: Message | None = None, text: str = "") -> None:
         """Report that the goal cannot be reached."""
         with self.lock:
             self._current().set_aborted(result or self.get_default_result(), text)
 
-    def set_preempted(self, result: Any = None, text: str = "") -> None:
+    def set_preempted(self, result: Message | None = None, text: str = "") -> None:
         """Report that the goal was preempted on request."""
         with self.lock:
             self._current().set_canceled(result or self.get_default_result(), text)
 
-    def publish_feedback(self, feedback: Any) -> None:
+    def publish_feedback(self, feedback: Message) -> None:
         """Publish feedback."""
         self._current().publish_feedback(feedback)
 
@@ -153,7 +154,7 @@ class SimpleActionServer:
 
     def _current(self) -> ServerGoalHandle:
         if self.current_goal is None:
-            status: Any = load_message("actionlib_msgs/GoalStatus")()
+            status = actionlib_msgs.msg.GoalStatus()
             return ServerGoalHandle(self.action_server, status, None)
         return self.current_goal
 
@@ -208,7 +209,7 @@ class SimpleActionServer:
                 goal = self.accept_new_goal()
             self._execute(goal)
 
-    def _execute(self, goal: Any) -> None:
+    def _execute(self, goal: Message) -> None:
         try:
             if self.execute_callback is not None:
                 self.execute_callback(goal)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import itertools
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle.errors import RosError
 from gazelle.ros.clock import SECOND
-from gazelle.ros.messages import load_message
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import actionlib_msgs, std_msgs
 from gazelle.ros.time import Duration, Time
 
 if TYPE_CHECKING:
@@ -42,7 +44,7 @@ class ActionTypes:
     feedback: Any
 
     @classmethod
-    def of(cls, spec: Any) -> ActionTypes:
+    def of(cls, spec: type[Message]) -> ActionTypes:
         """Return the types of an action class.
 
         It is for example ``control_msgs/FollowJointTrajectoryAction``.
@@ -51,7 +53,7 @@ class ActionTypes:
             ActionException: The class is no action.
         """
         try:
-            whole = spec()
+            whole: Any = spec()
             parts = whole.action_goal, whole.action_result, whole.action_feedback
             inner = parts[0].goal, parts[1].result, parts[2].feedback
         except (AttributeError, TypeError):
@@ -72,24 +74,29 @@ def now(clock: Now) -> Time:
     return Time(stamp // SECOND, stamp % SECOND)
 
 
-def goal_id(node: Node, name: str | None = None, clock: Now | None = None) -> Any:
+def goal_id(
+    node: Node, name: str | None = None, clock: Now | None = None
+) -> actionlib_msgs.msg.GoalID:
     """Return a unique ``GoalID``; its name and time are the node's if not given."""
     stamp = now(clock or node.clock)
-    made: Any = load_message("actionlib_msgs/GoalID")()
+    made = actionlib_msgs.msg.GoalID()
     made.stamp = stamp
     made.id = f"{name or node.name}-{next(_count)}-{stamp.secs}.{stamp.nsecs}"
     return made
 
 
-def header(clock: Now) -> Any:
+def header(clock: Now) -> std_msgs.msg.Header:
     """Return a ``Header`` with a clock's time."""
-    made: Any = load_message("std_msgs/Header")()
+    made = std_msgs.msg.Header()
     made.stamp = now(clock)
     return made
 
 
 def wait(
-    node: Node, condition: threading.Condition, done: Any, timeout: Duration | float | None
+    node: Node,
+    condition: threading.Condition,
+    done: Callable[[], bool],
+    timeout: Duration | float | None,
 ) -> bool:
     """Wait for something that a condition announces.
 

@@ -15,6 +15,7 @@ from gazelle.ros.bags import records
 from gazelle.ros.bags.bag import Bag
 from gazelle.ros.bags.reader import RawBagMessage, messages_of
 from gazelle.ros.bags.records import Connection
+from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.publishing import Publisher
 from gazelle.ros.raw import RawMessage
@@ -148,9 +149,7 @@ class Player:
                 if connection.id in wanted and key not in self._publishers:
                     self._publishers[key] = self._publisher(connection)
         if self._options.clock:
-            from gazelle.ros.messages import load_message
-
-            self._clock_class = load_message("rosgraph_msgs/Clock")
+            self._clock_class = rosgraph_msgs.msg.Clock
             self._clock = self._node.advertise("/clock", self._clock_class, queue_size=1)
 
     def _publisher(self, connection: Connection) -> Publisher:

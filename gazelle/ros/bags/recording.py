@@ -18,7 +18,7 @@ from gazelle.ros.bags.records import Connection
 from gazelle.ros.bags.writer import CHUNK_BYTES, BagWriter
 from gazelle.ros.errors import RosError, UnreachableError
 from gazelle.ros.master.proxy import value_of
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import std_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.raw import RawMessage
 from gazelle.ros.subscribing import Subscriber
@@ -119,7 +119,7 @@ class BagRecorder:
         self._stamp = time.strftime("%Y-%m-%d-%H-%M-%S")
         self._latched: dict[tuple[str, str, str], tuple[dict[str, str], bytes]] = {}
         self._begins = (
-            node.advertise("begin_write", load_message("std_msgs/String"), 1, latch=True)
+            node.advertise("begin_write", std_msgs.msg.String, 1, latch=True)
             if options.publish
             else None
         )

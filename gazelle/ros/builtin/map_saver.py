@@ -10,7 +10,7 @@ from gazelle.errors import RosError
 from gazelle.formats.occupancy_writing import save_map
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.map_server import grid_of_message
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import nav_msgs
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -24,7 +24,7 @@ def main(arguments: Sequence[str]) -> int:
     if not 0 <= parsed.free < parsed.occ <= 100:
         raise RosError("the limits are wrong", hint="--free is below --occ, both from 0 to 100")
     with found.start() as node:
-        message = node.wait_for_message("map", load_message("nav_msgs/OccupancyGrid"))
+        message = node.wait_for_message("map", nav_msgs.msg.OccupancyGrid)
     grid = grid_of_message(message)
     save_map(grid, parsed.name, occupied=parsed.occ, free=parsed.free)
     size = f"{grid.width} X {grid.height} map @ {grid.resolution:.3f} m/pix"

@@ -15,7 +15,7 @@ from gazelle.errors import Error, FormatError, ResolveError, RosError
 from gazelle.formats.occupancy import MapSettings, cells, load_map
 from gazelle.formats.picture import read_picture
 from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import nav_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
@@ -69,16 +69,16 @@ class MapService:
         self._node = node
         self._lock = threading.Lock()
         self._frame = str(node.get_param("~frame_id", "map"))
-        kind, info = load_message("nav_msgs/OccupancyGrid"), load_message("nav_msgs/MapMetaData")
+        kind, info = nav_msgs.msg.OccupancyGrid, nav_msgs.msg.MapMetaData
         self._maps = node.advertise("map", kind, queue_size=1, latch=True)
         self._infos = node.advertise("map_metadata", info, queue_size=1, latch=True)
         self._message = self._show(grid)
-        load = load_service("nav_msgs/LoadMap")
+        load = nav_msgs.srv.LoadMap
         self._results = load._response_class
-        node.serve("static_map", load_service("nav_msgs/GetMap"), lambda _: [self._message])
+        node.serve("static_map", nav_msgs.srv.GetMap, lambda _: [self._message])
         node.serve("change_map", load, self._change)
 
-    def _show(self, grid: OccupancyMap) -> Any:
+    def _show(self, grid: OccupancyMap) -> nav_msgs.msg.OccupancyGrid:
         message = grid_message(grid, self._frame, self._node.clock.now())
         self._maps.publish(message)
         self._infos.publish(message.info)
@@ -106,9 +106,9 @@ class MapService:
         return answer
 
 
-def grid_message(grid: OccupancyMap, frame: str, now: int) -> Any:
+def grid_message(grid: OccupancyMap, frame: str, now: int) -> nav_msgs.msg.OccupancyGrid:
     """Return a ``nav_msgs/OccupancyGrid`` of a map at a time [ns]."""
-    message: Any = load_message("nav_msgs/OccupancyGrid")()
+    message = nav_msgs.msg.OccupancyGrid()
     stamp = Time(nsecs=now)
     message.header.stamp, message.header.frame_id = stamp, frame
     info = message.info
@@ -121,7 +121,7 @@ def grid_message(grid: OccupancyMap, frame: str, now: int) -> Any:
     return message
 
 
-def grid_of_message(message: Any) -> OccupancyMap:
+def grid_of_message(message: nav_msgs.msg.OccupancyGrid) -> OccupancyMap:
     """Return the map of a ``nav_msgs/OccupancyGrid``.
 
     Raises:

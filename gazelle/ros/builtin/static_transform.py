@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.errors import RosError
 from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, tf2_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
@@ -21,7 +21,7 @@ def main_tf2(arguments: Sequence[str]) -> int:
     found = parse_arguments(arguments, "static_transform_publisher", anonymous=True)
     transform = _transform(found.plain, f"static_transform_publisher {_USAGE}")
     with found.start() as node:
-        kind = load_message("tf2_msgs/TFMessage")
+        kind = tf2_msgs.msg.TFMessage
         publisher = node.advertise("/tf_static", kind, queue_size=100, latch=True)
         transform.header.stamp = Time(nsecs=node.clock.now())
         publisher.publish(kind(transforms=[transform]))
@@ -46,7 +46,7 @@ def main_tf(arguments: Sequence[str]) -> int:
 
 def _repeat(node: Node, transform: Any, seconds: float) -> None:
     """Send a transform at a period of wall time, each valid for the next period too."""
-    kind = load_message("tf2_msgs/TFMessage")
+    kind = tf2_msgs.msg.TFMessage
     publisher = node.advertise("/tf", kind, queue_size=100)
 
     def send() -> None:
@@ -77,7 +77,7 @@ def _transform(words: Sequence[str], usage: str) -> Any:
     norm = math.sqrt(sum(each * each for each in rotation))
     if not norm > 1e-9:
         raise RosError("the quaternion is zero", hint=usage)
-    made: Any = load_message("geometry_msgs/TransformStamped")()
+    made = geometry_msgs.msg.TransformStamped()
     made.header.frame_id, made.child_frame_id = parent, child
     place, turn = made.transform.translation, made.transform.rotation
     place.x, place.y, place.z = values[:3]

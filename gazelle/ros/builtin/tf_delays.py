@@ -10,7 +10,7 @@ from typing import Any
 
 from gazelle.ros.compat import rospy
 from gazelle.ros.compat.tf2_ros import TransformException
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import tf2_msgs
 
 _KEPT = 1000
 
@@ -32,7 +32,7 @@ class Delays:
         self._times: dict[str, deque[float]] = defaultdict(lambda: deque(maxlen=_KEPT))
         self._senders: dict[str, str] = {}
         self._net: deque[float] = deque(maxlen=_KEPT)
-        kind = load_message("tf2_msgs/TFMessage")
+        kind = tf2_msgs.msg.TFMessage
         self._subscribers = [
             rospy.Subscriber("/tf", kind, self._take, False),  # rospy's interface
             rospy.Subscriber("/tf_static", kind, self._take, True),

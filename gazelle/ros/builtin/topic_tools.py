@@ -10,6 +10,7 @@ from typing import Any
 
 from gazelle.errors import RosError
 from gazelle.ros.builtin.arguments import parse_arguments, spin
+from gazelle.ros.msgs import std_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.publishing import Publisher
 from gazelle.ros.raw import RawMessage
@@ -193,13 +194,13 @@ class Mux:
     NONE = "__none"
 
     def __init__(self, node: Node, target: str, sources: Sequence[str]) -> None:
-        from gazelle.ros.messages import load_message, load_service
+        from gazelle.ros.messages import load_service
 
         self._node = node
         self._repeater = Repeater(node, target)
         self._sources: dict[str, Any] = {}
         self._selected = self.NONE
-        self._text = load_message("std_msgs/String")
+        self._text = std_msgs.msg.String
         self._told = node.advertise("~selected", self._text, latch=True)
         for source in sources:
             self._add(node.resolve(source))

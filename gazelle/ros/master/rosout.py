@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from gazelle.ros.loggers import serve_loggers
+from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.ros.raw import RawMessage
 
 if TYPE_CHECKING:
@@ -45,7 +46,5 @@ class RosoutAggregator:
 
 def _log_class() -> type[RawMessage]:
     """Return the raw class, with the definition that subscribers without it need."""
-    from gazelle.ros.messages import load_message
-
-    LogMessage._full_text = load_message("rosgraph_msgs/Log")._full_text
+    LogMessage._full_text = rosgraph_msgs.msg.Log._full_text
     return LogMessage

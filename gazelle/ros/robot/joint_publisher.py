@@ -9,7 +9,7 @@ import threading
 from typing import TYPE_CHECKING, Any
 
 from gazelle.ros.clock import SECOND
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import sensor_msgs
 from gazelle.ros.robot.tree import MOVABLE, JointTree, TreeJoint, position_of
 from gazelle.ros.time import Time
 
@@ -45,7 +45,7 @@ class JointStatePublisher:
                 self._values["effort"][name] = 0.0
         self._period = 1.0 / max(1e-3, float(node.get_param("~rate", 10.0)))
         self._lock = threading.Lock()
-        self._state = load_message("sensor_msgs/JointState")
+        self._state = sensor_msgs.msg.JointState
         self._publisher = node.advertise("joint_states", self._state, queue_size=5)
         for source in node.get_param("~source_list", []):
             node.subscribe(source, self._state, self._take)

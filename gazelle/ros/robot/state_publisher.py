@@ -9,7 +9,7 @@ import logging
 from typing import TYPE_CHECKING, Any
 
 from gazelle.ros.clock import SECOND
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, sensor_msgs, tf2_msgs
 from gazelle.ros.robot.tree import MOVABLE, JointTree, TreeJoint, position_of
 from gazelle.ros.tf.naming import FramePrefixes, resolve_frame
 from gazelle.ros.time import Time
@@ -43,8 +43,8 @@ class RobotStatePublisher:
         self._always = bool(node.get_param("~ignore_timestamp", False))
         self._sent: dict[str, int] = {}
         self._last = 0
-        self._transform = load_message("geometry_msgs/TransformStamped")
-        self._many = load_message("tf2_msgs/TFMessage")
+        self._transform = geometry_msgs.msg.TransformStamped
+        self._many = tf2_msgs.msg.TFMessage
         self._moving = node.advertise("/tf", self._many, queue_size=100)
         self._static = node.advertise("/tf_static", self._many, queue_size=100, latch=True)
         self._fixed = [joint for joint in joints.values() if joint.kind not in MOVABLE]
@@ -52,7 +52,7 @@ class RobotStatePublisher:
             self._static.publish(self._many(self._fixed_transforms(node.clock.now())))
         elif self._fixed:
             self._send_fixed()
-        states = load_message("sensor_msgs/JointState")
+        states = sensor_msgs.msg.JointState
         self._subscriber = node.subscribe("joint_states", states, self.take, queue_size=1)
 
     def take(self, state: Any) -> None:

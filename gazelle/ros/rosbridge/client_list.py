@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import rosbridge_msgs, std_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
@@ -19,9 +19,9 @@ class ClientList:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._clients: dict[Any, tuple[str, int]] = {}
-        self._count_class: Any = load_message("std_msgs/Int32")
-        self._list_class: Any = load_message("rosbridge_msgs/ConnectedClients")
-        self._client_class: Any = load_message("rosbridge_msgs/ConnectedClient")
+        self._count_class = std_msgs.msg.Int32
+        self._list_class = rosbridge_msgs.msg.ConnectedClients
+        self._client_class = rosbridge_msgs.msg.ConnectedClient
         self._counts = node.advertise("client_count", self._count_class, latch=True)
         self._lists = node.advertise("connected_clients", self._list_class, latch=True)
         self._publish()

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.errors import RosError
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.messages import Message, load_message, load_service
 from gazelle.ros.messages.spec import BUILTIN, TIMES
+from gazelle.ros.msgs import rosapi
 from gazelle.ros.rosbridge.values import split_type
 
 
-def message_details(kind: str) -> list[Any]:
+def message_details(kind: str) -> list[rosapi.msg.TypeDef]:
     """Return a ``rosapi/TypeDef`` of a message type, and one of each type in it.
 
     Raises:
@@ -19,13 +20,13 @@ def message_details(kind: str) -> list[Any]:
     return _details(load_message(kind))
 
 
-def service_details(kind: str, part: str) -> list[Any]:
+def service_details(kind: str, part: str) -> list[rosapi.msg.TypeDef]:
     """Return the ``rosapi/TypeDef`` of the ``request`` or ``response`` of a service type.
 
     Raises:
         RosError: There is no such type.
     """
-    service: Any = load_service(kind)
+    service = load_service(kind)
     return _details(service._request_class if part == "request" else service._response_class)
 
 
@@ -37,14 +38,14 @@ def definition_text(kind: str) -> str:
         return ""
 
 
-def _details(message_class: Any) -> list[Any]:
+def _details(message_class: type[Message]) -> list[rosapi.msg.TypeDef]:
     """Return the class first, then the types of its fields, each once, in the order of fields."""
-    found: dict[str, Any] = {}
+    found: dict[str, rosapi.msg.TypeDef] = {}
 
-    def visit(kind: str, each: Any) -> None:
+    def visit(kind: str, each: type[Message] | None) -> None:
         if kind in found:
             return
-        found[kind] = _time_definition(kind) if kind in TIMES else _definition(each)
+        found[kind] = _time_definition(kind) if each is None else _definition(each)
         for inner in found[kind].fieldtypes:
             if inner in TIMES:
                 visit(inner, None)
@@ -55,15 +56,16 @@ def _details(message_class: Any) -> list[Any]:
     return list(found.values())
 
 
-def _definition(message_class: Any) -> Any:
-    made: Any = load_message("rosapi/TypeDef")(type=message_class._type)
-    instance = message_class()
+def _definition(message_class: type[Message]) -> rosapi.msg.TypeDef:
+    made = rosapi.msg.TypeDef(type=message_class._type)
+    instance, lengths = message_class(), []
     for field in message_class._spec.fields:
         base, is_array, length = split_type(field.type)
         made.fieldnames.append(field.name)
         made.fieldtypes.append(base)
-        made.fieldarraylen.append((length or 0) if is_array else -1)
+        lengths.append((length or 0) if is_array else -1)
         made.examples.append(_example(base, getattr(instance, field.attribute), is_array=is_array))
+    made.fieldarraylen = lengths
     for constant in sorted(message_class._spec.constants, key=lambda each: each.name):
         made.constnames.append(constant.name)
         made.constvalues.append(str(constant.value))
@@ -76,8 +78,8 @@ def _example(base: str, default: Any, *, is_array: bool) -> str:
     return str(default) if base in BUILTIN - TIMES else "{}"
 
 
-def _time_definition(kind: str) -> Any:
-    made: Any = load_message("rosapi/TypeDef")(type=kind)
+def _time_definition(kind: str) -> rosapi.msg.TypeDef:
+    made = rosapi.msg.TypeDef(type=kind)
     made.fieldnames, made.fieldtypes = ["secs", "nsecs"], ["int32", "int32"]
     made.fieldarraylen, made.examples = [-1, -1], ["0", "0"]
     return made

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from gazelle.ros.msgs import tf2_msgs
 from gazelle.ros.tf.core import FrameTree
 
 
 def take_transforms(
-    tree: FrameTree, message: Any, *, authority: str = "", static: bool = False
+    tree: FrameTree, message: tf2_msgs.msg.TFMessage, *, authority: str = "", static: bool = False
 ) -> None:
     """Add all transforms of a ``tf2_msgs/TFMessage``.
 

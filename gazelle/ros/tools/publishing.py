@@ -12,6 +12,7 @@ from gazelle import bounded_yaml
 from gazelle.ros.clock import Rate
 from gazelle.ros.messages import MessageException, load_message
 from gazelle.ros.messages.yaml import fill_message_args, get_printable_message_args
+from gazelle.ros.msgs import std_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.publishing import Publisher
 from gazelle.ros.time import Time
@@ -139,7 +140,7 @@ class MessagePublisher:
 
     def _fill(self, message: Any, arguments: list[Any]) -> None:
         now = Time(nsecs=self._node.clock.now() if self._ros_time else time.time_ns())
-        keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
+        keys = {"now": now, "auto": std_msgs.msg.Header(stamp=now)}
         try:
             fill_message_args(message, texts_as_texts(message, arguments), keys=keys)
         except (MessageException, ValueError) as error:

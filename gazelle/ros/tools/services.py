@@ -8,8 +8,9 @@ from typing import Any
 from gazelle.ros import names, net
 from gazelle.ros.errors import ServiceError
 from gazelle.ros.limits import LIMITS
-from gazelle.ros.messages import MessageException, load_message, load_service
+from gazelle.ros.messages import MessageException, load_service
 from gazelle.ros.messages.yaml import fill_message_args, get_printable_message_args
+from gazelle.ros.msgs import std_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.tcpros import headers
 from gazelle.ros.tcpros.service_links import ServiceChannel
@@ -151,7 +152,7 @@ class ServiceCaller:
         """
         made = self._class._request_class()
         now = Time(nsecs=self._node.clock.now())
-        keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
+        keys = {"now": now, "auto": std_msgs.msg.Header(stamp=now)}
         try:
             fill_message_args(made, texts_as_texts(made, arguments), keys=keys)
         except (MessageException, ValueError) as error:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
+from gazelle.ros.msgs import tf2_msgs
 from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.training.deploy.goals import GoalPlace
 
@@ -39,7 +40,7 @@ class GoalFrames:
         return _moved(goal, found)
 
     def _listen(self, tree: FrameTree) -> FrameTree:
-        kind = load_message("tf2_msgs/TFMessage")
+        kind = tf2_msgs.msg.TFMessage
         for topic, static in (("/tf", False), ("/tf_static", True)):
             self._node.subscribe(
                 topic, kind, partial(take_transforms, tree, authority="deploy", static=static)

@@ -20,8 +20,9 @@ import sys
 import time
 from typing import Any
 
-from gazelle.ros import Node, Publisher, load_message
+from gazelle.ros import Node, Publisher
 from gazelle.ros.errors import RosError
+from gazelle.ros.msgs import geometry_msgs
 
 ORDER = struct.Struct("<?dd")
 """Format of orders in the pipe: whether the node is in control, forward speed [m/s], yaw rate
@@ -40,7 +41,7 @@ class _Relay:
 
     def __init__(self, publisher: Publisher) -> None:
         self._publisher = publisher
-        self._kind = load_message("geometry_msgs/Twist")
+        self._kind = geometry_msgs.msg.Twist
         self._last = (False, 0.0, 0.0)
         self._drove = False
         self._sent_at = 0.0
@@ -74,7 +75,7 @@ class _Relay:
             time.sleep(_FAREWELL_GAP)
 
     def _send(self, linear: float, angular: float) -> None:
-        message: Any = self._kind()
+        message = self._kind()
         message.linear.x, message.angular.z = linear, angular
         self._publisher.publish(message)
 
@@ -91,7 +92,7 @@ def main(text: str) -> int:
         sys.stderr.write(f"the guard: {error}\n")
         return 1
     try:
-        relay = _Relay(node.advertise(options["topic"], load_message("geometry_msgs/Twist"), 1))
+        relay = _Relay(node.advertise(options["topic"], geometry_msgs.msg.Twist, 1))
         os.write(sys.stdout.fileno(), READY)
         _serve(relay, node, float(options["timeout"]))
         relay.say_farewell()

@@ -8,11 +8,11 @@ import math
 import threading
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any
 
 from gazelle.closing import Closeable
-from gazelle.ros import MasterProxy, Node, load_message, load_service
+from gazelle.ros import MasterProxy, Node
 from gazelle.ros.errors import RosError
+from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs, std_srvs
 from gazelle.training.deploy.frames import GoalFrames
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.guarding import Guarded, GuardLostError
@@ -163,20 +163,20 @@ class DeployNode(Closeable):
 
     def _connect(self) -> None:
         node = self.node
-        floats = load_message("std_msgs/Float32MultiArray")
+        floats = std_msgs.msg.Float32MultiArray
         self._actions = node.advertise("get_action", floats, 10)
         self._results = node.advertise("result", floats, 10)
-        self._status = node.advertise("~status", load_message("std_msgs/String"), 1, latch=True)
-        node.subscribe("scan", load_message("sensor_msgs/LaserScan"), self._hear_scan, 1)
-        node.subscribe("odom", load_message("nav_msgs/Odometry"), self._hear_odometry, 1)
-        goals = load_message("geometry_msgs/PoseStamped")
+        self._status = node.advertise("~status", std_msgs.msg.String, 1, latch=True)
+        node.subscribe("scan", sensor_msgs.msg.LaserScan, self._hear_scan, 1)
+        node.subscribe("odom", nav_msgs.msg.Odometry, self._hear_odometry, 1)
+        goals = geometry_msgs.msg.PoseStamped
         node.subscribe("move_base_simple/goal", goals, lambda m: self.go_to([goal_of(m)]), 1)
-        node.serve("~arm", load_service("std_srvs/SetBool"), self._serve_arm)
+        node.serve("~arm", std_srvs.srv.SetBool, self._serve_arm)
 
     def _now(self) -> float:
         return self.node.clock.now() * 1e-9
 
-    def _measured_at(self, message: Any) -> float:
+    def _measured_at(self, message: sensor_msgs.msg.LaserScan | nav_msgs.msg.Odometry) -> float:
         """Return the time of a reading [s].
 
         A robot's clock may differ from this machine's, so the arrival counts. A simulated clock is
@@ -186,20 +186,20 @@ class DeployNode(Closeable):
         known = self.node.clock.simulated and 0.0 < stamp < now + _CLOCK_LATE_S
         return stamp if known else now
 
-    def _hear_scan(self, message: Any) -> None:
+    def _hear_scan(self, message: sensor_msgs.msg.LaserScan) -> None:
         reading = scan_of(message)
         with self._lock:
             self.pilot.see(reading, self._measured_at(message))
         self._news.set()
 
-    def _hear_odometry(self, message: Any) -> None:
+    def _hear_odometry(self, message: nav_msgs.msg.Odometry) -> None:
         reading = odometry_of(message)
         with self._lock:
             self._frame = message.header.frame_id.removeprefix("/")
             self.pilot.feel(reading, self._measured_at(message))
 
-    def _serve_arm(self, request: Any) -> Any:
-        response: Any = load_service("std_srvs/SetBool")._response_class()
+    def _serve_arm(self, request: std_srvs.srv.SetBoolRequest) -> std_srvs.srv.SetBoolResponse:
+        response = std_srvs.srv.SetBoolResponse()
         if not request.data:
             self.disarm()
             response.success, response.message = True, "disarmed"
@@ -259,7 +259,7 @@ class DeployNode(Closeable):
 
     def _stop_without_guard(self) -> None:
         """Publish zero from here: the guard has ended."""
-        kind = load_message("geometry_msgs/Twist")
+        kind = geometry_msgs.msg.Twist
         with contextlib.suppress(RosError):
             publisher = self.node.advertise("cmd_vel", kind, 1)
             for _ in range(_FAREWELLS):

@@ -10,7 +10,7 @@ from gazelle.ros import names
 from gazelle.ros.builtin.controllers.command import begin_node
 from gazelle.ros.compat import rospy
 from gazelle.ros.compat.controller_manager import controller_manager_interface as manager
-from gazelle.ros.messages import load_service
+from gazelle.ros.msgs import controller_manager_msgs
 
 _PARAMETER = "controller_groups"
 _TIMEOUT_S = 5.0
@@ -76,5 +76,5 @@ def _states() -> dict[str, str]:
     """Return the state of each loaded controller."""
     service = "controller_manager/list_controllers"
     rospy.wait_for_service(service, timeout=_TIMEOUT_S)
-    proxy = rospy.ServiceProxy(service, load_service("controller_manager_msgs/ListControllers"))
+    proxy = rospy.ServiceProxy(service, controller_manager_msgs.srv.ListControllers)
     return {each.name: each.state for each in proxy().controller}

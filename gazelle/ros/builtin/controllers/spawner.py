@@ -14,7 +14,8 @@ from gazelle.ros.builtin.controllers.command import begin_node
 from gazelle.ros.compat import rosparam, rospy
 from gazelle.ros.launch.errors import LaunchError
 from gazelle.ros.launch.values import load_yaml
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.messages import load_service
+from gazelle.ros.msgs import std_msgs
 
 _STRICT = 2
 _LOOK_S = 0.05
@@ -171,7 +172,7 @@ def _wait_for(topic: str, timeout: float | None) -> bool:
         if message.data:
             true.set()
 
-    subscriber = rospy.Subscriber(topic, load_message("std_msgs/Bool"), hear)
+    subscriber = rospy.Subscriber(topic, std_msgs.msg.Bool, hear)
     reminder = threading.Timer(timeout, _remind, (topic, heard)) if timeout else None
     if reminder is not None:
         reminder.daemon = True

@@ -12,7 +12,7 @@ from gazelle.errors import RosError
 from gazelle.interrupts import stopping
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.teleop.keyboard import CTRL_C, DOWN, LEFT, RIGHT, UP, Keyboard
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs
 
 LIMITS = {"burger": (0.22, 2.84), "waffle": (0.26, 1.82), "waffle_pi": (0.26, 1.82)}
 """Greatest speeds of each model [m/s, rad/s], from its data sheet."""
@@ -78,7 +78,7 @@ def main(arguments: Sequence[str]) -> int:
                 f"there is no TurtleBot3 '{model}'", hint=f"there are: {', '.join(LIMITS)}"
             )
         drive = StepwiseDrive(LIMITS[model])
-        twist: Any = load_message("geometry_msgs/Twist")
+        twist = geometry_msgs.msg.Twist
         publisher = node.advertise("cmd_vel", twist, 10)
         linear, angular = drive.limits
         _say(_HELP.format(model=model, linear=linear, angular=angular))
