@@ -21,7 +21,8 @@ from gazelle.clients.poses import twist_message
 from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
 from gazelle.navigation import Limits, Motions, Outcome
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
+from gazelle.ros.msgs import geometry_msgs
 
 _PATIENCE_S = 30.0  # of wall time without a new pose
 _MOST_NAMES = 5  # in one message
@@ -64,7 +65,7 @@ class AGVFleet(Closeable):
         self._stop = threading.Event()
         self._fault: Exception | None = None
         self._source: PoseSource = pose_source(poses, node, names, pose_name, service_type, rate)
-        kind = load_message("geometry_msgs/Twist")
+        kind = geometry_msgs.msg.Twist
         self._publishers = [node.advertise(f"{name}/cmd_vel", kind, 1) for name in names]
         self._standing = np.ones(len(names), np.bool_)
         self._thread = threading.Thread(target=self._run, name="agv", daemon=True)

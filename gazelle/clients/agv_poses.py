@@ -7,15 +7,15 @@ import threading
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
-from gazelle.ros import Node, load_message, load_service
+from gazelle.ros import Node, load_service
 from gazelle.ros.errors import RosError
+from gazelle.ros.msgs import nav_msgs
 
 _SECOND = 1_000_000_000
 
@@ -67,13 +67,13 @@ class TopicPoses(PoseSource):
     def __init__(self, node: Node, spaces: Sequence[str], name: str) -> None:
         super().__init__(len(spaces), name)
         self._stamps = np.zeros(len(spaces))
-        kind = load_message("nav_msgs/Odometry")
+        kind = nav_msgs.msg.Odometry
         self._subscribers = [
             node.subscribe(f"{space}/{name}", kind, partial(self._receive, index), 1)
             for index, space in enumerate(spaces)
         ]
 
-    def _receive(self, index: int, message: Any) -> None:
+    def _receive(self, index: int, message: nav_msgs.msg.Odometry) -> None:
         place, turned = message.pose.pose.position, message.pose.pose.orientation
         heading = math.atan2(
             2.0 * (turned.w * turned.z + turned.x * turned.y),

@@ -9,7 +9,8 @@ from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, Vector
 from gazelle.closing import Closeable
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
+from gazelle.ros.msgs import geometry_msgs, trajectory_msgs
 
 
 class ArmCommander(Closeable):
@@ -34,7 +35,7 @@ class ArmCommander(Closeable):
         Raises:
             ClientError: It did not get there, and why; or the service is not there.
         """
-        pose: Any = load_message("geometry_msgs/Pose")()
+        pose = geometry_msgs.msg.Pose()
         pose.position.x, pose.position.y, pose.position.z = map(float, position)
         pose.orientation.w = 1.0
         self._move("ee_traj_srv", "EeTraj", pose=pose)
@@ -46,7 +47,7 @@ class ArmCommander(Closeable):
             ClientError: They did not get there, and why; or the service is not there.
         """
         values = [float(each) for each in positions]
-        point = load_message("trajectory_msgs/JointTrajectoryPoint")(positions=values)
+        point = trajectory_msgs.msg.JointTrajectoryPoint(positions=values)
         self._move("joint_traj_srv", "JointTraj", point=point)
 
     def _move(self, name: str, kind: str, **fields: Any) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Unpack
 
 from gazelle.clients.calls import Caller
 from gazelle.clients.descriptions import find_file, read_urdf
@@ -22,7 +22,8 @@ from gazelle.clients.poses import (
 )
 from gazelle.clients.states import LiveStates
 from gazelle.closing import Closeable
-from gazelle.ros import Duration, Node, Time, WallClock, load_message
+from gazelle.ros import Duration, Node, Time, WallClock
+from gazelle.ros.msgs import gazebo_msgs, geometry_msgs
 from gazelle.text_files import read_text
 
 _FOREVER = Duration(-1, 0)
@@ -98,8 +99,11 @@ class Gazebo(PhysicsCalls, Closeable):
         """The names of all models."""
         return list(self._world().model_names)
 
-    def _world(self) -> Any:
-        return self._caller.demand("get_world_properties", "gazebo_msgs/GetWorldProperties")
+    def _world(self) -> gazebo_msgs.srv.GetWorldPropertiesResponse:
+        found: gazebo_msgs.srv.GetWorldPropertiesResponse = self._caller.demand(
+            "get_world_properties", "gazebo_msgs/GetWorldProperties"
+        )
+        return found
 
     # -- models ------------------------------------------------------------------------------
 
@@ -239,7 +243,7 @@ class Gazebo(PhysicsCalls, Closeable):
         Raises:
             ClientError: There is no such model or frame.
         """
-        state: Any = load_message("gazebo_msgs/ModelState")()
+        state = gazebo_msgs.msg.ModelState()
         state.model_name, state.reference_frame = name, frame
         state.pose, state.twist = pose_message(position, rpy), twist_message(linear, angular)
         self._caller.demand("set_model_state", "gazebo_msgs/SetModelState", model_state=state)
@@ -274,7 +278,7 @@ class Gazebo(PhysicsCalls, Closeable):
         Raises:
             ClientError: There is no such link or frame.
         """
-        wrench: Any = load_message("geometry_msgs/Wrench")()
+        wrench = geometry_msgs.msg.Wrench()
         wrench.force = vector(*three(force, "a force"))
         wrench.torque = vector(*three(torque, "a torque"))
         self._caller.demand_once(

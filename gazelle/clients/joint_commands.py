@@ -10,7 +10,8 @@ from typing import Any
 from gazelle.clients.errors import ClientError
 from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
+from gazelle.ros.msgs import sensor_msgs, std_msgs
 
 _LOOK_S = 0.01
 Progress = Callable[[Mapping[str, float]], object]
@@ -40,12 +41,12 @@ class JointCommander(Closeable):
         self.topic = f"{space}/{controller}/command"
         self.joints, group = _joints_of(node, f"{space}/{controller}")
         self._states_topic = states or f"{space}/joint_states"
-        self._kind: Any = load_message(f"std_msgs/{'Float64MultiArray' if group else 'Float64'}")
+        self._kind: Any = std_msgs.msg.Float64MultiArray if group else std_msgs.msg.Float64
         self._positions: dict[str, float] = {}
         self._news = threading.Condition()
         self._publisher = node.advertise(self.topic, self._kind, 1)
         self._subscriber = node.subscribe(
-            self._states_topic, load_message("sensor_msgs/JointState"), self._receive, 1
+            self._states_topic, sensor_msgs.msg.JointState, self._receive, 1
         )
 
     @property
@@ -150,7 +151,7 @@ class JointCommander(Closeable):
             )
         return values
 
-    def _receive(self, message: Any) -> None:
+    def _receive(self, message: sensor_msgs.msg.JointState) -> None:
         with self._news:
             self._positions |= dict(zip(message.name, message.position, strict=False))
             self._news.notify_all()

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import threading
-from typing import Any, Self
+from typing import Self
 
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, read_state, twist_message
 from gazelle.closing import Closeable
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
+from gazelle.ros.msgs import geometry_msgs, nav_msgs
 
 _ZERO = (0.0, 0.0, 0.0)
 _UNKNOWN = (math.nan, math.nan, math.nan)
@@ -44,12 +45,13 @@ class Driver(Closeable):
         self._state: ModelState | None = None
         self._arrived = threading.Event()
         self._publisher = node.advertise(
-            command_topic or f"{space}/cmd_vel", load_message("geometry_msgs/Twist"), 1
+            command_topic or f"{space}/cmd_vel", geometry_msgs.msg.Twist, 1
         )
-        kind, take = ("nav_msgs/Odometry", self._receive)
-        if pose_topic is None:
-            kind, take = ("geometry_msgs/Pose", self._receive_pose)
-        self._subscriber = node.subscribe(self._pose_topic, load_message(kind), take, 1)
+        self._subscriber = (
+            node.subscribe(self._pose_topic, geometry_msgs.msg.Pose, self._receive_pose, 1)
+            if pose_topic is None
+            else node.subscribe(self._pose_topic, nav_msgs.msg.Odometry, self._receive, 1)
+        )
 
     @property
     def state(self) -> ModelState:
@@ -102,11 +104,11 @@ class Driver(Closeable):
         self._publisher.close()
         self._subscriber.close()
 
-    def _receive_pose(self, message: Any) -> None:
+    def _receive_pose(self, message: geometry_msgs.msg.Pose) -> None:
         place = read_state(message, twist_message(_ZERO, _ZERO))
         self._state = ModelState(place.position, place.quaternion, _UNKNOWN, _UNKNOWN)
         self._arrived.set()
 
-    def _receive(self, message: Any) -> None:
+    def _receive(self, message: nav_msgs.msg.Odometry) -> None:
         self._state = read_state(message.pose.pose, message.twist.twist)
         self._arrived.set()

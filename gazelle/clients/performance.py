@@ -15,7 +15,8 @@ from typing import Any
 from gazelle.clients.errors import ClientError
 from gazelle.closing import Closeable
 from gazelle.errors import MissingExtraError
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
+from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.writing import replacing, write_text
 
 _TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
@@ -65,9 +66,7 @@ class PerformanceWatch(Closeable):
         self._period = 1.0 / rate
         self._simulated = 0.0
         self._end = threading.Event()
-        self._subscriber = node.subscribe(
-            "/clock", load_message("rosgraph_msgs/Clock"), self._tick, 1
-        )
+        self._subscriber = node.subscribe("/clock", rosgraph_msgs.msg.Clock, self._tick, 1)
         self._thread = threading.Thread(target=self._watch, name="performance", daemon=True)
         self._thread.start()
 
@@ -160,7 +159,7 @@ class PerformanceWatch(Closeable):
 
     # -- looking -----------------------------------------------------------------------------
 
-    def _tick(self, message: Any) -> None:
+    def _tick(self, message: rosgraph_msgs.msg.Clock) -> None:
         self._simulated = message.clock.to_sec()
 
     def _watch(self) -> None:

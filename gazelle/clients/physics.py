@@ -8,7 +8,7 @@ from typing import Any
 from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import Vector, three
-from gazelle.ros import load_message
+from gazelle.ros.msgs import geometry_msgs
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +124,6 @@ class PhysicsCalls:
         )
 
 
-def vector(x: float, y: float, z: float) -> Any:
+def vector(x: float, y: float, z: float) -> geometry_msgs.msg.Vector3:
     """Return a ``geometry_msgs/Vector3``."""
-    return load_message("geometry_msgs/Vector3")(x, y, z)
+    return geometry_msgs.msg.Vector3(x, y, z)

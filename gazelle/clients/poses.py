@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypedDict
+from typing import TypedDict
 
 from gazelle.clients.errors import ClientError
 from gazelle.description.pose import quaternion_from_rpy
-from gazelle.ros import load_message
+from gazelle.ros.msgs import geometry_msgs
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -64,7 +64,7 @@ def three(value: Sequence[float], what: str) -> Vector:
     return (x, y, z)
 
 
-def read_state(pose: Any, twist: Any) -> ModelState:
+def read_state(pose: geometry_msgs.msg.Pose, twist: geometry_msgs.msg.Twist) -> ModelState:
     """Return the numbers of a ``Pose`` and a ``Twist``."""
     turn = pose.orientation
     return ModelState(
@@ -75,22 +75,22 @@ def read_state(pose: Any, twist: Any) -> ModelState:
     )
 
 
-def pose_message(position: Vector, rpy: Vector) -> Any:
+def pose_message(position: Vector, rpy: Vector) -> geometry_msgs.msg.Pose:
     """Return a ``geometry_msgs/Pose`` [m, rad]; roll, pitch and yaw about fixed axes."""
-    pose: Any = load_message("geometry_msgs/Pose")()
+    pose = geometry_msgs.msg.Pose()
     pose.position.x, pose.position.y, pose.position.z = three(position, "a position")
     turn = pose.orientation
     turn.x, turn.y, turn.z, turn.w = quaternion_from_rpy(*three(rpy, "roll, pitch and yaw"))
     return pose
 
 
-def twist_message(linear: Vector, angular: Vector) -> Any:
+def twist_message(linear: Vector, angular: Vector) -> geometry_msgs.msg.Twist:
     """Return a ``geometry_msgs/Twist`` [m/s, rad/s]."""
-    twist: Any = load_message("geometry_msgs/Twist")()
+    twist = geometry_msgs.msg.Twist()
     twist.linear.x, twist.linear.y, twist.linear.z = three(linear, "a velocity")
     twist.angular.x, twist.angular.y, twist.angular.z = three(angular, "an angular velocity")
     return twist
 
 
-def _triple(message: Any) -> Vector:
+def _triple(message: geometry_msgs.msg.Point | geometry_msgs.msg.Vector3) -> Vector:
     return (message.x, message.y, message.z)

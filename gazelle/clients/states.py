@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator, Mapping
-from typing import Any, Self
+from typing import Self
 
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, read_state
 from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
+from gazelle.ros.msgs import gazebo_msgs
 
 
 class LiveStates(Mapping[str, ModelState], Closeable):
@@ -24,12 +25,10 @@ class LiveStates(Mapping[str, ModelState], Closeable):
 
     def __init__(self, node: Node, topic: str, kind: str) -> None:
         self._topic = topic
-        self._last: Any = None
+        self._last: gazebo_msgs.msg.ModelStates | gazebo_msgs.msg.LinkStates | None = None
         self._rows: dict[str, int] = {}
         self._arrived = threading.Event()
-        self._subscriber = node.subscribe(
-            topic, load_message(f"gazebo_msgs/{kind}"), self._receive, 1
-        )
+        self._subscriber = node.subscribe(topic, getattr(gazebo_msgs.msg, kind), self._receive, 1)
 
     def wait(self, timeout: float = 10.0) -> Self:
         """Wait for the first message.
@@ -47,7 +46,7 @@ class LiveStates(Mapping[str, ModelState], Closeable):
 
     def __getitem__(self, name: str) -> ModelState:
         last, rows = self._last, self._rows
-        if name not in rows:
+        if last is None or name not in rows:
             raise ClientError(f"{self._topic} has no '{name}'", hint=did_you_mean(name, rows))
         return read_state(last.pose[rows[name]], last.twist[rows[name]])
 
@@ -60,7 +59,7 @@ class LiveStates(Mapping[str, ModelState], Closeable):
     def __len__(self) -> int:
         return len(self._rows)
 
-    def _receive(self, message: Any) -> None:
+    def _receive(self, message: gazebo_msgs.msg.ModelStates | gazebo_msgs.msg.LinkStates) -> None:
         if self._last is None or message.name != self._last.name:
             self._rows = {name: row for row, name in enumerate(message.name)}
         self._last = message

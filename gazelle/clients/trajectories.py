@@ -6,12 +6,12 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from gazelle.clients.errors import ClientError
 from gazelle.closing import Closeable
 from gazelle.ros import Duration, Node, load_message
 from gazelle.ros.actions import ActionClient, ClientGoalHandle, CommState, TerminalState
+from gazelle.ros.msgs import control_msgs, trajectory_msgs
 
 _LOOK_S = 0.01
 _ACTION = "control_msgs/FollowJointTrajectory"
@@ -73,7 +73,7 @@ class TrajectoryRun:
     def __init__(
         self,
         client: ActionClient,
-        goal: Any,
+        goal: control_msgs.msg.FollowJointTrajectoryGoal,
         progress: Callable[[TrajectoryProgress], object] | None,
     ) -> None:
         self._action, self._tell = client.ns, progress
@@ -107,7 +107,9 @@ class TrajectoryRun:
         if handle.get_comm_state() == CommState.DONE:
             self._ended.set()
 
-    def _heard(self, _handle: ClientGoalHandle, feedback: Any) -> None:
+    def _heard(
+        self, _handle: ClientGoalHandle, feedback: control_msgs.msg.FollowJointTrajectoryFeedback
+    ) -> None:
         names = feedback.joint_names
         self.progress = TrajectoryProgress(
             feedback.desired.time_from_start.to_sec(),
@@ -243,19 +245,19 @@ class TrajectoryClient(Closeable):
             time.sleep(_LOOK_S)
 
 
-def _point(waypoint: JointWaypoint, count: int) -> Any:
+def _point(waypoint: JointWaypoint, count: int) -> trajectory_msgs.msg.JointTrajectoryPoint:
     for values in (waypoint.positions, waypoint.velocities):
         if values and len(values) != count:
             raise ClientError(
                 f"a waypoint at {waypoint.seconds:g} s has {len(values)} values for {count} joints"
             )
-    return load_message("trajectory_msgs/JointTrajectoryPoint")(
+    return trajectory_msgs.msg.JointTrajectoryPoint(
         positions=list(waypoint.positions),
         velocities=list(waypoint.velocities),
         time_from_start=Duration.from_sec(waypoint.seconds),
     )
 
 
-def _tolerances(given: Mapping[str, float]) -> list[Any]:
-    kind = load_message("control_msgs/JointTolerance")
+def _tolerances(given: Mapping[str, float]) -> list[control_msgs.msg.JointTolerance]:
+    kind = control_msgs.msg.JointTolerance
     return [kind(name=name, position=value) for name, value in given.items()]

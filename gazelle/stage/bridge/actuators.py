@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from gazelle.array_types import Worlds
-from gazelle.ros import load_message
+from gazelle.ros.msgs import std_msgs
 from gazelle.stage import Actuator
 from gazelle.stage.bridge.place import GraphRobot
 
@@ -23,7 +22,7 @@ class ActuatorTopics:
 
     def __init__(self, at: GraphRobot) -> None:
         self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
-        self._number: Any = load_message("std_msgs/Float64")
+        self._number = std_msgs.msg.Float64
         count = len(at.simulation.devices.actuators.get(at.robot.index, []))
         self._publishers = [at.advertise("actuator", self._number, k, count) for k in range(count)]
         self._subscribers = [
@@ -38,10 +37,10 @@ class ActuatorTopics:
 
     def _told(
         self, which: int, act: Callable[[Actuator, float, Worlds], None]
-    ) -> Callable[[Any], None]:
+    ) -> Callable[[std_msgs.msg.Float64], None]:
         worlds = np.array([self._world])
 
-        def told(message: Any) -> None:
+        def told(message: std_msgs.msg.Float64) -> None:
             if math.isfinite(message.data):
                 with self._simulation.lock:
                     act(self._actuator(which), message.data, worlds)

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.ros import Publisher, Time, load_message
+from gazelle.ros import Publisher, Time
+from gazelle.ros.msgs import sensor_msgs
 from gazelle.stage import MountedCamera, cameras_of
 from gazelle.stage.bridge.place import GraphRobot
 
@@ -50,8 +51,8 @@ class CameraTopics:
     def __init__(self, at: GraphRobot, *, metres: bool) -> None:
         self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
         self._metres = metres
-        self._image: Any = load_message("sensor_msgs/Image")
-        self._info: Any = load_message("sensor_msgs/CameraInfo")
+        self._image = sensor_msgs.msg.Image
+        self._info = sensor_msgs.msg.CameraInfo
         direct = [(k, c) for k, c in enumerate(cameras_of(at.robot)) if c.direct]
         count = len(direct)
         self._eyes = [
@@ -117,7 +118,7 @@ class CameraTopics:
         message.data = pixels.astype(pixels.dtype.newbyteorder("<"), copy=False).tobytes()
         to.publish(message)
 
-    def _lens(self, eye: _Eye, stamp: Time) -> Any:
+    def _lens(self, eye: _Eye, stamp: Time) -> sensor_msgs.msg.CameraInfo:
         lens = eye.camera.lens
         (fx, fy), cx, cy = lens.focals, lens.width / 2.0, lens.height / 2.0
         message = self._info()

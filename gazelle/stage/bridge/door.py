@@ -7,7 +7,8 @@ import time
 from typing import Any
 
 from gazelle.closing import Closeable
-from gazelle.ros import Node, Time, load_message
+from gazelle.ros import Node, Time
+from gazelle.ros.msgs import rosgraph_msgs, tf2_msgs
 from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Simulation
 from gazelle.simulation.clock import Schedule
@@ -72,10 +73,8 @@ class StageDoor(Closeable):
         )
         self._schedule = Schedule(asked.publish_rate)
         self._watchdog = Watchdog(stage, asked.base_watchdog_timeout, world)
-        self._clock = node.advertise(
-            "/clock", load_message("rosgraph_msgs/Clock"), 10, on_connect=self._greet
-        )
-        self._tf = node.advertise("/tf", load_message("tf2_msgs/TFMessage"), 100)
+        self._clock = node.advertise("/clock", rosgraph_msgs.msg.Clock, 10, on_connect=self._greet)
+        self._tf = node.advertise("/tf", tf2_msgs.msg.TFMessage, 100)
         messages = Messages()
         robots = [GraphRobot(stage, robot, node, self.naming, world) for robot in stage.robots]
         metres = asked.is_depth_canonical

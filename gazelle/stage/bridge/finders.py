@@ -8,6 +8,7 @@ from typing import Any
 
 from gazelle.description import StageBlobfinder, StageBumper, StageFiducial
 from gazelle.ros import Publisher, Time, load_message
+from gazelle.ros.msgs import gazelle_msgs, std_msgs
 from gazelle.stage.bridge.place import GraphRobot
 
 
@@ -56,17 +57,17 @@ class FinderTopics:
         for topic in self._topics:
             topic.publisher.close()
 
-    def _touch(self, which: int, _device: Any) -> Callable[[Any], None]:
-        def fill(message: Any) -> None:
+    def _touch(self, which: int, _device: object) -> Callable[[Any], None]:
+        def fill(message: gazelle_msgs.msg.Bumper) -> None:
             touched = self._simulation.bumps(self._name, which, self._world)
             message.touched = [name or "" for name in touched]
 
         return fill
 
-    def _read(self, which: int, _device: Any) -> Callable[[Any], None]:
-        kind: Any = load_message("gazelle_msgs/Fiducial")
+    def _read(self, which: int, _device: object) -> Callable[[Any], None]:
+        kind = gazelle_msgs.msg.Fiducial
 
-        def fill(message: Any) -> None:
+        def fill(message: gazelle_msgs.msg.Fiducials) -> None:
             message.fiducials = [
                 kind(each.name, each.id, each.distance, each.bearing, each.heading)
                 for each in self._simulation.fiducials(self._name, which, self._world)
@@ -75,10 +76,10 @@ class FinderTopics:
         return fill
 
     def _see(self, which: int, device: Any) -> Callable[[Any], None]:
-        kind: Any = load_message("gazelle_msgs/Blob")
-        color: Any = load_message("std_msgs/ColorRGBA")
+        kind = gazelle_msgs.msg.Blob
+        color = std_msgs.msg.ColorRGBA
 
-        def fill(message: Any) -> None:
+        def fill(message: gazelle_msgs.msg.Blobs) -> None:
             message.width = device.image[0]
             message.blobs = [
                 kind(color(*each.color), each.left, each.right, each.distance)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
-from gazelle.ros import Time, load_message
+from gazelle.ros import Time
+from gazelle.ros.msgs import gazelle_msgs, std_msgs
 from gazelle.stage import COMMANDS
 from gazelle.stage.bridge.place import GraphRobot
 
@@ -22,18 +22,18 @@ class GripperTopics:
     def __init__(self, at: GraphRobot) -> None:
         self._simulation, self._robot, self._world = at.simulation, at.robot, at.world
         self._frame = at.frame("base_link")
-        self._state: Any = load_message("gazelle_msgs/Gripper")
-        text = load_message("std_msgs/String")
+        self._state = gazelle_msgs.msg.Gripper
+        text = std_msgs.msg.String
         count = len(at.simulation.devices.grippers.get(at.robot.index, ()))
         self._publishers = [at.advertise("gripper", self._state, k, count) for k in range(count)]
         self._subscribers = [
             at.subscribe("cmd_gripper", text, self._told(k), k, count) for k in range(count)
         ]
 
-    def _told(self, which: int) -> Callable[[Any], None]:
+    def _told(self, which: int) -> Callable[[std_msgs.msg.String], None]:
         worlds = np.array([self._world])
 
-        def told(message: Any) -> None:
+        def told(message: std_msgs.msg.String) -> None:
             word = message.data.strip().lower()
             if word in COMMANDS:
                 with self._simulation.lock:

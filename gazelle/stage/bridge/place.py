@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.ros import Node, Publisher, Subscriber
+from gazelle.ros.messages import Message
 from gazelle.stage import StageFleet, StageRobot
 from gazelle.stage.bridge.naming import Naming
 
@@ -31,12 +32,19 @@ class GraphRobot:
     naming: Naming
     world: int
 
-    def advertise(self, name: str, kind: Any, which: int = 0, count: int = 1) -> Publisher:
+    def advertise(
+        self, name: str, kind: type[Message], which: int = 0, count: int = 1
+    ) -> Publisher:
         """Publish on a topic, of the device of a number if the robot has several of its kind."""
         return self.node.advertise(self._topic(name, which, count), kind, _QUEUE)
 
     def subscribe(
-        self, name: str, kind: Any, told: Callable[[Any], None], which: int = 0, count: int = 1
+        self,
+        name: str,
+        kind: type[Message],
+        told: Callable[[Any], None],
+        which: int = 0,
+        count: int = 1,
     ) -> Subscriber:
         """Subscribe to a topic; its name is found as ``advertise`` finds it."""
         return self.node.subscribe(self._topic(name, which, count), kind, told, _QUEUE)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
 
 from gazelle.ros import Node, load_service
-from gazelle.ros.messages import InvalidDefinitionError
+from gazelle.ros.messages import InvalidDefinitionError, Message, ServiceDefinition
 from gazelle.ros.messages.registry import package_names
 from gazelle.stage import StageFleet, StageRobot
 from gazelle.stage.bridge.naming import Naming
@@ -46,11 +46,13 @@ class PoseServices:
                 name = naming.topic(robot.index, "get_pose")
                 self._servers.append(node.serve(name, service, self._answer(service, robot)))
 
-    def _answer(self, service: Any, robot: StageRobot) -> Any:
+    def _answer(
+        self, service: type[ServiceDefinition], robot: StageRobot
+    ) -> Callable[[object], Message]:
         response_class = service._response_class
         fields = set(response_class.__slots__)
 
-        def answer(_request: Any) -> Any:
+        def answer(_request: object) -> Message:
             with self._simulation.lock:
                 pose = self._simulation.poses[self._world, robot.index].tolist()
             values = {"x": pose[0], "y": pose[1], "angle": math.degrees(pose[2])}
@@ -64,11 +66,11 @@ class PoseServices:
             server.close()
 
 
-def _service(kind: str) -> Any:
+def _service(kind: str) -> type[ServiceDefinition] | None:
     package, _, name = USUAL_TYPE.partition("/")
     if not kind and name not in package_names(package, "srv"):
         return None
-    service: Any = load_service(kind or USUAL_TYPE)
+    service = load_service(kind or USUAL_TYPE)
     response = service._response_class
     types = dict(zip(response.__slots__, response._slot_types, strict=True))
     wrong = [field for field in _FIELDS if types.get(field, "float64") not in _NUMBERS]

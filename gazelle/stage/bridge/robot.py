@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.ros import Publisher, Time, load_message
+from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs
 from gazelle.stage import Ranger, StageFleet
 from gazelle.stage.bridge.actuators import ActuatorTopics
 from gazelle.stage.bridge.cameras import CameraTopics
@@ -57,12 +58,12 @@ class Messages:
     """The classes of the messages, looked up once."""
 
     def __init__(self) -> None:
-        self.odometry: Any = load_message("nav_msgs/Odometry")
-        self.scan: Any = load_message("sensor_msgs/LaserScan")
-        self.transform: Any = load_message("geometry_msgs/TransformStamped")
-        self.twist: Any = load_message("geometry_msgs/Twist")
-        self.bool: Any = load_message("std_msgs/Bool")
-        self.int8: Any = load_message("std_msgs/Int8")
+        self.odometry = nav_msgs.msg.Odometry
+        self.scan = sensor_msgs.msg.LaserScan
+        self.transform = geometry_msgs.msg.TransformStamped
+        self.twist = geometry_msgs.msg.Twist
+        self.bool = std_msgs.msg.Bool
+        self.int8 = std_msgs.msg.Int8
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +164,7 @@ class RobotTopics:
         for laser in self._lasers:
             laser.publisher.close()
 
-    def _odometry(self, facts: Facts, pose: Values, velocity: Values) -> Any:
+    def _odometry(self, facts: Facts, pose: Values, velocity: Values) -> nav_msgs.msg.Odometry:
         message = self._messages.odometry()
         message.header.stamp = facts.stamp
         message.header.frame_id = self._odom_frame
@@ -174,7 +175,7 @@ class RobotTopics:
         twist.linear.x, twist.linear.y, twist.angular.z = velocity
         return message
 
-    def _scan(self, facts: Facts, laser: _Laser) -> Any:
+    def _scan(self, facts: Facts, laser: _Laser) -> sensor_msgs.msg.LaserScan:
         sensor = laser.ranger.sensors[0]
         scanner, place = laser.ranger.places[0]
         message = self._messages.scan()
@@ -189,7 +190,7 @@ class RobotTopics:
 
     def _transform(
         self, facts: Facts, parent: str, child: str, x: float, y: float, z: float, yaw: float
-    ) -> Any:
+    ) -> geometry_msgs.msg.TransformStamped:
         message = self._messages.transform()
         message.header.stamp = facts.stamp
         message.header.frame_id, message.child_frame_id = parent, child
@@ -199,13 +200,13 @@ class RobotTopics:
         return message
 
 
-def set_heading(quaternion: Any, yaw: float) -> None:
+def set_heading(quaternion: geometry_msgs.msg.Quaternion, yaw: float) -> None:
     """Fill a quaternion that turns about z."""
     quaternion.x = quaternion.y = 0.0
     quaternion.z, quaternion.w = math.sin(yaw / 2.0), math.cos(yaw / 2.0)
 
 
-def heading_of(quaternion: Any) -> float:
+def heading_of(quaternion: geometry_msgs.msg.Quaternion) -> float:
     """Return the heading of a quaternion; all zero, as in an empty message, is the identity."""
     x, y, z, w = quaternion.x, quaternion.y, quaternion.z, quaternion.w
     return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
@@ -248,7 +249,7 @@ class RobotInputs:
     def _between(self, act: Callable[[Any], None]) -> Callable[[Any], None]:
         return self._simulation.lock.wrap(act)
 
-    def drive(self, message: Any) -> None:
+    def drive(self, message: geometry_msgs.msg.Twist) -> None:
         """Command a velocity.
 
         Numbers that are not finite are ignored, as they would spoil the world.
@@ -259,11 +260,11 @@ class RobotInputs:
         self._simulation.commands[self._world, self._robot.index] = command
         self._told(self._robot.index)
 
-    def place(self, pose: Any) -> None:
+    def place(self, pose: geometry_msgs.msg.Pose) -> None:
         """Set the pose in the world; height, roll and pitch are ignored."""
         self._put(pose.position.x, pose.position.y, heading_of(pose.orientation))
 
-    def _place_flat(self, pose: Any) -> None:
+    def _place_flat(self, pose: geometry_msgs.msg.Pose2D) -> None:
         self._put(pose.x, pose.y, pose.theta)
 
     def _put(self, x: float, y: float, yaw: float) -> None:

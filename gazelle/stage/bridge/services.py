@@ -10,7 +10,9 @@ import numpy as np
 
 from gazelle.bridges.pacing import ACCEPTED, read_factor
 from gazelle.errors import SimulationError
-from gazelle.ros import Node, Time, load_service
+from gazelle.ros import Node, Time
+from gazelle.ros.messages import ServiceDefinition
+from gazelle.ros.msgs import gazelle_msgs, std_srvs
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
 from gazelle.stage.bridge.robot import heading_of
@@ -49,25 +51,27 @@ class Services:
         self._simulation, self._door, self._world = simulation, door, world
         self._stage = stage_of(simulation)
         self._servers = []
-        for name, kind, handler in (
-            ("reset_positions", "std_srvs/Empty", self.reset_positions),
-            ("/gazelle/reset", "std_srvs/Empty", self.reset),
-            ("/gazelle/pause", "std_srvs/Empty", self.pause),
-            ("/gazelle/unpause", "std_srvs/Empty", self.unpause),
-            ("/gazelle/step", "gazelle_msgs/Step", self.step),
-            ("/gazelle/set_pose", "gazelle_msgs/SetPose", self.set_pose),
-            ("/gazelle/set_real_time_factor", "gazelle_msgs/SetRealTimeFactor", self.set_rate),
-        ):
-            service = load_service(kind)
+        handlers: tuple[tuple[str, type[ServiceDefinition], Callable[[Any], Answer]], ...] = (
+            ("reset_positions", std_srvs.srv.Empty, self.reset_positions),
+            ("/gazelle/reset", std_srvs.srv.Empty, self.reset),
+            ("/gazelle/pause", std_srvs.srv.Empty, self.pause),
+            ("/gazelle/unpause", std_srvs.srv.Empty, self.unpause),
+            ("/gazelle/step", gazelle_msgs.srv.Step, self.step),
+            ("/gazelle/set_pose", gazelle_msgs.srv.SetPose, self.set_pose),
+            ("/gazelle/set_real_time_factor", gazelle_msgs.srv.SetRealTimeFactor, self.set_rate),
+        )
+        for name, service, handler in handlers:
             self._servers.append(node.serve(name, service, self._between(service, handler)))
 
-    def _between(self, service: Any, handler: Callable[[Any], Answer]) -> Callable[[Any], Any]:
+    def _between(
+        self, service: type[ServiceDefinition], handler: Callable[[Any], Answer]
+    ) -> Callable[[Any], Any]:
         """Return a handler that answers between two steps."""
         response = service._response_class
         answer = self._simulation.lock.wrap(handler)
         return lambda request: response(**answer(request))
 
-    def reset_positions(self, _request: Any) -> Answer:
+    def reset_positions(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Reset the robots to their initial poses, at rest, odometry and stall cleared.
 
         Time continues.
@@ -76,23 +80,23 @@ class Services:
         self._door.publish()
         return {}
 
-    def reset(self, _request: Any) -> Answer:
+    def reset(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Reset everything, time too."""
         self._door.rewind()
         self._door.publish()
         return {}
 
-    def pause(self, _request: Any) -> Answer:
+    def pause(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Pause: no step is made once this is answered."""
         self._simulation.pause()
         return {}
 
-    def unpause(self, _request: Any) -> Answer:
+    def unpause(self, _request: std_srvs.srv.EmptyRequest) -> Answer:
         """Unpause the world."""
         self._simulation.unpause()
         return {}
 
-    def step(self, request: Any) -> Answer:
+    def step(self, request: gazelle_msgs.srv.StepRequest) -> Answer:
         """Step a paused world; answers when it is done."""
         if not self._simulation.paused:
             return self._done("Step: the simulation is not paused", success=False)
@@ -104,7 +108,7 @@ class Services:
     def _done(self, text: str, *, success: bool = True) -> Answer:
         return {"success": success, "status_message": text, "time": self._door.now()}
 
-    def set_pose(self, request: Any) -> Answer:
+    def set_pose(self, request: gazelle_msgs.srv.SetPoseRequest) -> Answer:
         """Set the pose of a robot, by its name in the file or its prefix ``robot_N``."""
         pose = request.pose
         where = (pose.position.x, pose.position.y, heading_of(pose.orientation))
@@ -128,7 +132,7 @@ class Services:
             raise SimulationError(f"there is no robot '{name}'", hint=hint)
         return int(number)
 
-    def set_rate(self, request: Any) -> Answer:
+    def set_rate(self, request: gazelle_msgs.srv.SetRealTimeFactorRequest) -> Answer:
         """Set the real-time factor: a number, or ``max``."""
         rate = read_factor(request.real_time_factor)
         if rate is None:

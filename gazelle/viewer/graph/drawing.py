@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.array_types import Bytes, Floats
+from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
 from gazelle.viewer.page.shapes import textured_mesh
 from gazelle.viewer.sources import picture_of
 
@@ -55,7 +56,7 @@ class Drawing:
             self.drop(key)
 
 
-def draw_scan(drawing: Drawing, message: Any) -> None:
+def draw_scan(drawing: Drawing, message: sensor_msgs.msg.LaserScan) -> None:
     """Draw points of a LaserScan."""
     ranges = np.asarray(message.ranges, np.float64)
     angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
@@ -66,7 +67,7 @@ def draw_scan(drawing: Drawing, message: Any) -> None:
     _points(drawing, points, np.array(_RED, np.uint8), 0.04)
 
 
-def draw_cloud(drawing: Drawing, message: Any) -> None:
+def draw_cloud(drawing: Drawing, message: sensor_msgs.msg.PointCloud2) -> None:
     """Draw points of a PointCloud2, in their colours or by their intensities if they have any."""
     points, colors = points_of(message)
     finite = np.isfinite(points).all(axis=1)
@@ -75,7 +76,7 @@ def draw_cloud(drawing: Drawing, message: Any) -> None:
     _points(drawing, points[finite][::every], shown, 0.02)
 
 
-def points_of(message: Any) -> tuple[Floats, Bytes]:
+def points_of(message: sensor_msgs.msg.PointCloud2) -> tuple[Floats, Bytes]:
     """Return points of a PointCloud2 [m], shape (n, 3), and colours, shape (n, 3) or (3,)."""
     count = message.width * message.height
     raw = np.frombuffer(bytes(message.data), np.uint8)
@@ -100,7 +101,7 @@ def points_of(message: Any) -> tuple[Floats, Bytes]:
     return points, np.ascontiguousarray(part[:, ::-1] if order == "<" else part)
 
 
-def _column(rows: Bytes, field: Any, order: str) -> Floats:
+def _column(rows: Bytes, field: sensor_msgs.msg.PointField, order: str) -> Floats:
     """Return the numbers of one field of a PointCloud2, shape (n,)."""
     kind = np.dtype(order + _NUMBERS[field.datatype])
     part = np.ascontiguousarray(rows[:, field.offset : field.offset + kind.itemsize])
@@ -121,7 +122,7 @@ def rainbow(values: Floats) -> Bytes:
     return np.asarray(255.0 * np.clip(2.0 - away, 0.0, 1.0) + 0.5, np.uint8)
 
 
-def draw_map(drawing: Drawing, message: Any) -> None:
+def draw_map(drawing: Drawing, message: nav_msgs.msg.OccupancyGrid) -> None:
     """Draw an OccupancyGrid on the ground: free is white, occupied black, unknown grey."""
     info = message.info
     if not (info.width and info.height):
@@ -141,24 +142,31 @@ def draw_map(drawing: Drawing, message: Any) -> None:
     )
 
 
-def draw_path(drawing: Drawing, message: Any) -> None:
+def draw_path(drawing: Drawing, message: nav_msgs.msg.Path) -> None:
     """Draw a Path as a line."""
     points = np.array([pose_of(each.pose)[0] for each in message.poses]).reshape(-1, 3)
     _lines(drawing, "path", np.stack((points[:-1], points[1:]), axis=1), _GREEN)
 
 
-def draw_pose(drawing: Drawing, message: Any) -> None:
+def draw_pose(
+    drawing: Drawing,
+    message: geometry_msgs.msg.PoseStamped
+    | geometry_msgs.msg.PoseWithCovarianceStamped
+    | nav_msgs.msg.Odometry,
+) -> None:
     """Draw axes of a PoseStamped, a PoseWithCovarianceStamped or an Odometry."""
     pose = message.pose
     _axes(drawing, [pose.pose if hasattr(pose, "pose") else pose])
 
 
-def draw_poses(drawing: Drawing, message: Any) -> None:
+def draw_poses(drawing: Drawing, message: geometry_msgs.msg.PoseArray) -> None:
     """Draw axes of a PoseArray."""
     _axes(drawing, message.poses)
 
 
-def draw_image(drawing: Drawing, message: Any) -> None:
+def draw_image(
+    drawing: Drawing, message: sensor_msgs.msg.Image | sensor_msgs.msg.CompressedImage
+) -> None:
     """Draw an Image or CompressedImage, on the panel."""
     picture = picture_of(message)
     every = max(1, picture.shape[1] // 320)
@@ -197,7 +205,7 @@ def _lines(drawing: Drawing, key: str, lines: Floats, color: tuple[int, int, int
         )
 
 
-def _axes(drawing: Drawing, poses: Any) -> None:
+def _axes(drawing: Drawing, poses: list[geometry_msgs.msg.Pose]) -> None:
     found = [pose_of(pose) for pose in poses]
     if not found:
         drawing.drop("axes")
@@ -216,7 +224,7 @@ def _axes(drawing: Drawing, poses: Any) -> None:
     )
 
 
-def pose_of(pose: Any) -> tuple[Floats, Floats]:
+def pose_of(pose: geometry_msgs.msg.Pose) -> tuple[Floats, Floats]:
     """Return position and quaternion (w, x, y, z) of a Pose message; identity without one."""
     at, turned = pose.position, pose.orientation
     q = np.array([turned.w, turned.x, turned.y, turned.z])

@@ -13,6 +13,7 @@ from gazelle.errors import GazelleWarning
 from gazelle.formats.resolve import Resolver
 from gazelle.rendering import columns as c
 from gazelle.rendering.visible import visible_world
+from gazelle.ros.msgs import std_msgs, visualization_msgs
 from gazelle.viewer.graph.drawing import Drawing, pose_of
 
 # Types of visualization_msgs/Marker.
@@ -22,7 +23,7 @@ _MESH, _TRIANGLES = 10, 11
 _DELETE, _DELETE_ALL = 2, 3
 
 
-def draw_marker(drawing: Drawing, message: Any) -> None:
+def draw_marker(drawing: Drawing, message: visualization_msgs.msg.Marker) -> None:
     """Draw a Marker: added, changed or deleted."""
     key = f"{message.ns or 'marker'}_{message.id}".replace("/", "_")
     if message.action == _DELETE_ALL:
@@ -33,7 +34,7 @@ def draw_marker(drawing: Drawing, message: Any) -> None:
         _add(drawing, key, message)
 
 
-def _add(drawing: Drawing, key: str, message: Any) -> None:
+def _add(drawing: Drawing, key: str, message: visualization_msgs.msg.Marker) -> None:
     scene: Any = drawing.page.scene
     color = _color(message.color)
     at, turned = pose_of(message.pose)
@@ -78,13 +79,15 @@ def _add(drawing: Drawing, key: str, message: Any) -> None:
         warnings.warn(GazelleWarning(text), stacklevel=2)
 
 
-def draw_markers(drawing: Drawing, message: Any) -> None:
+def draw_markers(drawing: Drawing, message: visualization_msgs.msg.MarkerArray) -> None:
     """Draw a MarkerArray."""
     for marker in message.markers:
         draw_marker(drawing, marker)
 
 
-def _put_mesh(drawing: Drawing, key: str, message: Any, place: dict[str, Any]) -> None:
+def _put_mesh(
+    drawing: Drawing, key: str, message: visualization_msgs.msg.Marker, place: dict[str, Any]
+) -> None:
     """Draw a mesh file in the marker's colour, or in its own where the marker asks for it."""
     import trimesh
 
@@ -116,7 +119,7 @@ def _put_mesh(drawing: Drawing, key: str, message: Any, place: dict[str, Any]) -
     drawing.put(key, lambda name: scene.add_mesh_trimesh(name, whole, **place))
 
 
-def _triangles(points: Floats, colors: Bytes, color: Any) -> Any:
+def _triangles(points: Floats, colors: Bytes, color: std_msgs.msg.ColorRGBA) -> Any:
     """Return every three points as a triangle, seen from both sides, with colours."""
     import trimesh
 
@@ -128,7 +131,7 @@ def _triangles(points: Floats, colors: Bytes, color: Any) -> Any:
     return mesh
 
 
-def _solid(kind: int, size: Floats, color: Any) -> Any:
+def _solid(kind: int, size: Floats, color: std_msgs.msg.ColorRGBA) -> Any:
     import trimesh
 
     if kind == _CUBE:
@@ -148,16 +151,16 @@ def _solid(kind: int, size: Floats, color: Any) -> Any:
     return mesh
 
 
-def _points(message: Any) -> Floats:
+def _points(message: visualization_msgs.msg.Marker) -> Floats:
     return np.array([[p.x, p.y, p.z] for p in message.points], np.float64).reshape(-1, 3)
 
 
-def _color(color: Any) -> tuple[int, int, int]:
+def _color(color: std_msgs.msg.ColorRGBA) -> tuple[int, int, int]:
     red, green, blue = (np.clip((color.r, color.g, color.b), 0.0, 1.0) * 255).astype(int).tolist()
     return red, green, blue
 
 
-def _colors(message: Any) -> Bytes:
+def _colors(message: visualization_msgs.msg.Marker) -> Bytes:
     own = getattr(message, "colors", ())
     if len(own) == len(message.points) > 0:
         return np.array([_color(each) for each in own], np.uint8)

@@ -9,6 +9,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import Error
+from gazelle.ros.msgs import moveit_msgs
 from gazelle.ros.tf import FrameTree, TransformException
 from gazelle.simulation.joint_motion import JointMotion
 from gazelle.viewer.graph.robots import DescribedRobot
@@ -38,7 +39,7 @@ class MotionTopic:
         self._robot: DescribedRobot | None = None
         self._count = 0
 
-    def take(self, message: Any) -> None:
+    def take(self, message: moveit_msgs.msg.DisplayTrajectory) -> None:
         """Show another plan from now on; one without points is none."""
         if self._ghost is not None:
             self._ghost.remove()
@@ -81,7 +82,7 @@ class MotionTopic:
         ghost.show(*base)
 
 
-def motion_of(message: Any) -> JointMotion | None:
+def motion_of(message: moveit_msgs.msg.DisplayTrajectory) -> JointMotion | None:
     """Return a DisplayTrajectory as one motion, its parts one after the other.
 
     None without points.

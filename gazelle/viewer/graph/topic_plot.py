@@ -10,14 +10,14 @@ import threading
 from collections import deque
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from gazelle.interrupts import stopping
 from gazelle.path_texts import expanded
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
 from gazelle.ros.builtin.arguments import parse_arguments
+from gazelle.ros.msgs import std_msgs
 from gazelle.viewer.plots import plot_series
 
 _LOOK_S = 1.0
@@ -60,10 +60,10 @@ class TopicPlot:
         self._lock = threading.Lock()
         self._rows: deque[tuple[float, ...]] = deque(maxlen=keep)
         self._heard = self._drawn = 0
-        kind = load_message("std_msgs/Float32MultiArray")
+        kind = std_msgs.msg.Float32MultiArray
         node.subscribe(topic, kind, self._hear, keep)
 
-    def _hear(self, message: Any) -> None:
+    def _hear(self, message: std_msgs.msg.Float32MultiArray) -> None:
         labels = tuple(message.layout.dim[0].label.split(",")) if message.layout.dim else ()
         with self._lock:
             names = labels if len(labels) == len(message.data) else self._names

@@ -14,6 +14,8 @@ from gazelle.closing import Closeable
 from gazelle.errors import Error
 from gazelle.ros import Node, WallClock, load_message
 from gazelle.ros.errors import ApiError, UnreachableError
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import tf2_msgs
 from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.viewer.graph import drawing as d
 from gazelle.viewer.graph.markers import draw_marker, draw_markers
@@ -79,7 +81,7 @@ class GraphView(Closeable):
         self._subscribers: dict[str, Any] = {}
         self._stop = threading.Event()
         self._node.on_shutdown.append(lambda _reason: self._stop.set())
-        kind = load_message("tf2_msgs/TFMessage")
+        kind = tf2_msgs.msg.TFMessage
         for topic, static in (("/tf", False), ("/tf_static", True)):
             take = partial(take_transforms, self._tree, static=static)
             self._node.subscribe(topic, kind, take, 100)
@@ -175,7 +177,7 @@ class GraphView(Closeable):
         except Error as error:
             self._refused[name] = text, f"{name}: {error}"
 
-    def _came(self, topic: str, message: Any) -> None:
+    def _came(self, topic: str, message: Message) -> None:
         with self._lock:
             waiting = self._fresh.setdefault(topic, [])
             if self._kinds[topic] not in _EVERY:
