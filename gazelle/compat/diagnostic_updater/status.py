@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import diagnostic_msgs
 
-DiagnosticArray: Any = load_message("diagnostic_msgs/DiagnosticArray")
-DiagnosticStatus: Any = load_message("diagnostic_msgs/DiagnosticStatus")
-_KeyValue: Any = load_message("diagnostic_msgs/KeyValue")
+DiagnosticArray = diagnostic_msgs.msg.DiagnosticArray
+DiagnosticStatus = diagnostic_msgs.msg.DiagnosticStatus
+_KeyValue = diagnostic_msgs.msg.KeyValue
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
 
 
-class DiagnosticStatusWrapper(DiagnosticStatus):  # type: ignore[misc]  # made at run time
+class DiagnosticStatusWrapper(DiagnosticStatus):
     """Message of a status, with methods that fill it."""
 
     def summary(self, *args: Any) -> None:

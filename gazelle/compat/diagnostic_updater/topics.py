@@ -7,7 +7,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.compat.diagnostic_updater.status import ERROR, OK, WARN
+from gazelle.compat.diagnostic_updater.status import ERROR, OK, WARN, DiagnosticStatusWrapper
 from gazelle.compat.diagnostic_updater.updater import CompositeDiagnosticTask, DiagnosticTask
 from gazelle.ros.compat import rospy
 
@@ -48,7 +48,7 @@ class FrequencyStatus(DiagnosticTask):
         with self.lock:
             self.count += 1
 
-    def run(self, stat: Any) -> Any:
+    def run(self, stat: DiagnosticStatusWrapper) -> Any:
         """Compare the frequency with its limits."""
         with self.lock:
             begun, before = self._window[0]
@@ -115,7 +115,7 @@ class TimeStampStatus(DiagnosticTask):
             else:
                 self._zero = True
 
-    def run(self, stat: Any) -> Any:
+    def run(self, stat: DiagnosticStatusWrapper) -> Any:
         """Compare the ages since the last report with their limits."""
         with self.lock:
             ages, zero = self._ages, self._zero
@@ -149,7 +149,7 @@ class Heartbeat(DiagnosticTask):
     def __init__(self) -> None:
         super().__init__("Heartbeat")
 
-    def run(self, stat: Any) -> Any:
+    def run(self, stat: DiagnosticStatusWrapper) -> Any:
         """Report that the node is alive."""
         stat.summary(OK, "Alive")
         return stat

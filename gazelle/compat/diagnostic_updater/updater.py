@@ -35,7 +35,7 @@ class DiagnosticTask:
         """Return the name."""
         return self.name
 
-    def run(self, stat: Any) -> Any:
+    def run(self, stat: DiagnosticStatusWrapper) -> Any:
         """Fill a status, and return it."""
         return stat
 
@@ -52,7 +52,7 @@ class FunctionDiagnosticTask(DiagnosticTask):
         super().__init__(name)
         self.fn = fn
 
-    def run(self, stat: Any) -> Any:
+    def run(self, stat: DiagnosticStatusWrapper) -> Any:
         """Call the function."""
         return self.fn(stat)
 
@@ -68,7 +68,7 @@ class CompositeDiagnosticTask(DiagnosticTask):
         """Add a task."""
         self.tasks.append(t)
 
-    def run(self, stat: Any) -> Any:
+    def run(self, stat: DiagnosticStatusWrapper) -> Any:
         """Run each task, and merge their statuses."""
         together, before = DiagnosticStatusWrapper(), DiagnosticStatusWrapper()
         before.summary(stat)
@@ -92,7 +92,7 @@ class NamedTask:
     name: str
     fn: Fill
 
-    def run(self, stat: Any) -> Any:
+    def run(self, stat: DiagnosticStatusWrapper) -> Any:
         """Fill a status."""
         stat.name = self.name
         return self.fn(stat)

@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.ros.compat import rospy
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, std_msgs, visualization_msgs
 
-InteractiveMarker: Any = load_message("visualization_msgs/InteractiveMarker")
-InteractiveMarkerFeedback: Any = load_message("visualization_msgs/InteractiveMarkerFeedback")
-InteractiveMarkerInit: Any = load_message("visualization_msgs/InteractiveMarkerInit")
-InteractiveMarkerPose: Any = load_message("visualization_msgs/InteractiveMarkerPose")
-InteractiveMarkerUpdate: Any = load_message("visualization_msgs/InteractiveMarkerUpdate")
+InteractiveMarker = visualization_msgs.msg.InteractiveMarker
+InteractiveMarkerFeedback = visualization_msgs.msg.InteractiveMarkerFeedback
+InteractiveMarkerInit = visualization_msgs.msg.InteractiveMarkerInit
+InteractiveMarkerPose = visualization_msgs.msg.InteractiveMarkerPose
+InteractiveMarkerUpdate = visualization_msgs.msg.InteractiveMarkerUpdate
 
 __all__ = [
     "InteractiveMarker",
@@ -100,7 +100,10 @@ class InteractiveMarkerServer:
         self.publishInit()
 
     def insert(
-        self, marker: Any, feedback_cb: Any = _KEPT, feedback_type: int = DEFAULT_FEEDBACK_CB
+        self,
+        marker: visualization_msgs.msg.InteractiveMarker,
+        feedback_cb: Any = _KEPT,
+        feedback_type: int = DEFAULT_FEEDBACK_CB,
     ) -> None:
         """Add a marker, or replace the one of its name.
 
@@ -115,17 +118,20 @@ class InteractiveMarkerServer:
         if feedback_cb != _KEPT:
             self.setCallback(marker.name, feedback_cb, feedback_type)
 
-    def setPose(self, name: str, pose: Any, header: Any = None) -> bool:  # noqa: N802  # ROS's name
+    def setPose(  # noqa: N802  # ROS's name
+        self, name: str, pose: geometry_msgs.msg.Pose, header: std_msgs.msg.Header | None = None
+    ) -> bool:
         """Move a marker; returns whether there is one that has been published."""
         with self._lock:
             shown, pending = self._shown.get(name), self._pending.get(name)
             if shown is None or (pending is not None and pending.marker and not pending.moved):
                 return False
-            named = header is not None and header.frame_id
-            self._move(name, pose, header if named else shown.marker.header)
+            self._move(name, pose, header if header and header.frame_id else shown.marker.header)
         return True
 
-    def _move(self, name: str, pose: Any, header: Any) -> None:
+    def _move(
+        self, name: str, pose: geometry_msgs.msg.Pose, header: std_msgs.msg.Header | None
+    ) -> None:
         pending = self._pending.setdefault(name, _PendingMarker(None, moved=True))
         if pending.marker is None or pending.moved:
             marker = copy.copy(self._shown[name].marker)
@@ -202,7 +208,7 @@ class InteractiveMarkerServer:
         """Return the names of all markers that are published."""
         return list(self._shown)
 
-    def processFeedback(self, feedback: Any) -> None:  # noqa: N802  # ROS's name
+    def processFeedback(self, feedback: visualization_msgs.msg.InteractiveMarkerFeedback) -> None:  # noqa: N802  # ROS's name
         """Move a marker as a user does, and call its functions."""
         with self._lock:
             shown = self._shown.get(feedback.marker_name)

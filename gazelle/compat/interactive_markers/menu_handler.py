@@ -8,9 +8,9 @@ from typing import Any
 
 from gazelle.compat.interactive_markers.interactive_marker_server import InteractiveMarkerFeedback
 from gazelle.ros.compat import rospy
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import visualization_msgs
 
-MenuEntry: Any = load_message("visualization_msgs/MenuEntry")
+MenuEntry = visualization_msgs.msg.MenuEntry
 
 __all__ = ["InteractiveMarkerFeedback", "MenuEntry", "MenuHandler"]
 
@@ -118,7 +118,7 @@ class MenuHandler:
                 yield MenuEntry(handle, parent, title, entry.command, entry.command_type)
                 yield from self._shown(entry.below, handle)
 
-    def processFeedback(self, feedback: Any) -> None:  # noqa: N802  # ROS's name
+    def processFeedback(self, feedback: visualization_msgs.msg.InteractiveMarkerFeedback) -> None:  # noqa: N802  # ROS's name
         """Call the function of the entry that was chosen."""
         entry = self._entries.get(feedback.menu_entry_id)
         if entry is not None and entry.function is not None:

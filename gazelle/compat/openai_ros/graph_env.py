@@ -11,8 +11,8 @@ from gazelle.compat.gym.core import Env
 from gazelle.compat.gym.utils import seeding
 from gazelle.compat.openai_ros.controllers_connection import ControllersConnection
 from gazelle.compat.openai_ros.gazebo_connection import GazeboConnection
-from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
+from gazelle.ros.msgs import openai_ros
 
 REWARD_TOPIC = "/openai/reward"
 
@@ -40,7 +40,7 @@ class GraphEnv(Env):
         self.seed()
         self.episode_num = 0
         self.cumulated_episode_reward = 0.0
-        self._info: Any = load_message("openai_ros/RLExperimentInfo")
+        self._info = openai_ros.msg.RLExperimentInfo
         self.reward_pub = rospy.Publisher(REWARD_TOPIC, self._info, queue_size=1)
 
     def seed(self, seed: int | None = None) -> list[int]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import base64
 import pickle
 import threading
-from typing import Any
 
 from gazelle.compat.smach import Container, UserData
 from gazelle.ros.compat import rospy
 from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import smach_msgs, std_msgs
 
 _PERIOD_S = 2.0
 
@@ -42,7 +42,7 @@ class _Proxy:
 
     def tell(self, info: str) -> None:
         """Publish which states are active, and the structure."""
-        inside, now = self._container, load_message("std_msgs/Header")(stamp=rospy.get_rostime())
+        inside, now = self._container, std_msgs.msg.Header(stamp=rospy.get_rostime())
         edges = [[str(name) for name in edge] for edge in inside.get_internal_edges()]
         with self._lock:
             if self._stopped:
@@ -69,7 +69,7 @@ class _Proxy:
                 )
             )
 
-    def _command(self, message: Any) -> None:
+    def _command(self, message: smach_msgs.msg.SmachContainerInitialStatusCmd) -> None:
         """Choose the initial states; userdata is not taken from the network, where it is pickled."""
         known = self._container.get_children()
         if message.path != self._path:

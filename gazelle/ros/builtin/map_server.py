@@ -84,7 +84,7 @@ class MapService:
         self._infos.publish(message.info)
         return message
 
-    def _change(self, request: Any) -> Any:
+    def _change(self, request: nav_msgs.srv.LoadMapRequest) -> Any:
         """Load another map; an unreadable one changes nothing."""
         answer: Any = self._results()
         try:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 from gazelle.errors import RosError
 from gazelle.ros.builtin.arguments import parse_arguments, spin
@@ -44,7 +43,7 @@ def main_tf(arguments: Sequence[str]) -> int:
         return spin(node)
 
 
-def _repeat(node: Node, transform: Any, seconds: float) -> None:
+def _repeat(node: Node, transform: geometry_msgs.msg.TransformStamped, seconds: float) -> None:
     """Send a transform at a period of wall time, each valid for the next period too."""
     kind = tf2_msgs.msg.TFMessage
     publisher = node.advertise("/tf", kind, queue_size=100)
@@ -61,7 +60,7 @@ def _repeat(node: Node, transform: Any, seconds: float) -> None:
     node.loop.call_later(0.0, send)
 
 
-def _transform(words: Sequence[str], usage: str) -> Any:
+def _transform(words: Sequence[str], usage: str) -> geometry_msgs.msg.TransformStamped:
     """Return the message of a command line.
 
     Raises:

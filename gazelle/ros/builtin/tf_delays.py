@@ -63,7 +63,7 @@ class Delays:
             ]
         return "\n".join(lines)
 
-    def _take(self, message: Any, static: bool) -> None:  # noqa: FBT001  # rospy's interface
+    def _take(self, message: tf2_msgs.msg.TFMessage, static: bool) -> None:  # noqa: FBT001  # rospy's interface
         sender = message._connection_header.get("callerid", "?")
         node = f"{sender}(static)" if static else sender
         now = rospy.get_time()

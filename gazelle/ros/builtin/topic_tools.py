@@ -10,7 +10,7 @@ from typing import Any
 
 from gazelle.errors import RosError
 from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.msgs import std_msgs
+from gazelle.ros.msgs import std_msgs, topic_tools
 from gazelle.ros.node import Node
 from gazelle.ros.publishing import Publisher
 from gazelle.ros.raw import RawMessage
@@ -225,25 +225,25 @@ class Mux:
         self._told.publish(self._text(data=topic))
         return previous
 
-    def _on_select(self, request: Any) -> Any:
+    def _on_select(self, request: topic_tools.srv.MuxSelectRequest) -> Any:
         topic = request.topic if request.topic == self.NONE else self._node.resolve(request.topic)
         if topic != self.NONE and topic not in self._sources:
             raise RosError(f"there is no topic {topic} to choose")
         return [self._choose(topic)]
 
-    def _on_add(self, request: Any) -> Any:
+    def _on_add(self, request: topic_tools.srv.MuxAddRequest) -> Any:
         topic = self._node.resolve(request.topic)
         if request.topic == self.NONE or topic in self._sources:
             raise RosError(f"the topic {topic} cannot be added")
         self._add(topic)
         return []
 
-    def _on_delete(self, request: Any) -> Any:
+    def _on_delete(self, request: topic_tools.srv.MuxDeleteRequest) -> Any:
         topic = self._node.resolve(request.topic)
         if topic not in self._sources or topic == self._selected:
             raise RosError(f"the topic {topic} cannot be deleted")
         self._sources.pop(topic).close()
         return []
 
-    def _on_list(self, _request: Any) -> Any:
+    def _on_list(self, _request: topic_tools.srv.MuxListRequest) -> Any:
         return [list(self._sources)]

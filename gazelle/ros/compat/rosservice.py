@@ -11,8 +11,9 @@ from gazelle.ros.compat.rospy.guest import user
 from gazelle.ros.compat.rospy.service import ServiceProxy
 from gazelle.ros.compat.tool_errors import raising
 from gazelle.ros.errors import MasterUnreachableError, RosError
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.messages import load_service
 from gazelle.ros.messages.yaml import fill_message_args
+from gazelle.ros.msgs import std_msgs
 from gazelle.ros.time import Time
 from gazelle.ros.tools import services
 from gazelle.ros.tools.graph import GraphInspector
@@ -139,7 +140,7 @@ def call_service(
     request = kind._request_class()
     clock = getattr(user(), "clock", None)
     now = Time(nsecs=clock.now() if clock is not None else 0)
-    keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
+    keys = {"now": now, "auto": std_msgs.msg.Header(stamp=now)}
     try:
         fill_message_args(request, service_args, keys=keys)
         return request, ServiceProxy(service_name, kind)(request)

@@ -13,6 +13,7 @@ from gazelle.ros.compat.rospy.topics import Publisher
 from gazelle.ros.compat.tool_errors import raising
 from gazelle.ros.messages import UnknownTypeError, load_message
 from gazelle.ros.messages.yaml import fill_message_args
+from gazelle.ros.msgs import std_msgs
 from gazelle.ros.time import Time
 from gazelle.ros.tools import listing
 from gazelle.ros.tools.fields import parse_path, value_at
@@ -150,7 +151,7 @@ def publish_message(
     del verbose, substitute_keywords
     message = msg_class()
     now = get_rostime() if is_rostime_initialized() else Time()
-    keys = {"now": now, "auto": load_message("std_msgs/Header")(stamp=now)}
+    keys = {"now": now, "auto": std_msgs.msg.Header(stamp=now)}
     fill_message_args(message, pub_args, keys=keys)
     if rate is None:
         pub.publish(message)

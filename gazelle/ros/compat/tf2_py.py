@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.ros.compat.rospy.rostime import Time
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs
 from gazelle.ros.tf.core import DEFAULT_CACHE_NS, FrameTree, StampedTransform
 from gazelle.ros.tf.describe import as_dot, as_yaml
 from gazelle.ros.tf.errors import (
@@ -39,17 +39,23 @@ class BufferCore:
 
     def __init__(self, cache_time: Any = None) -> None:
         self.tree = FrameTree(DEFAULT_CACHE_NS if cache_time is None else nanoseconds(cache_time))
-        self._make = load_message("geometry_msgs/TransformStamped")
+        self._make = geometry_msgs.msg.TransformStamped
 
-    def set_transform(self, transform: Any, authority: str = "") -> None:
+    def set_transform(
+        self, transform: geometry_msgs.msg.TransformStamped, authority: str = ""
+    ) -> None:
         """Add a ``TransformStamped``; an invalid one is logged and left out."""
         self._set(transform, authority, static=False)
 
-    def set_transform_static(self, transform: Any, authority: str = "") -> None:
+    def set_transform_static(
+        self, transform: geometry_msgs.msg.TransformStamped, authority: str = ""
+    ) -> None:
         """Add a ``TransformStamped`` that holds at all times."""
         self._set(transform, authority, static=True)
 
-    def _set(self, transform: Any, authority: str, *, static: bool) -> None:
+    def _set(
+        self, transform: geometry_msgs.msg.TransformStamped, authority: str, *, static: bool
+    ) -> None:
         header, value = transform.header, transform.transform
         place, turn, stamp = value.translation, value.rotation, header.stamp
         self.tree.place(

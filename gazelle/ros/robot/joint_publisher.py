@@ -51,7 +51,7 @@ class JointStatePublisher:
             node.subscribe(source, self._state, self._take)
         self._send()
 
-    def _take(self, state: Any) -> None:
+    def _take(self, state: sensor_msgs.msg.JointState) -> None:
         """Store positions of some joints."""
         with self._lock:
             for field, known in self._values.items():

@@ -6,7 +6,7 @@ What it does, and its parameters, are those of http://wiki.ros.org/robot_state_p
 from __future__ import annotations
 
 import logging
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gazelle.ros.clock import SECOND
 from gazelle.ros.msgs import geometry_msgs, sensor_msgs, tf2_msgs
@@ -55,7 +55,7 @@ class RobotStatePublisher:
         states = sensor_msgs.msg.JointState
         self._subscriber = node.subscribe("joint_states", states, self.take, queue_size=1)
 
-    def take(self, state: Any) -> None:
+    def take(self, state: sensor_msgs.msg.JointState) -> None:
         """Publish the transforms of the joints of a ``JointState``."""
         if len(state.name) != len(state.position):
             if state.position:
@@ -86,7 +86,7 @@ class RobotStatePublisher:
             return False
         return position_of(self._joints, name, positions) is not None
 
-    def _fixed_transforms(self, stamp: int) -> list[Any]:
+    def _fixed_transforms(self, stamp: int) -> list[geometry_msgs.msg.TransformStamped]:
         return [self._message(joint, 0.0, stamp) for joint in self._fixed]
 
     def _send_fixed(self) -> None:
@@ -98,9 +98,11 @@ class RobotStatePublisher:
         loop = self._node.loop
         loop.call_later(self._period, lambda: loop.submit(self._send_fixed))
 
-    def _message(self, joint: TreeJoint, position: float, stamp: int) -> Any:
+    def _message(
+        self, joint: TreeJoint, position: float, stamp: int
+    ) -> geometry_msgs.msg.TransformStamped:
         translation, rotation = joint.placed(position)
-        made: Any = self._transform()
+        made = self._transform()
         made.header.stamp = Time(stamp // SECOND, stamp % SECOND)
         made.header.frame_id = self._frame(joint.parent)
         made.child_frame_id = self._frame(joint.child)

@@ -10,7 +10,7 @@ from typing import Any, TextIO
 
 from gazelle import bounded_yaml
 from gazelle.ros.clock import Rate
-from gazelle.ros.messages import MessageException, load_message
+from gazelle.ros.messages import Message, MessageException, load_message
 from gazelle.ros.messages.yaml import fill_message_args, get_printable_message_args
 from gazelle.ros.msgs import std_msgs
 from gazelle.ros.node import Node
@@ -138,7 +138,7 @@ class MessagePublisher:
         self._fill(made, arguments)
         return made
 
-    def _fill(self, message: Any, arguments: list[Any]) -> None:
+    def _fill(self, message: Message, arguments: list[Any]) -> None:
         now = Time(nsecs=self._node.clock.now() if self._ros_time else time.time_ns())
         keys = {"now": now, "auto": std_msgs.msg.Header(stamp=now)}
         try:
@@ -147,7 +147,7 @@ class MessagePublisher:
             known = get_printable_message_args(message)
             raise ToolError(f"{error}", hint=f"Args are: [{known}]") from None
 
-    def publish(self, message: Any) -> None:
+    def publish(self, message: Message) -> None:
         """Publish a message.
 
         Raises:

@@ -9,8 +9,9 @@ import argparse
 import sys
 from typing import Any
 
-from gazelle.ros import Node, load_message
+from gazelle.ros import Node
 from gazelle.ros.actions import GoalStatus, SimpleActionClient
+from gazelle.ros.msgs import move_base_msgs
 
 PLACES = [
     (-8.5, 2.0),
@@ -29,7 +30,7 @@ PATIENCE = 600.0
 
 def goal_at(x: float, y: float) -> Any:
     """Return a goal on the map."""
-    goal: Any = load_message("move_base_msgs/MoveBaseGoal")()
+    goal = move_base_msgs.msg.MoveBaseGoal()
     goal.target_pose.header.frame_id = "map"
     goal.target_pose.pose.position.x, goal.target_pose.pose.position.y = x, y
     goal.target_pose.pose.orientation.w = 1.0
@@ -41,7 +42,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=1)
     options, _ = parser.parse_known_args()
-    action, failed = load_message("move_base_msgs/MoveBaseAction"), 0
+    action, failed = move_base_msgs.msg.MoveBaseAction, 0
     with Node("/send_goals") as node:
         clients = [SimpleActionClient(node, f"/robot_{n}/move_base", action) for n in range(ROBOTS)]
         for client in clients:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.compat.frobs_rl.common.connection import gazebo, reporting
-from gazelle.ros import load_message
+from gazelle.ros.msgs import geometry_msgs
 
 
 @reporting
@@ -40,7 +40,7 @@ def gazebo_set_gravity(x: float, y: float, z: float) -> None:
 
 def gazebo_get_gravity() -> Any:
     """Return gravity, a ``geometry_msgs/Vector3`` [m/s²]."""
-    vector: Any = load_message("geometry_msgs/Vector3")
+    vector = geometry_msgs.msg.Vector3
     return vector(*gazebo().gravity)
 
 

@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
 from gazelle.errors import TaskError, did_you_mean
-from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
+from gazelle.ros.msgs import rosgraph_msgs, sensor_msgs, std_msgs
 
 _SPACE = "cartpole_v0"
 _CONTROL = ("velocity", "position", "effort")
@@ -51,7 +51,7 @@ class CartPoleEnv(TopicRobotEnv):
         self._base_pub = self._publisher(f"{space}/foot_{kind}", "std_msgs/Float64")
         self._pole_pub = self._publisher(f"{space}/pole_{kind}", "std_msgs/Float64")
 
-    def joints_callback(self, data: Any) -> None:
+    def joints_callback(self, data: sensor_msgs.msg.JointState) -> None:
         """Store the state of the joints."""
         self.joints = data
 
@@ -65,11 +65,11 @@ class CartPoleEnv(TopicRobotEnv):
 
     def move_joints(self, joints_array: Sequence[float]) -> None:
         """Command the cart: the first number [m/s, m or N]."""
-        self._base_pub.publish(load_message("std_msgs/Float64")(float(joints_array[0])))
+        self._base_pub.publish(std_msgs.msg.Float64(float(joints_array[0])))
 
     def get_clock_time(self) -> Any:
         """Return the next ``rosgraph_msgs/Clock``."""
-        self.clock_time = rospy.wait_for_message("/clock", load_message("rosgraph_msgs/Clock"))
+        self.clock_time = rospy.wait_for_message("/clock", rosgraph_msgs.msg.Clock)
         return self.clock_time
 
     def joint(self, name: str) -> tuple[float, float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
-from gazelle.ros import load_message
+from gazelle.ros.msgs import std_msgs
 
 _SPACE = "moving_cube"
 _WHEEL = "inertia_wheel_roll_joint"
@@ -36,7 +36,7 @@ class CubeSingleDiskEnv(TopicRobotEnv):
 
     def move_joints(self, roll_speed: float) -> None:
         """Command the wheel [rad/s], and wait until it has that speed."""
-        self._roll_vel_pub.publish(load_message("std_msgs/Float64")(float(roll_speed)))
+        self._roll_vel_pub.publish(std_msgs.msg.Float64(float(roll_speed)))
         self.wait_until_roll_is_in_vel(float(roll_speed))
 
     def wait_until_roll_is_in_vel(self, velocity: float) -> None:

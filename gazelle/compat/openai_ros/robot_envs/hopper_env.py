@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from gazelle.compat.openai_ros.gazebo_connection import WORLD
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
-from gazelle.ros import load_message
+from gazelle.ros.msgs import std_msgs
 
 _SPACE = "monoped"
 _JOINTS = ("haa", "hfe", "kfe")
@@ -66,7 +66,7 @@ class HopperEnv(TopicRobotEnv):
             time_sleep: How long to wait where it is not [s].
             check_position: Wait until they are there, for 2 simulated seconds at most.
         """
-        number = load_message("std_msgs/Float64")
+        number = std_msgs.msg.Float64
         for publisher, position in zip(self.publishers_array, joints_array, strict=True):
             publisher.publish(number(float(position)))
         if check_position:

@@ -7,6 +7,7 @@ from typing import Any, ClassVar
 from gazelle.compat.openai_ros.gazebo_connection import WORLD
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic
 from gazelle.compat.openai_ros.robot_envs.wheeled_robot_env import WheeledRobotEnv
+from gazelle.ros.msgs import geometry_msgs
 
 
 class HusarionEnv(WheeledRobotEnv):
@@ -24,5 +25,5 @@ class HusarionEnv(WheeledRobotEnv):
     odom: Any
     laser_scan: Any
 
-    def _let_act(self, twist: Any, epsilon: float, update_rate: float) -> None:
+    def _let_act(self, twist: geometry_msgs.msg.Twist, epsilon: float, update_rate: float) -> None:
         self.wait_until_twist_achieved(twist, epsilon, update_rate)

@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 
 from gazelle.compat.openai_ros.gazebo_connection import WORLD
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
-from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
+from gazelle.ros.msgs import geometry_msgs, std_msgs
 
 _HOLD_S = 1.0
 """Time that a velocity acts before a step continues [s of simulated time]."""
@@ -56,7 +56,7 @@ class ParrotDroneEnv(TopicRobotEnv):
     def _go(self, publisher: Any, height: float, *, smaller_than: bool) -> None:
         self.gazebo.unpauseSim()
         self._check_publishers_connection()
-        publisher.publish(load_message("std_msgs/Empty")())
+        publisher.publish(std_msgs.msg.Empty())
         self.wait_for_height(height, smaller_than, epsilon=0.05, update_rate=10)
         self.gazebo.pauseSim()
 
@@ -88,7 +88,7 @@ class ParrotDroneEnv(TopicRobotEnv):
 
     def move_base(
         self,
-        linear_speed_vector: Any,
+        linear_speed_vector: geometry_msgs.msg.Vector3,
         angular_speed: float,
         epsilon: float = 0.05,
         update_rate: float = 10,
@@ -103,7 +103,7 @@ class ParrotDroneEnv(TopicRobotEnv):
         """
         del epsilon, update_rate
         self._check_publishers_connection()
-        twist: Any = load_message("geometry_msgs/Twist")()
+        twist = geometry_msgs.msg.Twist()
         linear = twist.linear
         linear.x, linear.y = linear_speed_vector.x, linear_speed_vector.y
         linear.z, twist.angular.z = linear_speed_vector.z, angular_speed

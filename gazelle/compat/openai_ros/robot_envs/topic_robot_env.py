@@ -16,6 +16,7 @@ from gazelle.compat.openai_ros.running import published
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
+from gazelle.ros.messages import Message
 
 PATIENCE_S = 60.0
 """Longest silence of a topic, or wait for a subscriber, before an error [s of wall time]."""
@@ -97,7 +98,7 @@ class TopicRobotEnv(RobotGazeboEnv):
         setattr(self, sensor.attribute, None)
         self._heard[sensor.attribute] = 0
 
-        def take(message: Any) -> None:
+        def take(message: Message) -> None:
             setattr(self, sensor.attribute, message)
             self._heard[sensor.attribute] += 1
 

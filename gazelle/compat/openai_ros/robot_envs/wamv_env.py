@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from gazelle.compat.openai_ros.gazebo_connection import WORLD
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
-from gazelle.ros import load_message
+from gazelle.ros.msgs import usv_msgs
 
 
 class WamvEnv(TopicRobotEnv):
@@ -32,7 +32,7 @@ class WamvEnv(TopicRobotEnv):
             left_propeller_speed: Likewise.
             time_sleep: How long [s of simulated time].
         """
-        drive: Any = load_message("usv_msgs/UsvDrive")
+        drive = usv_msgs.msg.UsvDrive
         for publisher in self.publishers_array:
             publisher.publish(drive(left=left_propeller_speed, right=right_propeller_speed))
         self.wait_time_for_execute_movement(time_sleep)

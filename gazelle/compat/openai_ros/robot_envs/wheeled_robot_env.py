@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from gazelle.compat.openai_ros.robot_envs.topic_robot_env import TopicRobotEnv
-from gazelle.ros import load_message
+from gazelle.ros.msgs import geometry_msgs
 
 _HOLD_S = 0.2
 """Time that a velocity acts before a step continues [s of simulated time]."""
@@ -38,18 +37,18 @@ class WheeledRobotEnv(TopicRobotEnv):
         """
         del min_laser_distance
         self._check_publishers_connection()
-        twist: Any = load_message("geometry_msgs/Twist")()
+        twist = geometry_msgs.msg.Twist()
         twist.linear.x, twist.angular.z = linear_speed, angular_speed
         self._cmd_vel_pub.publish(twist)
         self._let_act(twist, epsilon, update_rate)
 
-    def _let_act(self, twist: Any, epsilon: float, update_rate: float) -> None:
+    def _let_act(self, twist: geometry_msgs.msg.Twist, epsilon: float, update_rate: float) -> None:
         """Wait while a velocity acts."""
         del twist, epsilon, update_rate
         self.simulated_time.wait(_HOLD_S)
 
     def wait_until_twist_achieved(
-        self, cmd_vel_value: Any, epsilon: float, update_rate: float
+        self, cmd_vel_value: geometry_msgs.msg.Twist, epsilon: float, update_rate: float
     ) -> None:
         """Wait until the odometry shows a velocity, for ten simulated seconds at most.
 

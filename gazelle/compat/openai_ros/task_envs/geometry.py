@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.ros import load_message
+from gazelle.ros.msgs import geometry_msgs
 from gazelle.ros.transformations import euler_from_quaternion
 
 
-def euler_of(orientation: Any) -> tuple[float, float, float]:
+def euler_of(orientation: geometry_msgs.msg.Quaternion) -> tuple[float, float, float]:
     """Return roll, pitch and yaw of a ``geometry_msgs/Quaternion`` [rad]."""
     roll, pitch, yaw = euler_from_quaternion(
         (orientation.x, orientation.y, orientation.z, orientation.w)
@@ -20,13 +20,13 @@ def euler_of(orientation: Any) -> tuple[float, float, float]:
     return float(roll), float(pitch), float(yaw)
 
 
-def point(x: float, y: float, z: float = 0.0) -> Any:
+def point(x: float, y: float, z: float = 0.0) -> geometry_msgs.msg.Point:
     """Return a ``geometry_msgs/Point`` [m]."""
-    made: Any = load_message("geometry_msgs/Point")
+    made = geometry_msgs.msg.Point
     return made(float(x), float(y), float(z))
 
 
-def coordinates(place: Any) -> Floats:
+def coordinates(place: geometry_msgs.msg.Point | geometry_msgs.msg.Vector3) -> Floats:
     """Return x, y and z of a point or vector [m], shape (1, 3)."""
     return np.array([(place.x, place.y, place.z)], np.float64)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from gazelle.compat.openai_ros.task_envs.steering import SteeringTask
 from gazelle.ros.compat import rospy
+from gazelle.ros.msgs import geometry_msgs
 
 
 class JoltTask(SteeringTask):
@@ -24,6 +25,6 @@ class JoltTask(SteeringTask):
             self._episode_done = True
         return super()._is_done(observations)
 
-    def get_vector_magnitude(self, vector: Any) -> float:
+    def get_vector_magnitude(self, vector: geometry_msgs.msg.Vector3) -> float:
         """Return the length of a vector."""
         return math.hypot(vector.x, vector.y, vector.z)

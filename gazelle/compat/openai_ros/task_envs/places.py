@@ -8,6 +8,7 @@ from gazelle.array_types import Bools, Floats
 from gazelle.compat.openai_ros.task_envs.geometry import coordinates, euler_of, one
 from gazelle.compat.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.envs.goal_rules import distance_to, is_at
+from gazelle.ros.msgs import geometry_msgs
 
 
 class DesiredPoint(GraphTask):
@@ -35,14 +36,18 @@ class DesiredPoint(GraphTask):
         """Return x, y and z of the goal [m], shape (3,)."""
         return coordinates(self.desired_point).reshape(-1)
 
-    def is_in_desired_position(self, current_position: Any, epsilon: float = 0.05) -> bool:
+    def is_in_desired_position(
+        self, current_position: geometry_msgs.msg.Point, epsilon: float = 0.05
+    ) -> bool:
         """Return whether a place is the goal; heights do not count."""
         return bool(is_at(coordinates(current_position), self._goal(), epsilon)[0])
 
-    def get_distance_from_desired_point(self, current_position: Any) -> float:
+    def get_distance_from_desired_point(self, current_position: geometry_msgs.msg.Point) -> float:
         """Return how far a place is from the goal [m]."""
         return float(distance_to(coordinates(current_position), self._goal())[0])
 
-    def get_orientation_euler(self, quaternion_vector: Any) -> tuple[float, float, float]:
+    def get_orientation_euler(
+        self, quaternion_vector: geometry_msgs.msg.Quaternion
+    ) -> tuple[float, float, float]:
         """Return roll, pitch and yaw [rad]."""
         return euler_of(quaternion_vector)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.compat.gym.spaces import Box
@@ -17,6 +18,7 @@ from gazelle.envs.discrete_drive.rules import DriveRules, StepRewards
 from gazelle.envs.discrete_drive.scoring import ends_of, has_crashed, observed, reward_of
 from gazelle.envs.goal_rules import distance_to
 from gazelle.ros.compat import rospy
+from gazelle.ros.msgs import sensor_msgs
 
 FORWARDS, TURN_LEFT, TURN_RIGHT = "FORWARDS", "TURN_LEFT", "TURN_RIGHT"
 
@@ -137,7 +139,9 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
     def _drive(self, linear: float, angular: float) -> None:
         self.move_base(linear, angular, epsilon=0.05, update_rate=10)
 
-    def _observe(self, rules: DriveRules, ranges: Sequence[float], step: int) -> list[float]:
+    def _observe(
+        self, rules: DriveRules, ranges: Sequence[float] | NDArray[Any], step: int
+    ) -> list[float]:
         """Return ranges 0, ``step``, ... as observed [m]; one that is too near ends the episode."""
         taken = one(ranges[::step]).astype(np.float64)
         seen = observed(rules, taken)
@@ -146,7 +150,9 @@ class SteeringTask(DesiredPoint, WheeledRobotEnv):
         whole = rules.decimals is None
         return [int(each) if whole and each.is_integer() else each for each in seen[0].tolist()]
 
-    def discretize_scan_observation(self, data: Any, new_ranges: int) -> list[float]:
+    def discretize_scan_observation(
+        self, data: sensor_msgs.msg.LaserScan, new_ranges: int
+    ) -> list[float]:
         """Return about ``new_ranges`` ranges of a ``sensor_msgs/LaserScan`` [m]; see `_observe`."""
         # As Python 2 divides ints, for which openai_ros was written.
         return self._observe(self._rules(), data.ranges, max(1, len(data.ranges) // new_ranges))

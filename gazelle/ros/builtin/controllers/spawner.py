@@ -167,7 +167,7 @@ def _wait_for(topic: str, timeout: float | None) -> bool:
     """Wait until a topic says true, for ever if need be; returns whether it did."""
     heard, true = threading.Event(), threading.Event()
 
-    def hear(message: Any) -> None:
+    def hear(message: std_msgs.msg.Bool) -> None:
         heard.set()
         if message.data:
             true.set()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.ros.actions.states import name_of
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import actionlib_msgs
 
 
 def get_name_of_constant(C: Any, n: int) -> str:  # noqa: N803  # actionlib's name
@@ -13,8 +13,8 @@ def get_name_of_constant(C: Any, n: int) -> str:  # noqa: N803  # actionlib's na
     return name_of(C, n)
 
 
-GoalID: Any = load_message("actionlib_msgs/GoalID")
-GoalStatus: Any = load_message("actionlib_msgs/GoalStatus")
+GoalID = actionlib_msgs.msg.GoalID
+GoalStatus = actionlib_msgs.msg.GoalStatus
 # actionlib gives the class of messages this method, and programs use it.
-GoalStatus.to_string = classmethod(get_name_of_constant)
-GoalStatusArray: Any = load_message("actionlib_msgs/GoalStatusArray")
+GoalStatus.to_string = classmethod(get_name_of_constant)  # type: ignore[attr-defined]
+GoalStatusArray = actionlib_msgs.msg.GoalStatusArray

@@ -7,7 +7,7 @@ from typing import Any
 from gazelle.ros.actions.spec import now
 from gazelle.ros.compat.actionlib.goal_id_generator import GoalIDGenerator
 from gazelle.ros.compat.rospy.state import process
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import actionlib_msgs
 from gazelle.ros.time import Time
 
 
@@ -26,7 +26,7 @@ class StatusTracker:
         self.id_generator = GoalIDGenerator()
         self.goal = None if goal_id else goal
         self.status: Any
-        self.status = load_message("actionlib_msgs/GoalStatus")()
+        self.status = actionlib_msgs.msg.GoalStatus()
         if goal_id:
             self.status.goal_id, self.status.status = goal_id, status
             return

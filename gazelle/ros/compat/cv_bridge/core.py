@@ -20,7 +20,7 @@ from gazelle.ros.compat.cv_bridge.encodings import (
     encoding_of,
     getCvType,
 )
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import sensor_msgs, std_msgs
 
 __all__ = ["CvBridge", "CvBridgeError"]
 
@@ -65,7 +65,9 @@ class CvBridge:
             return image
         return _converted(image, source, encoding_of(desired_encoding))
 
-    def cv2_to_imgmsg(self, cvim: Image, encoding: str = "passthrough", header: Any = None) -> Any:
+    def cv2_to_imgmsg(
+        self, cvim: Image, encoding: str = "passthrough", header: std_msgs.msg.Header | None = None
+    ) -> sensor_msgs.msg.Image:
         """Return the ``Image`` of an array.
 
         Args:
@@ -89,7 +91,7 @@ class CvBridge:
             raise CvBridgeError(
                 f"encoding specified as {encoding}, but image has incompatible type {plain}"
             )
-        message: Any = load_message("sensor_msgs/Image")()
+        message = sensor_msgs.msg.Image()
         if header is not None:
             message.header = header
         message.height, message.width = cvim.shape[:2]
@@ -133,12 +135,12 @@ class CvBridge:
         done, data = cv2.imencode(f".{_COMPRESSED_AS.get(dst_format, dst_format)}", cvim)
         if not done:
             raise CvBridgeError(f"the image cannot be written as {dst_format}")
-        message: Any = load_message("sensor_msgs/CompressedImage")()
+        message = sensor_msgs.msg.CompressedImage()
         message.format, message.data = dst_format, data.tobytes()
         return message
 
 
-def _array(message: Any, source: Encoding) -> Image:
+def _array(message: sensor_msgs.msg.Image, source: Encoding) -> Image:
     """Return the pixels of a message, in this machine's byte order.
 
     A view where that is possible.

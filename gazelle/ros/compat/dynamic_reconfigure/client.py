@@ -22,7 +22,7 @@ from gazelle.ros.compat.rospy.names import resolve_name
 from gazelle.ros.compat.rospy.service import ServiceProxy, wait_for_service
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.compat.rospy.topics import Subscriber
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import dynamic_reconfigure
 
 Callback = Callable[[Any], Any]
 _TRUE, _FALSE = {"true", "1", "yes", "on"}, {"false", "0", "no", "off"}
@@ -55,12 +55,12 @@ class Client:
         self.config_callback = config_callback
         self.description_callback = description_callback
         self._news = threading.Condition()
-        kind = load_service("dynamic_reconfigure/Reconfigure")
+        kind = dynamic_reconfigure.srv.Reconfigure
         service = resolve_name(f"{name}/set_parameters")
         wait_for_service(service, timeout)
         self._set_service = ServiceProxy(service, kind)
-        described = load_message("dynamic_reconfigure/ConfigDescription")
-        values = load_message("dynamic_reconfigure/Config")
+        described = dynamic_reconfigure.msg.ConfigDescription
+        values = dynamic_reconfigure.msg.Config
         self._subscribers = (
             Subscriber(f"{name}/parameter_descriptions", described, self._described),
             Subscriber(f"{name}/parameter_updates", values, self._updated),
@@ -140,14 +140,14 @@ class Client:
         if value is not None and self.param_description is not None:
             value(self.param_description)
 
-    def _updated(self, message: Any) -> None:
+    def _updated(self, message: dynamic_reconfigure.msg.Config) -> None:
         with self._news:
             self.config = decode_config(message, self.group_description)
             self._news.notify_all()
         if self.config_callback is not None:
             self.config_callback(self.config)
 
-    def _described(self, message: Any) -> None:
+    def _described(self, message: dynamic_reconfigure.msg.ConfigDescription) -> None:
         with self._news:
             self.group_description = decode_description(message)
             self.param_description = extract_params(self.group_description)

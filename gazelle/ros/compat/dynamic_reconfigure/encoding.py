@@ -6,6 +6,7 @@ from typing import Any, Self
 
 from gazelle.ros.compat.dynamic_reconfigure import DynamicReconfigureParameterException
 from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import dynamic_reconfigure
 
 _FIELDS = {"bool": "bools", "int": "ints", "str": "strs", "double": "doubles"}
 _CLASSES = {"bool": "Bool", "int": "Int", "str": "Str", "double": "Double"}
@@ -59,7 +60,7 @@ def encode_config(config: dict[str, Any], flat: bool = True) -> Any:  # noqa: FB
     return message
 
 
-def _put_groups(message: Any, group: dict[str, Any]) -> None:
+def _put_groups(message: dynamic_reconfigure.msg.Config, group: dict[str, Any]) -> None:
     message.groups.append(
         _message("GroupState")(
             name=group["name"], state=group["state"], id=group["id"], parent=group["parent"]
@@ -69,7 +70,7 @@ def _put_groups(message: Any, group: dict[str, Any]) -> None:
         _put_groups(message, each)
 
 
-def decode_config(msg: Any, description: Any = None) -> Config:
+def decode_config(msg: dynamic_reconfigure.msg.Config, description: Any = None) -> Config:
     """Return the values of a ``Config`` message.
 
     Args:
@@ -105,7 +106,7 @@ def initial_groups(group: dict[str, Any]) -> Config:
     )
 
 
-def initial_config(msg: Any, description: Any = None) -> Config:
+def initial_config(msg: dynamic_reconfigure.msg.Config, description: Any = None) -> Config:
     """Return the values of a message, and the groups of a description."""
     return decode_config(msg, description)
 
@@ -152,7 +153,7 @@ def _put_group(message: Any, group: dict[str, Any]) -> None:
         _put_group(message, each)
 
 
-def decode_description(msg: Any) -> Config:
+def decode_description(msg: dynamic_reconfigure.msg.ConfigDescription) -> Config:
     """Return the groups of a ``ConfigDescription`` message, as nested dicts."""
     least, most, usual = (decode_config(each) for each in (msg.min, msg.max, msg.dflt))
     groups = {}

@@ -19,7 +19,7 @@ from gazelle.ros.compat.rospy.names import resolve_name
 from gazelle.ros.compat.rospy.params import get_param, set_param
 from gazelle.ros.compat.rospy.service import Service
 from gazelle.ros.compat.rospy.topics import Publisher
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import dynamic_reconfigure
 
 
 class Server:
@@ -46,10 +46,10 @@ class Server:
         self.description = encode_description(type)
         self.config = initial_config(encode_config(type.defaults), type.config_description)
         self._load()
-        values = load_message("dynamic_reconfigure/Config")
+        values = dynamic_reconfigure.msg.Config
         self.descr_topic = Publisher(
             f"{self.ns}parameter_descriptions",
-            load_message("dynamic_reconfigure/ConfigDescription"),
+            dynamic_reconfigure.msg.ConfigDescription,
             latch=True,
             queue_size=10,
         )
@@ -60,7 +60,7 @@ class Server:
         self._change(self.config, _all_levels(type.level))
         self.set_service = Service(
             f"{self.ns}set_parameters",
-            load_service("dynamic_reconfigure/Reconfigure"),
+            dynamic_reconfigure.srv.Reconfigure,
             self._asked,
         )
 
@@ -105,7 +105,7 @@ class Server:
         self.update_topic.publish(encode_config(taken, flat=False))
         return taken
 
-    def _asked(self, request: Any) -> Any:
+    def _asked(self, request: dynamic_reconfigure.srv.ReconfigureRequest) -> Any:
         changes = decode_config(request.config)
         with self.mutex:
             return {"config": encode_config(self.update_configuration(changes), flat=False)}

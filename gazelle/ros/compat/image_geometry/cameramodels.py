@@ -12,11 +12,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
+from gazelle.ros.msgs import sensor_msgs
 
 
-def _matrix(rows: int, columns: int, values: Sequence[float]) -> Floats:
+def _matrix(rows: int, columns: int, values: Sequence[float] | NDArray[Any]) -> Floats:
     return np.array(values, dtype=float).reshape(rows, columns)
 
 
@@ -43,7 +45,7 @@ class PinholeCameraModel:
         self.tf_frame: str | None = None
         self.stamp: Any = None
 
-    def fromCameraInfo(self, msg: Any) -> None:
+    def fromCameraInfo(self, msg: sensor_msgs.msg.CameraInfo) -> None:
         """Set the values of a ``CameraInfo``."""
         self.full_K, self.R = _matrix(3, 3, msg.K), _matrix(3, 3, msg.R)
         self.D = _matrix(len(msg.D), 1, msg.D) if len(msg.D) else None

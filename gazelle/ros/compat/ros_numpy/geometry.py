@@ -10,12 +10,16 @@ from numpy.typing import ArrayLike
 from gazelle.array_types import Floats
 from gazelle.ros.compat.ros_numpy.registry import converts_from_numpy, converts_to_numpy
 from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs
 from gazelle.ros.transformations import quaternion_from_matrix, quaternion_matrix
 
 _VECTORS = ("geometry_msgs/Vector3", "geometry_msgs/Point", "geometry_msgs/Point32")
 
 
-def _triple(message: Any, hom: bool = False) -> Floats:  # noqa: FBT001, FBT002  # ros_numpy's interface
+def _triple(
+    message: geometry_msgs.msg.Point | geometry_msgs.msg.Vector3,
+    hom: bool = False,  # noqa: FBT001, FBT002  # ros_numpy's interface
+) -> Floats:
     """Return x, y and z; with `hom` a 1 behind a point's and a 0 behind a vector's."""
     last = [] if not hom else [0.0 if message._type.endswith("Vector3") else 1.0]
     return np.array([message.x, message.y, message.z, *last])
@@ -40,7 +44,7 @@ for _name in _VECTORS:
 
 
 @converts_to_numpy("geometry_msgs/Quaternion")
-def quat_to_numpy(msg: Any) -> Floats:
+def quat_to_numpy(msg: geometry_msgs.msg.Quaternion) -> Floats:
     """Return x, y, z and w."""
     return np.array([msg.x, msg.y, msg.z, msg.w])
 
@@ -48,23 +52,29 @@ def quat_to_numpy(msg: Any) -> Floats:
 @converts_from_numpy("geometry_msgs/Quaternion")
 def numpy_to_quat(array: ArrayLike) -> Any:
     """Return the ``Quaternion`` of x, y, z and w."""
-    return load_message("geometry_msgs/Quaternion")(*np.asarray(array, dtype=float).tolist())
+    return geometry_msgs.msg.Quaternion(*np.asarray(array, dtype=float).tolist())
 
 
-def _matrix(place: Any, turn: Any) -> Floats:
+def _matrix(
+    place: geometry_msgs.msg.Point | geometry_msgs.msg.Vector3, turn: geometry_msgs.msg.Quaternion
+) -> Floats:
     matrix: Floats = quaternion_matrix((turn.x, turn.y, turn.z, turn.w))
     matrix[:3, 3] = place.x, place.y, place.z
     return matrix
 
 
-def _put(place: Any, turn: Any, array: ArrayLike) -> None:
+def _put(
+    place: geometry_msgs.msg.Point | geometry_msgs.msg.Vector3,
+    turn: geometry_msgs.msg.Quaternion,
+    array: ArrayLike,
+) -> None:
     matrix = np.asarray(array, dtype=float)
     turn.x, turn.y, turn.z, turn.w = quaternion_from_matrix(matrix).tolist()
     place.x, place.y, place.z = matrix[:3, 3].tolist()
 
 
 @converts_to_numpy("geometry_msgs/Transform")
-def transform_to_numpy(msg: Any) -> Floats:
+def transform_to_numpy(msg: geometry_msgs.msg.Transform) -> Floats:
     """Return the 4x4 matrix."""
     return _matrix(msg.translation, msg.rotation)
 
@@ -72,13 +82,13 @@ def transform_to_numpy(msg: Any) -> Floats:
 @converts_from_numpy("geometry_msgs/Transform")
 def numpy_to_transform(array: ArrayLike) -> Any:
     """Return the ``Transform`` of a 4x4 matrix."""
-    made: Any = load_message("geometry_msgs/Transform")()
+    made = geometry_msgs.msg.Transform()
     _put(made.translation, made.rotation, array)
     return made
 
 
 @converts_to_numpy("geometry_msgs/Pose")
-def pose_to_numpy(msg: Any) -> Floats:
+def pose_to_numpy(msg: geometry_msgs.msg.Pose) -> Floats:
     """Return the 4x4 matrix."""
     return _matrix(msg.position, msg.orientation)
 
@@ -86,6 +96,6 @@ def pose_to_numpy(msg: Any) -> Floats:
 @converts_from_numpy("geometry_msgs/Pose")
 def numpy_to_pose(array: ArrayLike) -> Any:
     """Return the ``Pose`` of a 4x4 matrix."""
-    made: Any = load_message("geometry_msgs/Pose")()
+    made = geometry_msgs.msg.Pose()
     _put(made.position, made.orientation, array)
     return made

@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 from gazelle.ros.compat.cv_bridge.core import CvBridge
 from gazelle.ros.compat.cv_bridge.encodings import encoding_of
 from gazelle.ros.compat.ros_numpy.registry import converts_from_numpy, converts_to_numpy
+from gazelle.ros.msgs import sensor_msgs
 
 
 @converts_to_numpy("sensor_msgs/Image")
-def image_to_numpy(msg: Any) -> NDArray[Any]:
+def image_to_numpy(msg: sensor_msgs.msg.Image) -> NDArray[Any]:
     """Return the pixels as they are in the message."""
     return CvBridge().imgmsg_to_cv2(msg)
 

@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.ros.compat.ros_numpy.registry import converts_from_numpy, converts_to_numpy
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import nav_msgs
 
 
 @converts_to_numpy("nav_msgs/OccupancyGrid")
-def occupancygrid_to_numpy(msg: Any) -> np.ma.MaskedArray[Any, Any]:
+def occupancygrid_to_numpy(msg: nav_msgs.msg.OccupancyGrid) -> np.ma.MaskedArray[Any, Any]:
     """Return the cells (height, width), -1 of them masked."""
     cells = np.asarray(msg.data, dtype=np.int8).reshape(msg.info.height, msg.info.width)
     return np.ma.array(cells, mask=cells == -1, fill_value=-1)
@@ -27,7 +27,7 @@ def numpy_to_occupancy_grid(arr: NDArray[Any], info: Any = None) -> Any:
     """
     if arr.ndim != 2 or arr.dtype != np.int8:
         raise TypeError("a map is an array of int8 with two dimensions")
-    grid: Any = load_message("nav_msgs/OccupancyGrid")()
+    grid = nav_msgs.msg.OccupancyGrid()
     if info is not None:
         grid.info = info
     filled = np.ma.filled(arr, -1)

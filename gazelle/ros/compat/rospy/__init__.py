@@ -64,9 +64,10 @@ from gazelle.ros.compat.rospy.rostime import Duration, Time, get_rostime, get_ti
 from gazelle.ros.compat.rospy.service import Service, ServiceProxy, wait_for_service
 from gazelle.ros.compat.rospy.timer import Rate, Timer, TimerEvent, sleep
 from gazelle.ros.compat.rospy.topics import Publisher, SubscribeListener, Subscriber
-from gazelle.ros.messages import Message, load_message
+from gazelle.ros.messages import Message
+from gazelle.ros.msgs import std_msgs
 
-Header = load_message("std_msgs/Header")
+Header = std_msgs.msg.Header
 
 __all__ = [
     "AnyMsg",

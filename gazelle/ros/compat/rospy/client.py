@@ -39,7 +39,7 @@ from gazelle.ros.errors import (
     NoMasterError,
     RosError,
 )
-from gazelle.ros.messages import load_message, load_service
+from gazelle.ros.msgs import roscpp
 from gazelle.ros.node import Node
 from gazelle.ros.parameters import set_private
 
@@ -188,19 +188,19 @@ def _join(name: str, **options: Any) -> Node:
 
 def _serve_logger_levels() -> None:
     node = process.require()
-    logger = load_message("roscpp/Logger")
-    get, change = load_service("roscpp/GetLoggers"), load_service("roscpp/SetLoggerLevel")
+    logger = roscpp.msg.Logger
+    get, change = roscpp.srv.GetLoggers, roscpp.srv.SetLoggerLevel
 
-    def loggers(_request: Any) -> Any:
-        response = get._response_class()
+    def loggers(_request: roscpp.srv.GetLoggersRequest) -> roscpp.srv.GetLoggersResponse:
+        response = roscpp.srv.GetLoggersResponse()
         known = ["rosout", *sorted(n for n in logging.root.manager.loggerDict if "rosout." in n)]
-        response.loggers = [  # type: ignore[attr-defined]
+        response.loggers = [
             logger(name, logging.getLevelName(logging.getLogger(name).getEffectiveLevel()))
             for name in known
         ]
         return response
 
-    def set_level(request: Any) -> Any:
+    def set_level(request: roscpp.srv.SetLoggerLevelRequest) -> Any:
         level = _LEVELS.get(request.level.upper())
         if level is None:
             raise ROSException(f"no such level: {request.level}")

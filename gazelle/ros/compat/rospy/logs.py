@@ -21,7 +21,7 @@ from gazelle.ros.compat.rospy.rostime import (
     is_wallclock,
 )
 from gazelle.ros.compat.rospy.state import process
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.writing import naming
 
 DEBUG, INFO, WARN, ERROR, FATAL = 1, 2, 4, 8, 16
@@ -93,7 +93,7 @@ class RosOutHandler(logging.Handler):
             return
         self._busy = True
         try:
-            log = load_message("rosgraph_msgs/Log")(
+            log = rosgraph_msgs.msg.Log(
                 level=level_of(record),
                 name=names.get_caller_id(),
                 msg=record.getMessage(),
@@ -102,7 +102,7 @@ class RosOutHandler(logging.Handler):
                 function=getattr(record, "place", None) or record.funcName or "?",
                 topics=[publication.topic for publication in node.publications()],
             )
-            log.header.stamp = get_rostime()  # type: ignore[attr-defined]
+            log.header.stamp = get_rostime()
             _publisher.publish(log)
         except Exception:  # noqa: BLE001  # a log must not stop what logs
             self.handleError(record)
@@ -169,7 +169,7 @@ def _log_path() -> Path | None:
 def start_rosout() -> None:
     """Log to /rosout."""
     global _publisher  # noqa: PLW0603  # there is one node a process
-    kind = load_message("rosgraph_msgs/Log")
+    kind = rosgraph_msgs.msg.Log
     _publisher = process.require().advertise("/rosout", kind, queue_size=100, latch=True)
     logger.addHandler(RosOutHandler())
 

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import sensor_msgs, std_msgs
 
-PointField: Any = load_message("sensor_msgs/PointField")
-PointCloud2: Any = load_message("sensor_msgs/PointCloud2")
+PointField = sensor_msgs.msg.PointField
+PointCloud2 = sensor_msgs.msg.PointCloud2
 
 _KINDS = {
     PointField.INT8: "i1",
@@ -32,7 +32,7 @@ _KINDS = {
 
 
 def read_points(
-    cloud: Any,
+    cloud: sensor_msgs.msg.PointCloud2,
     field_names: Sequence[str] | None = None,
     skip_nans: bool = False,  # noqa: FBT001, FBT002  # sensor_msgs's interface
     uvs: Iterable[Sequence[int]] = (),
@@ -62,7 +62,7 @@ def read_points(
 
 
 def read_points_list(
-    cloud: Any,
+    cloud: sensor_msgs.msg.PointCloud2,
     field_names: Sequence[str] | None = None,
     skip_nans: bool = False,  # noqa: FBT001, FBT002  # sensor_msgs's interface
     uvs: Iterable[Sequence[int]] = (),
@@ -74,7 +74,9 @@ def read_points_list(
     return [point._make(each) for each in read_points(cloud, field_names, skip_nans, uvs)]
 
 
-def create_cloud(header: Any, fields: Sequence[Any], points: Any) -> Any:
+def create_cloud(
+    header: std_msgs.msg.Header, fields: Sequence[Any], points: Any
+) -> sensor_msgs.msg.PointCloud2:
     """Create a ``PointCloud2`` of one row.
 
     Args:
@@ -117,7 +119,7 @@ def create_cloud(header: Any, fields: Sequence[Any], points: Any) -> Any:
     )
 
 
-def create_cloud_xyz32(header: Any, points: Any) -> Any:
+def create_cloud_xyz32(header: std_msgs.msg.Header, points: Any) -> sensor_msgs.msg.PointCloud2:
     """Create a ``PointCloud2`` of points with x, y and z [m] in single precision."""
     fields = [
         PointField(name, 4 * place, PointField.FLOAT32, 1) for place, name in enumerate("xyz")
@@ -143,7 +145,7 @@ def _parts(
     return found
 
 
-def _columns(cloud: Any, names: Sequence[str] | None) -> list[NDArray[Any]]:
+def _columns(cloud: sensor_msgs.msg.PointCloud2, names: Sequence[str] | None) -> list[NDArray[Any]]:
     """Return the values of the wanted fields, each (height, width).
 
     Views of the message's data.
@@ -169,7 +171,7 @@ def _columns(cloud: Any, names: Sequence[str] | None) -> list[NDArray[Any]]:
     ]
 
 
-def split_columns(cloud: Any) -> dict[str, NDArray[Any]]:
+def split_columns(cloud: sensor_msgs.msg.PointCloud2) -> dict[str, NDArray[Any]]:
     """Return the fields of a cloud as arrays.
 
     Shapes are (height, width) or, with a count, (height, width, count).

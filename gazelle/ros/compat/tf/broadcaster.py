@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from gazelle.ros.compat.rospy.topics import Publisher
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, tf2_msgs
 
 
 class TransformBroadcaster:
@@ -17,8 +17,8 @@ class TransformBroadcaster:
     """
 
     def __init__(self, queue_size: int = 100) -> None:
-        self._many = load_message("tf2_msgs/TFMessage")
-        self._one = load_message("geometry_msgs/TransformStamped")
+        self._many = tf2_msgs.msg.TFMessage
+        self._one = geometry_msgs.msg.TransformStamped
         self.pub_tf = Publisher("/tf", self._many, queue_size=queue_size)
 
     def sendTransform(  # noqa: N802  # tf's name
@@ -46,7 +46,12 @@ class TransformBroadcaster:
         turn.x, turn.y, turn.z, turn.w = rotation
         self.sendTransformMessage(message)
 
-    def sendTransformMessage(self, transform: Any) -> None:  # noqa: N802
+    def sendTransformMessage(  # noqa: N802
+        self,
+        transform: geometry_msgs.msg.TransformStamped
+        | list[geometry_msgs.msg.TransformStamped]
+        | tuple[geometry_msgs.msg.TransformStamped, ...],
+    ) -> None:
         """Send a ``TransformStamped``, or a list of them."""
-        several = isinstance(transform, (list, tuple))
-        self.pub_tf.publish(self._many(transform if several else [transform]))
+        several = list(transform) if isinstance(transform, list | tuple) else [transform]
+        self.pub_tf.publish(self._many(several))

@@ -13,6 +13,7 @@ from gazelle.ros.compat.tf2_py import TransformException
 from gazelle.ros.compat.tf2_ros.buffer import Buffer
 from gazelle.ros.compat.tf2_ros.transform_listener import TransformListener as Tf2Listener
 from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, sensor_msgs
 from gazelle.ros.tf.twist import twist
 from gazelle.ros.transformations import (
     quaternion_from_matrix,
@@ -64,7 +65,9 @@ class Transformer:
         """Return one line for each frame and its parent."""
         return self._buffer.all_frames_as_string()
 
-    def setTransform(self, transform: Any, authority: str = "default_authority") -> None:
+    def setTransform(
+        self, transform: geometry_msgs.msg.TransformStamped, authority: str = "default_authority"
+    ) -> None:
         """Add a ``TransformStamped``."""
         self._buffer.set_transform(transform, authority)
 
@@ -311,14 +314,14 @@ class TransformerROS(Transformer):
 
     def transformPointCloud(self, target_frame: str, point_cloud: Any) -> Any:
         """Transform a ``PointCloud`` to another frame."""
-        result: Any = load_message("sensor_msgs/PointCloud")()
+        result = sensor_msgs.msg.PointCloud()
         result.header.stamp = point_cloud.header.stamp
         result.header.frame_id = target_frame
         result.channels = point_cloud.channels
         if point_cloud.points:
             points = np.array([(p.x, p.y, p.z, 1.0) for p in point_cloud.points])
             moved = points @ self.asMatrix(target_frame, point_cloud.header).T
-            point = load_message("geometry_msgs/Point32")
+            point = geometry_msgs.msg.Point32
             result.points = [point(*row[:3].tolist()) for row in moved]
         return result
 
@@ -329,7 +332,7 @@ def _made(name: str, target_frame: str, like: Any) -> Any:
     return made
 
 
-def _put_quaternion(message: Any, turned: Any) -> None:
+def _put_quaternion(message: geometry_msgs.msg.Quaternion, turned: Any) -> None:
     message.x, message.y, message.z, message.w = quaternion_from_matrix(turned).tolist()
 
 

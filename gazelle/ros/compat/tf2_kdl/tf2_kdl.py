@@ -13,7 +13,7 @@ from gazelle.ros.compat.tf2_ros.buffer_interface import (
     Stamped,
     TransformRegistration,
 )
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs
 
 
 def transform_to_kdl(t: Any) -> PyKDL.Frame:
@@ -25,40 +25,40 @@ def transform_to_kdl(t: Any) -> PyKDL.Frame:
     )
 
 
-def _moved(value: Any, transform: Any) -> Any:
+def _moved(value: Any, transform: geometry_msgs.msg.TransformStamped) -> Any:
     result = transform_to_kdl(transform) * value
     result.header = transform.header
     return result
 
 
-def do_transform_vector(vector: PyKDL.Vector, transform: Any) -> Any:
+def do_transform_vector(vector: PyKDL.Vector, transform: geometry_msgs.msg.TransformStamped) -> Any:
     """Transform a vector to the target frame: rotated and translated."""
     return _moved(vector, transform)
 
 
-def do_transform_frame(frame: PyKDL.Frame, transform: Any) -> Any:
+def do_transform_frame(frame: PyKDL.Frame, transform: geometry_msgs.msg.TransformStamped) -> Any:
     """Transform a frame to the target frame."""
     return _moved(frame, transform)
 
 
-def do_transform_twist(twist: PyKDL.Twist, transform: Any) -> Any:
+def do_transform_twist(twist: PyKDL.Twist, transform: geometry_msgs.msg.TransformStamped) -> Any:
     """Transform a twist to the target frame, with its reference point."""
     return _moved(twist, transform)
 
 
-def do_transform_wrench(wrench: PyKDL.Wrench, transform: Any) -> Any:
+def do_transform_wrench(wrench: PyKDL.Wrench, transform: geometry_msgs.msg.TransformStamped) -> Any:
     """Transform a wrench to the target frame, with its reference point."""
     return _moved(wrench, transform)
 
 
 def to_msg_vector(vector: Any) -> Any:
     """Return the ``PointStamped`` of a stamped vector."""
-    message: Any = load_message("geometry_msgs/PointStamped")(header=vector.header)
+    message = geometry_msgs.msg.PointStamped(header=vector.header)
     message.point.x, message.point.y, message.point.z = vector
     return message
 
 
-def from_msg_vector(msg: Any) -> Any:
+def from_msg_vector(msg: geometry_msgs.msg.PointStamped) -> Any:
     """Return the stamped vector of a ``PointStamped``."""
     vector = PyKDL.Vector(msg.point.x, msg.point.y, msg.point.z)
     return Stamped(vector, msg.header.stamp, msg.header.frame_id)

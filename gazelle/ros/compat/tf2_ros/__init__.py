@@ -24,12 +24,12 @@ from gazelle.ros.compat.tf2_ros.buffer_server import BufferServer
 from gazelle.ros.compat.tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
 from gazelle.ros.compat.tf2_ros.transform_broadcaster import TransformBroadcaster
 from gazelle.ros.compat.tf2_ros.transform_listener import TransformListener
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, std_msgs, tf2_msgs
 
 # The real module gives these names, too, and programs import them from here.
-Header = load_message("std_msgs/Header")
-TFMessage = load_message("tf2_msgs/TFMessage")
-TransformStamped = load_message("geometry_msgs/TransformStamped")
+Header = std_msgs.msg.Header
+TFMessage = tf2_msgs.msg.TFMessage
+TransformStamped = geometry_msgs.msg.TransformStamped
 
 __all__ = [
     "DEFAULT_CAN_TRANSFORM_POLLING_SCALE",

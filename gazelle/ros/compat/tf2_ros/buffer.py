@@ -14,7 +14,7 @@ from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.compat.tf2_py import BufferCore
 from gazelle.ros.compat.tf2_ros.buffer_interface import BufferInterface
 from gazelle.ros.errors import RosError
-from gazelle.ros.messages import load_service
+from gazelle.ros.msgs import tf2_msgs
 
 _ZERO = Duration(0)
 _LOOK_S = 0.01
@@ -42,9 +42,9 @@ class Buffer(BufferCore, BufferInterface):
         try:
             user().master.lookup_service(resolve_name("~tf2_frames"))
         except RosError:
-            kind = load_service("tf2_msgs/FrameGraph")
+            kind = tf2_msgs.srv.FrameGraph
 
-            def frames(_request: Any) -> dict[str, str]:
+            def frames(_request: tf2_msgs.srv.FrameGraphRequest) -> dict[str, str]:
                 return {"frame_yaml": self.all_frames_as_yaml()}
 
             self.frame_server = Service("~tf2_frames", kind, frames)

@@ -15,7 +15,7 @@ from gazelle.ros.compat.tf2_py import (
     TransformException,
 )
 from gazelle.ros.compat.tf2_ros.buffer_interface import BufferInterface
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import tf2_msgs
 
 _ZERO = Duration(0)
 _PADDING = Duration(2)
@@ -44,7 +44,7 @@ class BufferClient(BufferInterface):
     ) -> None:
         super().__init__()
         del check_frequency
-        self.client = SimpleActionClient(ns, load_message("tf2_msgs/LookupTransformAction"))
+        self.client = SimpleActionClient(ns, tf2_msgs.msg.LookupTransformAction)
         self.timeout_padding = timeout_padding
 
     def wait_for_server(self, timeout: Any = _ZERO) -> bool:
@@ -120,7 +120,7 @@ class BufferClient(BufferInterface):
         return True
 
     def _ask(self, **fields: Any) -> Any:
-        goal: Any = load_message("tf2_msgs/LookupTransformGoal")(**fields)
+        goal = tf2_msgs.msg.LookupTransformGoal(**fields)
         if not goal.target_time:
             goal.target_time = Time(0)
         self.client.send_goal(goal)

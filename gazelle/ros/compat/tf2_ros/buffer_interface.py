@@ -8,7 +8,7 @@ from copy import deepcopy
 from typing import Any, ClassVar
 
 from gazelle.ros.compat.rospy.rostime import Duration
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import std_msgs
 
 _ZERO = Duration(0)
 Callback = Callable[..., Any]
@@ -209,7 +209,7 @@ class BufferInterface:
 
 def Stamped(obj: Any, stamp: Any, frame_id: str) -> Any:  # noqa: N802  # tf2_ros's name
     """Return the value with a header."""
-    obj.header = load_message("std_msgs/Header")(frame_id=frame_id, stamp=stamp)
+    obj.header = std_msgs.msg.Header(frame_id=frame_id, stamp=stamp)
     return obj
 
 

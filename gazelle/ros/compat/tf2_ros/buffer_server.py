@@ -12,7 +12,7 @@ from gazelle.ros.compat.rospy.rostime import get_rostime
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.compat.tf2_py import TransformException
 from gazelle.ros.compat.tf2_ros.buffer_client import ERRORS
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import tf2_msgs
 
 _NUMBERS: dict[type[Exception], int] = {kind: number for number, kind in ERRORS.items()}
 
@@ -39,10 +39,10 @@ class BufferServer:
         self._period = float(seconds() if seconds is not None else check_period)
         self._waiting: list[tuple[ServerGoalHandle, Any]] = []
         self._news = threading.Condition()
-        self._results = load_message("tf2_msgs/LookupTransformResult")
+        self._results = tf2_msgs.msg.LookupTransformResult
         self.server = ActionServer(
             ns,
-            load_message("tf2_msgs/LookupTransformAction"),
+            tf2_msgs.msg.LookupTransformAction,
             self._take,
             self._give_up,
             auto_start=False,
@@ -86,7 +86,7 @@ class BufferServer:
                 self._answer(handle)
             time.sleep(self._period)
 
-    def _can(self, goal: Any) -> bool:
+    def _can(self, goal: tf2_msgs.msg.LookupTransformGoal) -> bool:
         if goal.advanced:
             found = self.buffer.can_transform_full(
                 goal.target_frame,

@@ -6,7 +6,7 @@ import threading
 from typing import Any
 
 from gazelle.ros.compat.rospy.topics import Publisher
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, tf2_msgs
 
 
 class _Shared:
@@ -20,7 +20,7 @@ class _Shared:
     def open(self) -> Publisher:
         with self.lock:
             if self.publisher is None or self.publisher.closed:
-                kind = load_message("tf2_msgs/TFMessage")
+                kind = tf2_msgs.msg.TFMessage
                 self.publisher = Publisher("/tf_static", kind, queue_size=100, latch=True)
                 self.sent = {}
             return self.publisher
@@ -35,7 +35,12 @@ class StaticTransformBroadcaster:
     def __init__(self) -> None:
         self.pub_tf = _shared.open()
 
-    def sendTransform(self, transform: Any) -> None:  # noqa: N802  # tf2_ros's name
+    def sendTransform(  # noqa: N802  # tf2_ros's name
+        self,
+        transform: geometry_msgs.msg.TransformStamped
+        | list[geometry_msgs.msg.TransformStamped]
+        | tuple[geometry_msgs.msg.TransformStamped, ...],
+    ) -> None:
         """Send a ``TransformStamped``, or a list of them."""
         with _shared.lock:
             for each in transform if isinstance(transform, (list, tuple)) else [transform]:

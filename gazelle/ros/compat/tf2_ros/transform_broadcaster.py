@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from gazelle.ros.compat.rospy.topics import Publisher
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs, tf2_msgs
 
 
 class TransformBroadcaster:
     """Sends transforms that hold at the time they are stamped with."""
 
     def __init__(self) -> None:
-        self._kind = load_message("tf2_msgs/TFMessage")
+        self._kind = tf2_msgs.msg.TFMessage
         self.pub_tf = Publisher("/tf", self._kind, queue_size=100)
 
-    def sendTransform(self, transform: Any) -> None:  # noqa: N802  # tf2_ros's name
+    def sendTransform(  # noqa: N802  # tf2_ros's name
+        self,
+        transform: geometry_msgs.msg.TransformStamped
+        | list[geometry_msgs.msg.TransformStamped]
+        | tuple[geometry_msgs.msg.TransformStamped, ...],
+    ) -> None:
         """Send a ``TransformStamped``, or a list of them."""
-        several = isinstance(transform, (list, tuple))
-        self.pub_tf.publish(self._kind(transform if several else [transform]))
+        several = list(transform) if isinstance(transform, list | tuple) else [transform]
+        self.pub_tf.publish(self._kind(several))

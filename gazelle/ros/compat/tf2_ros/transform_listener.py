@@ -9,7 +9,7 @@ from gazelle.ros.compat.rospy.logs import logwarn
 from gazelle.ros.compat.rospy.rostime import Time, get_rostime
 from gazelle.ros.compat.rospy.state import process
 from gazelle.ros.compat.rospy.topics import DEFAULT_BUFF_SIZE, Subscriber
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import tf2_msgs
 
 
 class TransformListener:
@@ -29,7 +29,7 @@ class TransformListener:
         buff_size: int = DEFAULT_BUFF_SIZE,
         tcp_nodelay: bool = False,  # noqa: FBT001, FBT002  # tf2_ros's interface
     ) -> None:
-        kind = load_message("tf2_msgs/TFMessage")
+        kind = tf2_msgs.msg.TFMessage
         self.buffer = buffer
         self.last_update = Time(0) if process.node is None else get_rostime()
         self._lock = threading.Lock()
@@ -55,14 +55,14 @@ class TransformListener:
                 self.buffer.clear()
             self.last_update = now
 
-    def callback(self, data: Any) -> None:
+    def callback(self, data: tf2_msgs.msg.TFMessage) -> None:
         """Add a message of /tf."""
         self.check_for_reset()
         who = data._connection_header.get("callerid", "default_authority")
         for transform in data.transforms:
             self.buffer.set_transform(transform, who)
 
-    def static_callback(self, data: Any) -> None:
+    def static_callback(self, data: tf2_msgs.msg.TFMessage) -> None:
         """Add a message of /tf_static."""
         self.check_for_reset()
         who = data._connection_header.get("callerid", "default_authority")

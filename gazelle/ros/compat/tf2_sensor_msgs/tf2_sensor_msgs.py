@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from gazelle.ros.compat.sensor_msgs.point_cloud2 import PointCloud2, create_cloud, read_points
 from gazelle.ros.compat.tf2_geometry_msgs import from_msg_msg, to_msg_msg
 from gazelle.ros.compat.tf2_kdl import transform_to_kdl
 from gazelle.ros.compat.tf2_ros.buffer_interface import ConvertRegistration, TransformRegistration
+from gazelle.ros.msgs import geometry_msgs, sensor_msgs
 from gazelle.ros.transformations import quaternion_matrix
 
 __all__ = ["do_transform_cloud", "from_msg_msg", "to_msg_msg", "transform_to_kdl"]
 
 
-def do_transform_cloud(cloud: Any, transform: Any) -> Any:
+def do_transform_cloud(
+    cloud: sensor_msgs.msg.PointCloud2, transform: geometry_msgs.msg.TransformStamped
+) -> sensor_msgs.msg.PointCloud2:
     """Transform the points of a cloud to the target frame, as a cloud of one row.
 
     The first three values of a point are its place; the others stay as they are.

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.ros.compat.PyKDL import Frame, Rotation, Vector
 from gazelle.ros.compat.tf import transformations
-from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs
 
 __all__ = [
     "Frame",
@@ -49,7 +49,7 @@ def fromMsg(p: Any) -> Frame:
 
 def toMsg(f: Frame) -> Any:
     """Return the ``Pose`` of a frame."""
-    pose: Any = load_message("geometry_msgs/Pose")()
+    pose = geometry_msgs.msg.Pose()
     turn, place = pose.orientation, pose.position
     turn.x, turn.y, turn.z, turn.w = f.M.GetQuaternion()
     place.x, place.y, place.z = f.p

@@ -13,8 +13,8 @@ from gazelle.compat.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.goal_rules import distance_to
 from gazelle.envs.hopper.rules import StandRules, has_height, is_upright, reward_of
-from gazelle.ros import load_message
 from gazelle.ros.compat import rospy
+from gazelle.ros.msgs import geometry_msgs
 
 register_task("HopperStayUp-v0")
 
@@ -146,14 +146,14 @@ class HopperStayUpEnv(GraphTask, HopperEnv):
         del done
         return self._count(reward_of(self._rules(), one(observations)))
 
-    def get_distance_from_desired_point(self, current_position: Any) -> float:
+    def get_distance_from_desired_point(self, current_position: geometry_msgs.msg.Point) -> float:
         """Return the distance from a place to the target of the base [m]."""
         place = coordinates(current_position)
         return float(distance_to(place, self._rules().desired)[0])
 
-    def get_base_rpy(self) -> Any:
+    def get_base_rpy(self) -> geometry_msgs.msg.Vector3:
         """Return roll, pitch and yaw of the base as a ``geometry_msgs/Vector3`` [rad]."""
-        vector: Any = load_message("geometry_msgs/Vector3")
+        vector = geometry_msgs.msg.Vector3
         return vector(*euler_of(self.imu.orientation))
 
     def get_contact_force_magnitude(self) -> float:

@@ -16,6 +16,7 @@ from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import HUSARION, DriveRules, StepRewards
 from gazelle.envs.discrete_drive.scoring import has_crashed
 from gazelle.envs.goal_rules import distance_to, is_at, is_inside
+from gazelle.ros.msgs import geometry_msgs
 
 register_task("HusarionGetToPosTurtleBotPlayGround-v0")
 
@@ -59,9 +60,10 @@ class HusarionGetToPosTurtleBotPlayGroundEnv(SteeringTask, HusarionEnv):
         self.alive_reward = self.number("alive_reward")
 
     @property
-    def desired_position(self) -> Any:
+    def desired_position(self) -> geometry_msgs.msg.Point:
         """The goal, a ``geometry_msgs/Point`` [m]."""
-        return self.desired_point
+        goal: geometry_msgs.msg.Point = self.desired_point
+        return goal
 
     def _rules(self, goal: Floats | None = None) -> DriveRules:
         return dataclasses.replace(
@@ -97,7 +99,7 @@ class HusarionGetToPosTurtleBotPlayGroundEnv(SteeringTask, HusarionEnv):
         self._episode_done = self.check_husarion_has_crashed(observations[:-5])
         return super()._is_done(observations)
 
-    def update_desired_pos(self, new_position: Any) -> None:
+    def update_desired_pos(self, new_position: geometry_msgs.msg.Point) -> None:
         """Set another goal."""
         self.desired_point.x, self.desired_point.y = new_position.x, new_position.y
 
@@ -106,14 +108,17 @@ class HusarionGetToPosTurtleBotPlayGroundEnv(SteeringTask, HusarionEnv):
         seen = one(laser_readings)
         return bool(has_crashed(self._rules(), seen, seen)[0])
 
-    def check_inside_workspace(self, current_position: Any) -> bool:
+    def check_inside_workspace(self, current_position: geometry_msgs.msg.Point) -> bool:
         """Return whether a place is where the robot may be; the upper edges belong to it."""
         low = (self.work_space_x_min, self.work_space_y_min)
         high = (self.work_space_x_max, self.work_space_y_max)
         return bool(is_inside(coordinates(current_position)[:, :2], low, high)[0])
 
     def check_reached_desired_position(
-        self, current_position: Any, desired_position: Any, epsilon: float = 0.1
+        self,
+        current_position: geometry_msgs.msg.Point,
+        desired_position: geometry_msgs.msg.Point,
+        epsilon: float = 0.1,
     ) -> bool:
         """Return whether a place is the goal."""
         return bool(
@@ -121,7 +126,7 @@ class HusarionGetToPosTurtleBotPlayGroundEnv(SteeringTask, HusarionEnv):
         )
 
     def get_distance_from_desired_point(  # type: ignore[override]  # openai_ros' interface
-        self, current_position: Any, desired_position: Any
+        self, current_position: geometry_msgs.msg.Point, desired_position: geometry_msgs.msg.Point
     ) -> float:
         """Return how far two places are from each other [m]."""
         goal = coordinates(desired_position)[0]

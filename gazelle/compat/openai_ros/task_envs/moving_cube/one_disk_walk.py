@@ -14,6 +14,7 @@ from gazelle.compat.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.goal_rules import distance_to
 from gazelle.envs.moving_cube.rules import WalkRules, has_failed, reward_of, wheel_speeds
+from gazelle.ros.msgs import geometry_msgs
 
 register_task("MovingCubeOneDiskWalk-v0")
 
@@ -100,11 +101,11 @@ class MovingCubeOneDiskWalkEnv(GraphTask, CubeSingleDiskEnv):
             self.current_y_distance = observations[1]
         return self._count(reward_of(self._rules(), one(observations), before, one(done)))
 
-    def get_y_dir_distance_from_start_point(self, start_point: Any) -> float:
+    def get_y_dir_distance_from_start_point(self, start_point: geometry_msgs.msg.Point) -> float:
         """Return the distance along y from the start [m]."""
         return float(self.odom.pose.pose.position.y - start_point.y)
 
-    def get_distance_from_start_point(self, start_point: Any) -> float:
+    def get_distance_from_start_point(self, start_point: geometry_msgs.msg.Point) -> float:
         """Return the distance from the start [m]."""
         place = coordinates(self.odom.pose.pose.position)
         return float(distance_to(place, coordinates(start_point).reshape(-1))[0])

@@ -13,7 +13,7 @@ from gazelle.compat.openai_ros.task_envs.places import DesiredPoint
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.goal_rules import is_inside
 from gazelle.envs.parrot_drone.rules import FlightRules, ends_of, has_flipped, reward_of
-from gazelle.ros import load_message
+from gazelle.ros.msgs import geometry_msgs
 
 register_task("ParrotDroneGoto-v0")
 
@@ -112,7 +112,7 @@ class ParrotDroneGotoEnv(DesiredPoint, ParrotDroneEnv):
         there = one(self.is_in_desired_position(place, rules.success_tolerance))
         return self._count(reward_of(rules, over=one(done), succeeded=there, closer=closer))
 
-    def is_inside_workspace(self, current_position: Any) -> bool:
+    def is_inside_workspace(self, current_position: geometry_msgs.msg.Point) -> bool:
         """Return whether a place is in the work space; its upper edges belong to it."""
         rules = self._rules()
         return bool(is_inside(coordinates(current_position), rules.low, rules.high)[0])
@@ -121,11 +121,11 @@ class ParrotDroneGotoEnv(DesiredPoint, ParrotDroneEnv):
         """Return whether a distance ahead is below the least [m]."""
         return sonar_value < self.min_sonar_value
 
-    def drone_has_flipped(self, current_orientation: Any) -> bool:
+    def drone_has_flipped(self, current_orientation: geometry_msgs.msg.Vector3) -> bool:
         """Return whether roll (x) or pitch (y) are beyond what they may be [rad]."""
         return bool(has_flipped(self._rules(), coordinates(current_orientation)[:, :2])[0])
 
 
-def _vector(x: float, y: float, z: float) -> Any:
-    made: Any = load_message("geometry_msgs/Vector3")
+def _vector(x: float, y: float, z: float) -> geometry_msgs.msg.Vector3:
+    made = geometry_msgs.msg.Vector3
     return made(x, y, z)

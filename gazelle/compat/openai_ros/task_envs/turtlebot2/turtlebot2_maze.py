@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from gazelle.compat.openai_ros.robot_envs.turtlebot2_env import TurtleBot2Env
 from gazelle.compat.openai_ros.task_envs.steering import SteeringTask
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import MAZE, DriveRules
 from gazelle.ros.compat import rospy
+from gazelle.ros.msgs import sensor_msgs
 
 register_task("MyTurtleBot2Maze-v0", "TurtleBot2Maze-v0")
 
@@ -41,7 +42,9 @@ class TurtleBot2MazeEnv(SteeringTask, TurtleBot2Env):
     def _get_obs(self) -> list[float]:
         return self.discretize_observation(self.laser_scan, self.new_ranges)
 
-    def discretize_observation(self, data: Any, new_ranges: int) -> list[float]:
+    def discretize_observation(
+        self, data: sensor_msgs.msg.LaserScan, new_ranges: int
+    ) -> list[float]:
         """Return every ``new_ranges``-th range of a ``sensor_msgs/LaserScan`` [m]; see `_observe`."""
         rules = dataclasses.replace(
             self._rules(),

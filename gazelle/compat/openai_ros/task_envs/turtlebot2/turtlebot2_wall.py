@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from gazelle.compat.openai_ros.robot_envs.turtlebot2_env import TurtleBot2Env
 from gazelle.compat.openai_ros.task_envs.steering import SteeringTask
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import WALL, DriveRules, StepRewards
+from gazelle.ros.msgs import sensor_msgs
 
 register_task("MyTurtleBot2Wall-v0", "TurtleBot2Wall-v0")
 
@@ -47,6 +48,8 @@ class TurtleBot2WallEnv(SteeringTask, TurtleBot2Env):
         place = self.odom.pose.pose.position
         return [*scan, round(place.x, 2), round(place.y, 2)]
 
-    def discretize_observation(self, data: Any, new_ranges: int) -> list[float]:
+    def discretize_observation(
+        self, data: sensor_msgs.msg.LaserScan, new_ranges: int
+    ) -> list[float]:
         """Return about ``new_ranges`` ranges of a ``sensor_msgs/LaserScan`` [m]; see `_observe`."""
         return self.discretize_scan_observation(data, new_ranges)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from gazelle.compat.openai_ros.robot_envs.turtlebot3_env import TurtleBot3Env
 from gazelle.compat.openai_ros.task_envs.jolts import JoltTask
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import TURTLEBOT3_WORLD, DriveRules
+from gazelle.ros.msgs import sensor_msgs
 
 register_task("TurtleBot3World-v0")
 
@@ -34,7 +35,9 @@ class TurtleBot3WorldEnv(JoltTask, TurtleBot3Env):
     def _get_obs(self) -> list[float]:
         return self.discretize_scan_observation(self.laser_scan, self.new_ranges)
 
-    def discretize_scan_observation(self, data: Any, new_ranges: int) -> list[float]:
+    def discretize_scan_observation(
+        self, data: sensor_msgs.msg.LaserScan, new_ranges: int
+    ) -> list[float]:
         """Return about ``new_ranges`` ranges of a ``sensor_msgs/LaserScan`` [m]; see `_observe`."""
         step = max(1, round(len(data.ranges) / new_ranges))
         return self._observe(self._rules(), data.ranges, step)

@@ -12,6 +12,7 @@ from gazelle.compat.openai_ros.task_envs.geometry import coordinates, euler_of, 
 from gazelle.compat.openai_ros.task_envs.places import DesiredPoint
 from gazelle.compat.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.wamv.rules import ChannelRules, outside, reached, reward_of
+from gazelle.ros.msgs import geometry_msgs
 
 register_task("WamvNavTwoSetsBuoys-v0")
 
@@ -108,6 +109,6 @@ class WamvNavTwoSetsBuoysEnv(DesiredPoint, WamvEnv):
         closer, success = self._comes_nearer(distance), reached(rules, place)
         return self._count(reward_of(rules, over=one(done), success=success, closer=closer))
 
-    def is_inside_workspace(self, current_position: Any) -> bool:
+    def is_inside_workspace(self, current_position: geometry_msgs.msg.Point) -> bool:
         """Return whether a place is in the work space; its upper edges belong to it."""
         return not outside(self._rules(), coordinates(current_position)[:, :2])[0]
