@@ -13,10 +13,25 @@ class NumberParser(argparse.ArgumentParser):
     """A parser that takes ``-1,0.5`` and ``-1e-3`` for values, as argparse takes ``-1``."""
 
     def _parse_optional(self, arg_string: str) -> Any:
-        # An option such as "-1" (rostopic's "once") is still one, but nothing that only begins so.
-        if _NEGATIVE.match(arg_string) and arg_string not in self._option_string_actions:
+        # An option such as "-1" (rostopic's "once") is still one, also in "-1l", but not "-15".
+        if _NEGATIVE.match(arg_string) and not self._is_flags(arg_string):
             return None
         return super()._parse_optional(arg_string)
+
+    def _is_flags(self, text: str) -> bool:
+        """Return whether a text is an option, or several of one letter and no number."""
+        known = self._option_string_actions
+        if text in known:
+            return True
+        return not _is_number(text) and all(f"-{letter}" in known for letter in text[1:])
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def positive_int(text: str) -> int:

@@ -114,6 +114,23 @@ def test_negative_values_arrive(words, place, value):
     assert getattr(parser.parse_args(words[1:]), place) == value
 
 
+@pytest.mark.parametrize("flags", ["-1l", "-l1", "-1 -l"])
+@pytest.mark.parametrize("last", [True, False])
+def test_options_of_one_letter_may_be_joined(flags, last):
+    parser, words = Parser(), ["/x", "std_msgs/Bool", "data: false"]
+    COMMANDS["topic"].load().configure(parser)
+    words = [*words, *flags.split()] if last else [*flags.split(), *words]
+    args = parser.parse_args(["pub", *words])
+    assert (args.once, args.latch, args.values) == (True, True, ["data: false"])
+
+
+@pytest.mark.parametrize("number", ["-11", "-1e1", "-1.1"])
+def test_what_only_begins_like_an_option_is_a_number(number):
+    parser = Parser()
+    COMMANDS["topic"].load().configure(parser)
+    assert parser.parse_args(["pub", "/x", "std_msgs/Float64", number]).values == [number]
+
+
 def test_programs_of_ros_take_negative_values_too():
     parsed = spawn_model._options(
         ["-urdf", "-file", "a", "-model", "b", "-x", "-1e-3", "-Y", "-.5", "-J", "elbow", "-1e-2"]
