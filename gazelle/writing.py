@@ -9,6 +9,8 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+from gazelle.closing import Closeable
+
 
 @contextlib.contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
@@ -38,6 +40,41 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     except BaseException:
         draft.unlink(missing_ok=True)
         raise
+
+
+class GrowingFile(Closeable):
+    """A file that grows by whole pieces: one that finds no room leaves nothing behind.
+
+    Args:
+        path: Pieces are added to what is there.
+
+    Raises:
+        OSError: It cannot be opened.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self._path = path
+        self._file = Path(path).open("ab", buffering=0)  # noqa: SIM115  # closed in `close`
+
+    def write(self, data: bytes) -> None:
+        """Add a piece.
+
+        Raises:
+            OSError: It cannot be written; the error names the file.
+        """
+        begin, left = os.fstat(self._file.fileno()).st_size, memoryview(data)
+        try:
+            with naming(self._path):
+                while left:
+                    left = left[self._file.write(left) :]
+        except OSError:
+            with contextlib.suppress(OSError):  # as of what is no regular file
+                os.truncate(self._file.fileno(), begin)
+            raise
+
+    def close(self) -> None:
+        """Close the file; a second call does nothing."""
+        self._file.close()
 
 
 @contextlib.contextmanager

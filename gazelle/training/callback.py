@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-import csv
 import time
 from pathlib import Path
 from typing import Any
 
 from stable_baselines3.common.callbacks import BaseCallback
-from stable_baselines3.common.logger import KVWriter, Logger, TensorBoardOutputFormat
+from stable_baselines3.common.logger import KVWriter, Logger
 
 from gazelle.interrupts import StopRequest
 from gazelle.training.checkpoint import write_checkpoint
-from gazelle.training.event_files import trim_events
+from gazelle.training.event_files import EventTable, trim_events
 from gazelle.training.export import export_actor
 from gazelle.training.learners import Learner
 from gazelle.training.periodic import PeriodicEvaluation
 from gazelle.training.progress import Progress
 from gazelle.training.runs import Run
 from gazelle.training.statistics import EpisodeLog
-from gazelle.training.tables import rows_until
-from gazelle.writing import naming, replacing
+from gazelle.training.tables import row_bytes, rows_until
+from gazelle.writing import GrowingFile, write_bytes
 
 _COLUMNS = (
     "time/steps",
@@ -64,27 +63,19 @@ class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
 
     def __init__(self, file: Path, steps: int) -> None:
         rows = rows_until(file, "time/steps", steps)
-        self._path = file
-        with replacing(file) as draft, draft.open("w", newline="", encoding="utf-8") as table:
-            writer = csv.DictWriter(table, _COLUMNS, restval="", extrasaction="ignore")
-            writer.writeheader()
-            writer.writerows(rows)
-        self._file = file.open("a", newline="", encoding="utf-8")
-        self._writer = csv.DictWriter(self._file, _COLUMNS, restval="", extrasaction="ignore")
+        write_bytes(file, row_bytes(rows, _COLUMNS, header=True))
+        self._file = GrowingFile(file)
 
     def write(
         self, key_values: dict[str, Any], key_excluded: dict[str, Any], step: int = 0
     ) -> None:
         """Add a row."""
         del key_excluded
-        with naming(self._path):
-            self._writer.writerow({**key_values, "time/steps": step})
-            self._file.flush()
+        self._file.write(row_bytes([{**key_values, "time/steps": step}], _COLUMNS))
 
     def close(self) -> None:
         """Close the file."""
-        with naming(self._path):
-            self._file.close()
+        self._file.close()
 
 
 class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
@@ -120,7 +111,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         folder = self.run.folder / "tensorboard"
         trim_events(folder, steps)
         table = CurveTable(self.run.folder / "progress.csv", steps)
-        learner.set_logger(Logger(str(folder), [table, TensorBoardOutputFormat(str(folder))]))
+        learner.set_logger(Logger(str(folder), [table, EventTable(folder)]))
 
     def get_state(self) -> dict[str, Any]:
         """Return the state of the callback for a checkpoint."""

@@ -19,6 +19,7 @@ from gazelle.argument_checks import checked
 from gazelle.errors import FormatError, TaskError
 from gazelle.training.prediction import predicted_range
 from gazelle.training.statistics import SuccessRate
+from gazelle.writing import write_text
 
 CLAIMS_FILE = Path(__file__).with_name("claims.yaml")
 HELD_OUT = "held-out"
@@ -202,9 +203,7 @@ class Claims:
             width=_LINE,
             default_flow_style=None,  # a mapping of scalars only, such as a trial, is one line
         )
-        part = file.with_name(f"{file.name}.part")
-        part.write_text(_HEAD + unverified + claims, encoding="utf-8")
-        part.replace(file)
+        write_text(file, _HEAD + unverified + claims)
 
 
 def training_command(task: str, algo: str | None = None) -> str:

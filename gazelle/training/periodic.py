@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 from typing import Any
 
 from gazelle.training.actor import Actor
 from gazelle.training.evaluation import Evaluation, evaluate
 from gazelle.training.runs import Run
-from gazelle.training.tables import rows_until
+from gazelle.training.tables import row_bytes, rows_until
 from gazelle.training.tasks import evaluation_options
-from gazelle.writing import replacing
+from gazelle.writing import GrowingFile, replacing, write_bytes
 
 SEED = 20_000
 """Of the environment of these evaluations: other episodes than those of ``gazelle eval``."""
@@ -74,7 +73,8 @@ class PeriodicEvaluation:
         best = state["best"]
         self._best = None if best is None else (float(best[0]), float(best[1]))
         if self._file.exists():
-            self._write(rows_until(self._file, "steps", steps), "w")
+            rows = rows_until(self._file, "steps", steps)
+            write_bytes(self._file, row_bytes(rows, _COLUMNS, header=True))
 
     def _add_row(self, found: Evaluation, steps: int, *, best: bool) -> None:
         row = {
@@ -86,15 +86,9 @@ class PeriodicEvaluation:
             "length": found.mean_length,
             "best": int(best),
         }
-        self._write([row], "a")
-
-    def _write(self, rows: list[dict[str, Any]], mode: str) -> None:
-        fresh = mode == "w" or not self._file.exists()
-        with self._file.open(mode, newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, _COLUMNS, extrasaction="ignore")
-            if fresh:
-                writer.writeheader()
-            writer.writerows(rows)
+        fresh = not self._file.exists()
+        with GrowingFile(self._file) as file:
+            file.write(row_bytes([row], _COLUMNS, header=fresh))
 
 
 def _replace(actor: Actor, file: Path) -> None:

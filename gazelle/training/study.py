@@ -26,8 +26,9 @@ from typing import Any
 from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle.text_files import read_text
 from gazelle.training.importing import TaskModule
+from gazelle.training.tables import row_bytes
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
-from gazelle.writing import naming, replacing
+from gazelle.writing import GrowingFile, write_bytes
 
 _OWN = ("seed", "seconds", "error")
 """Columns that a study adds to those of parameters and results."""
@@ -158,7 +159,7 @@ class _Table:
         self._columns: list[str] = []
         if path.exists() and path.stat().st_size:
             self._read()
-        self._file = path.open("a", newline="", encoding="utf-8")
+        self._file = GrowingFile(path)
         if self._columns:
             self._rewrite([])  # without a line that was cut short
 
@@ -175,25 +176,19 @@ class _Table:
             if missing or not self._columns:
                 self._rewrite(missing)
             else:
-                with naming(self._path):
-                    csv.DictWriter(self._file, self._columns).writerow(row)
-                    self._file.flush()
+                self._file.write(row_bytes([row], self._columns))
 
     def close(self) -> None:
         """Close the file."""
-        with self._lock, naming(self._path):
+        with self._lock:
             self._file.close()
 
     def _rewrite(self, more: list[str]) -> None:
         known = [key for key in self._columns if key not in _OWN[1:]]
         self._columns = [*known, *more, *_OWN[1:]]
-        with replacing(self._path) as draft:
-            with draft.open("w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, self._columns)
-                writer.writeheader()
-                writer.writerows(self.rows)
-            self._file.close()
-        self._file = self._path.open("a", newline="", encoding="utf-8")
+        self._file.close()
+        write_bytes(self._path, row_bytes(self.rows, self._columns, header=True))
+        self._file = GrowingFile(self._path)
 
     def _read(self) -> None:
         lines = read_text(self._path).splitlines(keepends=True)

@@ -3,10 +3,31 @@
 from __future__ import annotations
 
 import csv
+import io
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from gazelle.errors import FormatError
 from gazelle.text_files import read_text
+
+
+def row_bytes(
+    rows: Iterable[Mapping[str, Any]], columns: Sequence[str], *, header: bool = False
+) -> bytes:
+    """Return rows of a table as its file has them.
+
+    Args:
+        rows: Values by column; others are left out, and missing ones are empty.
+        columns: Of the table.
+        header: Whether the names of the columns come first.
+    """
+    text = io.StringIO(newline="")
+    writer = csv.DictWriter(text, columns, restval="", extrasaction="ignore")
+    if header:
+        writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue().encode()
 
 
 def rows_until(file: Path, column: str, steps: int) -> list[dict[str, str]]:

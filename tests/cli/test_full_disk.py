@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from cli.ending_states import write_policy
 from ros.graph import until
 
 from gazelle.ros import Master, Node, load_message
@@ -98,6 +99,16 @@ def test_commands_leave_no_half_of_a_file(words, file, tmp_path):
     done = gazelle(tmp_path, *words)
     one_error(done, file)
     assert names(tmp_path) == ["table.csv"]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("file", ["a.csv", "a.json", "a.png"])
+def test_an_evaluation_leaves_no_half_of_its_failures(file, tmp_path):
+    policy = write_policy(tmp_path)
+    before = names(tmp_path)
+    words = ["eval", policy, "--task", "TurtleBot3Stage1", "--episodes", 8, "--failures", file]
+    one_error(gazelle(tmp_path, *words, most=20), file)
+    assert names(tmp_path) == before
 
 
 @pytest.mark.long

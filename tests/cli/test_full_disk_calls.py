@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import threading
 from types import SimpleNamespace
 
 import numpy as np
@@ -94,9 +95,55 @@ def whole_curves(file, _sim):
         table.close()
 
 
-GROWING = [record, write_bag, log_interventions, whole_curves]
-WHOLE = [save_model, save_actor]
-SUFFIXES = {write_bag: ".bag", save_model: ".sdf", save_actor: ".npz", whole_curves: ".csv"}
+def rows_of_a_study(file, _sim):
+    from gazelle.training.study import Study, _Table
+
+    table = _Table(file, Study(function="a:run", vary={}, seeds=100))
+    try:
+        for number in range(100):
+            table.add({"seed": number, "text": "x" * 100})
+    finally:
+        table.close()
+
+
+def publish_rates(file, _sim):
+    from gazelle.training.claims import read_claims
+
+    read_claims().write(file)
+
+
+def film(file, _sim):
+    from gazelle.viewer.film_files import write_film
+
+    pictures = np.random.default_rng(0).integers(0, 256, (3, 64, 64, 3), np.uint8)
+    write_film(file, pictures, 10.0)
+
+
+def remember_joints(file, _sim):
+    from gazelle.bridges.moveit.modules.moveit_commander.interpreter import (
+        MoveGroupCommandInterpreter,
+    )
+
+    group = SimpleNamespace(
+        get_remembered_joint_values=lambda: {f"p{n}": [0.0] for n in range(999)}
+    )
+    interpreter = object.__new__(MoveGroupCommandInterpreter)  # a whole one needs a robot
+    interpreter._groups = {"arm": group}
+    _, text = interpreter.execute(f"save {file}")  # a warning, as of the original
+    raise Error(text)
+
+
+GROWING = [record, write_bag, log_interventions, whole_curves, rows_of_a_study]
+WHOLE = [save_model, save_actor, publish_rates, film, remember_joints]
+SUFFIXES = {
+    write_bag: ".bag",
+    save_model: ".sdf",
+    save_actor: ".npz",
+    whole_curves: ".csv",
+    rows_of_a_study: ".csv",
+    publish_rates: ".yaml",
+    film: ".gif",
+}
 
 
 @pytest.mark.parametrize("write", GROWING + WHOLE)
@@ -119,6 +166,71 @@ def test_what_was_there_stays_if_nothing_can_take_its_place(write, sim, tmp_path
         write(file, sim)
     assert file.read_text() == "old"
     assert [each.name for each in tmp_path.iterdir()] == [file.name]
+
+
+@pytest.mark.parametrize("write", [log_interventions, whole_curves, rows_of_a_study])
+@pytest.mark.parametrize("most", [1500, 2000, 3001])
+def test_what_grows_by_lines_has_no_half_of_one(write, most, sim, tmp_path):
+    file = tmp_path / "a.csv"
+    with little_room(most), pytest.raises((Error, OSError)):
+        write(file, sim)
+    text = file.read_text()
+    assert text.endswith("\n")
+    assert most - 300 < len(text) <= most
+
+
+def steps_of(table):
+    for step in range(1000):
+        table.write({"a/loss": 0.5, "b": step}, {"a/loss": None, "b": None}, step)
+
+
+@pytest.mark.parametrize("most", [40, 1500, 2000, 3001])
+def test_curves_for_tensorboard_are_written_by_whole_records(most, tmp_path, capfd):
+    from gazelle.training.event_files import EventTable, _records
+
+    before = threading.active_count()
+    table = EventTable(tmp_path)
+    (file,) = tmp_path.iterdir()
+    with little_room(most), pytest.raises(OSError, match="File too large") as raised:
+        steps_of(table)
+    table.close()
+    assert raised.value.filename == str(file)
+    data = file.read_bytes()
+    assert data == b"".join(record for record, _ in _records(data))
+    assert most - 100 < len(data) <= most or most < 100
+    assert (threading.active_count(), capfd.readouterr().err) == (before, "")
+
+
+def test_tensorboard_reads_the_curves(tmp_path):
+    reading = pytest.importorskip("tensorboard.backend.event_processing.event_accumulator")
+    from gazelle.training.event_files import EventTable
+
+    table = EventTable(tmp_path)
+    for step in (5, 10):
+        values = {"loss": np.float32(0.5 * step), "count": step, "note": "good", "hidden": 1.0}
+        table.write(values, dict.fromkeys(values) | {"hidden": ("tensorboard",)}, step)
+    table.close()
+    found = reading.EventAccumulator(str(tmp_path)).Reload()
+    assert found.Tags()["scalars"] == ["count", "loss"]
+    assert [(each.step, each.value) for each in found.Scalars("loss")] == [(5, 2.5), (10, 5.0)]
+    assert found.Tags()["tensors"] == ["note/text_summary"]
+
+
+def test_evaluations_of_a_training_are_kept_by_whole_rows(tmp_path):
+    from gazelle.training.periodic import PeriodicEvaluation
+
+    share = SimpleNamespace(value=0.5)
+    found = SimpleNamespace(
+        success=share, collision=share, timeout=share, mean_return=1.0, mean_length=2.0
+    )
+    evaluations = PeriodicEvaluation(SimpleNamespace(folder=tmp_path))
+    file = tmp_path / "evaluations.csv"
+    with little_room(), pytest.raises(OSError, match="File too large") as raised:
+        [evaluations._add_row(found, step, best=False) for step in range(1000)]
+    assert raised.value.filename == str(file)
+    assert file.read_text().endswith("2.0,0\n")
+    evaluations.set_state({"evaluated_at": 3, "best": None}, 3)
+    assert len(file.read_text().splitlines()) == 5
 
 
 def test_curves_are_kept_when_a_run_goes_on_without_room(tmp_path):

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import logging
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from gazelle.errors import TaskError
 from gazelle.training.deploy.pilot import Tick
 from gazelle.training.deploy.safety import VelocityCommand
+from gazelle.writing import GrowingFile
 
 _LOG = logging.getLogger(__name__)
 
@@ -31,11 +31,11 @@ class InterventionLog:
     """
 
     def __init__(self, file: Path | None = None) -> None:
-        self._file: IO[str] | None = None
+        self._file: GrowingFile | None = None
         if file is not None:
             try:
                 file.parent.mkdir(parents=True, exist_ok=True)
-                self._file = file.open("a", encoding="utf-8")
+                self._file = GrowingFile(file)
             except OSError as error:
                 raise TaskError(f"cannot write the log: {error}", hint="see --log") from error
         self._cause = ""
@@ -67,21 +67,19 @@ class InterventionLog:
         if self._file is None:
             return
         try:
-            self._file.write(json.dumps({"time": round(now, 6), "event": event, **details}) + "\n")
-            self._file.flush()
+            line = json.dumps({"time": round(now, 6), "event": event, **details})
+            self._file.write(f"{line}\n".encode())
         except OSError as error:
-            name = self._file.name
             self.close()
             raise TaskError(
-                f"cannot write the log: {error.strerror}", file=name, hint="see --log"
+                f"cannot write the log: {error.strerror}", file=error.filename, hint="see --log"
             ) from error
 
     def close(self) -> None:
         """Close the file; a second call does nothing."""
         file, self._file = self._file, None
         if file is not None:
-            with contextlib.suppress(OSError):  # what found no room was reported
-                file.close()
+            file.close()
 
 
 def _pair(command: VelocityCommand) -> list[float]:

@@ -211,7 +211,8 @@ def test_files_of_commands(told, tmp_path, moveit, capsys, caplog):
     assert other.execute("load missing") == (WARN, "Unable to load cmd/missing")
     assert other.execute("load a b") == (WARN, "Unable to parse load command")
     assert other.execute("save a b") == (WARN, "Unable to parse save command")
-    assert other.execute("save no/such/folder") == (WARN, "Unable to save no/such/folder")
+    fault = "Unable to save no/such/folder: No such file or directory"
+    assert other.execute("save no/such/folder") == (WARN, fault)
     (tmp_path / "again").write_text("load again\n")
     assert other.execute("load again") == OK
     assert "it loads itself" in caplog.text

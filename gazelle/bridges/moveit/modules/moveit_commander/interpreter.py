@@ -245,8 +245,8 @@ class MoveGroupCommandInterpreter:
             lines.extend(f"{key} = {listed(values)}" for key, values in known.items())
         try:
             write_text(file, "".join(f"{line}\n" for line in lines))
-        except OSError:
-            return warn(f"Unable to save {file}")
+        except OSError as error:
+            return warn(f"Unable to save {file}: {error.strerror}")
         return OK
 
     # -- with one ------------------------------------------------------------------------
