@@ -50,6 +50,8 @@ from gazelle.cli.main import main as gazelle  # noqa: E402
 from gazelle.interrupts import end_process  # noqa: E402
 
 PATIENCE_S = 120.0
+BUSY_S = 1200.0
+"""Seconds by the clock that a command may take to its state while others use the processors."""
 LIMIT_S = 2.0
 NUMBERS = (signal.SIGINT, signal.SIGTERM)
 
@@ -150,11 +152,14 @@ class Run:
 
     def reach(self, chance: random.Random) -> None:
         """Wait until it has come to its state, or to a point drawn on the way to its end."""
-        sign, end = self.state.sign, time.monotonic() + PATIENCE_S
+        sign, end = self.state.sign, time.monotonic() + BUSY_S
         point = chance.uniform(0.0, sign) if isinstance(sign, float) else 0.0
         while not self.ended and time.monotonic() < end:
+            spent_so_far = spent_by_session(self.pid)
+            if spent_so_far > PATIENCE_S:
+                return
             if isinstance(sign, float):
-                if spent_by_session(self.pid) >= point:
+                if spent_so_far >= point:
                     return
             elif sign.startswith("FOLDER/"):
                 if any(self.folder.glob(sign.removeprefix("FOLDER/"))):

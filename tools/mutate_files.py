@@ -14,6 +14,7 @@ import argparse
 import collections
 import contextlib
 import faulthandler
+import functools
 import multiprocessing
 import os
 import random
@@ -258,17 +259,25 @@ def laid_out(seed: Seed, folder: Path) -> Path:
         run = seed.file.parents[{"run": 0, "checkpoint": 2}[seed.reader]]
         shutil.copytree(run, folder / "run" / run.name)
         return folder / "run" / run.name / seed.file.relative_to(run)
-    left = MOST_BESIDE
-    for each in sorted(seed.file.parent.rglob("*")):
-        size = each.stat().st_size if each.is_file() else 0
-        if size and size <= left:  # links would lead out of the folders that may be read
-            left -= size
-            place = home / each.relative_to(seed.file.parent)
-            place.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(each, place)
+    for each in beside(seed.file.parent):
+        place = home / each.relative_to(seed.file.parent)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(each, place)
     file = home / seed.file.name
     shutil.copyfile(seed.file, file)
     return file
+
+
+@functools.cache
+def beside(folder: Path) -> list[Path]:
+    """Return files in and below a folder, as many as are copied with one of them."""
+    left, found = MOST_BESIDE, []
+    for each in sorted(folder.rglob("*")):
+        size = each.stat().st_size if each.is_file() else 0
+        if size and size <= left:  # links would lead out of the folders that may be read
+            left -= size
+            found.append(each)
+    return found
 
 
 def chosen(by_reader: dict[str, list[Seed]], chance: random.Random) -> Seed:
@@ -335,8 +344,10 @@ def main() -> None:
             seeds += [each for folder in args.folders for each in mutated_readers.seeds(folder)]
             seeds = [each for each in seeds if not args.only or each.reader in args.only]
             print(f"{len(seeds)} good files", flush=True)
-            for found in attempts(seeds, args, reader):
+            for count, found in enumerate(attempts(seeds, args, reader), 1):
                 survey.add(*found)
+                if count % 1000 == 0:
+                    survey.show()
         except KeyboardInterrupt:
             pass
         finally:
