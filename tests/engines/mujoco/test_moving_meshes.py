@@ -8,6 +8,8 @@ import pytest
 import scenes
 import trimesh
 
+import gazelle
+from gazelle import formats
 from gazelle.description import Cylinder, Joint, JointAxis, Mesh, Pose
 from gazelle.engines import make_engine
 from gazelle.errors import EngineWarning
@@ -188,3 +190,28 @@ def test_notched_fingers_centre_a_bar(size, step, tmp_path):
     for name in ("left", "right"):
         apart = abs(float(engine.links[f"{name}::link"].placement().position[0, 1]) - place[1])
         assert apart == pytest.approx(deep, abs=bound)
+
+
+def wheel_on_an_axle(height, friction):
+    """A wheel of 0.1 m on an axle that the world holds."""
+    mu = f"<surface><friction><ode><mu>{friction}</mu><mu2>{friction}</mu2></ode></friction></surface>"
+    return formats.load_string(
+        f"""<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri></include>
+        <model name="m"><pose>0 0 {height} 1.5707963 0 0</pose><link name="l"><inertial><mass>1</mass>
+        <inertia><ixx>0.003</ixx><iyy>0.003</iyy><izz>0.005</izz></inertia></inertial>
+        <collision name="c"><geometry><cylinder><radius>0.1</radius><length>0.04</length></cylinder>
+        </geometry>{mu}</collision></link><joint name="j" type="revolute"><parent>world</parent>
+        <child>l</child><axis><xyz>0 0 1</xyz></axis></joint></model></world></sdf>"""
+    )
+
+
+@pytest.mark.parametrize(
+    ("height", "friction", "turns"), [(0.1, 1.0, 0.0), (0.10001, 1.0, 1.0), (0.1, 0.0, 1.0)]
+)
+def test_a_wheel_on_a_fixed_axle_turns_unless_it_touches_with_friction(height, friction, turns):
+    """As docs/physics.md says: friction lets a contact slide only as far as it parts."""
+    with gazelle.Simulation(wheel_on_an_axle(height, friction), threads=1) as sim:
+        joint = sim.robots["m"].joints["j"]
+        joint.apply_effort(0.2)
+        sim.run(seconds=0.1)
+        assert float(np.ravel(joint.velocity)[0]) == pytest.approx(turns * 4.0, abs=0.02)
