@@ -1,7 +1,8 @@
 """Entry points by which other packages extend Gazelle.
 
 Gazelle's own parts are found through its rooms, so that a new one is there without installing
-again. Lists of them that an older installation left behind are passed over.
+again. Lists of them that an older installation left behind are passed over. Only what stands on rooms
+above the one that looks for it, as `gazelle.drop_in` does, is found by entry points too.
 """
 
 from __future__ import annotations
@@ -16,8 +17,8 @@ _OWN = "gazelle"
 
 
 @functools.cache
-def entry_points_of_others(group: str) -> dict[str, EntryPoint]:
-    """Return entry points of a group by name, except those of Gazelle's own distribution.
+def entry_points_of(group: str) -> dict[str, EntryPoint]:
+    """Return all entry points of a group by name.
 
     Where two packages give one name, the first on ``sys.path`` has it.
     """
@@ -25,6 +26,14 @@ def entry_points_of_others(group: str) -> dict[str, EntryPoint]:
 
     found: dict[str, EntryPoint] = {}
     for point in entry_points(group=group):
-        if point.dist is None or point.dist.name != _OWN:
-            found.setdefault(point.name, point)
+        found.setdefault(point.name, point)
     return found
+
+
+def entry_points_of_others(group: str) -> dict[str, EntryPoint]:
+    """Return entry points of a group by name, less those of Gazelle's own distribution."""
+    return {
+        name: point
+        for name, point in entry_points_of(group).items()
+        if point.dist is None or point.dist.name != _OWN
+    }

@@ -38,7 +38,7 @@ ORDER = (
     "builders",
     "envs",
     "training",
-    "compat",
+    "drop_in",
     "viewer",
     "cli",
 )
@@ -64,18 +64,21 @@ STRANGERS = {
     "builders": WIRE | SIMULATION,
     "envs": WIRE,
     # They are the other side of a graph, as clients are.
-    "compat": SIMULATION | {"bridges"},
+    "drop_in": SIMULATION | {"bridges"},
 }
 """Rooms that are lower in the order, and yet unknown to a room."""
 
+MOVEIT = "gazelle.drop_in.moveit"
+"""Modules of MoveIt's client, which shares messages and robots with the node ``move_group``."""
+
 HEAVY = {"gymnasium", "mujoco", "mujoco_warp", "stable_baselines3", "torch", "trimesh", "warp"}
 OWNERS = {
-    "gymnasium": ("gazelle.compat", "gazelle.envs", "gazelle.training"),
+    "gymnasium": ("gazelle.drop_in", "gazelle.envs", "gazelle.training"),
     "mujoco": ("gazelle.engines.mujoco", "gazelle.formats.mujoco_geometry"),
     "mujoco_warp": ("gazelle.engines.mujoco.warp",),
     "pettingzoo": ("gazelle.envs",),
-    "stable_baselines3": ("gazelle.compat.frobs_rl", "gazelle.training"),
-    "torch": ("gazelle.compat.frobs_rl", "gazelle.training"),
+    "stable_baselines3": ("gazelle.drop_in.frobs_rl", "gazelle.training"),
+    "torch": ("gazelle.drop_in.frobs_rl", "gazelle.training"),
     "warp": ("gazelle.engines.mujoco.warp",),
 }
 """Libraries that only these packages know, so that another can take their place."""
@@ -184,6 +187,8 @@ def fault(each):
         # xacro includes bundled files by the paths that their packages publish.
         below = there in ("assets", "description", "native")
         return "" if below else "modules at the top are below all rooms"
+    if each.module.startswith(MOVEIT) and there in ("bridges", "planning"):
+        return ""
     if there in STRANGERS.get(here, set()):
         return f"{here} knows nothing of {there}"
     if here == "cli" and there == "viewer":

@@ -120,7 +120,7 @@ def film(file, _sim):
 
 
 def remember_joints(file, _sim):
-    from gazelle.bridges.moveit.modules.moveit_commander.interpreter import (
+    from gazelle.drop_in.moveit_commander.interpreter import (
         MoveGroupCommandInterpreter,
     )
 

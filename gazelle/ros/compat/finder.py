@@ -2,8 +2,8 @@
 
 Five kinds of names are answered: modules this package has (``rospy``), packages with definitions
 (``std_msgs``, ``std_msgs.msg``), modules made by ``.cfg`` files (``demo.cfg.DemoConfig``), the Python
-code of packages on ROS_PACKAGE_PATH, and, where the user has none, those of `gazelle.compat`
-(``openai_ros``, ``gym``).
+code of packages on ROS_PACKAGE_PATH, and, where the user has none, those that installed packages
+register as entry points of the group ``gazelle.ros.modules`` (``openai_ros``, ``gym``).
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 from types import ModuleType
 
+from gazelle.entry_points import entry_points_of
 from gazelle.ros.compat import namesakes, workspace_code
 from gazelle.ros.compat.cfg_modules import CfgLoader, has_cfg
 from gazelle.ros.messages.library import bundled_packages
@@ -30,10 +31,8 @@ from gazelle.ros.messages.modules import (
 )
 
 HOME = "gazelle.ros.compat"
-UPSTAIRS = ("gazelle.compat", "gazelle.bridges.moveit.modules")
-"""Modules that stand on rooms of which this one knows nothing; imported when a script does."""
-_NOT_OFFERED = frozenset({"shared"})
-"""Beside them, for their own use."""
+GROUP = "gazelle.ros.modules"
+"""Entry points: names of modules that stand in for missing ones, and where they are."""
 _COMPILED = frozenset({"moveit_ros_planning_interface"})
 """Of C++ where they are installed, for a Python that is not this one: ours come first."""
 
@@ -61,33 +60,26 @@ def own_modules() -> frozenset[str]:
 
 @cache
 def substitutes() -> dict[str, str]:
-    """Return the top-level modules that replace a user's own, if those are missing.
+    """Return where the top-level modules are that replace a user's own, if those are missing.
 
-    Returns:
-        By name, the package that they are in.
+    It is called for missing modules only: reading entry points takes time and imports modules.
     """
-    found: dict[str, str] = {}
-    for home in UPSTAIRS:
-        folder = Path(__file__).parents[3].joinpath(*home.split("."))
-        names = {path.stem for path in folder.glob("*.py")} - {"__init__"}
-        names |= {path.parent.name for path in folder.glob("*/__init__.py")}
-        found |= dict.fromkeys(names - _NOT_OFFERED, home)
-    return found
+    return {name: point.value for name, point in entry_points_of(GROUP).items()}
+
+
+def place_of(name: str) -> str:
+    """Return the module of Gazelle, or of another package, that a module of ROS is."""
+    top, dot, rest = name.partition(".")
+    own = top in own_modules() or top not in substitutes()
+    return f"{HOME}.{name}" if own else f"{substitutes()[top]}{dot}{rest}"
 
 
 class AliasLoader(importlib.abc.Loader):
-    """Loads a module of Gazelle under the name it has in ROS.
-
-    Args:
-        home: The package it is in.
-    """
-
-    def __init__(self, home: str = HOME) -> None:
-        self._home = home
+    """Loads a module of Gazelle under the name it has in ROS."""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
         """Return the module itself, so that there is only one under any name."""
-        module = importlib.import_module(f"{self._home}.{spec.name}")
+        module = importlib.import_module(place_of(spec.name))
         self._spec = module.__spec__
         return module
 
@@ -144,7 +136,7 @@ class RosFinder(importlib.abc.MetaPathFinder):
         if rest:
             return _below_a_substitute(package, fullname) or self._elsewhere(fullname, path)
         if package in _COMPILED:
-            return ModuleSpec(package, AliasLoader(substitutes()[package]))
+            return ModuleSpec(package, AliasLoader())
         return self._package(package, path)
 
     @staticmethod
@@ -170,8 +162,8 @@ class RosFinder(importlib.abc.MetaPathFinder):
         usual = workspace_code.usual_spec(name)
         if usual is not None:
             return usual
-        if name in substitutes():
-            return ModuleSpec(name, AliasLoader(substitutes()[name]))
+        if name not in sys.stdlib_module_names and name in substitutes():
+            return ModuleSpec(name, AliasLoader())
         if _known(name):
             return ModuleSpec(name, PackageLoader(), is_package=True)
         return None
@@ -179,18 +171,18 @@ class RosFinder(importlib.abc.MetaPathFinder):
 
 def _below_a_substitute(package: str, fullname: str) -> ModuleSpec | None:
     """Return the spec of a module in a substitute package, unless the user has the package."""
-    home = substitutes().get(package)
     parent = sys.modules.get(package)
-    if home is None or getattr(parent, "__name__", "") != f"{home}.{package}":
+    real = getattr(parent, "__name__", package)
+    if real == package or real != substitutes().get(package):
         return None
     places, name = getattr(parent, "PLACES", {}), fullname.partition(".")[2]
     if name in places:
         return ModuleSpec(fullname, CopyLoader(places[name]), is_package=True)
     if name.rpartition(".")[0] in places:  # what is in a copy is in the table, too
         return None
-    if importlib.util.find_spec(f"{home}.{fullname}") is None:
+    if importlib.util.find_spec(place_of(fullname)) is None:
         return None
-    return ModuleSpec(fullname, AliasLoader(home))
+    return ModuleSpec(fullname, AliasLoader())
 
 
 def _known(package: str) -> bool:
@@ -211,7 +203,7 @@ def _is_ours(name: str) -> bool:
 
 def _is_alias(name: str, real: str) -> bool:
     """Return whether a module of Gazelle is registered under a name of ROS."""
-    return real in {f"{home}.{name}" for home in (HOME, *UPSTAIRS)}
+    return real != name and real == place_of(name)
 
 
 class Installed:

@@ -42,9 +42,10 @@ def import_fault(error: BaseException) -> RosError | None:
 
 def public_name(name: str) -> str:
     """Return the name that scripts know a module of Gazelle by."""
-    for home in (finder.HOME, *finder.UPSTAIRS):
-        name = name.removeprefix(f"{home}.")
-    return name
+    for known, place in finder.substitutes().items():
+        if f"{name}.".startswith(f"{place}."):
+            return known + name.removeprefix(place)
+    return name.removeprefix(f"{finder.HOME}.")
 
 
 def _hint_of_module(name: str) -> str:

@@ -5,8 +5,8 @@ import math
 import pytest
 from bridges.moveit.commander_graph import commander_graph
 
-from gazelle.bridges.moveit.arm_services import ArmServices
 from gazelle.clients import ArmCommander, ClientError
+from gazelle.drop_in.moveit_client.arm_services import ArmServices
 from gazelle.ros import Node, load_message, load_service
 from gazelle.ros.builtin.registry import main_of
 
@@ -49,7 +49,8 @@ def test_types_are_those_of_the_original(kind):
 
 def test_the_package_has_the_node():
     assert (
-        main_of("fetch_train", "fetch_moveit").__module__ == "gazelle.bridges.moveit.arm_services"
+        main_of("fetch_train", "fetch_moveit").__module__
+        == "gazelle.drop_in.moveit_client.arm_services"
     )
 
 

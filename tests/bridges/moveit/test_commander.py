@@ -8,8 +8,8 @@ import pytest
 from bridges.moveit.commander_graph import ARM, TORSO, commander_graph
 from ros.graph import until
 
-from gazelle.bridges.moveit.client.session import packed, session, unpacked
 from gazelle.description import Pose
+from gazelle.drop_in.moveit_client.session import packed, session, unpacked
 from gazelle.ros import load_message
 from gazelle.ros.messages import DeserializationError
 
@@ -475,7 +475,7 @@ def test_conversions(moveit):
 
 def test_a_script_without_rospy_has_a_node_of_its_own(moveit, monkeypatch):
     shared = session.node()
-    monkeypatch.setattr("gazelle.bridges.moveit.client.session.process.node", None)
+    monkeypatch.setattr("gazelle.drop_in.moveit_client.session.process.node", None)
     moveit.roscpp_initialize(["script", "__name:=mine", "a:=b"])
     own = session.node()
     assert own is not shared

@@ -6,7 +6,7 @@ import pytest
 from bridges.moveit.commander_graph import ARM, commander_graph
 from bridges.moveit.moveit_graph import READY
 
-from gazelle.bridges.moveit.client.session import packed, unpacked
+from gazelle.drop_in.moveit_client.session import packed, unpacked
 from gazelle.ros import load_message
 
 TIP = "gripper_link"

@@ -1,1 +1,0 @@
-"""Python packages of MoveIt, as scripts import them; ``gazelle exec`` makes them importable."""

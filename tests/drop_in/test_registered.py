@@ -1,0 +1,72 @@
+"""Modules under foreign names are registered as entry points."""
+
+import subprocess
+import sys
+import tomllib
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+import pytest
+
+import gazelle.drop_in
+from gazelle.ros.compat import finder
+
+HOME = Path(gazelle.drop_in.__file__).parent
+PRIVATE = {"moveit_client", "shared"}
+"""Parts that several of them use; no script imports these."""
+
+
+def listed():
+    """Entry points in pyproject.toml, by name."""
+    project = HOME.parents[1] / "pyproject.toml"
+    if not project.exists():
+        pytest.skip("there is no pyproject.toml: this is an installed package")
+    groups = tomllib.loads(project.read_text(encoding="utf-8"))["project"]["entry-points"]
+    return groups[finder.GROUP]
+
+
+def test_each_is_listed_and_is_there():
+    names = {path.stem for path in HOME.glob("*.py")} | {
+        p.parent.name for p in HOME.glob("*/__init__.py")
+    }
+    names -= {"__init__", *PRIVATE}
+    assert listed() == {name: f"gazelle.drop_in.{name}" for name in names}
+
+
+def test_the_installation_has_them():
+    assert listed().items() <= finder.substitutes().items()
+
+
+@pytest.mark.parametrize(
+    ("name", "place"),
+    [
+        ("rospy.topics", "gazelle.ros.compat.rospy.topics"),
+        ("gym.spaces", "gazelle.drop_in.gym.spaces"),
+        ("gym", "gazelle.drop_in.gym"),
+        ("other.deep.module", "elsewhere.inside.deep.module"),
+        ("rosbag", "gazelle.ros.compat.rosbag"),
+    ],
+)
+def test_a_module_is_where_its_entry_point_says_but_ours_of_ros_first(monkeypatch, name, place):
+    points = {"gym": "gazelle.drop_in.gym", "other": "elsewhere.inside", "rosbag": "elsewhere.bag"}
+    found = {name: EntryPoint(name, value, finder.GROUP) for name, value in points.items()}
+    monkeypatch.setattr(finder, "entry_points_of", lambda group: found)
+    finder.substitutes.cache_clear()
+    try:
+        assert finder.place_of(name) == place
+    finally:
+        monkeypatch.undo()
+        finder.substitutes.cache_clear()
+
+
+def test_entry_points_are_read_for_missing_modules_only():
+    code = (
+        "import gazelle.ros as ros, sys\n"
+        "with ros.install():\n"
+        "    import rospy, yaml, json.tool\n"
+        "    assert 'importlib.metadata' not in sys.modules\n"
+        "    import gym, moveit_ros_planning_interface\n"
+        "    print(gym.__name__, moveit_ros_planning_interface.__name__)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout == "gazelle.drop_in.gym gazelle.drop_in.moveit_ros_planning_interface\n"
