@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 import os
 from pathlib import Path
 
 import numpy as np
+import yaml
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import FormatError
@@ -40,6 +43,7 @@ def grey_levels(grid: OccupancyMap, *, occupied: float = 65.0, free: float = 25.
     return levels
 
 
+@checked(FormatError)
 def save_map(
     grid: OccupancyMap, name: PathLike, *, occupied: float = 65.0, free: float = 25.0
 ) -> tuple[Path, Path]:
@@ -52,7 +56,7 @@ def save_map(
         free: Cells up to this value are white; others are grey.
 
     Raises:
-        FormatError: The limits are not in order, or a file cannot be written.
+        FormatError: The limits are not in order, or no file can have the name or be written.
     """
     stem = os.fspath(name).removesuffix(".yaml")
     levels = grey_levels(grid, occupied=occupied, free=free)
@@ -61,7 +65,8 @@ def save_map(
     head = f"P5\n{comment}\n{grid.width} {grid.height}\n255\n"
     origin = grid.origin
     text = (
-        f"image: {picture.name}\nresolution: {grid.resolution:f}\n"
+        yaml.safe_dump({"image": picture.name}, allow_unicode=True, width=math.inf)
+        + f"resolution: {grid.resolution:f}\n"
         f"origin: [{origin.x:f}, {origin.y:f}, {origin.yaw:f}]\nnegate: 0\n"
         f"occupied_thresh: {_DARK}\nfree_thresh: {_BRIGHT}\n"
     )

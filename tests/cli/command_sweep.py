@@ -1,7 +1,7 @@
 """Every command line with a wrong word, each in a process of its own.
 
-``PYTHONPATH=tests:tests/cli python tests/cli/command_sweep.py [COMMAND ...]`` prints what ends in
-anything but one line of error and a code of 0, 1 or 2.
+``PYTHONPATH=tests:tests/cli python tests/cli/command_sweep.py [COMMAND ...] [N]`` prints what ends
+in anything but one line of error and a code of 0, 1 or 2, of all lines or of every N-th.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import collections
 import contextlib
+import itertools
 import os
 import re
 import resource
@@ -173,6 +174,7 @@ class CommandFindings:
         for fault in _faults(code, said, used, waiting=waiting):
             line = next((each for each in said.splitlines()[::-1] if each.strip()), "")
             self.bad[f"{name}: {fault}"].append(f"{what}: {line[:160]}")
+            print(f"{name}: {fault}: {what}".encode("utf-8", "replace").decode(), flush=True)
 
     def show(self, examples: int = 4) -> None:
         for fault, found in sorted(self.bad.items(), key=lambda pair: -len(pair[1])):
@@ -289,14 +291,15 @@ def write_files(folder: Path) -> None:
         bag.write("/words", load_message("std_msgs/String")("hello"), Time(1))
 
 
-def sweep(names: list[str]) -> CommandFindings:
-    """Try the command lines of some commands, of all without a name."""
+def sweep(names: list[str], every: int = 1) -> CommandFindings:
+    """Try the command lines of some commands, of all without a name; of many only every n-th."""
     findings = CommandFindings()
-    with surroundings():
-        for name, what, words in command_lines(names):
+    with surroundings(), contextlib.suppress(KeyboardInterrupt):
+        for name, what, words in itertools.islice(command_lines(names), 0, None, every):
             findings.attempt(name, what, words)
     return findings
 
 
 if __name__ == "__main__":
-    sweep(sys.argv[1:]).show(8)
+    numbers = [int(word) for word in sys.argv[1:] if word.isdigit()]
+    sweep([word for word in sys.argv[1:] if not word.isdigit()], *numbers).show(8)

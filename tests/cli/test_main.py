@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import resource
 import subprocess
 import sys
@@ -184,3 +185,13 @@ def test_commands_module_imports_no_command():
     assert found.stdout.strip() == (
         "['gazelle.cli.commands', 'gazelle.cli.parsing', 'gazelle.cli.main']"
     )
+
+
+@pytest.mark.long
+def test_names_of_any_bytes_are_shown_as_they_are():
+    words = [sys.executable, "-m", "gazelle", "check", b"\xff"]
+    strict = {**os.environ, "PYTHONIOENCODING": "utf-8:strict"}
+    done = subprocess.run(words, capture_output=True, env=strict, check=False)
+    assert done.returncode == 1
+    assert done.stdout.startswith(b"error: \xff: there is no such file")
+    assert not done.stderr

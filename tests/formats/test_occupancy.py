@@ -10,7 +10,7 @@ from PIL import Image
 
 from gazelle import Error, FormatError, Pose
 from gazelle.errors import FormatWarning, ResolveError
-from gazelle.formats import load_map
+from gazelle.formats import load_map, save_map
 from gazelle.formats.occupancy import MapSettings, cells
 
 YAML = """image: {image}
@@ -231,3 +231,17 @@ def test_the_same_map_in_three_kinds_of_picture(corpus, tmp_path):
     assert maps[0].data[0, 0] in {0, 100}
     assert maps[0].origin.is_close(Pose(2.0, 3.0, yaw=1.0))
     assert math.isclose(maps[0].resolution, 0.1)
+
+
+@pytest.mark.parametrize("name", ["{a", "a: b", "- a", "'", "#a", "é\u2028", "yes", "1", "a" * 200])
+def test_a_map_of_any_name_is_read_again(tmp_path, name):
+    file = saved(tmp_path, [[0, 255]])
+    settings_file, _ = save_map(load_map(file), tmp_path / name)
+    assert load_map(settings_file).width == 2
+
+
+@pytest.mark.parametrize("name", ["\udcff", "\x00", "a" * 300])
+def test_a_name_that_no_map_can_have(tmp_path, name):
+    grid = load_map(saved(tmp_path, [[0, 255]]))
+    with pytest.raises(FormatError, match="'name' must be"):
+        save_map(grid, tmp_path / name)
