@@ -20,13 +20,16 @@ _OWN = "gazelle"
 def entry_points_of(group: str) -> dict[str, EntryPoint]:
     """Return all entry points of a group by name.
 
-    Where two packages give one name, the first on ``sys.path`` has it.
+    Where two packages give one name, the first on ``sys.path`` has it. Of a package that is listed
+    twice both lists count: an old build may have left one in a checkout, before that of the
+    installation.
     """
-    from importlib.metadata import entry_points  # late, for it is slow to import
+    from importlib.metadata import distributions  # late, for it is slow to import
 
     found: dict[str, EntryPoint] = {}
-    for point in entry_points(group=group):
-        found.setdefault(point.name, point)
+    for distribution in distributions():
+        for point in distribution.entry_points.select(group=group):
+            found.setdefault(point.name, point)
     return found
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import gazelle.drop_in
+from gazelle.entry_points import entry_points_of
 from gazelle.ros.compat import finder
 
 HOME = Path(gazelle.drop_in.__file__).parent
@@ -70,3 +71,18 @@ def test_entry_points_are_read_for_missing_modules_only():
     )
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout == "gazelle.drop_in.gym gazelle.drop_in.moveit_ros_planning_interface\n"
+
+
+def test_a_list_that_an_old_build_left_in_the_checkout_hides_none(tmp_path, monkeypatch):
+    for folder, group in (("old", "console_scripts"), ("new", "a.group")):
+        info = tmp_path / folder / "some_package-1.0.dist-info"
+        info.mkdir(parents=True)
+        (info / "METADATA").write_text("Metadata-Version: 2.1\nName: some-package\nVersion: 1.0\n")
+        (info / "entry_points.txt").write_text(f"[{group}]\nname = some_package\n")
+    monkeypatch.setattr(sys, "path", [str(tmp_path / "old"), str(tmp_path / "new")])
+    entry_points_of.cache_clear()
+    try:
+        assert entry_points_of("a.group")["name"].value == "some_package"
+    finally:
+        monkeypatch.undo()
+        entry_points_of.cache_clear()

@@ -89,9 +89,9 @@ def test_what_is_simulated_is_a_class_that_some_element_takes(row):
         assert issubclass(found, (ModelPlugin, SensorPlugin, VisualPlugin, WorldPlugin))
 
 
-def test_gazelle_needs_no_entry_points_of_its_own():
+def test_gazelle_needs_no_entry_points_of_its_own_but_for_modules_above_ros():
     text = (Path(__file__).parents[2] / "pyproject.toml").read_text(encoding="utf-8")
-    assert "entry-points" not in tomllib.loads(text)["project"]
+    assert set(tomllib.loads(text)["project"]["entry-points"]) == {"gazelle.ros.modules"}
 
 
 def test_a_row_is_all_that_a_plugin_needs(monkeypatch):
