@@ -13,6 +13,7 @@ from gazelle.ros.bags.reader import BagReader, RawBagMessage, messages_of
 from gazelle.ros.bags.records import SECOND, Connection
 from gazelle.ros.bags.scanning import BagScan, scan
 from gazelle.ros.bags.writer import BagWriter
+from gazelle.ros.expressions import compiled
 from gazelle.ros.messages import load_message
 from gazelle.ros.time import Time
 from gazelle.ros.typed import class_for
@@ -26,15 +27,12 @@ def keep_of(expression: str) -> Keep:
     """Compile a function of ``topic``, ``m`` and ``t`` from a Python expression.
 
     Raises:
-        BagError: It is no expression.
+        BagError: It is no expression; and by the function where it fails.
     """
-    try:
-        code = compile(expression, "filter", "eval")
-    except SyntaxError as error:
-        raise BagError(f"'{expression}' is no Python expression: {error.msg}") from None
+    value = compiled(expression, BagError)
 
     def keep(topic: str, message: Any, stamp: Time) -> Any:
-        return eval(code, {"topic": topic, "m": message, "t": stamp})  # noqa: S307  # the user's own
+        return value(topic=topic, m=message, t=stamp)
 
     return keep
 

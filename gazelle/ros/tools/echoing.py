@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, TextIO
 
 from gazelle.ros.errors import RosError
+from gazelle.ros.expressions import compiled
 from gazelle.ros.messages import Message, load_message
 from gazelle.ros.raw import RawMessage
 from gazelle.ros.time import Time
@@ -193,14 +194,7 @@ def filter_of(expression: str) -> Callable[[Message], bool]:
     """Compile a function of a message ``m`` from a Python expression.
 
     Raises:
-        ToolError: It is no expression.
+        ToolError: It is no expression; and by the function where it fails.
     """
-    try:
-        code = compile(expression, "filter", "eval")
-    except SyntaxError as error:
-        raise ToolError(f"'{expression}' is no Python expression: {error.msg}") from None
-
-    def keep(message: Message) -> bool:
-        return bool(eval(code, {"m": message}))  # noqa: S307  # the user's own expression
-
-    return keep
+    value = compiled(expression, ToolError)
+    return lambda message: bool(value(m=message))

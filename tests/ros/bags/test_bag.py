@@ -277,14 +277,16 @@ def test_filters_choose(write_bag, tmp_path):
     assert texts(target) == [ROWS[2]]
     with pytest.raises(BagError, match="itself"):
         filter_bag(str(path), str(path), keep)
-    with pytest.raises(BagError, match="no Python expression"):
-        keep_of("topic ==")
+    for wrong in ("topic ==", "", "{", "\x00", "(" * 10_000):
+        with pytest.raises(BagError, match="no Python expression"):
+            keep_of(wrong)
 
 
-def test_a_filter_that_fails_leaves_nothing_behind(write_bag, tmp_path):
+@pytest.mark.parametrize("expression", ["m.nope", "no / such", "t + 'a'", "1 / 0", "m[0]"])
+def test_a_filter_that_fails_leaves_nothing_behind(write_bag, tmp_path, expression):
     path = write_bag(ROWS)
-    with pytest.raises(AttributeError):
-        filter_bag(str(path), str(tmp_path / "f.bag"), keep_of("m.nope"))
+    with pytest.raises(BagError, match="fails: "):
+        filter_bag(str(path), str(tmp_path / "f.bag"), keep_of(expression))
     assert sorted(each.name for each in tmp_path.iterdir()) == ["t.bag"]
 
 

@@ -127,6 +127,8 @@ def test_echo_filters():
     assert write(STRING(data="c"), keep=keep) == 'data: "c"\n---\n'
     with pytest.raises(ToolError):
         filter_of("m.data >")
+    with pytest.raises(ToolError, match="fails: AttributeError"):
+        write(STRING(data="a"), keep=filter_of("m.nope"))
 
 
 @pytest.fixture
