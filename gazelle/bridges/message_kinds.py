@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from gazelle.ros.messages import Message
+
 
 def name_of(kind: Any) -> str | None:
     """Return the ROS type of a message class, such as ``std_msgs/String``.
@@ -27,18 +29,18 @@ def service_name_of(request: Any, response: Any) -> str | None:
     return name if answered.removesuffix("Response") == name else None
 
 
-def fill(message: Any, value: Any, view: Any) -> None:
+def fill(message: Message, value: Any, view: Any) -> None:
     """Copy a message, or that of the graph's world."""
     given = value[view.world] if isinstance(value, Sequence) else value
     for slot, content in slots_of(given).items():
         setattr(message, slot, content)
 
 
-def slots_of(message: Any) -> dict[str, Any]:
+def slots_of(message: Message) -> dict[str, Any]:
     """Return the fields of a message by name."""
     return {slot: getattr(message, slot) for slot in message.__slots__}
 
 
-def same(message: Any) -> Any:
+def same(message: Message) -> Any:
     """Return the message."""
     return message

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from gazelle.ros.clock import SimulatedClock, TimeSource, WallClock
 from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.ros.topics import TopicNode
@@ -20,7 +18,7 @@ def follow_clock(node: TopicNode, topic: str = "/clock") -> SimulatedClock:
     """Return a clock that follows a topic of ``rosgraph_msgs/Clock``."""
     clock = SimulatedClock(topic)
 
-    def tick(message: Any) -> None:
+    def tick(message: rosgraph_msgs.msg.Clock) -> None:
         clock.set(message.clock.to_nsec())
 
     node.subscribe(topic, rosgraph_msgs.msg.Clock, tick, queue_size=10)

@@ -32,11 +32,11 @@ def serve_loggers(node: Node, root: str = "gazelle") -> Callable[[], None]:
     change = roscpp.srv.SetLoggerLevel
     logger = roscpp.msg.Logger
 
-    def loggers(_request: Any) -> Any:
+    def loggers(_request: roscpp.srv.GetLoggersRequest) -> Any:
         known = [root, *(n for n in logging.root.manager.loggerDict if n.startswith(f"{root}."))]
         return {"loggers": [logger(name, _level(name)) for name in sorted(known)]}
 
-    def set_level(request: Any) -> Any:
+    def set_level(request: roscpp.srv.SetLoggerLevelRequest) -> Any:
         level = _LEVELS.get(request.level.upper())
         if level is None:
             raise ServiceError(f"no such level: {request.level}")

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from gazelle.ros.clock import SECOND
+from gazelle.ros.messages import Message
 from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.ros.node_base import NodeBase
 from gazelle.ros.publishing import Publisher
@@ -80,7 +81,7 @@ class Statistics:
         """Return False for topics that would only measure themselves."""
         return topic not in _UNMEASURED
 
-    def take(self, topic: str, link: Any, message: Any, size: int) -> None:
+    def take(self, topic: str, link: Any, message: Message, size: int) -> None:
         """Count a message of a link; report when the window is full."""
         now = self._node.clock.now()
         key = topic, str(link.peer)
@@ -107,7 +108,7 @@ class Statistics:
             self._lengths[key] = length * 2
 
     def _report(self, key: tuple[str, str], window: _Window, now: int) -> Any:
-        message: Any = self._class()
+        message = self._class()
         message.topic, message.node_pub = key
         message.node_sub = self._node.name
         _set(message.window_start, window.start)
@@ -121,7 +122,7 @@ class Statistics:
         return message
 
 
-def _fill(message: Any, name: str, values: Sequence[int]) -> None:
+def _fill(message: rosgraph_msgs.msg.TopicStatistics, name: str, values: Sequence[int]) -> None:
     """Set mean, standard deviation and maximum, as durations."""
     if not values:
         return

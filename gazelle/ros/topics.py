@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from gazelle.ros.errors import Md5MismatchError, NodeClosedError, RosTimeoutError
+from gazelle.ros.messages import Message
 from gazelle.ros.node_base import NodeBase, node_here
 from gazelle.ros.publishing import PeerHook, Publication, Publisher
 from gazelle.ros.raw import raw_class
@@ -146,7 +147,7 @@ class TopicNode(NodeBase):
         found: list[Any] = []
         event = threading.Event()
 
-        def keep(message: Any) -> None:
+        def keep(message: Message) -> None:
             found.append(message)
             event.set()
 

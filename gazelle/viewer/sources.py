@@ -14,6 +14,7 @@ from PIL import Image
 from gazelle.array_types import Picture
 from gazelle.closing import Closeable
 from gazelle.errors import RosError, did_you_mean
+from gazelle.ros.msgs import sensor_msgs
 from gazelle.simulation import Simulation
 from gazelle.viewer.filming import FilmCamera
 
@@ -186,7 +187,7 @@ def pictures_of(source: FilmSource, seconds: float | None, period: float) -> Ite
             return
 
 
-def picture_of(message: Any) -> Picture:
+def picture_of(message: sensor_msgs.msg.Image | sensor_msgs.msg.CompressedImage) -> Picture:
     """Return the colours of a ``sensor_msgs`` Image or CompressedImage, (height, width, 3).
 
     Depths are grey, near ones dark.

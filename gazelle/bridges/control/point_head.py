@@ -9,7 +9,6 @@ from __future__ import annotations
 import threading
 from collections.abc import Sequence
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -178,7 +177,7 @@ class HeadPointer:
         positions: Floats,
         seconds: float,
     ) -> None:
-        message: Any = self._kind(joint_names=list(state.joint_names))
+        message = self._kind(joint_names=list(state.joint_names))
         made = trajectory_msgs.msg.JointTrajectoryPoint(
             positions=positions.tolist(), velocities=[0.0] * len(positions)
         )

@@ -15,6 +15,7 @@ from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.scene_messages import matrix_of_message, scene_message
 from gazelle.errors import Error, PlanningError
 from gazelle.planning import OCTOMAP, NoPlanError, PlanOutcome
+from gazelle.ros.messages import Message
 from gazelle.ros.msgs import moveit_msgs, octomap_msgs, std_msgs, std_srvs
 
 _ALL = 1023
@@ -58,7 +59,7 @@ class SceneServices:
         self.change(lambda: True)
 
     def _listener(self, take: Callable[[Any], bool]) -> Callable[[Any], None]:
-        def hear(message: Any) -> None:
+        def hear(message: Message) -> None:
             self.change(lambda: take(message))
 
         return hear

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from gazelle.array_types import Floats
@@ -48,7 +46,7 @@ class GraphFrames:
 
     def send(self, parent: str, child: str, stamp: int, pose: Pose2) -> None:
         """Publish the pose of a frame in its parent, from a time on [ns]."""
-        message: Any = self._stamped()
+        message = self._stamped()
         message.header.frame_id, message.child_frame_id = parent, child
         message.header.stamp = Time(nsecs=stamp)
         place, turn = message.transform.translation, message.transform.rotation

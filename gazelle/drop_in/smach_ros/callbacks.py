@@ -8,6 +8,7 @@ from typing import Any
 
 from gazelle.drop_in.smach import InvalidStateError, Remapper, State
 from gazelle.drop_in.smach.state import add_interface
+from gazelle.ros.messages import Message
 
 
 @dataclass
@@ -50,7 +51,7 @@ class UserCallback:
         return self.function(view, *values, *self.args, **self.kwargs)
 
 
-def filled(message: Any, ud: Any, key: str | None, slots: Iterable[str]) -> Any:
+def filled(message: Message, ud: Any, key: str | None, slots: Iterable[str]) -> Any:
     """Return a message with what userdata has for it.
 
     Args:
@@ -69,7 +70,7 @@ def filled(message: Any, ud: Any, key: str | None, slots: Iterable[str]) -> Any:
     return message
 
 
-def taken_apart(message: Any, ud: Any, key: str | None, slots: Iterable[str]) -> None:
+def taken_apart(message: Message, ud: Any, key: str | None, slots: Iterable[str]) -> None:
     """Store a message and its fields in userdata; see `filled`."""
     if key is not None:
         ud[key] = message

@@ -10,6 +10,7 @@ from gazelle.drop_in.smach import InvalidStateError, State
 from gazelle.drop_in.smach_ros.callbacks import UserCallback, filled, taken_apart
 from gazelle.ros.compat import rospy
 from gazelle.ros.compat.actionlib import GoalStatus, SimpleActionClient
+from gazelle.ros.messages import Message
 
 _SERVER_S = 60.0
 _LOOK_S = 0.1
@@ -157,7 +158,7 @@ class SimpleActionState(State):
             self._client.cancel_goal()
 
 
-def _check_slots(message: Any, slots: Any) -> None:
+def _check_slots(message: Message, slots: Any) -> None:
     unknown = [slot for slot in slots if slot not in message.__slots__]
     if unknown:
         raise InvalidStateError(f"there are no fields {unknown}; there are {message.__slots__}")

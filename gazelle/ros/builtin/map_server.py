@@ -86,7 +86,7 @@ class MapService:
 
     def _change(self, request: nav_msgs.srv.LoadMapRequest) -> Any:
         """Load another map; an unreadable one changes nothing."""
-        answer: Any = self._results()
+        answer = self._results()
         try:
             grid = load_map(request.map_url)
         except ResolveError as error:

@@ -10,6 +10,7 @@ from typing import Any
 from gazelle.ros.compat.rospy.logs import logwarn_throttle
 from gazelle.ros.compat.rospy.rostime import get_rostime, is_wallclock
 from gazelle.ros.compat.rospy.topics import Subscriber as TopicSubscriber
+from gazelle.ros.messages import Message
 from gazelle.ros.time import Duration, Time
 
 Callback = Callable[..., Any]
@@ -44,7 +45,7 @@ class Subscriber(SimpleFilter):
         kwargs["callback"] = self.callback
         self.sub = TopicSubscriber(*args, **kwargs)
 
-    def callback(self, msg: Any) -> None:
+    def callback(self, msg: Message) -> None:
         """Forward a message."""
         self.signalMessage(msg)
 
@@ -100,7 +101,7 @@ class Cache(SimpleFilter):
         """Add a filter whose messages are kept."""
         self.incoming_connection = f.registerCallback(self.add)
 
-    def add(self, msg: Any) -> None:
+    def add(self, msg: Message) -> None:
         """Store a message, and forward it."""
         stamp = _stamp(msg, headerless=self.allow_headerless)
         if stamp is None:
@@ -197,7 +198,7 @@ class TimeSynchronizer(SimpleFilter):
                 queue.clear()
         return jumped
 
-    def _keep(self, msg: Any, stamp: Time, queue: Queue) -> None:
+    def _keep(self, msg: Message, stamp: Time, queue: Queue) -> None:
         queue[stamp] = msg
         while len(queue) > self.queue_size:
             del queue[min(queue)]
@@ -226,7 +227,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.slop = Duration.from_sec(slop)
         self.allow_headerless = allow_headerless
 
-    def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
+    def add(self, msg: Message, my_queue: Queue, my_queue_index: int | None = None) -> None:
         """Add a message of a filter; the first after time jumped back is left out."""
         del my_queue_index
         stamp = _stamp(msg, headerless=self.allow_headerless)

@@ -102,7 +102,7 @@ class BufferCore:
         return self._message(found, target_frame, source_frame)
 
     def _message(self, found: StampedTransform, target: str, source: str) -> Any:
-        result: Any = self._make()
+        result = self._make()
         result.header.stamp = Time(nsecs=found.stamp)
         result.header.frame_id, result.child_frame_id = target, source
         place, turn = result.transform.translation, result.transform.rotation

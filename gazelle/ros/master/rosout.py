@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gazelle.ros.loggers import serve_loggers
 from gazelle.ros.msgs import rosgraph_msgs
@@ -39,7 +39,7 @@ class RosoutAggregator:
         """Close the node."""
         self._node.close()
 
-    def _pass_on(self, message: Any) -> None:
+    def _pass_on(self, message: rosgraph_msgs.msg.Log) -> None:
         if self._publisher.has_listener:
             self._publisher.publish(message)
 

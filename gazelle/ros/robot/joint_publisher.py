@@ -6,7 +6,7 @@ What it does, and its parameters, are those of http://wiki.ros.org/joint_state_p
 from __future__ import annotations
 
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gazelle.ros.clock import SECOND
 from gazelle.ros.msgs import sensor_msgs
@@ -64,7 +64,7 @@ class JointStatePublisher:
         if self._node.closed:
             return
         now = self._node.clock.now()
-        message: Any = self._state(name=list(self._names))
+        message = self._state(name=list(self._names))
         message.header.stamp = Time(now // SECOND, now % SECOND)
         with self._lock:
             positions = [

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import Any
 
 from gazelle.closing import Closeable
 from gazelle.ros import Node, Time
@@ -110,7 +109,7 @@ class StageDoor(Closeable):
         for topics in self._topics:
             topics.publish(facts)
         if self._tf.has_listener and self._topics:
-            message: Any = self._tf.message_class()
+            message = tf2_msgs.msg.TFMessage()
             for topics in self._topics:
                 message.transforms += topics.transforms(facts)
             self._tf.publish(message)
@@ -127,7 +126,7 @@ class StageDoor(Closeable):
     def _tick(self) -> None:
         """Publish the time; zero means to ROS that there is none."""
         if self._clock.has_listener and (now := self.now()).to_nsec() > 0:
-            message: Any = self._clock.message_class()
+            message = rosgraph_msgs.msg.Clock()
             message.clock = now
             self._clock.publish(message)
 

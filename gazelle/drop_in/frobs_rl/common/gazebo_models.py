@@ -13,6 +13,7 @@ from gazelle.description.pose import rpy_from_quaternion
 from gazelle.drop_in.frobs_rl.common.connection import gazebo, in_folder, log_error, node, reporting
 from gazelle.errors import Error
 from gazelle.ros import load_message
+from gazelle.ros.messages import Message
 from gazelle.text_files import read_text
 
 
@@ -210,7 +211,7 @@ def _angles(x: float, y: float, z: float, w: float) -> tuple[float, float, float
     return rpy_from_quaternion((x / length, y / length, z / length, w / length))
 
 
-def _fill(message: Any, values: tuple[float, ...]) -> None:
+def _fill(message: Message, values: tuple[float, ...]) -> None:
     for axis, value in zip("xyzw", values, strict=False):
         setattr(message, axis, value)
 

@@ -6,7 +6,6 @@ import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from gazelle.errors import RosError
 from gazelle.interrupts import stopping
@@ -97,7 +96,9 @@ def main(arguments: Sequence[str]) -> int:
     return 0
 
 
-def _message(twist: Any, linear: float, angular: float) -> Any:
+def _message(
+    twist: type[geometry_msgs.msg.Twist], linear: float, angular: float
+) -> geometry_msgs.msg.Twist:
     message = twist()
     message.linear.x, message.angular.z = linear, angular
     return message

@@ -11,6 +11,7 @@ from gazelle.interrupts import stopping
 from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.ros.builtin.teleop.keyboard import CTRL_C, Keyboard
 from gazelle.ros.messages import load_message
+from gazelle.ros.msgs import geometry_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.time import Time
 
@@ -66,7 +67,7 @@ class KeyDrive:
         self.turn = min(self.turn * factors[1], self.limits[1])
         return True
 
-    def fill(self, twist: Any) -> None:
+    def fill(self, twist: geometry_msgs.msg.Twist) -> None:
         """Write what is asked for into a twist."""
         x, y, z, yaw = self.direction
         twist.linear.x, twist.linear.y, twist.linear.z = (each * self.speed for each in (x, y, z))

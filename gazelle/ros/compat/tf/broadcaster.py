@@ -38,7 +38,7 @@ class TransformBroadcaster:
             child: Name of the frame.
             parent: Name of the frame it is in.
         """
-        message: Any = self._one()
+        message = self._one()
         message.header.frame_id, message.header.stamp = parent, time
         message.child_frame_id = child
         place, turn = message.transform.translation, message.transform.rotation

@@ -103,7 +103,7 @@ class BufferServer:
 
     def _answer(self, handle: ServerGoalHandle) -> None:
         goal = handle.get_goal()
-        result: Any = self._results()
+        result = self._results()
         try:
             if goal.advanced:
                 result.transform = self.buffer.lookup_transform_full(
