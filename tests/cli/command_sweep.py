@@ -193,10 +193,9 @@ def _faults(code: int | None, said: str, used: int, *, waiting: bool) -> Iterato
     if found:
         yield found[0]
     elif code in (1, 2):
-        errors = [
-            line for line in said.splitlines() if re.search(r"\berror\b", line, re.IGNORECASE)
-        ]
-        if len(errors) != 1:
+        errors = [line for line in said.splitlines() if _ERROR.search(line)]
+        listed = not errors and _ERROR.search(Path("stdout").read_text(errors="replace"))
+        if len(errors) != 1 and not listed:  # `check` lists what it finds
             yield f"{len(errors)} lines of error"
     if code is None and not waiting:
         yield f"over {SECONDS:g} s"
