@@ -101,7 +101,7 @@ def load_string(
     if not isinstance(text, str | bytes):
         raise FormatError(f"text is a string or bytes, not {text!r}", hint="load() reads files")
     reading = _reading(paths, xacro_args)
-    data = text.encode() if isinstance(text, str) else text
+    data = text.encode(errors="surrogatepass") if isinstance(text, str) else text
     if stage.is_stage(data):
         world = stage.read_stage(data, name, reading)
         reading.report(strict=strict)

@@ -80,7 +80,7 @@ def parsed(
     text: str | bytes, *, name: str, report: Report | None = None
 ) -> tuple[Parameters, bytes]:
     """Return the root element, and the well-formed text that it was read from; as ``parse``."""
-    data = text.encode() if isinstance(text, str) else text
+    data = text.encode(errors="surrogatepass") if isinstance(text, str) else text
     if report is not None:
         data = blanks.plain_bytes(data, name, characters.XML_COMMENT, report)
     try:
