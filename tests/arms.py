@@ -89,6 +89,6 @@ NESTED = """<sdf version="1.9"><model name="nested"><pose>1 2 3 0.1 0.2 0.3</pos
 
 
 def nested(srdf=""):
-    """A robot of SDF with a hand that is a model of its own, and a joint that closes a loop."""
+    """Return a robot of SDF whose hand is a model of its own, with a joint that closes a loop."""
     semantics = load_srdf_string(f'<robot name="nested">{srdf}</robot>')
     return RobotModel(load_model_string(NESTED), semantics)

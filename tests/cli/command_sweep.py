@@ -250,7 +250,7 @@ def _be_command(words: list[str]) -> None:
 
 @contextlib.contextmanager
 def surroundings() -> Iterator[None]:
-    """Work in a folder with good files, beside a ROS master."""
+    """Run in a folder with good files, beside a ROS master."""
     here = Path.cwd()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

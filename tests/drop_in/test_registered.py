@@ -18,7 +18,7 @@ PRIVATE = {"moveit_client", "shared"}
 
 
 def listed():
-    """Entry points in pyproject.toml, by name."""
+    """Return entry points in pyproject.toml, by name."""
     project = HOME.parents[1] / "pyproject.toml"
     if not project.exists():
         pytest.skip("there is no pyproject.toml: this is an installed package")

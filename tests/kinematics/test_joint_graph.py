@@ -14,7 +14,7 @@ class Joint(NamedTuple):
 
 
 def graph(text):
-    """Joints such as ``a>b``, named ``ab``."""
+    """Return joints such as ``a>b``, named ``ab``."""
     pairs = [pair.split(">") for pair in text.split()]
     return JointGraph(Joint(parent + child, parent, child) for parent, child in pairs)
 

@@ -356,7 +356,7 @@ def answered(work):
 
 
 def locked(work):
-    """Deadlock: both take a lock, and the other has it."""
+    """Run into a deadlock: both take a lock, and the other has it."""
     lock, held = threading.Lock(), threading.Event()
 
     def hold():

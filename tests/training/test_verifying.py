@@ -53,7 +53,7 @@ def claim(task, *counts, cpu=10.0, engine="planar", goals="held-out"):
 
 @pytest.fixture
 def outcomes(verifying, monkeypatch, tmp_path):
-    """Verify claims with given results of each seed; returns failures and seeds trained."""
+    """Check claims with given results of each seed; returns failures and seeds trained."""
 
     def verify(claims, reached, seeds=(100,)):
         trained = []

@@ -15,7 +15,7 @@ PICTURE_S = 0.05
 
 @pytest.fixture
 def wall(monkeypatch):
-    """A clock that a test moves on."""
+    """Return a clock that a test advances."""
     clock = SimpleNamespace(now=1000.0)
     monkeypatch.setattr(pace_meter, "time", SimpleNamespace(monotonic=lambda: clock.now))
     return clock

@@ -193,7 +193,7 @@ def test_notched_fingers_centre_a_bar(size, step, tmp_path):
 
 
 def wheel_on_an_axle(height, friction):
-    """A wheel of 0.1 m on an axle that the world holds."""
+    """Return a wheel of 0.1 m on an axle fixed to the world."""
     mu = f"<surface><friction><ode><mu>{friction}</mu><mu2>{friction}</mu2></ode></friction></surface>"
     return formats.load_string(
         f"""<sdf version="1.6"><world name="w"><include><uri>model://ground_plane</uri></include>

@@ -23,7 +23,7 @@ AXES = {
 
 
 def chain(kind, other, **model):
-    """Two joints, one on the other, and a link that is fixed to the last."""
+    """Return two joints, one on the other, and a link that is fixed to the last."""
     joints = (
         Joint("first", kind, "world", "lower", FRAME, axes=tuple(map(JointAxis, AXES[kind]))),
         Joint("second", other, "lower", "upper", FRAME, axes=tuple(map(JointAxis, AXES[other]))),

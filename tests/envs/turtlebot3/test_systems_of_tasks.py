@@ -11,7 +11,7 @@ from gazelle.envs.turtlebot3.task import TurtleBot3Task
 
 
 def listen(task):
-    """Have Python update what a kernel updates without listeners."""
+    """Subscribe, so that Python updates what a kernel does without subscribers."""
     for robot in task.scene.simulation.robots.values():
         for name in robot.outputs.keys() & {"odom", "odom_tf"}:  # a scan would draw more noise
             robot.outputs[name].subscribe(lambda _: None)

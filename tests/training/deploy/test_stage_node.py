@@ -86,7 +86,7 @@ STEPS = 200
 
 
 def drive(gazebo, driving, acts):
-    """Let time go on by a scan whenever the node has acted on the last, until it has ended."""
+    """Advance by a scan whenever the node has acted on the last, until it has ended."""
     while driving.poll() is None:
         before = len(acts)
         gazebo.step(STEPS)
