@@ -179,7 +179,6 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Stream": lambda s: Stream(0, "test", 1),
     "Terrain": lambda s: gazelle.builders.terrain(np.eye(3)),
     "Point": lambda s: (0.0, 1.0),
-    "Node": lambda s: s.node,
     "Octree": lambda s: Octree(0.1, b""),
     "TriangleMesh": lambda s: triangles.box((1.0, 1.0, 1.0)),
     "PlanningScene": lambda s: planning.PlanningScene(arms.arm("fetch")),

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.closing import Closeable
 from gazelle.errors import Error, SimulationError, SimulationWarning
 from gazelle.rendering import PinholeLens
@@ -36,6 +37,7 @@ _LENS = PinholeLens(400, 400, 1.25)  # about that of the page
 _SHARE = 0.25  # of a core that pictures take at most: dearer ones come less often
 
 
+@checked(Error)
 class LiveView(Closeable):
     """Shows a simulation in a browser while it runs, with controls; a context manager.
 

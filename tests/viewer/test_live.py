@@ -1,6 +1,7 @@
 """A simulation is shown live in a browser on this machine, to those who know the address alone."""
 
 import http.client
+import math
 import socket
 import threading
 import warnings
@@ -128,9 +129,21 @@ def test_the_port_is_the_one_asked_for_and_given_back(room):
         assert urlsplit(view.url).port == port
 
 
-@pytest.mark.parametrize("options", [{"world": 1}, {"world": -1}, {"rate": 0.0}, {"worlds": 2}])
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"world": 1},
+        {"world": -1},
+        {"rate": 0.0},
+        {"rate": math.nan},
+        {"rate": 10**400},
+        {"worlds": 2},
+    ],
+)
 def test_what_cannot_be_is_refused(room, options):
-    with pytest.raises(Error, match=r"there is no world|a view cannot show|a rate above zero"):
+    with pytest.raises(
+        Error, match=r"there is no world|a view cannot show|a rate above zero|'rate' must be"
+    ):
         LiveView(room, **options)
 
 
