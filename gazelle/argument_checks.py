@@ -147,8 +147,9 @@ def _is_within(array: Any, most: float) -> bool:
 
 
 def _limited(most: float, *, many: bool) -> str:
-    what = "numbers" if many else "a number"
-    return what if math.isinf(most) else f"{what} up to {most:g} in magnitude"
+    if math.isinf(most):
+        return "numbers" if many else "a number"
+    return f"{'finite numbers' if many else 'a finite number'} up to {most:g} in magnitude"
 
 
 def _inside(value: Any) -> Iterable[Any]:

@@ -129,7 +129,7 @@ def test_what_can_be_is_taken_as_it_is():
 
 def test_classes_check_what_they_are_made_of_and_their_methods_arguments():
     for make in (lambda: Span(math.nan), lambda: Span(0.0, high=math.inf)):
-        with pytest.raises(PlanningError, match="must be a number up to"):
+        with pytest.raises(PlanningError, match="must be a finite number up to"):
             make()
     with pytest.raises(PlanningError, match="'factor' must be"):
         Span(0.0).scaled(math.nan)

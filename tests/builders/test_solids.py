@@ -65,7 +65,7 @@ def test_impossible_models_are_refused():
         assemble("m", [part, part])
     with pytest.raises(BuildError, match="fall for ever"):
         assemble("m", [slab("a", (1, 1, 1), (0, 0, 0), collides=False)], mass=1.0)
-    with pytest.raises(BuildError, match="'pose' must be numbers"):
+    with pytest.raises(BuildError, match="'pose' must be finite numbers"):
         assemble("m", [part], pose=Pose(float("nan")))
     with pytest.raises(BuildError, match="size of 'a'"):
         slab("a", (1, 0, 1), (0, 0, 0))

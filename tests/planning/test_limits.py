@@ -24,9 +24,9 @@ def arm():
         (None, "a list of one pose or more"),
         ([None], "pose 0 of a path is no gazelle.Pose"),
         ("poses", "pose 0 of a path is no gazelle.Pose"),
-        ([Pose(x=math.nan)], "'poses' must be numbers"),
-        ([Pose(), Pose(yaw=math.inf)], "'poses' must be numbers"),
-        ([Pose(x=1e300)], "'poses' must be numbers"),
+        ([Pose(x=math.nan)], "'poses' must be finite numbers"),
+        ([Pose(), Pose(yaw=math.inf)], "'poses' must be finite numbers"),
+        ([Pose(x=1e300)], "'poses' must be finite numbers"),
         ([Pose(x=1e5)], "more than the limit of 100,000"),
     ],
 )
