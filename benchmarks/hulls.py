@@ -15,7 +15,7 @@ from collections.abc import Callable
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.formats.hull import convex_hull
+from gazelle.geometry.hull import convex_hull
 
 
 def clouds() -> dict[str, Floats]:

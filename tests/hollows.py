@@ -9,12 +9,12 @@ import numpy as np
 import trimesh
 
 from gazelle.array_types import Bools, Floats
-from gazelle.formats.convex import ConvexPieces
-from gazelle.formats.hull import convex_hull
-from gazelle.formats.mesh import MeshData
-from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.probing import spread
-from gazelle.formats.surface import WeldedSurface, clean, components
+from gazelle.geometry.convex_decomposition import ConvexPieces
+from gazelle.geometry.hull import convex_hull
+from gazelle.geometry.mesh_data import MeshData
+from gazelle.geometry.probing import spread
+from gazelle.geometry.ray_hits import first_hits
+from gazelle.geometry.surface import WeldedSurface, clean, components
 
 _WAYS = np.array([[0.577, 0.211, 0.788], [-0.3, 0.9, -0.32], [0.1, -0.5, 0.86]])
 _PAIRS = 400_000

@@ -21,8 +21,8 @@ import trimesh
 
 from gazelle.description import Mesh, Pose
 from gazelle.engines import make_engine
-from gazelle.formats.convex import decompose
-from gazelle.formats.mesh import MeshData
+from gazelle.geometry.convex_decomposition import decompose
+from gazelle.geometry.mesh_data import MeshData
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 import hollows

@@ -205,7 +205,7 @@ def ports() -> Iterator[Finding]:
 
 def disks() -> Iterator[Finding]:
     """Yield free space where files are written: here, temporary files, cached meshes."""
-    from gazelle.formats.piece_cache import folder
+    from gazelle.geometry.piece_cache import folder
 
     places = {"this folder": Path.cwd(), "temporary files": Path(tempfile.gettempdir())}
     places["cached meshes"] = next(each for each in (folder(), *folder().parents) if each.exists())

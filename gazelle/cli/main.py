@@ -89,7 +89,10 @@ def _open_streams() -> bool:
 @contextlib.contextmanager
 def _progress() -> Iterator[None]:
     """Report long work on stderr while it lasts: the log of mesh processing."""
-    log, handler = logging.getLogger("gazelle.formats.convex"), logging.StreamHandler()
+    log, handler = (
+        logging.getLogger("gazelle.geometry.convex_decomposition"),
+        logging.StreamHandler(),
+    )
     handler.setFormatter(logging.Formatter("gazelle: %(message)s"))
     before = log.level
     log.addHandler(handler)

@@ -10,7 +10,7 @@ __path__ = search_path([str(Path(__file__).parent)])
 
 from gazelle.formats.check import Problem, check
 from gazelle.formats.loader import load, load_model, load_model_string, load_string
-from gazelle.formats.mesh import MeshData, load_mesh
+from gazelle.formats.mesh import load_mesh
 from gazelle.formats.occupancy import load_map
 from gazelle.formats.occupancy_writing import save_map
 from gazelle.formats.octree import Octree
@@ -18,6 +18,7 @@ from gazelle.formats.opening import open_world
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.srdf import load_srdf, load_srdf_string
 from gazelle.formats.write import save, to_string, write_text
+from gazelle.geometry.mesh_data import MeshData
 
 __all__ = [
     "MeshData",

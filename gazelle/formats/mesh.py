@@ -22,6 +22,7 @@ from gazelle.formats import collada, stl, wavefront, wavefront_looks
 from gazelle.formats.lfs import refuse_pointer
 from gazelle.formats.limits import read_bounded
 from gazelle.formats.mesh_looks import PLAIN, MeshLook, look_of_trimesh
+from gazelle.geometry.mesh_data import MeshData
 
 CACHED = 256
 
@@ -41,24 +42,6 @@ class MeshPart:
     vertices: NDArray[np.float64]
     faces: NDArray[np.int32]
     look: MeshLook = PLAIN
-
-
-@dataclass(frozen=True, slots=True)
-class MeshData:
-    """Triangles.
-
-    Attributes:
-        vertices: Positions [m] in the frame of the mesh, shape (n, 3); not writable.
-        faces: Corners of each triangle, counter-clockwise from outside, shape (m, 3).
-    """
-
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int32]
-
-    @property
-    def bounds(self) -> NDArray[np.float64]:
-        """Smallest and largest coordinates [m], shape (2, 3)."""
-        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
 
 def load_mesh(mesh: Mesh) -> MeshData:

@@ -31,7 +31,7 @@ from gazelle.description import (
     Sphere,
 )
 from gazelle.formats.mesh import load_mesh
-from gazelle.formats.patches import prism
+from gazelle.geometry.patches import prism
 from gazelle.geometry.polygons import convex_polygons
 
 WATER = 1000.0

@@ -1,1 +1,9 @@
-"""Geometry without robotics: polygons, outlines of bitmaps, parts of a plane."""
+"""Geometry without robotics: polygons, hulls, surfaces, and meshes as convex pieces."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gazelle.native import search_path
+
+__path__ = search_path([str(Path(__file__).parent)])

@@ -17,7 +17,7 @@ CREASE = math.cos(math.radians(40.0))
 
 def polyline(shape: Polyline) -> TriangleMesh:
     """Return prisms on outlines."""
-    from gazelle.formats.patches import prism
+    from gazelle.geometry.patches import prism
 
     pieces = []
     for corners in convex_polygons(shape.outlines):

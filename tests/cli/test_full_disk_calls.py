@@ -15,7 +15,7 @@ import pytest
 
 import gazelle
 from gazelle.errors import Error
-from gazelle.formats import piece_cache
+from gazelle.geometry import piece_cache
 from gazelle.ros.messages import load_message
 from gazelle.simulation import Replay
 

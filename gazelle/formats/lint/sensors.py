@@ -107,8 +107,8 @@ def _reach_from(sensor: Sensor, collision: Collision) -> float | None:
 def _reach_in_mesh(shape: Mesh, place: Pose) -> float | None:
     """Return the horizontal reach of the mesh around a sensor; None where it is open to a side."""
     from gazelle.formats.mesh import load_mesh
-    from gazelle.formats.mujoco_geometry import first_hits
-    from gazelle.formats.surface import clean
+    from gazelle.geometry.ray_hits import first_hits
+    from gazelle.geometry.surface import clean
 
     if shape.path is None:
         return None

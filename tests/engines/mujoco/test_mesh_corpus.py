@@ -10,8 +10,8 @@ from gazelle.description import Mesh
 from gazelle.engines import make_engine
 from gazelle.errors import FormatError
 from gazelle.formats import load_mesh
-from gazelle.formats.convex import decompose
-from gazelle.formats.hull import convex_hull
+from gazelle.geometry.convex_decomposition import decompose
+from gazelle.geometry.hull import convex_hull
 
 pytestmark = pytest.mark.corpus
 

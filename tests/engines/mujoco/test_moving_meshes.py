@@ -13,9 +13,10 @@ from gazelle import formats
 from gazelle.description import Cylinder, Joint, JointAxis, Mesh, Pose
 from gazelle.engines import make_engine
 from gazelle.errors import EngineWarning
-from gazelle.formats import bounded_pieces, convex
-from gazelle.formats.mesh import MeshData
-from gazelle.formats.surface import clean
+from gazelle.geometry import bounded_pieces
+from gazelle.geometry import convex_decomposition as convex
+from gazelle.geometry.mesh_data import MeshData
+from gazelle.geometry.surface import clean
 
 
 def body(name, data, folder, mass=100.0, pose=None):

@@ -35,12 +35,12 @@ from gazelle.description import (
 )
 from gazelle.engines.mujoco.compiler.meshes import SHELL, cone_mesh, inertia_of
 from gazelle.errors import EngineWarning, located
-from gazelle.formats.ground import Ground
+from gazelle.geometry.ground import Ground
 from gazelle.geometry.polygons import convex_polygons
 
 if TYPE_CHECKING:
-    from gazelle.formats.convex import ConvexPieces
-    from gazelle.formats.mesh import MeshData
+    from gazelle.geometry.convex_decomposition import ConvexPieces
+    from gazelle.geometry.mesh_data import MeshData
 
 CONTACT_GROUP = 2
 """Of what collides and is not seen by rays, since a mesh stands for it."""
@@ -95,8 +95,8 @@ class ShapeBuilder:
         """Return one geom for each convex piece: MuJoCo fills a mesh's hull, hollows and all."""
         if shape.path is None:
             return []
-        from gazelle.formats.convex import decompose
         from gazelle.formats.mesh import load_mesh
+        from gazelle.geometry.convex_decomposition import decompose
 
         ground = self._ground(shape) if static else None
         if ground is not None:
@@ -112,7 +112,7 @@ class ShapeBuilder:
 
         ``static`` as in ``options``.
         """
-        from gazelle.formats.convex import decompose
+        from gazelle.geometry.convex_decomposition import decompose
 
         key = ("data", len(self.meshes), static)
         return self._piece_geoms(key, decompose(data, static=static), pose)
@@ -151,9 +151,9 @@ class ShapeBuilder:
 
     def _ground(self, shape: Mesh) -> Ground | None:
         """Return the height field of a mesh; None if it has none that is fine enough."""
-        from gazelle.formats.convex import PROMISED
-        from gazelle.formats.ground import ground_of
         from gazelle.formats.mesh import load_mesh
+        from gazelle.geometry.convex_decomposition import PROMISED
+        from gazelle.geometry.ground import ground_of
 
         key = _key_of(shape)
         if key not in self.grounds:
@@ -170,7 +170,7 @@ class ShapeBuilder:
 
         Where the mesh has them split the other way, it is turned by a right angle.
         """
-        from gazelle.formats.convex import PROMISED
+        from gazelle.geometry.convex_decomposition import PROMISED
 
         gap, turned = min(ground.gaps), ground.gaps[1] < ground.gaps[0]
         if gap > PROMISED:
@@ -202,8 +202,8 @@ class ShapeBuilder:
         """
         if not isinstance(shape, Mesh) or shape.path is None:
             return None
-        from gazelle.formats.convex import decompose
         from gazelle.formats.mesh import load_mesh
+        from gazelle.geometry.convex_decomposition import decompose
 
         data, closed = load_mesh(shape), False
         if not static or self._ground(shape) is None:
@@ -318,7 +318,7 @@ def _cone(builder: ShapeBuilder, shape: Cone, pose: Pose, _: Source | None) -> l
 def _polyline(
     builder: ShapeBuilder, shape: Polyline, pose: Pose, _: Source | None
 ) -> list[dict[str, Any]]:
-    from gazelle.formats.patches import prism
+    from gazelle.geometry.patches import prism
 
     geoms = []
     for number, corners in enumerate(convex_polygons(shape.outlines)):

@@ -1,5 +1,5 @@
 cimport cython
-from gazelle.formats.integer_hull cimport HullBuilder
+from gazelle.geometry.integer_hull cimport HullBuilder
 
 
 cdef class AirProbes:

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.formats.flat import Polygons, Rims
-from gazelle.formats.hull import Solid
-from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.surface import WeldedSurface
+from gazelle.geometry.flat_polygons import Polygons, Rims
+from gazelle.geometry.hull import Solid
+from gazelle.geometry.ray_hits import first_hits
+from gazelle.geometry.surface import WeldedSurface
 
 FINE = 7e-3
 """Largest deviation of solids from a surface before their number is unlimited [m]."""

@@ -12,12 +12,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
-from gazelle.formats.flat import Polygons
-from gazelle.formats.hull import Solid, hulls_of
-from gazelle.formats.merging import PieceMerger
-from gazelle.formats.patches import depths_of, joined_flat, skin_of, widths_of
-from gazelle.formats.probing import ROUNDING, air_beside
-from gazelle.formats.surface import WeldedSurface
+from gazelle.geometry.flat_polygons import Polygons
+from gazelle.geometry.hull import Solid, hulls_of
+from gazelle.geometry.merging import PieceMerger
+from gazelle.geometry.patches import depths_of, joined_flat, skin_of, widths_of
+from gazelle.geometry.probing import ROUNDING, air_beside
+from gazelle.geometry.surface import WeldedSurface
 
 MOST_PIECES = 1000
 """Pieces up to which the bound is kept."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices
-from gazelle.formats.integer_hull import HullBuilder
+from gazelle.geometry.integer_hull import HullBuilder
 
 Solid = tuple[Floats, NDArray[np.int32]]
 """Vertices, shape (n, 3), and faces, shape (m, 3)."""

@@ -6,8 +6,8 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gazelle.formats.flat import Polygons
-from gazelle.formats.surface import clean
+from gazelle.geometry.flat_polygons import Polygons
+from gazelle.geometry.surface import clean
 
 
 def joined(mesh, tolerance):

@@ -9,13 +9,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gazelle.description import Mesh
-from gazelle.formats import convex, load_mesh, piece_cache
-from gazelle.formats.convex import convex_pieces, decompose
-from gazelle.formats.hull import convex_hull, hulls_of
-from gazelle.formats.mesh import MeshData
-from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.surface import clean, components
+from gazelle.formats import load_mesh
+from gazelle.geometry import convex_decomposition as convex
+from gazelle.geometry import piece_cache
+from gazelle.geometry.convex_decomposition import convex_pieces, decompose
+from gazelle.geometry.hull import convex_hull, hulls_of
+from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.polygons import planar_area, planar_hull
+from gazelle.geometry.ray_hits import first_hits
+from gazelle.geometry.surface import clean, components
 
 
 @pytest.fixture(autouse=True)
@@ -297,7 +299,7 @@ def test_walls_of_the_corpus_keep_a_robot_inside(corpus):
 
 
 def test_what_takes_long_is_told(monkeypatch, caplog):
-    caplog.set_level("INFO", logger="gazelle.formats.convex")
+    caplog.set_level("INFO", logger="gazelle.geometry.convex_decomposition")
     monkeypatch.setattr(convex, "_SPENT", {"seconds": 0.0})
     convex_pieces(data(l_shape()))
     assert not caplog.records

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gazelle.formats.hull import Solid
+from gazelle.geometry.hull import Solid
 
 Stored = tuple[list[Solid], bool, float, bool]
 """Pieces, whether the one is the whole mesh, how far they are off it [m], whether it is closed."""

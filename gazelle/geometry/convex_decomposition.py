@@ -17,14 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.formats import piece_cache
-from gazelle.formats.bounded_pieces import pieces_within
-from gazelle.formats.hull import Hull, Solid, convex_hull, spread_directions
-from gazelle.formats.mesh import MeshData
-from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.patches import joined_flat, thick_patches
-from gazelle.formats.probing import spread
-from gazelle.formats.surface import WeldedSurface, clean, components
+from gazelle.geometry import piece_cache
+from gazelle.geometry.bounded_pieces import pieces_within
+from gazelle.geometry.hull import Hull, Solid, convex_hull, spread_directions
+from gazelle.geometry.mesh_data import MeshData
+from gazelle.geometry.patches import joined_flat, thick_patches
+from gazelle.geometry.probing import spread
+from gazelle.geometry.ray_hits import first_hits
+from gazelle.geometry.surface import WeldedSurface, clean, components
 
 CACHED = 256
 PROMISED = 0.01

@@ -6,10 +6,10 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gazelle.formats import convex
-from gazelle.formats.convex import PROMISED, decompose
-from gazelle.formats.hull import convex_hull
-from gazelle.formats.mesh import MeshData
+from gazelle.geometry import convex_decomposition as convex
+from gazelle.geometry.convex_decomposition import PROMISED, decompose
+from gazelle.geometry.hull import convex_hull
+from gazelle.geometry.mesh_data import MeshData
 
 SKIN = 0.01
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 import trimesh
 
-from gazelle.formats import convex
-from gazelle.formats.convex import decompose
-from gazelle.formats.mesh import MeshData
-from gazelle.formats.surface import clean
+from gazelle.geometry import convex_decomposition as convex
+from gazelle.geometry.convex_decomposition import decompose
+from gazelle.geometry.mesh_data import MeshData
+from gazelle.geometry.surface import clean
 
 
 @pytest.fixture(autouse=True)
@@ -129,8 +129,8 @@ def test_parts_are_merged_only_where_no_air_is_between():
 @pytest.mark.long
 def test_what_needs_too_many_pieces_says_how_far_it_is_off(monkeypatch):
     mesh = hollows.made("bowl", 1.0)
-    monkeypatch.setattr("gazelle.formats.bounded_pieces.MOST_PIECES", 60)
-    monkeypatch.setattr("gazelle.formats.bounded_pieces._FEW_PIECES", 60)
+    monkeypatch.setattr("gazelle.geometry.bounded_pieces.MOST_PIECES", 60)
+    monkeypatch.setattr("gazelle.geometry.bounded_pieces._FEW_PIECES", 60)
     pieces = decompose(mesh, static=False)
     assert len(pieces.solids) <= 60
     assert pieces.gap > pieces.promised

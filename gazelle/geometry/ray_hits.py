@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.formats.surface import WeldedSurface
+from gazelle.geometry.surface import WeldedSurface
 
 _FEWEST = 4
 """Vertices that MuJoCo wants a mesh to have."""

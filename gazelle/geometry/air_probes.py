@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import cython
 import numpy as np
-from cython.cimports.gazelle.formats.integer_hull import HullBuilder
+from cython.cimports.gazelle.geometry.integer_hull import HullBuilder
 
 from gazelle.array_types import Floats, Indices
 

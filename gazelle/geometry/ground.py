@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.formats.mesh import MeshData
-from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.surface import WeldedSurface, clean
+from gazelle.geometry.mesh_data import MeshData
+from gazelle.geometry.ray_hits import first_hits
+from gazelle.geometry.surface import WeldedSurface, clean
 
 FEWEST = 4000
 """Triangles from which on a mesh is asked whether it is ground; fewer collide as they are."""

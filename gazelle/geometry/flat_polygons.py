@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Bools, Floats, Indices
-from gazelle.formats.outlines import Planar, filled, hull_rows
-from gazelle.formats.surface import WeldedSurface
+from gazelle.geometry.outlines import Planar, filled, hull_rows
+from gazelle.geometry.surface import WeldedSurface
 
 _CELL = 8.0
 """Of the cells of which polygons are parts at first, in tolerances."""

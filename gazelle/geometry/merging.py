@@ -14,7 +14,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.formats.air_probes import AirProbes
+from gazelle.geometry.air_probes import AirProbes
 
 
 class PieceMerger:

@@ -10,17 +10,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gazelle import native
-from gazelle.formats.air_probes import AirProbes
-from gazelle.formats.hull import convex_hull
-from gazelle.formats.integer_hull import HullBuilder
-from gazelle.formats.merging import PieceMerger
+from gazelle.geometry.air_probes import AirProbes
+from gazelle.geometry.hull import convex_hull
+from gazelle.geometry.integer_hull import HullBuilder
+from gazelle.geometry.merging import PieceMerger
 
 SEEDS = st.integers(0, 2**32 - 1)
 PIECES = """
 import hashlib
 import numpy as np
 from gazelle import native
-from gazelle.formats.merging import PieceMerger
+from gazelle.geometry.merging import PieceMerger
 chance = np.random.default_rng(0)
 clouds = [chance.normal(size=(6, 3)) + chance.normal(size=3) for _ in range(12)]
 merger = PieceMerger(clouds, chance.normal(size=(20, 3)))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Indices
-from gazelle.formats.slivers import flip_slivers, half_edge_twins
+from gazelle.geometry.slivers import flip_slivers, half_edge_twins
 
 _BITS = 21
 """Of a coordinate that places are distinguished by: a two-millionth of the size."""

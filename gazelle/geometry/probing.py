@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gazelle.array_types import Bools, Floats, Indices
-from gazelle.formats.mujoco_geometry import first_hits
-from gazelle.formats.surface import WeldedSurface
+from gazelle.geometry.ray_hits import first_hits
+from gazelle.geometry.surface import WeldedSurface
 
 ROUNDING = 1e-6
 """Height of a triangle over its neighbour's plane that counts as none, as a share of the size."""
