@@ -14,9 +14,11 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-# Shells start background jobs with Ctrl-C ignored, and programs hand that on to theirs.
+# Shells start background jobs with Ctrl-C ignored, nohup with SIGHUP, and programs inherit that.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+if hasattr(signal, "SIGHUP") and signal.getsignal(signal.SIGHUP) is signal.SIG_IGN:
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 # ONNX Runtime reports its use to its makers, and leaves files, where this is not set before its import.
 os.environ.setdefault("ORT_DISABLE_TELEMETRY", "1")

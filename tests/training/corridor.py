@@ -28,12 +28,14 @@ class Corridor(VectorEnv):
         limit: int = 30,
         tell: bool = True,
         bound: float = 1.2,
+        scale: float = 1.0,
     ):
         self.num_envs = num_envs
         self.mode = AutoresetMode(mode)
         self.metadata = {"autoreset_mode": self.mode}
         self.limit = limit
         self.tell = tell
+        self.scale = scale
         self.single_observation_space = gym.spaces.Box(-bound, bound, (3,), np.float32)
         self.single_action_space = (
             gym.spaces.Box(-1, 1, (1,), np.float32) if continuous else gym.spaces.Discrete(3)
@@ -67,6 +69,7 @@ class Corridor(VectorEnv):
         terminated = success | collision
         truncated = active & ~terminated & (self.steps >= self.limit)
         reward = np.where(active, before - distance + 1.0 * success - 1.0 * collision, 0.0)
+        reward *= self.scale
         info = {}
         if self.tell:
             info = {"is_success": success, "is_collision": collision, "is_timeout": truncated}
