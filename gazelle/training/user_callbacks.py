@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Iterable
+from types import ModuleType
 from typing import Any
 
 from stable_baselines3.common.callbacks import BaseCallback
@@ -42,7 +43,7 @@ def make_callbacks(names: Iterable[str]) -> list[Any]:
     made = []
     for text in names:
         module, _, name = text.rpartition(":")
-        home = importlib.import_module(module)
+        home = _imported(module, text)
         kind = getattr(home, name, None)
         if kind is None:
             hint = did_you_mean(name, [each for each in vars(home) if not each.startswith("_")])
@@ -54,3 +55,16 @@ def make_callbacks(names: Iterable[str]) -> list[Any]:
             )
         made.append(kind())
     return made
+
+
+def _imported(module: str, text: str) -> ModuleType:
+    """Return the module of a callback.
+
+    Raises:
+        TaskError: It cannot be imported.
+    """
+    try:
+        return importlib.import_module(module)
+    except (ImportError, TypeError, ValueError) as error:  # ValueError: there is no name
+        reason = f"cannot import the callback '{text}': {error}"
+        raise TaskError(reason, hint="expected module:Class") from error

@@ -10,11 +10,12 @@ import pytest
 import torch
 
 from gazelle.bounded_npz import MAX_BYTES
-from gazelle.errors import Error, FormatError
+from gazelle.errors import Error, FormatError, TaskError
 from gazelle.training import portable
 from gazelle.training.actor import Actor, load_actor
 from gazelle.training.checkpoint import _set_torch_state, usable
 from gazelle.training.statistics import EpisodeLog
+from gazelle.training.user_callbacks import make_callbacks
 
 
 def policy(tmp_path):
@@ -139,3 +140,11 @@ def test_an_account_of_another_shape_is_refused(tmp_path, rows):
         EpisodeLog().set_state({"rows": rows, "total": 1})
     with pytest.raises(FormatError, match="cannot use the checkpoint"), usable(tmp_path):
         EpisodeLog().set_state({"rows": np.zeros((0, 6)), "total": float("inf")})
+
+
+@pytest.mark.parametrize(
+    "name", ["Counter", ":Counter", ".x:Counter", "no_such_module_at_all:Counter"]
+)
+def test_callbacks_of_a_run_that_cannot_be_imported(name):
+    with pytest.raises(TaskError, match="cannot import the callback"):
+        make_callbacks([name])

@@ -73,6 +73,8 @@ def read_document(path: str) -> Element:
         raise LaunchError("there is no such launch file", file=path, hint=hint) from None
     except IsADirectoryError:
         raise LaunchError("this is a folder, not a launch file", file=path) from None
+    except OSError as error:  # such as a name that is too long
+        raise LaunchError(f"cannot be read: {error.strerror}", file=path) from None
     return parse_document(data, path)
 
 

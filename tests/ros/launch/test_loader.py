@@ -17,6 +17,7 @@ from gazelle.ros.launch import (
     load_launch,
     load_launch_text,
 )
+from gazelle.ros.launch.document import read_document
 from gazelle.ros.launch.loader import declared_arguments
 
 NODE = '<node pkg="robot" type="t" name="{}"/>'
@@ -224,6 +225,11 @@ def test_an_argument_that_the_file_does_not_declare_is_an_error(load):
     body = '<include file="$(dirname)/other.launch"><arg name="modle" value="1"/></include>'
     with pytest.raises(LaunchError, match="did you mean 'model'"):
         load(body, other='<arg name="model" default="1"/>')
+
+
+def test_a_name_that_no_file_can_have():
+    with pytest.raises(LaunchError, match="cannot be read"):
+        read_document("a" * 5000 + ".launch")
 
 
 def test_a_missing_include_names_who_includes_it(load):
