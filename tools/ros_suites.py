@@ -7,7 +7,8 @@ Needs the real ROS 1 of Debian 12 (.ci/packages.txt) and the suites' sources: th
 source packages (--fetch), or checkouts of ros/ros_comm at 1.15.15, ros/actionlib, ros/geometry and
 ros/geometry2 below one folder. Debian packages neither ros_control nor ros_controllers, so theirs are run
 from checkouts of ros-controls/ros_control, ros_controllers and realtime_tools only, whose C++ clients are
-compiled with libroscpp-dev, libtf-dev, libactionlib-dev, libgtest-dev and python3-gencpp. MoveIt's Python suites
+compiled with libroscpp-dev, libtf-dev, libactionlib-dev, libnav-msgs-dev, libtrajectory-msgs-dev,
+libangles-dev, libgtest-dev and python3-gencpp. MoveIt's Python suites
 are run from checkouts of ros-planning/moveit and moveit_resources (rossuites/moveit.py). Nothing of them is kept. The stacks are: real, the installed ROS
 alone; master, Gazelle's master under real clients; clients, Gazelle's modules and tools on the real
 master; both; alone, nothing real. Exits with 1 if a stack passes fewer tests than the real one is known to.
