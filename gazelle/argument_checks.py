@@ -30,7 +30,7 @@ MOST_INT = 2**53
 _DEEPEST = 4
 _CHECKED: set[type] = set()
 """Classes whose instances were checked when they were made."""
-_TRUSTED = {"restore"}
+_TRUSTED = {"from_dict", "restore"}
 """Methods that get what their own class made, such as a state with infinite costs."""
 _ARRAY = re.compile(r"\b(ArrayLike|Floats\d*|Bools|Indices|Ints\d*)\b")
 _LENGTHS = {"Vector3": 3, "Vector": 3, "Range": 2, "Color": 4, "Quaternion": 4}
@@ -118,9 +118,9 @@ def _is_endless(default: Any) -> bool:
 
 def _fault(value: Any, most: float, depth: int = 0) -> str | None:
     """Return what a value would have to be; None for one that can be."""
-    kind = type(value)
-    if kind is np.ndarray:
+    if isinstance(value, np.ndarray):
         return None if _is_within(value, most) else _limited(most, many=True)
+    kind = type(value)
     if value is None or kind is bool or kind in _CHECKED:
         return None
     if isinstance(value, Integral):
@@ -130,8 +130,6 @@ def _fault(value: Any, most: float, depth: int = 0) -> str | None:
         return None if abs(number) <= most else _limited(most, many=depth > 0)
     if isinstance(value, str | Path):
         return None if can_be_written(str(value)) else "text of characters"
-    if isinstance(value, np.ndarray):
-        return None if _is_within(value, most) else _limited(most, many=True)
     if depth < _DEEPEST:
         inner = _inside(value)
         return next((f for each in inner if (f := _fault(each, most, depth + 1))), None)

@@ -12,7 +12,11 @@ import pytest
 import gazelle
 
 PACKAGE = Path(gazelle.__file__).parent
-COMPAT = ("ros/compat/", "compat/")
+ORIGINALS = (
+    *("diagnostic_updater/", "frobs_rl/", "gym/", "interactive_markers/", "openai_ros/"),
+    *("shared/", "shimmy.py", "six/", "smach/", "smach_ros/"),
+)
+COMPAT = ("ros/compat/", *(f"drop_in/{name}" for name in ORIGINALS))
 """Modules with the names and interfaces of ROS's own packages, of openai_ros', frobs_rl's, smach's and gym's."""
 
 GIVEN_BY_ROS = frozenset(
@@ -41,7 +45,7 @@ GIVEN_BY_ROS = frozenset(
 )
 """Names that scripts import from those packages: these modules have them besides one of ours."""
 
-OPENAI_ROS = "compat/openai_ros/"
+OPENAI_ROS = "drop_in/openai_ros/"
 """Its environments have the names that openai_ros gave them; the native ones may have them too."""
 
 SAME_PROGRAM = {"JointStatePublisher": 2}
@@ -95,8 +99,8 @@ def test_the_list_of_ros_names_holds_nothing_else():
         ([("Rope", "a.py"), ("Rope", "ros/compat/rospy/rope.py")], {"Rope"}),
         ([("Node", "ros/node.py"), ("Node", "ros/compat/roslaunch/core.py")], set()),
         ([("Node", "ros/node.py"), ("Node", "viewer/graph.py")], {"Node"}),
-        ([("CartEnv", "envs/cart.py"), ("CartEnv", "compat/openai_ros/cart.py")], set()),
-        ([("Cart", "envs/cart.py"), ("Cart", "compat/openai_ros/cart.py")], {"Cart"}),
+        ([("CartEnv", "envs/cart.py"), ("CartEnv", "drop_in/openai_ros/cart.py")], set()),
+        ([("Cart", "envs/cart.py"), ("Cart", "drop_in/openai_ros/cart.py")], {"Cart"}),
     ],
 )
 def test_a_repeated_name_is_caught(found, expected):

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from typing import Generic, Protocol, TypeVar
 
 
-class Connection(Protocol):
+class LinkConnection(Protocol):
     """A joint of any file format."""
 
     @property
@@ -22,7 +22,7 @@ class Connection(Protocol):
         """Name of the child link."""
 
 
-J = TypeVar("J", bound=Connection)
+J = TypeVar("J", bound=LinkConnection)
 
 
 class JointGraph(Generic[J]):
