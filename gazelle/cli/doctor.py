@@ -7,12 +7,9 @@ from __future__ import annotations
 
 import argparse
 import sys
-import textwrap
 
+from gazelle.cli import showing
 from gazelle.cli.machine_checks import Finding, Grade, examine
-
-WIDTH = 80
-_INDENT = 22
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -34,13 +31,5 @@ def run(args: argparse.Namespace) -> int:
 
 def _lines(finding: Finding) -> str:
     """Return a finding in lines of a terminal; the command of a hint is not broken."""
-    head = f"{finding.grade.value:<9}{finding.name:<{_INDENT - 9}}"
-    text = textwrap.fill(
-        finding.text,
-        WIDTH,
-        initial_indent=head,
-        subsequent_indent=" " * _INDENT,
-        break_long_words=False,
-        break_on_hyphens=False,
-    )
-    return f"{text}\n" + (f"{'':<{_INDENT}}> {finding.hint}\n" if finding.hint else "")
+    text = showing.table([(f"{finding.grade.value:<7}", f"{finding.name:<11}", finding.text)])
+    return text + (f"{'':<22}> {finding.hint}\n" if finding.hint else "")

@@ -23,10 +23,10 @@ from gazelle.ros.compat import namesakes, workspace_code
 from gazelle.ros.compat.cfg_modules import CfgLoader, has_cfg
 from gazelle.ros.messages.library import bundled_packages
 from gazelle.ros.messages.modules import (
-    KINDS,
     MessageLoader,
     PackageLoader,
-    has_definitions,
+    definitions_spec,
+    has_messages_or_services,
     importing,
 )
 
@@ -90,7 +90,7 @@ class AliasLoader(importlib.abc.Loader):
         """
         name = module.__spec__.name if module.__spec__ is not None else ""
         module.__spec__ = self._spec
-        if not hasattr(module, "__getattr__") and any(has_definitions(name, k) for k in KINDS):
+        if not hasattr(module, "__getattr__") and has_messages_or_services(name):
             module.__dict__["__getattr__"] = importing(name, name)
 
 
@@ -121,10 +121,11 @@ class RosFinder(importlib.abc.MetaPathFinder):
     ) -> ModuleSpec | None:
         """Return the spec of a module; None if it is not one of ROS."""
         del target
+        found = definitions_spec(fullname)
+        if found is not None:
+            return found
         package, _, rest = fullname.partition(".")
         kind, _, member = rest.partition(".")
-        if kind in KINDS and has_definitions(package, kind):
-            return ModuleSpec(fullname, MessageLoader(), is_package=not member)
         if kind == "cfg" and has_cfg(package):
             return ModuleSpec(fullname, CfgLoader(), is_package=not member)
         if package in own_modules():
@@ -186,7 +187,7 @@ def _below_a_substitute(package: str, fullname: str) -> ModuleSpec | None:
 
 
 def _known(package: str) -> bool:
-    return any(has_definitions(package, kind) for kind in KINDS) or has_cfg(package)
+    return has_messages_or_services(package) or has_cfg(package)
 
 
 LOADERS = (AliasLoader, CopyLoader, MessageLoader, CfgLoader, PackageLoader)

@@ -29,6 +29,11 @@ def has_definitions(package: str, kind: str) -> bool:
     return bool(package_names(package, kind))
 
 
+def has_messages_or_services(package: str) -> bool:
+    """Return whether a package defines anything."""
+    return any(has_definitions(package, kind) for kind in KINDS)
+
+
 def _class_names(package: str, kind: str) -> list[str]:
     """Return the names of the classes in a module of messages or services."""
     found = package_names(package, kind)
@@ -127,6 +132,20 @@ class MessageLoader(importlib.abc.Loader):
 
     def exec_module(self, module: ModuleType) -> None:
         """Leave the module as it is: its classes are made on first use."""
+
+
+def definitions_spec(fullname: str, prefix: str = "") -> ModuleSpec | None:
+    """Return the spec of ``PACKAGE.msg``, ``PACKAGE.srv`` or of a module in them; None for others.
+
+    Args:
+        fullname: Name of the module.
+        prefix: Package that it is below, with a full stop; empty at the top level.
+    """
+    package, _, rest = fullname.removeprefix(prefix).partition(".")
+    kind, _, member = rest.partition(".")
+    if kind not in KINDS or not has_definitions(package, kind):
+        return None
+    return ModuleSpec(fullname, MessageLoader(prefix), is_package=not member)
 
 
 class PackageLoader(importlib.abc.Loader):

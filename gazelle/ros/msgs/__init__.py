@@ -23,7 +23,11 @@ from types import ModuleType
 
 from gazelle.errors import did_you_mean
 from gazelle.ros.messages.library import bundled_packages
-from gazelle.ros.messages.modules import KINDS, MessageLoader, PackageLoader, has_definitions
+from gazelle.ros.messages.modules import (
+    PackageLoader,
+    definitions_spec,
+    has_messages_or_services,
+)
 
 _PREFIX = f"{__name__}."
 
@@ -31,7 +35,7 @@ _PREFIX = f"{__name__}."
 def _is_package(name: str) -> bool:
     if name in bundled_packages():  # definitions are read when a class is made
         return True
-    return any(has_definitions(name, kind) for kind in KINDS)
+    return has_messages_or_services(name)
 
 
 class _Finder(importlib.abc.MetaPathFinder):
@@ -49,9 +53,9 @@ class _Finder(importlib.abc.MetaPathFinder):
         if not fullname.startswith(_PREFIX):
             return None
         package, _, rest = fullname.removeprefix(_PREFIX).partition(".")
-        kind, _, member = rest.partition(".")
-        if kind in KINDS and has_definitions(package, kind):
-            return ModuleSpec(fullname, MessageLoader(_PREFIX), is_package=not member)
+        found = definitions_spec(fullname, _PREFIX)
+        if found is not None:
+            return found
         if not rest and _is_package(package):
             return ModuleSpec(fullname, PackageLoader(), is_package=True)
         hint = "" if rest else did_you_mean(package, bundled_packages())
