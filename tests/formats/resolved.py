@@ -6,13 +6,13 @@ import re
 import shlex
 import shutil
 import subprocess
-import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from gazelle.description import Inertial, Pose
+from gazelle.formats import xml
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 
@@ -107,9 +107,10 @@ def _is_actor(model):
 def _populations(world):
     """Return names of the models of the file's populations, which libsdformat does not expand."""
     file = world.source.file if world.source else None
-    root = None if file is None or not Path(file).exists() else ET.parse(file).getroot()
-    found = [] if root is None else root.findall("world/population")
-    names = "|".join(re.escape(node.get("name")) for node in found)
+    root = None if file is None or not Path(file).exists() else xml.read_file(Path(file))
+    worlds = [] if root is None else root.find_all("world")
+    found = [node for each in worlds for node in each.find_all("population")]
+    names = "|".join(re.escape(node.attributes["name"]) for node in found)
     return re.compile(rf"({names})_clone_\d+" if names else "(?!)")
 
 
