@@ -12,7 +12,7 @@ import importlib
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from gazelle.assets import published, published_hint
+from gazelle.bundled_packages import published, published_hint
 
 PREFIX = "xacro:"
 NO_PREFIX = "lacks the prefix 'xacro:', and was expanded as up to ROS Melodic; ROS Noetic does not"

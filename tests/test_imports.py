@@ -162,6 +162,49 @@ def targets(node, module, *, is_package):
     return [gazelle._HOMES.get(alias.name, f"gazelle.{alias.name}") for alias in node.names]
 
 
+BELOW_ROS = {
+    f"gazelle.{name}"
+    for name in (
+        "argument_types", "array_types", "bounded_yaml", "bundled_packages", "characters",
+        "child_processes", "closing", "entry_points", "errors", "interrupts", "package_folders",
+        "path_texts", "text_files", "writing", "xacro_engine",
+    )
+}  # fmt: skip
+"""Modules at the top that ``ros`` uses; they use only each other, so that it is usable alone."""
+
+
+def beyond_ros(module, text, *, is_package=False):
+    """Return what a module of ``ros``, or below it, imports of the rest of Gazelle."""
+    named = {each.target for each in imports_of(module, text, is_package=is_package)}
+    return {name for name in named if room(name) != "ros" and name not in BELOW_ROS}
+
+
+@pytest.mark.long
+def test_ros_is_usable_alone():
+    found = {}
+    for module, path in modules().items():
+        if room(module) == "ros" or module in BELOW_ROS:
+            text = path.read_text(encoding="utf-8")
+            if names := beyond_ros(module, text, is_package=path.name == "__init__.py"):
+                found[module] = names
+    assert found == {}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("from gazelle.ros.node import Node\nfrom gazelle import bounded_yaml", set()),
+        ("from gazelle.errors import RosError\nfrom . import names", set()),
+        ("from gazelle import assets", {"gazelle.assets"}),
+        ("def f():\n    from gazelle.formats import load", {"gazelle.formats"}),
+        ("from gazelle.argument_checks import positive", {"gazelle.argument_checks"}),
+        ("from gazelle import Pose", {"gazelle.description"}),
+    ],
+)
+def test_what_ros_may_not_import_is_caught(text, expected):
+    assert beyond_ros("gazelle.ros.tool", text) == expected
+
+
 def room(module):
     """Return the room of a module; None for the modules at the top, which are below all rooms."""
     parts = module.split(".")

@@ -11,13 +11,10 @@ from __future__ import annotations
 from importlib import resources
 from pathlib import Path
 
-from gazelle.assets.published import published, published_hint
 from gazelle.errors import ResolveError, did_you_mean
 
 __all__ = [
     "models",
-    "published",
-    "published_hint",
     "robot",
     "robots",
     "root",

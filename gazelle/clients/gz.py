@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import gazelle
 from gazelle.argument_types import NumberParser
-from gazelle.assets import published, published_hint
+from gazelle.bundled_packages import published, published_hint
 from gazelle.clients.gazebo import Gazebo
 from gazelle.clients.gz_elsewhere import add_elsewhere, elsewhere
 from gazelle.description.pose import rpy_from_quaternion

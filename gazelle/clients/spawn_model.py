@@ -13,7 +13,7 @@ from typing import Any
 from xml.sax.saxutils import escape
 
 from gazelle.argument_types import NumberParser
-from gazelle.assets import published, published_hint
+from gazelle.bundled_packages import published, published_hint
 from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
 from gazelle.interrupts import stopping

@@ -17,7 +17,7 @@ from importlib import resources
 from pathlib import Path
 from urllib.parse import unquote
 
-from gazelle.assets import published
+from gazelle.bundled_packages import published
 from gazelle.formats import packages
 from gazelle.path_texts import can_be_path, expanded
 

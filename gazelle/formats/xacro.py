@@ -24,7 +24,7 @@ import xacro as engine
 from xacro import substitution_args
 
 from gazelle import bounded_yaml, xacro_engine
-from gazelle.assets import published, published_hint
+from gazelle.bundled_packages import published, published_hint
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import expressions, xml

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.description import OccupancyMap
 from gazelle.errors import RosError, did_you_mean
 from gazelle.ros.bags import Bag
-from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.viewer.plots import Series
 
 _POSES = {

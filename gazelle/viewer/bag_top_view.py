@@ -11,10 +11,10 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from gazelle.array_types import Bytes, Floats, Picture
+from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.description import OccupancyMap
 from gazelle.errors import RosError
 from gazelle.ros.bags import Bag
-from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.ros.tf.core import FrameTree
 from gazelle.ros.tf.errors import TransformException
 from gazelle.ros.tf.taking import take_transforms

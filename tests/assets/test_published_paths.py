@@ -9,7 +9,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 import gazelle
-from gazelle import assets, formats
+from gazelle import assets, bundled_packages, formats
 from gazelle.bridges.gazebo.server import find_world
 from gazelle.errors import FormatError, ResolveError
 from gazelle.formats.resolve import Resolver
@@ -65,7 +65,7 @@ def test_scripts_find_files_where_they_are_published(path):
 def test_launch_files_and_descriptions_find_files_where_they_are_published(path):
     package, _, inner = path.partition("/")
     located = Packages({}).locate(package, f"/{inner}")
-    assert assets.published(located).is_file()
+    assert bundled_packages.published(located).is_file()
     found = Resolver(environ={}).find(f"package://{path}")
     assert found is not None
     assert found.is_file()

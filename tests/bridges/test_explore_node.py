@@ -7,11 +7,11 @@ import pytest
 from ros.graph import until
 
 from gazelle.bridges.navigation.explore import ExploreNode
+from gazelle.bridges.navigation.map_messages import grid_message
 from gazelle.description import Pose
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.ros import Master, Node, Time, load_message
 from gazelle.ros.actions import SimpleActionServer
-from gazelle.ros.builtin.map_server import grid_message
 from gazelle.ros.clock import SimulatedClock
 
 PARAMETERS = {"costmap_topic": "map", "costmap_updates_topic": "map_updates", "visualize": True,

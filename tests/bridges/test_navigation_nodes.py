@@ -15,13 +15,13 @@ from gazelle.bridges.navigation.frames import missing_links
 from gazelle.bridges.navigation.gmapping import GmappingNode
 from gazelle.bridges.navigation.hector import HectorNode
 from gazelle.bridges.navigation.karto import KartoNode
+from gazelle.bridges.navigation.map_server import MapService
 from gazelle.bridges.navigation.messages import wrong_quaternion
 from gazelle.bridges.navigation.move_base import MoveBaseNode
 from gazelle.description import Pose
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.ros import Master, Node, Time, load_message, load_service
 from gazelle.ros.actions import GoalStatus, SimpleActionClient
-from gazelle.ros.builtin.map_server import MapService
 from gazelle.ros.clock import SimulatedClock
 from gazelle.ros.tf import FrameTree
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import subprocess
 import sys
 
 import pytest
 
 import gazelle.ros.node as node_module
-from gazelle.ros import Master, Node
+from gazelle.ros import Master, Node, load_message
 
 FLOOD = """
 import sys, time
@@ -66,3 +68,40 @@ def flood(master):
         process.kill()
         process.wait()
         process.stdout.close()
+
+
+@pytest.fixture
+def start(master, tmp_path):
+    """Yield a function that starts a built-in node as a process."""
+    made = []
+
+    def run(package, kind, *arguments):
+        command = [sys.executable, "-m", "gazelle.ros.builtin.start", package, kind, *arguments]
+        env = os.environ | {"ROS_MASTER_URI": master.uri}
+        made.append(
+            subprocess.Popen(command, env=env, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
+        )
+        return made[-1]
+
+    yield run
+    for process in made:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+        try:
+            assert process.wait(60) == 0
+        finally:
+            process.kill()
+            process.stderr.close()
+
+
+@pytest.fixture
+def listen(make_node):
+    """Yield a function that returns the messages of a topic as they come, Strings by default."""
+    node = make_node("listener")
+
+    def run(topic, kind=None):
+        found = []
+        node.subscribe(topic, kind or load_message("std_msgs/String"), found.append)
+        return found
+
+    return run

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from gazelle import assets
 from gazelle.bridges.serving import RosDoor, refuse_twin
+from gazelle.bundled_packages import published, published_hint
 from gazelle.errors import ResolveError, SimulationWarning
 from gazelle.interrupts import stopping
 from gazelle.ros import names
@@ -118,12 +119,12 @@ def find_world(name: str) -> str:
     """
     folders = [Path(), *_resource_path(), assets.root()]
     for folder in folders:
-        file = assets.published(folder / name)
+        file = published(folder / name)
         if file.is_file():
             return str(file)
     if "/" in name and "://" not in name:
         looked = f"looked in {', '.join(str(folder) for folder in folders)}"
-        hint = assets.published_hint(name) or looked
+        hint = published_hint(name) or looked
         raise ResolveError("there is no such world", file=name, hint=hint)
     return name
 

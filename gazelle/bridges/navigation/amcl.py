@@ -14,6 +14,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.bridges.navigation.diagnosis import NavigationWarning, StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, flat, missing_links
+from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.bridges.navigation.maps import MapListener, map_of_service
 from gazelle.bridges.navigation.messages import beam_angles, fill_pose, is_upside_down, pose_of
 from gazelle.bridges.navigation.scan_queue import ScanQueue
@@ -29,7 +30,6 @@ from gazelle.navigation.localization.settings import LASER_MODELS
 from gazelle.navigation.planners.planar import between, composed
 from gazelle.real_numbers import finite
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_srvs
 from gazelle.ros.node import Node
 from gazelle.ros.tf import StampedTransform

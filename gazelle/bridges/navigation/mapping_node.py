@@ -12,12 +12,12 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, flat, missing_links
+from gazelle.bridges.navigation.map_messages import grid_message
 from gazelle.bridges.navigation.messages import beam_angles, is_upside_down
 from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
-from gazelle.ros.builtin.map_server import grid_message
 from gazelle.ros.msgs import nav_msgs, sensor_msgs
 from gazelle.ros.node import Node
 from gazelle.ros.tf import StampedTransform

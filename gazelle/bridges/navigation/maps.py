@@ -6,9 +6,9 @@ import contextlib
 import threading
 from collections.abc import Callable
 
+from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import RosError
-from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.ros.msgs import nav_msgs
 from gazelle.ros.node import Node
 

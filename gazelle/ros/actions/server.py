@@ -1,4 +1,4 @@
-"""The server of an action: takes goals, says how they stand, and what came of them."""
+"""Server of an action: it accepts goals, and publishes their status, feedback and results."""
 
 from __future__ import annotations
 
@@ -30,6 +30,9 @@ after the result, as each has a connection of its own. Real servers are slower t
 _CANCELLED_BEFORE = (
     "This goal handle was canceled by the action server because its timestamp is before the "
     "timestamp of the last cancel request"
+)
+_WRONG_STATE = (
+    "To transition to %s state, the goal must be in a %s state, it is currently in state: %d"
 )
 
 
@@ -88,23 +91,22 @@ class ServerGoalHandle:
             GoalStatus.PREEMPTING: GoalStatus.PREEMPTED,
         }
         words = "pending, recalling, active, or preempting"
-        return self._move("a cancelled", words, table, text, result, over=True)
+        return self._move("a cancelled", words, table, text, result)
 
     def set_rejected(self, result: Message | None = None, text: str = "") -> bool:
         """Reject the goal; False if it was accepted."""
-        states = (GoalStatus.PENDING, GoalStatus.RECALLING)
-        table = dict.fromkeys(states, GoalStatus.REJECTED)
-        return self._move("a rejected", "pending or recalling", table, text, result, over=True)
+        table = dict.fromkeys((GoalStatus.PENDING, GoalStatus.RECALLING), GoalStatus.REJECTED)
+        return self._move("a rejected", "pending or recalling", table, text, result)
 
     def set_aborted(self, result: Message | None = None, text: str = "") -> bool:
         """Report that it failed; False if it was not accepted."""
         table = dict.fromkeys((GoalStatus.ACTIVE, GoalStatus.PREEMPTING), GoalStatus.ABORTED)
-        return self._move("an aborted", "preempting or active", table, text, result, over=True)
+        return self._move("an aborted", "preempting or active", table, text, result)
 
     def set_succeeded(self, result: Message | None = None, text: str = "") -> bool:
         """Report success; False if it was not accepted."""
         table = dict.fromkeys((GoalStatus.ACTIVE, GoalStatus.PREEMPTING), GoalStatus.SUCCEEDED)
-        return self._move("a succeeded", "preempting or active", table, text, result, over=True)
+        return self._move("a succeeded", "preempting or active", table, text, result)
 
     def set_cancel_requested(self) -> bool:
         """Handle a cancel request; False if the goal is already terminal."""
@@ -142,8 +144,6 @@ class ServerGoalHandle:
         table: dict[int, int],
         text: str,
         result: Message | None = None,
-        *,
-        over: bool = False,
     ) -> bool:
         if self._server is None:
             return self._refuse()
@@ -153,16 +153,10 @@ class ServerGoalHandle:
             before = self.status.status
             after = table.get(before)
             if after is None:
-                _LOG.error(
-                    "To transition to %s state, the goal must be in a %s state, it is currently "
-                    "in state: %d",
-                    name,
-                    words,
-                    before,
-                )
+                _LOG.error(_WRONG_STATE, name, words, before)
                 return False
             self.status.status, self.status.text = after, text
-            if over:
+            if after in FINAL:
                 self.finished = max(1, self._server.clock.now())
                 given = self._server.types.result() if result is None else result
                 self._server.publish_result(self.status, given)

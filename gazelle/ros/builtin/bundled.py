@@ -19,15 +19,14 @@ import functools
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
-from gazelle import assets
+from gazelle.bundled_packages import bundled_folders
 from gazelle.ros.builtin.package import BuiltinPackage
 
 
 @functools.cache
 def folders() -> dict[str, Path]:
     """Return the folders of the packages by name."""
-    found = sorted(assets.root().glob("*/package.xml"))
-    return {manifest.parent.name: manifest.parent for manifest in found}
+    return bundled_folders()
 
 
 @functools.cache

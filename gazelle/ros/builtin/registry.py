@@ -33,13 +33,6 @@ _NO_SCREEN = "it is a window for people"
 _OWN = {
     package.name: package
     for package in (
-        BuiltinPackage(
-            "map_server",
-            {
-                "map_server": "gazelle.ros.builtin.map_server:main",
-                "map_saver": "gazelle.ros.builtin.map_saver:main",
-            },
-        ),
         BuiltinPackage("controller_manager", {
             "controller_manager": "gazelle.ros.builtin.controllers.command:main",
             "controller_group": "gazelle.ros.builtin.controllers.groups:main",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from urllib.parse import unquote
 
-from gazelle.assets import published
+from gazelle.bundled_packages import published
 from gazelle.errors import RosError
 from gazelle.ros.launch.packages import Packages
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from gazelle import characters
-from gazelle.assets import published, published_hint
+from gazelle.bundled_packages import published, published_hint
 from gazelle.errors import FormatWarning, describe
 from gazelle.ros.launch.errors import LaunchError
 

@@ -11,7 +11,7 @@ import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from gazelle.assets import published
+from gazelle.bundled_packages import published
 from gazelle.errors import did_you_mean
 from gazelle.path_texts import can_be_path
 from gazelle.ros.builtin import registry

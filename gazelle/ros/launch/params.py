@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any, cast
 
-from gazelle.assets import published, published_hint
+from gazelle.bundled_packages import published, published_hint
 from gazelle.errors import did_you_mean
 from gazelle.ros import names
 from gazelle.ros.launch.document import Element

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from gazelle import assets
+from gazelle import assets, bundled_packages
 from gazelle.ros.builtin import bundled, registry
 from gazelle.ros.launch.packages import Packages
 
@@ -20,7 +20,7 @@ MANIFEST = """<?xml version="1.0"?>
 @pytest.fixture
 def data(tmp_path, monkeypatch):
     """Yield a folder of data in place of Gazelle's."""
-    monkeypatch.setattr(assets, "root", lambda: tmp_path)
+    monkeypatch.setattr(bundled_packages, "ROOT", tmp_path)
     for cached in (bundled.folders, bundled.package):
         cached.cache_clear()
     yield tmp_path

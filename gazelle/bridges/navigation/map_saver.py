@@ -6,10 +6,10 @@ import argparse
 import sys
 from collections.abc import Sequence
 
+from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.errors import RosError
 from gazelle.formats.occupancy_writing import save_map
 from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.builtin.map_server import grid_of_message
 from gazelle.ros.msgs import nav_msgs
 
 

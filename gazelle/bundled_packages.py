@@ -1,4 +1,4 @@
-"""Files of bundled packages by the paths that the packages of the same name publish.
+"""ROS packages that are bundled as folders, and their files by the paths that their namesakes publish.
 
 A manifest says what stands for a file that is elsewhere, and what is like one that is not bundled::
 
@@ -21,6 +21,16 @@ from gazelle.errors import closest_of
 from gazelle.path_texts import can_be_path
 
 _NAMED = 6
+
+
+ROOT = Path(__file__).with_name("assets")
+"""Folder of the bundled packages."""
+
+
+def bundled_folders() -> dict[str, Path]:
+    """Return the folders of the packages by name: every folder with a manifest."""
+    found = sorted(ROOT.glob("*/package.xml"))
+    return {manifest.parent.name: manifest.parent for manifest in found}
 
 
 def published(path: str | os.PathLike[str], root: Path | None = None) -> Path:
@@ -65,7 +75,7 @@ def published_hint(path: str | os.PathLike[str]) -> str | None:
 
 def _place(path: Path, root: Path | None) -> tuple[Path, str] | None:
     """Return the package that a path without a file lies in, and the path in it."""
-    root = Path(__file__).parent if root is None else root
+    root = ROOT if root is None else root
     plain = Path(os.path.normpath(path))
     if not can_be_path(plain):
         return None
