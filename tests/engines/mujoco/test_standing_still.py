@@ -24,6 +24,10 @@ EXCEPTIONS = {
         "sinks",
         "a rope below a <kinematic> roof, which has no effect here, lies in a balance for a while",
     ),
+    "moveit__moveit_resources/panda_description/urdf/panda_arm_hand.urdf.xacro": (
+        "sinks",
+        "joints without friction: the arm balances on its wrist for a minute, then rolls over",
+    ),
     **dict.fromkeys(
         (
             f"ros-simulation__gazebo_ros_pkgs/gazebo_plugins/test2/large_models/{name}.urdf.xacro"
