@@ -26,6 +26,8 @@ from gazelle.errors import TaskError
 
 Info = dict[str, NDArray[Any]]
 
+_PLAIN = gym.spaces.Box, gym.spaces.Discrete
+
 GOAL = "goal"
 """In an info: the places that `BatchedTask.goal_places` gives."""
 
@@ -207,7 +209,7 @@ class BatchedTask(ABC):
         Raises:
             TaskError: The actions have the wrong shape or values, or what the task returns has.
         """
-        plain = isinstance(self.action_space, gym.spaces.Box | gym.spaces.Discrete)
+        plain = isinstance(self.action_space, _PLAIN)
         verdict = self._act(action_array(actions) if plain else actions)
         nworld = self.nworld
         observation = checked_observation(verdict.observation, nworld, self.row_space.shape)
@@ -233,7 +235,7 @@ class BatchedTask(ABC):
         """
         last = self.advance(actions)
         done = last.terminated | last.truncated
-        if not done.any():
+        if not np.count_nonzero(done):
             return BatchStep(last, None)
         worlds = np.flatnonzero(done)
         observation = last.observation.copy()

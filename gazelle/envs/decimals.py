@@ -54,6 +54,13 @@ def round_all(x: Floats, found: Floats, scale: float) -> None:
                 found[i] = settled(x[i], product, scale) / scale
 
 
+def round_one(x: float, scale: float) -> float:
+    """Return a number rounded to a multiple of one over the scale."""
+    product = x * scale
+    whole = rint(product)
+    return (settled(x, product, scale) if abs(product - whole) == 0.5 else whole) / scale
+
+
 def settled(x: float, product: float, scale: float) -> float:
     """Return the nearest int of a number whose product seems to be half-way between two."""
     high = x * SPLIT

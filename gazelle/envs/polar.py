@@ -1,10 +1,19 @@
+# cython: infer_types=True, annotation_typing=False
+# mypy: disable-error-code="misc, no-any-return"
 """Polar coordinates of a goal, seen from a robot in the plane."""
 
 from __future__ import annotations
 
+import math
+
+import cython
 import numpy as np
+from cython.cimports.gazelle.native.elementary import atan2
+from cython.cimports.libc.math import sqrt
 
 from gazelle.array_types import Floats
+
+PI = cython.declare(cython.double, math.pi)
 
 
 def distance_to(position: Floats, goal: Floats) -> Floats:
@@ -17,8 +26,9 @@ def distance_to(position: Floats, goal: Floats) -> Floats:
     Returns:
         Distances [m], shape (n,).
     """
-    distance: Floats = np.hypot(goal[:, 0] - position[:, 0], goal[:, 1] - position[:, 1])
-    return distance
+    found = np.empty(len(position))
+    find_distances(position, goal, found)
+    return found
 
 
 def heading_to(position: Floats, yaw: Floats, goal: Floats) -> Floats:
@@ -32,8 +42,33 @@ def heading_to(position: Floats, yaw: Floats, goal: Floats) -> Floats:
     Returns:
         Headings [rad], in [-pi, pi], shape (n,).
     """
-    bearing = np.arctan2(goal[:, 1] - position[:, 1], goal[:, 0] - position[:, 0])
-    angle = bearing - yaw
-    angle = np.where(angle > np.pi, angle - 2.0 * np.pi, angle)
-    heading: Floats = np.where(angle < -np.pi, angle + 2.0 * np.pi, angle)
-    return heading
+    found = np.empty(len(position))
+    find_headings(position, yaw, goal, found)
+    return found
+
+
+def find_distances(position: Floats, goal: Floats, found: Floats) -> None:
+    """Find distances, shape (n,)."""
+    for i in range(found.shape[0]):
+        found[i] = distance_of(goal[i, 0] - position[i, 0], goal[i, 1] - position[i, 1])
+
+
+def find_headings(position: Floats, yaw: Floats, goal: Floats, found: Floats) -> None:
+    """Find headings, shape (n,)."""
+    for i in range(found.shape[0]):
+        found[i] = heading_of(goal[i, 0] - position[i, 0], goal[i, 1] - position[i, 1], yaw[i])
+
+
+def distance_of(x: float, y: float) -> float:
+    """Return the length of a way [m]."""
+    return sqrt(x * x + y * y)
+
+
+def heading_of(x: float, y: float, yaw: float) -> float:
+    """Return the direction of a way, seen from a robot [rad]."""
+    angle = atan2(y, x) - yaw
+    if angle > PI:
+        angle -= 2.0 * PI
+    if angle < -PI:
+        angle += 2.0 * PI
+    return angle

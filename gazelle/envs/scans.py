@@ -29,20 +29,21 @@ def clean_ranges(ranges: Floats, *, nearest: float, farthest: float) -> Floats32
         observation have them; NaN became 0.
     """
     cleaned = np.empty(ranges.shape, np.float32)
-    clean_all(np.ascontiguousarray(ranges.reshape(-1)), cleaned.reshape(-1), nearest, farthest)
+    clean_all(np.ascontiguousarray(ranges), cleaned, nearest, farthest)
     return cleaned
 
 
 def clean_all(ranges: Floats, cleaned: Floats32, nearest: float, farthest: float) -> None:
-    """Clean ranges, shape (n,)."""
+    """Clean ranges, shape (n, samples)."""
     near: cython.float = nearest
     far: cython.float = farthest
     zero: cython.float = 0.0
     for i in range(ranges.shape[0]):
-        single = cython.cast(cython.float, ranges[i])
-        known = single if single > zero else zero  # not a number is not greater
-        known = near if ranges[i] == -INF else known
-        cleaned[i] = known if known < far else far
+        for j in range(ranges.shape[1]):
+            single = cython.cast(cython.float, ranges[i, j])
+            known = single if single > zero else zero  # not a number is not greater
+            known = near if ranges[i, j] == -INF else known
+            cleaned[i, j] = known if known < far else far
 
 
 def nearest_obstacle(ranges: Floats32) -> tuple[Floats32, NDArray[np.intp]]:

@@ -215,6 +215,7 @@ def checked_actions(actions: ArrayLike, space: gym.Space[Any], nworld: int) -> N
             )
         return given.astype(np.int64)
     shape = (nworld, *(space.shape or ()))
-    if given.shape != shape or not np.isfinite(given.astype(np.float64)).all():
+    wanted = given.astype(np.float64)
+    if given.shape != shape or np.count_nonzero(np.isfinite(wanted)) < wanted.size:
         raise TaskError(f"actions must be finite, of shape {shape}, not {given.shape}")
-    return given.astype(np.float64)
+    return wanted

@@ -90,35 +90,34 @@ class TwistInput(StatePart):
         some = chosen(worlds, len(self.linear))
         rows: slice | Worlds = slice(None) if some is None else some
         count = size_of(some, len(self.linear))
-        forward = self._vectors(linear, 0, count)
-        self.angular[rows] = self._vectors(angular, 2, count)
-        self.linear[rows] = forward
+        forward, turning = self._checked(linear, count), self._checked(angular, count)
+        for command, values, axis in ((self.linear, forward, 0), (self.angular, turning, 2)):
+            if values.shape[-1:] == (3,) and (values.ndim > 1 or count == 1):
+                command[rows] = values
+            else:
+                command[rows] = 0.0
+                command[rows, axis] = values
         self._revision += 1
 
-    def _vectors(self, given: ArrayLike, axis: int, count: int) -> Floats:
-        """Return vectors of so many worlds, shape (count, 3) or (1, 3)."""
+    def _checked(self, given: ArrayLike, count: int) -> Floats:
+        """Return numbers or vectors of so many worlds."""
         try:
             values = np.asarray(given, np.float64)
         except (TypeError, ValueError, OverflowError):
             raise SimulationError(
                 f"the command on '{self.topic}' must be numbers, not {given!r}"
             ) from None
-        if not np.isfinite(values).all():
+        if np.count_nonzero(np.isfinite(values)) < values.size:
             raise SimulationError(f"the command on '{self.topic}' is not finite: {values}")
-        if values.shape in ((count, 3), (1, 3)):
-            return values
-        if values.shape == (3,) and count == 1:
-            return values[None]
-        if values.shape not in ((), (1,), (count,)):
+        vectors = values.shape in ((count, 3), (1, 3)) or (values.shape == (3,) and count == 1)
+        if not vectors and values.shape not in ((), (1,), (count,)):
             worlds = "" if count == 1 else f", one for each of {count} worlds"
             raise SimulationError(
                 f"the command on '{self.topic}' must be a number{worlds}, or three, not of "
                 f"shape {values.shape}",
                 hint=f"vectors of {count} worlds have the shape ({count}, 3)",
             )
-        vectors = np.zeros((count, 3))
-        vectors[:, axis] = values
-        return vectors
+        return values
 
     @between_steps
     def clear(self, worlds: Worlds | None = None) -> None:

@@ -21,6 +21,8 @@ ANGULAR_STEP = 0.75
 LINEAR_MAX = 0.22
 ANGULAR_MAX = 1.5
 
+_RATES = ((ACTIONS - 1) / 2 - np.arange(ACTIONS)) * ANGULAR_STEP
+
 
 def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     """Return velocities of discrete actions.
@@ -38,10 +40,9 @@ def discrete_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:
     chosen = np.asarray(actions)
     if chosen.shape != (nworld,):
         raise TaskError(f"actions have shape {chosen.shape}, expected ({nworld},)")
-    if chosen.dtype.kind not in "iu" or ((chosen < 0) | (chosen >= ACTIONS)).any():
+    if chosen.dtype.kind not in "iu" or not 0 <= chosen.min() <= chosen.max() < ACTIONS:
         raise TaskError(f"actions must be ints from 0 to {ACTIONS - 1}")
-    angular = ((ACTIONS - 1) / 2 - chosen.astype(np.float64)) * ANGULAR_STEP
-    return np.full(nworld, LINEAR), angular
+    return np.full(nworld, LINEAR), _RATES[chosen]
 
 
 def continuous_command(actions: ArrayLike, nworld: int) -> tuple[Floats, Floats]:

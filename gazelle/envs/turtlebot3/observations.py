@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Floats32
-from gazelle.envs.decimals import round2
-from gazelle.envs.polar import distance_to, heading_to
-from gazelle.envs.scans import clean_ranges, nearest_obstacle
+from gazelle.envs.turtlebot3.row_laws import see
 from gazelle.envs.turtlebot3.rules import Rules
 
 
@@ -56,14 +53,14 @@ def sight(
         pose: Of the robots in the world frame: x, y [m] and heading [rad], shape (n, 3).
         goal: In the world frame [m], shape (n, 2).
     """
+    count, samples = ranges.shape
     # Single precision, as in a LaserScan message and in the observation: what is worked out of
     # ranges here comes out the same from those.
-    cleaned = clean_ranges(ranges, nearest=range_min, farthest=rules.range_max)
-    shortest, ray = nearest_obstacle(cleaned)
-    nearest = shortest.astype(np.float64)
-    heading = heading_to(pose, pose[:, 2], goal)
-    rounded, distance = round2(nearest), round2(distance_to(pose, goal))
-    return RobotViews(cleaned, nearest, rounded, ray, distance, round2(heading), pose[:, :2])
+    cleaned, shortest = np.empty((count, samples), np.float32), np.empty(count, np.float32)
+    ray, found = np.empty(count, np.intp), np.empty((4, count))
+    whole, farthest = np.ascontiguousarray(ranges), rules.range_max
+    see(whole, range_min, farthest, pose, goal, cleaned, shortest, ray, found)
+    return RobotViews(cleaned, found[0], found[1], ray, found[2], found[3], pose[:, :2])
 
 
 def observation(rules: Rules, seen: RobotViews) -> Floats32:
@@ -72,10 +69,13 @@ def observation(rules: Rules, seen: RobotViews) -> Floats32:
     Returns:
         Shape (n, samples + 2) or (n, samples + 4).
     """
-    columns: list[NDArray[Any]] = [seen.ranges, seen.heading[:, None], seen.distance[:, None]]
+    count, samples = seen.ranges.shape
+    state = np.empty((count, samples + (4 if rules.sees_obstacle else 2)), np.float32)
+    state[:, :samples], state[:, samples] = seen.ranges, seen.heading
+    state[:, samples + 1] = seen.distance
     if rules.sees_obstacle:
-        columns += [seen.rounded[:, None], seen.ray[:, None]]
-    return np.concatenate(columns, axis=1, dtype=np.float32)
+        state[:, samples + 2], state[:, samples + 3] = seen.rounded, seen.ray
+    return state
 
 
 def observation_space(rules: Rules, samples: int, *, distance_max: float) -> Box:

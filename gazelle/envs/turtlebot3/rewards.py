@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.array_types import Bools, Floats
-from gazelle.envs.decimals import round2
+from gazelle.envs.turtlebot3.row_laws import find_waves, scale_rewards
 from gazelle.envs.turtlebot3.rules import Rules
 
 
@@ -23,9 +23,8 @@ def turning_reward(heading: Floats, index: Floats) -> Floats:
     Returns:
         Numbers in [-1, 1], shape (n,).
     """
-    phi = -np.pi / 4 + heading + np.pi / 8 * index + np.pi / 2
-    turns = 0.25 + np.mod(0.5 * phi, 2.0 * np.pi) / np.pi
-    wave: Floats = 1.0 - 4.0 * np.abs(0.5 - (turns - np.floor(turns)))  # np.mod is slow
+    wave = np.empty(len(heading))
+    find_waves(heading, index, wave)
     return wave
 
 
@@ -52,14 +51,14 @@ def travelling_reward(
         ``round(5 * turning_reward, 2) * 2 ** (distance / start_distance)`` plus the obstacle
         term, shape (n,).
     """
-    turning = round2(turning_reward(heading, index) * 5.0)
-    rate = np.exp2(distance / start_distance)
-    near = np.where(nearest < rules.obstacle_range, rules.obstacle_reward, 0.0)
-    reward: Floats = turning * rate + near
+    reward: Floats = np.exp2(distance / start_distance)
+    scale_rewards(heading, index, nearest, rules.obstacle_range, rules.obstacle_reward, reward)
     return reward
 
 
 def overrule(rules: Rules, reward: Floats, *, collided: Bools, reached: Bools) -> Floats:
     """Replace the step's reward by the collision's, and either by the goal's."""
-    crashed = np.where(collided, rules.collision_reward, reward)
-    return np.where(reached, rules.goal_reward, crashed)
+    overruled = reward.copy()
+    np.putmask(overruled, collided, rules.collision_reward)
+    np.putmask(overruled, reached, rules.goal_reward)
+    return overruled

@@ -185,7 +185,9 @@ class TurtleBot3Task(BatchedTask):
         seen = self._see(worlds)
         self._set_start(worlds, seen.distance)
         no = np.zeros(len(worlds), dtype=np.bool_)
-        return observation(self.rules, seen), self._info(seen, worlds, arrived=no, crashed=no)
+        return observation(self.rules, seen), self._info(
+            seen, worlds, arrived=no, crashed=no.copy()
+        )
 
     def _act(self, actions: ArrayLike) -> Verdict:
         linear, angular = self._command(actions)
@@ -205,11 +207,10 @@ class TurtleBot3Task(BatchedTask):
         )
         reward = overrule(self.rules, reward, collided=crashed, reached=arrived)
         self._goals_reached += arrived
-        if self.respawn and arrived.any():
+        if self.respawn and np.count_nonzero(arrived):
             self._next_goals(np.flatnonzero(arrived))
         terminated = crashed if self.respawn else crashed | arrived
-        everywhere = np.arange(self.nworld)
-        info = self._info(seen, everywhere, arrived=arrived, crashed=crashed & ~arrived)
+        info = self._info(seen, slice(None), arrived=arrived, crashed=crashed & ~arrived)
         return Verdict(observation(self.rules, seen), reward, terminated, info)
 
     @property
@@ -254,15 +255,17 @@ class TurtleBot3Task(BatchedTask):
         """
         return self._stream.uniform(1, worlds)[:, 0]
 
-    def _info(self, seen: RobotViews, worlds: Worlds, *, arrived: Bools, crashed: Bools) -> Info:
+    def _info(
+        self, seen: RobotViews, rows: Worlds | slice, *, arrived: Bools, crashed: Bools
+    ) -> Info:
         return {
-            "is_success": arrived.copy(),
-            "is_collision": crashed.copy(),
+            "is_success": arrived,
+            "is_collision": crashed,
             "distance": seen.distance,
             "heading": seen.heading,
-            "goal": self.goals.places(self._goal[worlds]),
+            "goal": self.goals.places(self._goal[rows]),
             "position": seen.position,
-            "goals_reached": self._goals_reached[worlds],
+            "goals_reached": self._goals_reached[rows].copy(),
         }
 
     def _state(self) -> dict[str, Any]:
