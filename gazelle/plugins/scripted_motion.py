@@ -20,10 +20,9 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters, Pose
 from gazelle.errors import SimulationError
-from gazelle.native.paths import ModelPath
+from gazelle.native.paths import ModelPath, PosePath
 from gazelle.native.system import System
 from gazelle.plugins.splines import PoseSpline
-from gazelle.rotations import multiply
 from gazelle.simulation import ModelPlugin, PluginSystem, Robot
 
 
@@ -41,7 +40,6 @@ class ScriptedMotion(ModelPlugin):
         times: Of the k waypoints [s], shape (k,).
         positions: Of the waypoints [m], shape (k, 3).
         quaternions: Of the waypoints, (x, y, z, w), shape (k, 4).
-        velocities: On the legs between them [m/s], shape (k - 1, 3).
         splines: Starts [s] and paths of the trajectories, instead of waypoints.
         start: Position [m] and quaternion that the model was spawned with.
     """
@@ -52,7 +50,6 @@ class ScriptedMotion(ModelPlugin):
         self.loop = parameters.get("loop", False)
         self.spin = np.asarray(parameters.numbers("angular_velocity", (0.0, 0.0, 0.0)))
         self.times, self.positions, self.quaternions = _waypoints(parameters)
-        self.velocities, self._turnings = self._rates()
         self.splines = [_spline(tag) for tag in parameters.find_all("trajectory")]
         self.update_rate = parameters.get("updateRate", 10.0)
         start = robot.description.pose
@@ -65,23 +62,12 @@ class ScriptedMotion(ModelPlugin):
         engine = self.robot.simulation.engine
         if self.splines:
             return None
-        path = ModelPath(
-            self.times,
-            self.positions,
-            self.quaternions,
-            *self.start,
-            self.spin,
-            self.loop,
-            self._epoch,
-        )
-        return engine.models[self.robot.name].path(path)
+        return engine.models[self.robot.name].path(self._path(self._epoch))
 
-    def _rates(self) -> tuple[Floats, Floats]:
-        """Return changes of position and quaternion per second on each leg, (k, 3) and (k, 4)."""
-        if len(self.times) < 2:
-            return np.zeros_like(self.positions), np.zeros_like(self.quaternions)
-        span = np.diff(self.times)[:, None]
-        return np.diff(self.positions, axis=0) / span, np.diff(self.quaternions, axis=0) / span
+    def _path(self, epoch: Floats) -> ModelPath:
+        """Return the script without trajectories, begun at some times [s], shape (n,)."""
+        path, start = (self.times, self.positions, self.quaternions), self.start
+        return ModelPath(*path, *start, self.spin, self.loop, epoch)
 
     @property
     def period(self) -> float:
@@ -111,20 +97,17 @@ class ScriptedMotion(ModelPlugin):
         """Return positions [m] and quaternions after some times, shapes (n, 3) and (n, 4)."""
         if self.splines:
             return self._on_splines(elapsed)
-        if self.times.size:
-            return self._on_path(elapsed)
-        position = np.broadcast_to(self.start[0], (len(elapsed), 3))
-        return position, multiply(_turned(self.spin, elapsed), self.start[1][None])
-
-    def _on_path(self, elapsed: Floats) -> tuple[Floats, Floats]:
-        first, last = self.times[0], self.times[-1]
-        moment = elapsed % last if self.loop and last > 0.0 else np.minimum(elapsed, last)
-        moment = np.maximum(moment, first)
-        leg = np.searchsorted(self.times[1:-1], moment, side="right")
-        since = (moment - self.times[leg])[:, None]
-        position = self.positions[leg] + since * self.velocities[leg]
-        quaternion = self.quaternions[leg] + since * self._turnings[leg]
-        return position, quaternion
+        position, quaternion = np.empty((len(elapsed), 3)), np.empty((len(elapsed), 4))
+        path = PosePath(
+            self._path(-elapsed),
+            position,
+            quaternion,
+            arm=np.zeros(3),
+            turned=np.array([0.0, 0.0, 0.0, 1.0]),
+            moved=np.zeros(1),
+        )
+        path.bring(0, len(elapsed), 0)
+        return position, quaternion[:, [1, 2, 3, 0]]
 
     def _on_splines(self, elapsed: Floats) -> tuple[Floats, Floats]:
         end = self.splines[-1][0] + self.splines[-1][1].duration
@@ -206,11 +189,3 @@ def _spline(tag: Parameters) -> tuple[float, PoseSpline]:
     except (SimulationError, ValueError) as error:
         raise SimulationError(f"wrong trajectory: {error}", source=tag.source) from None
     return start, spline
-
-
-def _turned(spin: Floats, elapsed: Floats) -> Floats:
-    """Return quaternions of a uniform turn after some times, shape (n, 4)."""
-    rate = float(np.linalg.norm(spin))
-    axis = spin / rate if rate > 0.0 else np.array([0.0, 0.0, 1.0])
-    half = rate * elapsed / 2.0
-    return np.concatenate((np.sin(half)[:, None] * axis, np.cos(half)[:, None]), axis=1)
