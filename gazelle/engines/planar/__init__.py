@@ -12,7 +12,8 @@ from gazelle.engines.planar.angle_noise import AngleNoiseScanner
 from gazelle.engines.planar.drive_velocities import DriveVelocities
 from gazelle.engines.planar.engine import PlanarEngine
 from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
-from gazelle.engines.planar.fleet import Body, Drive, Fleet
+from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.fleet_bodies import Body, Drive
 from gazelle.engines.planar.footprints import footprint_of, outline_of
 from gazelle.engines.planar.shapes import PrimitiveTable
 from gazelle.geometry.planar_part import PlanarPart

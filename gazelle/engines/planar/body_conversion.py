@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from gazelle.description import Model, Pose
-from gazelle.engines.planar.fleet import Body, Drive
+from gazelle.engines.planar.fleet_bodies import Body, Drive
 from gazelle.engines.planar.kinematics import LinkTree, link_tree
 from gazelle.engines.sections import Levels, parts_of
 from gazelle.geometry.planar_part import PlanarPart

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +13,7 @@ from gazelle.array_types import Floats
 from gazelle.engines.limits import MAX_WORLDS, physics_step, whole_number
 from gazelle.engines.planar import columns as c
 from gazelle.engines.planar.bodies import Bodies
+from gazelle.engines.planar.fleet_bodies import Body, Drive, drive_row, radius_of
 from gazelle.engines.planar.grid_cells import put_back, relink, relink_some
 from gazelle.engines.planar.moving import Moving, Planning, Screening, Settling
 from gazelle.engines.planar.scene import scene_of
@@ -24,53 +24,8 @@ from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
 from gazelle.native.worker_pool import WorkerPool
 
-DriveKind = Literal["diff", "omni", "car"]
-
-_KINDS = {"diff": c.DIFFERENTIAL, "omni": c.OMNIDIRECTIONAL, "car": c.CAR}
 _CELL = 1.0  # side of the grid's cells if none is wanted [m]
 _SHARE = 64  # bodies that are worth a thread
-
-
-@dataclass(frozen=True, slots=True)
-class Drive:
-    """Drive of a body: its kind and limits.
-
-    Attributes:
-        kind: ``diff`` goes forward and turns, ``omni`` also goes sideways, ``car`` steers: its
-            command is the speed of its front wheel and, as turning, the steering angle.
-        slowest: Least velocity along x and y and about z [m/s, rad/s]; of a car that of its body,
-            whatever its command.
-        fastest: Greatest.
-        brake: Least acceleration [m/s², rad/s²].
-        push: Greatest.
-        wheelbase: Between the axles of a car [m].
-    """
-
-    kind: DriveKind = "diff"
-    slowest: tuple[float, float, float] = (-math.inf, -math.inf, -math.inf)
-    fastest: tuple[float, float, float] = (math.inf, math.inf, math.inf)
-    brake: tuple[float, float, float] = (-math.inf, -math.inf, -math.inf)
-    push: tuple[float, float, float] = (math.inf, math.inf, math.inf)
-    wheelbase: float = 1.0
-
-
-@dataclass(frozen=True, slots=True)
-class Body:
-    """Something that can be moved, with the same parts in every world.
-
-    Attributes:
-        parts: In its own frame.
-        pose: Where it is at first: x, y [m], heading [rad].
-        z: Height of its frame [m].
-        drive: What moves it; None for nothing but ``Fleet.place``.
-        family: Bodies of one family neither see nor bump each other; None for its own.
-    """
-
-    parts: tuple[PlanarPart, ...]
-    pose: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    z: float = 0.0
-    drive: Drive | None = None
-    family: int | None = None
 
 
 class Fleet:
@@ -141,7 +96,7 @@ class Fleet:
             self.kinds[k, c.FIRST_LOOK] = shapes.setdefault(body.parts, len(shapes))
             self.kinds[k, c.FAMILY] = -1.0 - k if body.family is None else body.family
             if body.drive not in drives:
-                drives[body.drive] = _drive_row(body.drive)
+                drives[body.drive] = drive_row(body.drive)
             self.drives[k] = drives[body.drive]
         if len(drives) == 1:
             self.drives = self.drives[:1].copy()  # kernels take it as that of all
@@ -156,7 +111,7 @@ class Fleet:
         self.tags = np.concatenate([np.zeros(0, np.int64), *(t.tags for t in tables)])
         self.pieces = np.vstack([np.zeros((0, c.PIECE)), *(p.rows for p in pieces)])
         self.corners = np.vstack([np.zeros((0, 2)), *(p.corners for p in pieces)])
-        sizes = np.array([_radius_of(parts) for parts in shapes])
+        sizes = np.array([radius_of(parts) for parts in shapes])
         shape = self.kinds[:, c.FIRST_LOOK].astype(int)
         columns = (looks[:-1], looks[1:], bumps[:-1], bumps[1:], sizes)
         for column, values in enumerate(columns, c.FIRST_LOOK):
@@ -382,25 +337,3 @@ def _rows_of(placed: Floats) -> Floats:
     rows[:, c.X], rows[:, c.Y], rows[:, c.YAW], rows[:, c.Z] = placed.T
     rows[:, c.COS], rows[:, c.SIN] = np.cos(placed[:, 2]), np.sin(placed[:, 2])
     return rows
-
-
-def _drive_row(drive: Drive | None) -> Floats:
-    row = np.zeros(c.DRIVE)
-    if drive is None:
-        row[c.DRIVE_KIND] = c.PASSIVE
-        return row
-    if drive.kind not in _KINDS:
-        raise EngineError(f"a drive must be one of {', '.join(_KINDS)}, not '{drive.kind}'")
-    if drive.kind == "car" and not drive.wheelbase > 0.0:
-        raise EngineError(f"the wheelbase must be positive, not {drive.wheelbase:g} m")
-    row[c.DRIVE_KIND], row[c.WHEELBASE] = _KINDS[drive.kind], drive.wheelbase
-    row[c.SLOWEST : c.FASTEST], row[c.FASTEST : c.BRAKE] = drive.slowest, drive.fastest
-    row[c.BRAKE : c.PUSH], row[c.PUSH : c.FREE] = drive.brake, drive.push
-    row[c.FREE] = np.isinf(row[c.SLOWEST : c.FREE]).all()
-    return row
-
-
-def _radius_of(parts: Sequence[PlanarPart]) -> float:
-    return max(
-        (math.hypot(x, y) + part.radius for part in parts for x, y in part.points), default=0.0
-    )

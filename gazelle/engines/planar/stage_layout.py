@@ -18,7 +18,7 @@ from gazelle.description import (
     StageSensor,
 )
 from gazelle.engines.planar.fans import Fan, Mount
-from gazelle.engines.planar.fleet import Body, Drive
+from gazelle.engines.planar.fleet_bodies import Body, Drive
 from gazelle.engines.planar.shapes import PrimitiveTable
 from gazelle.engines.planar.stage_walls import table_of
 from gazelle.engines.stage_robots import Ranger, Rider, StageRobot, without_actuators

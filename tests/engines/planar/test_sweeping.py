@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from gazelle import Pose, Simulation
 from gazelle.description import Box
-from gazelle.engines.planar.fleet import Body, Drive, Fleet
+from gazelle.engines.planar import Body, Drive, Fleet
 from gazelle.engines.planar.shapes import slimness
 from gazelle.geometry.planar_part import PlanarPart
 from gazelle.stage import StageSimulation
