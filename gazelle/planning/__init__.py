@@ -40,7 +40,8 @@ from gazelle.planning.motion_planner import MotionPlan, MotionPlanner, PlanOptio
 from gazelle.planning.octomaps import OCTOMAP, octree_object
 from gazelle.planning.outcomes import NoPlanError, PlanOutcome
 from gazelle.planning.pick_place import PickPlacePlanner
-from gazelle.planning.scene import PlanningScene, SceneContact
+from gazelle.planning.scene import PlanningScene
+from gazelle.planning.scene_contact import SceneContact
 from gazelle.planning.scene_objects import AttachedObject, SceneObject, voxel_boxes
 from gazelle.planning.time_parameterization import PathLimits, TimedPath, parameterize
 

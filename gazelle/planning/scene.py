@@ -3,44 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
-from gazelle.description import Pose, Vector3
+from gazelle.description import Pose
 from gazelle.engines.collision import CollisionBody, CollisionModel, Shape, collision_model
 from gazelle.errors import PlanningError, did_you_mean
 from gazelle.kinematics.joint_group import JointModelGroup
 from gazelle.kinematics.robot_model import RobotModel
 from gazelle.planning.allowed_collisions import AllowedCollisionMatrix
 from gazelle.planning.robot_bodies import robot_bodies
+from gazelle.planning.scene_contact import SceneContact
 from gazelle.planning.scene_objects import AttachedObject, SceneObject, object_of
-
-
-@checked(PlanningError)
-@dataclass(frozen=True, slots=True)
-class SceneContact:
-    """Two things that touch and may not.
-
-    Attributes:
-        first: Name of a link or an object.
-        second: Likewise.
-        depth: How far they are within each other [m], padding counted.
-        point: In the robot's frame [m].
-        normal: From the first to the second.
-    """
-
-    first: str
-    second: str
-    depth: float
-    point: Vector3
-    normal: Vector3
-
-    def __str__(self) -> str:
-        return f"'{self.first}' and '{self.second}' collide, {self.depth * 1e3:.1f} mm deep"
 
 
 @checked(PlanningError)

@@ -14,10 +14,7 @@ from gazelle import formats
 from gazelle.array_types import Worlds
 from gazelle.closing import Closeable
 from gazelle.description import Model, Plugin, Pose, World
-from gazelle.engines import (
-    Engine,
-    make_engine,
-)
+from gazelle.engines import Engine, make_engine
 from gazelle.errors import SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.sensors import View
@@ -172,7 +169,7 @@ class Simulation(Closeable):
             SimulationError: The simulation is closed, or ``count`` is no number of steps.
             DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
-        self.loop.walk(inputs.steps(count), _never)
+        self.loop.walk(inputs.steps(count), lambda: False)
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time, or until a pause.
@@ -400,7 +397,3 @@ class Simulation(Closeable):
         if not self.lock.closed:
             self.lock.close(CLOSED)
             self._engine.close()
-
-
-def _never() -> bool:
-    return False
