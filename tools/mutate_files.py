@@ -195,7 +195,10 @@ def _tried(reader: str, path: Path) -> Outcome:
     try:
         mutated_readers.READERS[reader](path)
     except Error as error:
-        return Outcome(REFUSED, error=str(error))
+        text = str(error)
+        if any(ord(letter) > sys.maxunicode for letter in text):  # it could not be sent back
+            return Outcome(FOREIGN, "an error with text that is no Unicode", error=ascii(text))
+        return Outcome(REFUSED, error=text)
     except BaseException as error:  # noqa: BLE001  # that is what is looked for
         frames = traceback.extract_tb(error.__traceback__)
         ours = [each for each in frames if "/gazelle/" in each.filename] or frames

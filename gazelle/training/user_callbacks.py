@@ -38,7 +38,7 @@ def make_callbacks(names: Iterable[str]) -> list[Any]:
     """Create callbacks; their modules were found before.
 
     Raises:
-        TaskError: One is not there, or is no callback.
+        TaskError: One is not there, is no callback, or cannot be created without arguments.
     """
     made = []
     for text in names:
@@ -53,7 +53,10 @@ def make_callbacks(names: Iterable[str]) -> list[Any]:
                 f"{text} is no callback",
                 hint="derive it from stable_baselines3.common.callbacks.BaseCallback",
             )
-        made.append(kind())
+        try:
+            made.append(kind())
+        except Exception as error:  # code of the user's
+            raise TaskError(f"cannot create the callback '{text}': {error}") from error
     return made
 
 
@@ -65,6 +68,6 @@ def _imported(module: str, text: str) -> ModuleType:
     """
     try:
         return importlib.import_module(module)
-    except (ImportError, TypeError, ValueError) as error:  # ValueError: there is no name
+    except Exception as error:  # of the module's own, too; ValueError: there is no name
         reason = f"cannot import the callback '{text}': {error}"
         raise TaskError(reason, hint="expected module:Class") from error

@@ -79,6 +79,30 @@ def test_an_array_that_says_to_be_larger_than_it_is_takes_no_room(tmp_path, shap
         load_actor(file)
 
 
+@pytest.mark.parametrize("point", [0x110000, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF])
+@pytest.mark.parametrize("order", "<>")
+def test_text_that_is_no_unicode_is_refused(tmp_path, point, order):
+    text = np.array('{"format": 1, "layers": 2, "head": "?"}', dtype=f"{order}U39")
+    points = text.reshape(1).view(f"{order}u4")
+    points[-3] = point
+    array = header_of((), text.dtype.str) + text.tobytes()
+    file = policy(tmp_path)
+    with_member(file, "about", array)
+    portable.save(tmp_path / "state", {"names": np.array(["a"])})
+    with_member(tmp_path / "state.npz", "names", array)
+    for read in (lambda: load_actor(file), lambda: portable.load(tmp_path / "state")):
+        with pytest.raises(FormatError, match=r"'\w+.npy' has text that is no Unicode"):
+            read()
+
+
+def test_an_array_with_fields_is_refused(tmp_path):
+    file = policy(tmp_path)
+    pair = np.zeros(1, [("a", "<U1"), ("b", "<f4")])
+    with_member(file, "about", header_of((1,), pair.dtype.descr) + pair.tobytes())
+    with pytest.raises(FormatError, match=r"'about.npy' has fields"):
+        load_actor(file)
+
+
 def test_a_policy_that_unpacks_to_gigabytes_is_refused_before(tmp_path):
     file = policy(tmp_path)
     with zipfile.ZipFile(file, "a", zipfile.ZIP_DEFLATED) as archive:
@@ -148,3 +172,9 @@ def test_an_account_of_another_shape_is_refused(tmp_path, rows):
 def test_callbacks_of_a_run_that_cannot_be_imported(name):
     with pytest.raises(TaskError, match="cannot import the callback"):
         make_callbacks([name])
+
+
+@pytest.mark.parametrize("name", ["BaseCallback", "EveryNTimesteps", "CallbackList"])
+def test_callbacks_of_a_run_that_cannot_be_created(name):
+    with pytest.raises(TaskError, match="cannot create the callback"):
+        make_callbacks([f"stable_baselines3.common.callbacks:{name}"])
