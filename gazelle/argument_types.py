@@ -54,3 +54,14 @@ def positive_float(text: str) -> float:
     if not 0.0 < number < float("inf"):
         raise argparse.ArgumentTypeError(f"expected a number above 0, not '{text}'")
     return number
+
+
+def port_number(text: str) -> int:
+    """Return a TCP port, 0 for any free one."""
+    try:
+        number = int(text)
+    except ValueError:
+        number = -1
+    if not 0 <= number < 65536:
+        raise argparse.ArgumentTypeError(f"expected a port from 0 to 65535, not '{text}'")
+    return number

@@ -15,11 +15,13 @@ from __future__ import annotations
 import argparse
 import sys
 
+from gazelle.argument_types import port_number
+
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "-p", "--port", type=int, default=9090, help="default: 9090; 0 for any free one"
+        "-p", "--port", type=port_number, default=9090, help="default: 9090; 0 for any free one"
     )
     parser.add_argument(
         "--address", default="127.0.0.1", help="to listen on (default: loopback only)"

@@ -20,7 +20,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.argument_types import positive_float
+from gazelle.argument_types import port_number, positive_float
 from gazelle.errors import Error
 from gazelle.writing import write_text
 
@@ -53,7 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     runs.add_argument("--required", action="store_true", help="end when any node ends")
     runs.add_argument("--core", action="store_true", help="start master and rosout, as roscore")
     runs.add_argument("--wait", action="store_true", help="wait for a master, start none")
-    runs.add_argument("-p", "--port", type=int, help="port of the master")
+    runs.add_argument("-p", "--port", type=port_number, help="port of the master")
     runs.add_argument(
         "--nodes-survive",
         action="store_true",

@@ -12,13 +12,15 @@ from __future__ import annotations
 import argparse
 import sys
 
+from gazelle.argument_types import port_number
+
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
         "-p",
         "--port",
-        type=_port,
+        type=port_number,
         help="default: the port of ROS_MASTER_URI, else 11311; 0 for any free one",
     )
     parser.add_argument(
@@ -48,13 +50,3 @@ def run(args: argparse.Namespace) -> int:
 def _announce(uri: str) -> None:
     sys.stdout.write(f"ROS master at {uri}\nexport ROS_MASTER_URI={uri}\n")
     sys.stdout.flush()
-
-
-def _port(text: str) -> int:
-    try:
-        number = int(text)
-    except ValueError:
-        number = -1
-    if not 0 <= number < 65536:
-        raise argparse.ArgumentTypeError(f"expected a port from 0 to 65535, not '{text}'")
-    return number

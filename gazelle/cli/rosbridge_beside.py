@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from gazelle.argument_types import port_number
+
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
     from gazelle.stage.bridge import StageServer
@@ -20,7 +22,7 @@ def add_rosbridge(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rosbridge",
         metavar="PORT",
-        type=int,
+        type=port_number,
         nargs="?",
         const=_PORT,
         help="with --ros: also let roslibpy, roslib.js and Foxglove on this machine connect, as "

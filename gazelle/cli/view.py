@@ -16,6 +16,7 @@ import argparse
 import sys
 import time
 
+from gazelle.argument_types import port_number
 from gazelle.cli.grounding import add_ground
 from gazelle.cli.run import go
 from gazelle.cli.viewing import viewing
@@ -36,7 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--port",
         dest="view",
         metavar="PORT",
-        type=int,
+        type=port_number,
         default=0,
         help="of the page (default any)",
     )

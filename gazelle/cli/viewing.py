@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from gazelle.argument_types import port_number
 from gazelle.closing import Closeable
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ def add_view(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--view",
         metavar="PORT",
-        type=int,
+        type=port_number,
         nargs="?",
         const=0,
         help="a page in a browser on this machine that shows it live and lets you take part; its address is printed",

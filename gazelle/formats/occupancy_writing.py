@@ -56,9 +56,11 @@ def save_map(
         free: Cells up to this value are white; others are grey.
 
     Raises:
-        FormatError: The limits are not in order, or no file can have the name or be written.
+        FormatError: The limits are not in order, or the name is of a folder or of no file, or it cannot be written.
     """
     stem = os.fspath(name).removesuffix(".yaml")
+    if stem.rpartition("/")[2] in ("", ".", ".."):
+        raise FormatError("this is a folder, not the name of a map", file=stem)
     levels = grey_levels(grid, occupied=occupied, free=free)
     picture, settings = Path(f"{stem}.pgm"), Path(f"{stem}.yaml")
     comment = f"# CREATOR: map_saver {grid.resolution:.3f} m/pix"

@@ -129,9 +129,9 @@ def conduct(
         MissingExtraError: Ray is asked for and not installed.
     """
     module, name = _found(study.function)
+    count, start = workers_at(ray, workers, ExperimentHost, module, name)
     kept = _Table(table, study)
     calls = [call for call in study.calls() if not kept.has(call)]
-    count, start = workers_at(ray, workers, ExperimentHost, module, name)
     total = len(kept.rows) + len(calls)
 
     def done(call: dict[str, Any], row: dict[str, Any] | None) -> None:

@@ -4,7 +4,7 @@ import argparse
 
 import pytest
 
-from gazelle.argument_types import positive_float, positive_int
+from gazelle.argument_types import port_number, positive_float, positive_int
 from gazelle.cli.commands import COMMANDS
 from gazelle.cli.parsing import Parser, key_value
 from gazelle.clients import gz, spawn_model
@@ -25,6 +25,12 @@ def test_what_is_no_whole_number_above_0_is_refused(text):
 def test_what_is_no_number_above_0_is_refused(text):
     with pytest.raises(argparse.ArgumentTypeError, match="above 0"):
         positive_float(text)
+
+
+@pytest.mark.parametrize("text", ["-1", "65536", "1e400", "nan", "", "9" * 30])
+def test_what_is_no_port_is_refused(text):
+    with pytest.raises(argparse.ArgumentTypeError, match="from 0 to 65535"):
+        port_number(text)
 
 
 @pytest.mark.parametrize(

@@ -245,3 +245,11 @@ def test_a_name_that_no_map_can_have(tmp_path, name):
     grid = load_map(saved(tmp_path, [[0, 255]]))
     with pytest.raises(FormatError, match="'name' must be"):
         save_map(grid, tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["..", ".", "../..", "folder/", ".yaml"])
+def test_a_folder_is_no_name_of_a_map(tmp_path, monkeypatch, name):
+    grid = load_map(saved(tmp_path, [[0, 255]]))
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(FormatError, match="this is a folder"):
+        save_map(grid, name)

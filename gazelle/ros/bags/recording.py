@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO
 
+from gazelle.ros import names
 from gazelle.ros.bags import records
 from gazelle.ros.bags.errors import BagError
 from gazelle.ros.bags.records import Connection
@@ -136,11 +137,13 @@ class BagRecorder:
             BagError: A bag cannot be written; what was written until then is kept.
         """
         try:
-            self._open()
             fixed = not (self._options.all_topics or self._options.regex or self._options.node)
-            if fixed:
-                for topic in self._options.topics:
-                    self._subscribe(self._node.resolve(topic))
+            topics = [self._resolved(each) for each in self._options.topics if fixed]
+            if self._options.node:
+                self._resolved(self._options.node)
+            self._open()
+            for topic in topics:
+                self._subscribe(topic)
             while not stop.is_set() and not self.done.is_set():
                 if not fixed:
                     self._look()
@@ -161,6 +164,10 @@ class BagRecorder:
                 ) from None
 
     # Topics ------------------------------------------------------------------------------
+
+    def _resolved(self, name: str) -> str:
+        """Return a name in full; a wrong one is an error before there is a file."""
+        return names.check(self._node.resolve(names.check(name)))
 
     def _look(self) -> None:
         """Subscribe to topics that are new."""

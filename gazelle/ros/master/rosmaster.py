@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
+from gazelle.argument_types import port_number
 from gazelle.interrupts import interruptible, stopping
 from gazelle.ros import net
 from gazelle.ros.errors import RosError
@@ -17,7 +18,7 @@ def main(arguments: Sequence[str]) -> int:
     """Run a master until SIGINT, SIGTERM or a call of ``shutdown``; returns the exit code."""
     parser = argparse.ArgumentParser(prog="rosmaster")
     parser.add_argument("--core", action="store_true", help="started by roslaunch")
-    parser.add_argument("-p", "--port", type=int, default=net.DEFAULT_MASTER_PORT)
+    parser.add_argument("-p", "--port", type=port_number, default=net.DEFAULT_MASTER_PORT)
     parser.add_argument("--host", default=net.default_host(), help="name nodes reach it by")
     parser.add_argument("--run-id", default="", help="what /run_id is to be")
     parsed = parser.parse_args([word for word in arguments if ":=" not in word])

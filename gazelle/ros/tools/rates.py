@@ -29,6 +29,11 @@ def statistics(values: Sequence[float]) -> tuple[float, float, float, float]:
     return mean, min(values), max(values), spread
 
 
+def _last(window: int) -> deque[float]:
+    """Return a queue for the gaps between the last events, or between nearly all."""
+    return deque(maxlen=_MOST if window < 0 else min(max(1, window - 1), sys.maxsize))
+
+
 class RateMeter:
     """Measures the time between events.
 
@@ -37,7 +42,7 @@ class RateMeter:
     """
 
     def __init__(self, window: int = -1) -> None:
-        self._gaps: deque[float] = deque(maxlen=_MOST if window < 0 else max(1, window - 1))
+        self._gaps: deque[float] = _last(window)
         self._last: float | None = None
         self._shown: float | None = None
         self._lock = threading.Lock()
@@ -159,7 +164,9 @@ class SizeMeter:
     """
 
     def __init__(self, window: int = 100) -> None:
-        self._events: deque[tuple[float, int]] = deque(maxlen=window if window > 0 else 100)
+        self._events: deque[tuple[float, int]] = deque(
+            maxlen=min(window, sys.maxsize) if window > 0 else 100
+        )
         self._lock = threading.Lock()
 
     def add(self, now: float, size: int) -> None:
@@ -224,7 +231,7 @@ def measure_delay(
     found = wait_for_topic(graph, name, stop)
     if found is None:
         return
-    delays: deque[float] = deque(maxlen=_MOST if window < 0 else max(1, window - 1))
+    delays: deque[float] = _last(window)
     fresh = threading.Event()
     failed: list[ToolError] = []
     with tool_node(graph) as node:

@@ -13,6 +13,7 @@ from gazelle.ros import Time, WallClock, load_message
 from gazelle.ros.bags import Bag, BagError
 from gazelle.ros.bags.playing import Player, PlayOptions
 from gazelle.ros.bags.recording import BagRecorder, RecordOptions, check, duration_of
+from gazelle.ros.errors import RosError
 
 
 @pytest.fixture
@@ -324,3 +325,13 @@ def test_latched_topics_are_latched_again(play, tmp_path, string, make_node):
 def test_an_empty_bag_plays_nothing(play, tmp_path):
     Bag(tmp_path / "e.bag", "w").close()
     play(tmp_path / "e.bag")
+
+
+@pytest.mark.parametrize(
+    "options", [{"topics": ["a:b"]}, {"topics": ["/a", "1x"]}, {"node": "a b"}]
+)
+def test_wrong_names_leave_no_bag(make_node, tmp_path, options):
+    chosen = RecordOptions(name=str(tmp_path / "r"), **options)
+    with pytest.raises(RosError, match="names hold letters"):
+        BagRecorder(make_node("recorder"), chosen, lambda text: None).run(threading.Event())
+    assert not list(tmp_path.iterdir())

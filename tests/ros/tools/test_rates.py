@@ -76,3 +76,8 @@ def written_rate_is_right(graph, make_node, out):
     assert lines[:2] == ["subscribed to [/a]", "subscribed to [/b]"]
     assert lines[2].split() == ["topic", "rate", "min_delta", "max_delta", "std_dev", "window"]
     return float(lines[4].split()[1]) == pytest.approx(wanted, rel=0.2)
+
+
+@pytest.mark.parametrize("meter", [RateMeter, SizeMeter])
+def test_a_window_larger_than_any_memory_keeps_all(meter):
+    meter(10**30)
