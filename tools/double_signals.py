@@ -18,14 +18,11 @@ import random
 import shlex
 import shutil
 import signal
-import subprocess
 import sys
 import tempfile
 import time
-import traceback
 import uuid
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -43,11 +40,8 @@ from cli.ending_states import (  # noqa: E402
     spent,
     spent_by_session,
 )
+from cli.forked import a_master, fork_command, import_everything  # noqa: E402
 from cli.whole_files import broken_files  # noqa: E402
-
-from gazelle.cli.commands import COMMANDS  # noqa: E402
-from gazelle.cli.main import main as gazelle  # noqa: E402
-from gazelle.interrupts import end_process  # noqa: E402
 
 PATIENCE_S = 120.0
 BUSY_S = 1200.0
@@ -114,31 +108,15 @@ class Run:
         line = state.words
         for name, value in words.items():
             line = line.replace(name, value)
-        sys.stdout.flush()
-        self.pid = os.fork()
-        if not self.pid:
-            self._child(shlex.split(line))
+        self.pid = fork_command(
+            shlex.split(line),
+            folder,
+            self.said,
+            self.said,
+            lambda: os.environ.update({MARK: self.mark}),
+        )
         while self.pid != spent(Path(f"/proc/{self.pid}"))[0]:  # it leads a session of its own
             time.sleep(0.001)
-
-    def _child(self, words: list[str]) -> None:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        out = os.open(self.said, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
-        for source, target in ((os.open(os.devnull, os.O_RDONLY), 0), (out, 1), (out, 2)):
-            os.dup2(source, target)
-        os.chdir(self.folder)
-        os.environ[MARK] = self.mark
-        sys.argv = ["gazelle", *words]
-        os.setsid()
-        code = 1
-        try:
-            code = gazelle()
-        except SystemExit as stop:
-            code = stop.code if isinstance(stop.code, int) else 1
-        except BaseException:  # noqa: BLE001  # as the interpreter does
-            traceback.print_exc()
-        end_process(code)
 
     @property
     def ended(self) -> bool:
@@ -265,35 +243,6 @@ def main() -> int:
             report(tally)
     shutil.rmtree(kept)
     return 1 if tally.faults else 0
-
-
-def import_everything() -> None:
-    """Import what commands do, without starting a thread."""
-    os.environ |= dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
-    for command in COMMANDS.values():
-        command.load()
-    for name in ("torch", "mujoco", "PIL.Image", "gazelle.training", "gazelle.envs"):
-        with contextlib.suppress(ImportError):
-            __import__(name)
-
-
-@contextlib.contextmanager
-def a_master(folder: Path) -> Iterator[str]:
-    """Run a master in a process of its own, and write the policy there: both start threads."""
-    script = (
-        "import sys, pathlib; sys.path.insert(0, sys.argv[1]); from cli.ending_states import *;"
-        "from gazelle.ros import Master; write_policy(pathlib.Path(sys.argv[2]));"
-        "print(Master(port=0).uri, flush=True); sys.stdin.read()"
-    )
-    command = [sys.executable, "-c", script, str(ROOT / "tests"), str(folder)]
-    with subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as process:
-        assert process.stdout is not None
-        try:
-            yield process.stdout.readline().strip()
-        finally:
-            process.kill()
 
 
 def report(tally: Tally) -> None:
