@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from typing import Any
 
 _NEGATIVE = re.compile(r"-(\.?\d|\.?inf\b|\.?nan\b)", re.IGNORECASE)
+
+_LARGEST = 1e9
 
 
 class NumberParser(argparse.ArgumentParser):
@@ -46,13 +49,26 @@ def positive_int(text: str) -> int:
 
 
 def positive_float(text: str) -> float:
-    """Return a finite number above 0."""
+    """Return a number above 0, whose inverse and whose nanoseconds are of an ordinary size, too."""
     try:
         number = float(text)
     except ValueError:
         number = 0.0
-    if not 0.0 < number < float("inf"):
+    if not 0.0 < number < math.inf:
         raise argparse.ArgumentTypeError(f"expected a number above 0, not '{text}'")
+    if not 1.0 / _LARGEST <= number <= _LARGEST:
+        raise argparse.ArgumentTypeError(f"expected a number from 1e-9 to 1e9, not '{text}'")
+    return number
+
+
+def seconds(text: str) -> float:
+    """Return a time of either sign that a clock can wait for [s]."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not -_LARGEST <= number <= _LARGEST:
+        raise argparse.ArgumentTypeError(f"expected seconds from -1e9 to 1e9, not '{text}'")
     return number
 
 

@@ -27,6 +27,20 @@ def test_what_is_no_number_above_0_is_refused(text):
         positive_float(text)
 
 
+@pytest.mark.parametrize("text", ["1e308", "1e10", "1e-10", "5e-324", "9" * 30])
+def test_a_number_that_no_clock_can_count_is_refused(text):
+    with pytest.raises(argparse.ArgumentTypeError, match="from 1e-9 to 1e9"):
+        positive_float(text)
+
+
+@pytest.mark.parametrize("text", ["nan", "inf", "-inf", "1e308", "-1e400", "", "soon"])
+@pytest.mark.parametrize("option", ["--start", "--delay"])
+def test_no_seconds_are_refused(cli, text, option):
+    code, _, err = cli("bag", "play", "a.bag", option, text)
+    assert code == 2
+    assert "expected seconds from -1e9 to 1e9" in err
+
+
 @pytest.mark.parametrize("text", ["-1", "65536", "1e400", "nan", "", "9" * 30])
 def test_what_is_no_port_is_refused(text):
     with pytest.raises(argparse.ArgumentTypeError, match="from 0 to 65535"):

@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from gazelle.argument_types import positive_float, positive_int
+from gazelle.argument_types import positive_float, positive_int, seconds
 from gazelle.interrupts import stopping
 from gazelle.ros import names
 
@@ -91,12 +91,14 @@ def configure_play(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("bags", nargs="*", metavar="BAG")
     when = parser.add_argument_group("when")
     when.add_argument("-r", "--rate", type=positive_float, default=1.0, metavar="X", help="faster")
-    when.add_argument("-s", "--start", type=float, default=0.0, metavar="S", help="seconds into it")
+    when.add_argument(
+        "-s", "--start", type=seconds, default=0.0, metavar="S", help="seconds into it"
+    )
     when.add_argument("-u", "--duration", type=positive_float, metavar="S", help="seconds of it")
     when.add_argument("-l", "--loop", action="store_true", help="again and again")
     when.add_argument("-i", "--immediate", action="store_true", help="as fast as possible")
     when.add_argument("--pause", action="store_true", help="begin paused")
-    when.add_argument("-d", "--delay", type=float, default=0.2, metavar="S", help="before it")
+    when.add_argument("-d", "--delay", type=seconds, default=0.2, metavar="S", help="before it")
     when.add_argument("--skip-empty", type=positive_float, metavar="S", help="jump over gaps")
     when.add_argument("--wait-for-subscribers", action="store_true", help="of every topic")
     when.add_argument("-k", "--keep-alive", action="store_true", help="stay after the end")
