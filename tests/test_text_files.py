@@ -12,8 +12,9 @@ from gazelle.formats import model_config
 from gazelle.formats.stage import load_stage
 from gazelle.path_texts import MAX_NAME, MAX_PATH, can_be_path, existing_file, expanded
 from gazelle.ros.launch import load_launch_text
-from gazelle.text_files import read_text
+from gazelle.text_files import read_rows, read_text
 from gazelle.training.tables import rows_until
+from gazelle.viewer.plots import read_table
 
 NAMES = ["a" * (MAX_NAME + 1), "a/" * MAX_PATH, "a\x00b", "\ud800", "~nobody_is_called_this/a.sdf"]
 LOADERS = {
@@ -105,3 +106,11 @@ def test_names_in_launch_files_that_no_file_can_have(place, name):
     with contextlib.suppress(RosError):
         plan = load_launch_text(text)
     assert plan is None or plan.parameters
+
+
+@pytest.mark.parametrize("text", ['a,b\n1,"' + "2" * 140_000, '"' + "a,b\n" * 40_000])
+@pytest.mark.parametrize("read", [read_rows, read_table, lambda file: rows_until(file, "a", 9)])
+def test_tables_with_a_quote_that_is_never_closed(tmp_path, text, read):
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(FormatError, match="this is no table: field larger"):
+        read(tmp_path / "a.csv")

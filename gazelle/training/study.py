@@ -13,7 +13,6 @@ the last row at any time, so that a study that was stopped continues where it wa
 
 from __future__ import annotations
 
-import csv
 import itertools
 import sys
 import threading
@@ -24,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import FormatError, TaskError, did_you_mean
-from gazelle.text_files import read_text
+from gazelle.text_files import read_rows
 from gazelle.training.importing import TaskModule
 from gazelle.training.tables import row_bytes
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
@@ -191,9 +190,7 @@ class _Table:
         self._file = GrowingFile(self._path)
 
     def _read(self) -> None:
-        lines = read_text(self._path).splitlines(keepends=True)
-        reader = csv.DictReader(line for line in lines if line.endswith("\n"))
-        self._columns = [*(reader.fieldnames or ())]
+        self._columns, rows = read_rows(self._path, whole=True)
         lacking = [name for name in self._names if name not in self._columns]
         if lacking:
             raise FormatError(
@@ -201,7 +198,7 @@ class _Table:
                 file=str(self._path),
                 hint="it is of another study: give another file",
             )
-        self.rows = [*reader]
+        self.rows = rows
         self._done = {tuple(row[name] for name in self._names) for row in self.rows}
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import FormatError
-from gazelle.text_files import read_text
+from gazelle.text_files import read_rows
 
 
 def row_bytes(
@@ -39,12 +39,12 @@ def rows_until(file: Path, column: str, steps: int) -> list[dict[str, str]]:
         steps: Rows beyond these are left out.
 
     Raises:
-        FormatError: A row has no such number.
+        FormatError: A row has no such number, or this is no table.
     """
     if not file.exists():
         return []
     rows = []
-    for number, row in enumerate(csv.DictReader(read_text(file).splitlines(keepends=True)), 2):
+    for number, row in enumerate(read_rows(file)[1], 2):
         try:
             done = int(row[column])
         except (KeyError, TypeError, ValueError):

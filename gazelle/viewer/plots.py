@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -12,7 +11,7 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError, MissingExtraError, did_you_mean
-from gazelle.text_files import read_text
+from gazelle.text_files import read_rows
 from gazelle.writing import replacing
 
 if TYPE_CHECKING:
@@ -146,7 +145,7 @@ def read_table(path: Path) -> dict[str, Floats]:
         FormatError: There is no such file, or no row in it.
     """
     try:
-        rows = list(csv.DictReader(read_text(path).splitlines(keepends=True)))
+        rows = read_rows(path)[1]
     except OSError as error:
         raise FormatError(f"cannot read it: {error.strerror}", file=str(path)) from error
     if not rows:

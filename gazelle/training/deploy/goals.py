@@ -66,7 +66,10 @@ def parse_goal(text: str) -> GoalPlace:
     Raises:
         ValueError: It is not of that form.
     """
-    (fields,) = csv.reader([text], skipinitialspace=True)
+    try:
+        (fields,) = csv.reader([text], skipinitialspace=True)
+    except csv.Error:  # such as a line break
+        raise ValueError(f"'{text}' is no goal") from None
     if len(fields) not in {2, 3}:
         raise ValueError(f"'{text}' is no goal")
     try:

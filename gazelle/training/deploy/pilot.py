@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from gazelle.errors import TaskError
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.policies import Decision, Policy
 from gazelle.training.deploy.safety import STAND, SafetyLimits, VelocityCommand, unusable
@@ -78,6 +79,8 @@ class Pilot:
         turned: float = 0.0,
         time_limit: float | None = None,
     ) -> None:
+        if not math.isfinite(turned):
+            raise TaskError(f"a lidar cannot be turned by {turned} rad")
         self.policy = policy
         self.limits = limits
         self.armed = False

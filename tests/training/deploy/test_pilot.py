@@ -21,6 +21,7 @@ from gazelle.training.deploy import (
     open_policy,
     read_goals,
 )
+from gazelle.training.deploy.goals import parse_goal
 from gazelle.training.deploy.policies import command_of
 from gazelle.training.deploy.safety import VelocityCommand
 
@@ -244,6 +245,18 @@ def test_stop_distance_suits_the_policy(straight_on):
     assert SafetyLimits.default_stop_distance(other) == 0.3
 
 
+@pytest.mark.parametrize("turned", [math.nan, math.inf, -math.inf])
+def test_a_lidar_that_is_turned_by_no_angle_is_refused(straight_on, turned):
+    with pytest.raises(TaskError, match="cannot be turned by"):
+        Pilot(open_policy(straight_on), SafetyLimits(), turned=turned)
+
+
+@pytest.mark.parametrize("text", ["1,2\n3,4", "", '"', "1", "nan,1", "1e400,1"])
+def test_a_text_that_is_no_goal(text):
+    with pytest.raises(ValueError, match="is no goal"):
+        parse_goal(text)
+
+
 def test_goals_are_read_from_a_file(tmp_path):
     file = tmp_path / "goals.txt"
     file.write_text("# x, y\n1, 2.5\n\n-3,0 # back\n0.5, 0.5, map\n")
@@ -252,7 +265,7 @@ def test_goals_are_read_from_a_file(tmp_path):
         GoalPlace(-3.0, 0.0),
         GoalPlace(0.5, 0.5, "map"),
     ]
-    for line in ("1", "a, b", "1, nan", "1, 2, map, 4"):
+    for line in ("1", "a, b", "1, nan", "1, 2, map, 4", f"1, {'9' * 200_000}"):
         file.write_text(f"1, 2\n{line}\n")
         with pytest.raises(FormatError, match=r"goals\.txt:2: .*no goal"):
             read_goals(file)
