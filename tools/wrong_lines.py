@@ -230,7 +230,7 @@ def write_files(folder: Path, policy: Path) -> None:
     for file in (policy, policy.with_suffix(".json"), policy.with_name("a.bag")):
         shutil.copy(file, folder)
     (folder / "table.csv").write_text("a,b\n1,2\n2,3\n")
-    (folder / "quick.py").write_text("def run(*, seed):\n    return {'seed': seed}\n")
+    (folder / "quick.py").write_text("def run(*, seed):\n    return {'twice': 2 * seed}\n")
     (folder / "a.yaml").write_text("a: 1\n")
     (folder / "a.launch").write_text('<launch><param name="a" value="1" /></launch>')
     (folder / "folder").mkdir()

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
-from collections.abc import Callable, Sequence
+import signal
+import threading
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from gazelle.errors import MissingExtraError, TaskError
@@ -71,16 +74,34 @@ def connect(address: str | None) -> int:
         TaskError: There is no cluster at this address.
     """
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # it would report to its makers
+    address = address or LOCAL
+    with _sigterm_handler_kept():
+        return _joined(address)
+
+
+@contextlib.contextmanager
+def _sigterm_handler_kept() -> Iterator[None]:
+    """Keep a handler of SIGTERM; Ray's own exits at once."""
+    before = signal.getsignal(signal.SIGTERM)
+    try:
+        yield
+    finally:
+        if callable(before) and threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGTERM, before)
+
+
+def _joined(address: str) -> int:
+    """Join a cluster or start one; see `connect`."""
     try:
         import ray
     except ModuleNotFoundError as error:
         raise MissingExtraError("ray", "distributed") from error
     alone: dict[str, Any] = {}
-    if address in {None, LOCAL}:
+    if address == LOCAL:
         alone = {"include_dashboard": False, "_node_ip_address": "127.0.0.1"}
     try:
         if not ray.is_initialized():
-            ray.init(address=address or LOCAL, log_to_driver=True, logging_level="ERROR", **alone)
+            ray.init(address=address, log_to_driver=True, logging_level="ERROR", **alone)
     except (ConnectionError, ValueError) as error:
         hint = "'ray start --head' starts a cluster; --ray without an address uses this machine"
         raise TaskError(f"no Ray cluster at {address}: {error}", hint=hint) from error
