@@ -1,42 +1,60 @@
-"""Entry points by which other packages extend Gazelle.
+"""Entry points by which rooms and other packages extend Gazelle.
 
 Gazelle's own parts are found through its rooms, so that a new one is there without installing
-again. Lists of them that an older installation left behind are passed over. Only what stands on rooms
-above the one that looks for it, as `gazelle.drop_in` does, is found by entry points too.
+again. Only what stands on rooms above the one that looks for it, as `gazelle.drop_in` and
+`gazelle.stage` do, is found by entry points too. In a checkout its `pyproject.toml` lists them: what
+an installation recorded is as old as that.
 """
 
 from __future__ import annotations
 
 import functools
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 _OWN = "gazelle"
+_PROJECT = Path(__file__).parents[1] / "pyproject.toml"
 
 
 @functools.cache
 def entry_points_of(group: str) -> dict[str, EntryPoint]:
     """Return all entry points of a group by name.
 
-    Where two packages give one name, the first on ``sys.path`` has it. Of a package that is listed
-    twice both lists count: an old build may have left one in a checkout, before that of the
-    installation.
+    Where two packages give one name, Gazelle has it, then the first on ``sys.path``.
     """
+    return {**_installed(group, own=False), **_own(group)}
+
+
+@functools.cache
+def entry_points_of_others(group: str) -> dict[str, EntryPoint]:
+    """Return entry points of a group by name, less those of Gazelle's own distribution."""
+    return _installed(group, own=False)
+
+
+def _own(group: str) -> dict[str, EntryPoint]:
+    """Return entry points of Gazelle's own distribution, or of its checkout if there is one."""
+    if not _PROJECT.is_file():
+        return _installed(group, own=True)
+    import tomllib
+    from importlib.metadata import EntryPoint
+
+    project = tomllib.loads(_PROJECT.read_text(encoding="utf-8")).get("project", {})
+    if project.get("name") != _OWN:
+        return _installed(group, own=True)
+    listed = project.get("entry-points", {}).get(group, {})
+    return {name: EntryPoint(name, value, group) for name, value in listed.items()}
+
+
+def _installed(group: str, *, own: bool) -> dict[str, EntryPoint]:
+    """Return what installed distributions list; the first on ``sys.path`` that gives a name has it."""
     from importlib.metadata import distributions  # late, for it is slow to import
 
     found: dict[str, EntryPoint] = {}
     for distribution in distributions():
         for point in distribution.entry_points.select(group=group):
-            found.setdefault(point.name, point)
+            if (point.dist is not None and point.dist.name == _OWN) == own:
+                found.setdefault(point.name, point)
     return found
-
-
-def entry_points_of_others(group: str) -> dict[str, EntryPoint]:
-    """Return entry points of a group by name, less those of Gazelle's own distribution."""
-    return {
-        name: point
-        for name, point in entry_points_of(group).items()
-        if point.dist is None or point.dist.name != _OWN
-    }

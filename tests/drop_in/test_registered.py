@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 import gazelle.drop_in
+from gazelle import entry_points
 from gazelle.entry_points import entry_points_of
 from gazelle.ros.compat import finder
 
@@ -36,6 +37,34 @@ def test_each_is_listed_and_is_there():
 
 def test_the_installation_has_them():
     assert listed().items() <= finder.substitutes().items()
+
+
+@pytest.mark.parametrize(
+    ("project", "expected"),
+    [
+        ('[project]\nname = "gazelle"\n[project.entry-points."a.group"]\nnew = "here"\n', "here"),
+        ('[project]\nname = "gazelle"\n', None),  # it has none in that group any more
+        ('[project]\nname = "other"\n', "recorded"),
+        ("", "recorded"),
+        (None, "recorded"),  # as in an installed wheel
+    ],
+)
+def test_a_checkout_needs_no_new_installation(tmp_path, monkeypatch, project, expected):
+    info = tmp_path / "gazelle-0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: gazelle\nVersion: 0\n")
+    (info / "entry_points.txt").write_text("[a.group]\nnew = recorded\n")
+    if project is not None:
+        (tmp_path / "pyproject.toml").write_text(project)
+    monkeypatch.setattr(entry_points, "_PROJECT", tmp_path / "pyproject.toml")
+    monkeypatch.setattr(sys, "path", [str(tmp_path)])
+    entry_points_of.cache_clear()
+    try:
+        found = entry_points_of("a.group").get("new")
+    finally:
+        monkeypatch.undo()
+        entry_points_of.cache_clear()
+    assert (found.value if found else None) == expected
 
 
 @pytest.mark.parametrize(
