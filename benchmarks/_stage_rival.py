@@ -17,9 +17,9 @@ from _stage_itself import Spent, Stage
 from gazelle import formats
 from gazelle.engines.planar import Fleet, Scanner
 from gazelle.engines.planar.roaming import Roaming
-from gazelle.engines.planar.stage_layout import layout_of
 from gazelle.native.system import System
 from gazelle.stage import FleetController, StageSimulation, register_controller
+from gazelle.stage.layout import layout_of
 
 ABSENT = """
 Stage not found: its figures here are those of docs/benchmarks.md, measured once on a machine of

@@ -47,6 +47,8 @@ class Physics:
         default: Whether it is the one in use when there are several.
         type: Engine the file asks for; Gazelle's engines all read the same terms.
         max_step_size: Physics step [s].
+        kinematic_step: Physics step of engines that move bodies by their velocities alone [s];
+            None for ``max_step_size``.
         real_time_factor: Simulated seconds a wall second to aim at.
         real_time_update_rate: Steps a wall second to aim at [Hz]; 0 means as fast as possible.
         max_contacts: At most so many contact points between two collisions.
@@ -73,5 +75,6 @@ class Physics:
     speculative_contacts: bool | None = None
     integrator: str | None = None
     contacts: str | None = None
+    kinematic_step: float | None = None
     extras: tuple[Parameters, ...] = ()
     source: Source | None = field(default=None, compare=False, repr=False)

@@ -6,7 +6,6 @@ from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
 
-from gazelle.engines.stage_robots import Ranger, StageRobot
 from gazelle.stage.actuators import Actuator
 from gazelle.stage.cameras import CameraPictures, MountedCamera, cameras_of
 from gazelle.stage.controllers import register_controller, with_wander
@@ -14,6 +13,7 @@ from gazelle.stage.finders import Blob, Fiducial
 from gazelle.stage.fleet import StageFleet
 from gazelle.stage.fleet_controller import FleetController
 from gazelle.stage.grippers import COMMANDS, Gripper, GripperState
+from gazelle.stage.robots import Ranger, StageRobot
 from gazelle.stage.simulation import StageSimulation, stage_of
 
 __all__ = [

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.stage_robots import Rider, StageRobot
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen
+from gazelle.stage.robots import Rider, StageRobot
 from gazelle.stage.stage_bodies import StageBodies
 
 

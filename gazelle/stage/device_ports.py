@@ -19,11 +19,11 @@ from gazelle.description import (
     StageFiducial,
     StageGripper,
 )
-from gazelle.engines.stage_robots import StageRobot
 from gazelle.simulation.ports import Input
 from gazelle.simulation.robot import Robot
 from gazelle.simulation.topics import absolute
 from gazelle.stage.fleet import StageFleet
+from gazelle.stage.robots import StageRobot
 from gazelle.stage.step_output import StepOutput
 
 

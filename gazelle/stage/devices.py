@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
-from gazelle.engines.stage_robots import StageRobot
 from gazelle.errors import SimulationError
 from gazelle.stage.actuators import Actuator, actuators_of
 from gazelle.stage.grippers import Gripper, grippers_of
+from gazelle.stage.robots import StageRobot
 from gazelle.stage.stage_bodies import StageBodies
 
 Device = TypeVar("Device", Actuator, Gripper)

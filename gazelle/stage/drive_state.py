@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar import DriveVelocities, Fleet
-from gazelle.engines.stage_robots import StageRobot
 from gazelle.native.system import System
 from gazelle.stage.odometry import WheelOdometry
 from gazelle.stage.reckoning import PoseMemory, StallMemory
+from gazelle.stage.robots import StageRobot
 from gazelle.stage.steering import Steering
 
 

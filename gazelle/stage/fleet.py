@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.description import StageModel, StagePose, StageWorld
+from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar import Fan, Fleet, Mount, PlanarEngine
-from gazelle.engines.stage_robots import StageRobot, without_actuators
-from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
+from gazelle.errors import SimulationError, did_you_mean
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.inputs import chosen, one_world
@@ -21,7 +18,9 @@ from gazelle.simulation.state_lock import StateLock
 from gazelle.stage.devices import Devices
 from gazelle.stage.drive_state import DriveState
 from gazelle.stage.fleet_controller import FleetController
+from gazelle.stage.layout import stage_layout
 from gazelle.stage.rangers import Rangers
+from gazelle.stage.robots import StageRobot, warn_of_mounted_drives
 from gazelle.stage.scans import StageRangeNoise
 from gazelle.stage.senses import Senses
 
@@ -60,7 +59,7 @@ class StageFleet(Senses):
         self.controllers: list[FleetController] = []
         self._revision = -1
         self._bind()
-        _warn_of_riders(self._robots)
+        warn_of_mounted_drives(self._robots)
         self.controllers = self._make_controllers(self)
 
     # -- what there is -----------------------------------------------------------------
@@ -85,7 +84,7 @@ class StageFleet(Senses):
     def _bind(self) -> None:
         """Look up the models that the engine has now."""
         self._revision = self.engine.revision
-        layout, fleet = self.engine.layout.stage, self.engine.fleet
+        layout, fleet = stage_layout(self.engine), self.engine.fleet
         self._fleet = fleet
         self._robots, self._things = tuple(layout.robots), tuple(layout.things)
         self._still, self._placed = layout.still, layout.placed
@@ -386,19 +385,3 @@ def _pairs(old: Sequence[str], new: Sequence[str]) -> list[tuple[int, int]]:
     """Return the old and the new index of each name that is in both lists."""
     places = {name: index for index, name in enumerate(new)}
     return [(index, places[name]) for index, name in enumerate(old) if name in places]
-
-
-def _warn_of_riders(robots: Sequence[StageRobot]) -> None:
-    known = set()
-    for robot in robots:
-        if (kind := id(robot.model.children)) in known:
-            continue
-        known.add(kind)
-        own = replace(without_actuators(robot.model), pose=StagePose()).walk()
-        for placed in list(own)[1:]:
-            if placed.model.position is not None:
-                warnings.warn(
-                    f"'{placed.name}' is mounted on a robot, and does not drive by itself",
-                    SimulationWarning,
-                    stacklevel=2,
-                )

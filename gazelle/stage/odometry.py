@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.engines.stage_robots import StageRobot
 from gazelle.stage.reckoning import Reckoning
+from gazelle.stage.robots import StageRobot
 from gazelle.streams import Stream
 
 _WIDTHS = (0.03, 0.03, 0.05)

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
 from gazelle.description import PlacedStageModel, StagePose
-from gazelle.engines.stage_shapes import bitmap_lines, blocks_of
 from gazelle.geometry.planar_part import PlanarPart
+from gazelle.stage.shapes import bitmap_lines, blocks_of
 
 
 @dataclass(frozen=True, slots=True)

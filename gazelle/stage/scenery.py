@@ -20,12 +20,12 @@ from gazelle.description import (
     StageModel,
     StagePose,
 )
-from gazelle.engines.stage_shapes import bitmap_lines, blocks_of
 from gazelle.formats.terrain import rectangles
 from gazelle.geometry.triangles import TriangleMesh, quadrangles
 from gazelle.rendering.painted import PaintedPart, painted_world
 from gazelle.rendering.visible import VisibleWorld
 from gazelle.stage.faces import NO_FACES, in_tiles, plates, prism, walls_between
+from gazelle.stage.shapes import bitmap_lines, blocks_of
 
 Rgb = tuple[float, float, float]
 

@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 from gazelle.array_types import Worlds
-from gazelle.engines.stage_robots import StageRobot
 from gazelle.simulation.inputs import chosen, one_world
 from gazelle.stage.actuators import Actuator
 from gazelle.stage.bumpers import find_bumps
@@ -24,6 +23,7 @@ from gazelle.stage.finders import (
     models_of,
 )
 from gazelle.stage.grippers import Gripper
+from gazelle.stage.robots import StageRobot
 from gazelle.stage.stage_bodies import StageBodies
 
 

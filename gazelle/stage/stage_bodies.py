@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from gazelle.array_types import Floats
 from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar import Fleet, PlanarEngine
-from gazelle.engines.stage_robots import StageRobot
+from gazelle.stage.robots import StageRobot
 
 
 class StageBodies(ABC):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.engines.stage_robots import StageRobot
+from gazelle.stage.robots import StageRobot
 
 
 class Steering:

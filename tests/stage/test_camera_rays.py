@@ -9,10 +9,10 @@ from stage_samples import write
 
 from gazelle.description import StagePose
 from gazelle.engines.planar import columns as c
-from gazelle.engines.stage_shapes import blocks_of
 from gazelle.stage import StageSimulation, cameras_of
 from gazelle.stage.faces import in_tiles
 from gazelle.stage.senses import models_of
+from gazelle.stage.shapes import blocks_of
 
 ROWS, COLUMNS = 36, 48
 SKY = (179, 179, 204)

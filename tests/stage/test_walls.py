@@ -10,10 +10,10 @@ from hypothesis.extra.numpy import arrays
 from stage_samples import draw, write
 
 from gazelle.description import PlacedStageModel, StageBitmap, StageModel, StagePose
-from gazelle.engines.planar.stage_walls import table_of
-from gazelle.engines.stage_shapes import parts_of
 from gazelle.geometry.bitmap_outline import bitmap_outline
 from gazelle.stage import StageSimulation
+from gazelle.stage.shapes import parts_of
+from gazelle.stage.walls import table_of
 
 masks = arrays(np.bool_, st.tuples(st.integers(1, 12), st.integers(1, 12)))
 

@@ -15,7 +15,8 @@ from gazelle.engines.planar.fans import Fan, Mount, RangeNoise, Scanner
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.fleet_bodies import Body, Drive
 from gazelle.engines.planar.footprints import footprint_of, outline_of
-from gazelle.engines.planar.shapes import PrimitiveTable
+from gazelle.engines.planar.kind_layouts import KindLayout, LayOut
+from gazelle.engines.planar.shapes import PrimitiveTable, Raster, primitives_of, segments_of
 from gazelle.geometry.planar_part import PlanarPart
 
 __all__ = [
@@ -25,12 +26,17 @@ __all__ = [
     "DriveVelocities",
     "Fan",
     "Fleet",
+    "KindLayout",
+    "LayOut",
     "Mount",
     "PlanarEngine",
     "PlanarPart",
     "PrimitiveTable",
     "RangeNoise",
+    "Raster",
     "Scanner",
     "footprint_of",
     "outline_of",
+    "primitives_of",
+    "segments_of",
 ]

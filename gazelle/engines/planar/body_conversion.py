@@ -70,7 +70,7 @@ class ConvertedModels(Mapping[str, ConvertedModel]):
         """Return the model of each link, by scoped name."""
         found = {}
         for name, model in self._models.items():
-            if model.stage is None:
+            if model.joints or model.models:
                 found.update(dict.fromkeys(self[name].tree.links, name))
             else:
                 found.update((f"{name}::{link.name}", name) for link in model.links)

@@ -41,13 +41,14 @@ class PlanarEngine:
     what they would run into. Nothing falls, and nothing is pushed. What is in the way is looked
     for where each step ends; on the way too if the profile's ``speculative_contacts`` is true.
     Bases go along the arc of their velocity; straight on, and then turn, if the profile's
-    ``integrator`` is ``euler``. Models of Stage files have the shapes, drives and bounds that
-    Stage gives them, and the world then has Stage's time step.
+    ``integrator`` is ``euler``. Models of a kind that lays itself out, such as those of Stage
+    files, have its shapes, drives and bounds.
 
     Args:
         world: What to simulate; collision shapes are cut at the height of lidars and bases.
         nworld: Number of copies.
-        time_step: Physics step [s]; the world's ``max_step_size`` if None.
+        time_step: Physics step [s]; the profile's ``kinematic_step`` if None, else its
+            ``max_step_size``.
         threads: Native threads; all processors if None. The results do not depend on it.
 
     Attributes:
@@ -320,9 +321,10 @@ class PlanarEngine:
 
 
 def _at_pace(world: World) -> World:
-    """Return the world of a Stage file with Stage's time step, at the file's real-time factor."""
-    if world.stage is None:
+    """Return the world with its step for bodies without dynamics, at the same real-time factor."""
+    profile = world.profile
+    step = profile.kinematic_step
+    if step is None:
         return world
-    profile, step = world.profile, world.stage.interval_sim
     rate = profile.real_time_update_rate * profile.max_step_size / step
     return with_profile(world, replace(profile, max_step_size=step, real_time_update_rate=rate))

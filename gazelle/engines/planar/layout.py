@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.description import Model, World
+from gazelle.description import World
 from gazelle.engines.planar.body_conversion import ConvertedModels, body_of, levels_of, statics_of
 from gazelle.engines.planar.fleet import Fleet
+from gazelle.engines.planar.kind_layouts import KindLayout, lay_out_kind, parted_by_kind
 from gazelle.engines.planar.shapes import joined, primitives_of
-from gazelle.engines.planar.stage_layout import StageLayout, layout_of
 from gazelle.engines.planar.wheels import driven, rolling
 from gazelle.engines.sections import Levels
 
@@ -64,7 +64,7 @@ class PlanarLayout:
         columns: First column of each model's joints.
         levels: Heights at which shapes are cut.
         limits: Least and greatest value of each joint axis, shape (2, axes).
-        stage: Models of Stage files, which move and are seen as in Stage.
+        of_kind: Models of a kind that lays itself out; empty without such models.
     """
 
     models: ConvertedModels
@@ -74,7 +74,7 @@ class PlanarLayout:
     columns: dict[str, int]
     levels: Levels
     limits: Floats
-    stage: StageLayout
+    of_kind: KindLayout
 
     @property
     def axes(self) -> int:
@@ -89,46 +89,25 @@ def build(recipe: FleetInput, nworld: int, threads: int | None) -> tuple[Fleet, 
         EngineError: The world cannot be simulated.
         FormatError: A mesh cannot be read.
     """
-    of_stage, others = _parted(recipe.world.models)
+    kind, own, others = parted_by_kind(recipe.world.models)
     converted = ConvertedModels(others, recipe.kinematic)
     movers = [each for each in converted.values() if not each.still]
-    stage = layout_of(of_stage, kinematic=recipe.kinematic, others=len(movers))
-    levels = levels_of(converted.values(), recipe.rays | _heights_of(stage))
+    of_kind = lay_out_kind(kind, own, kinematic=recipe.kinematic, others=len(movers))
+    levels = levels_of(converted.values(), recipe.rays | of_kind.heights)
     parts = [part for each in converted.values() if each.still for part in statics_of(each, levels)]
     profile = recipe.world.profile
     fleet = Fleet(
-        [*stage.bodies, *(body_of(each, levels) for each in movers), *stage.riders],
-        joined(stage.statics, primitives_of(parts)) if of_stage else parts,
+        [*of_kind.bodies, *(body_of(each, levels) for each in movers), *of_kind.riders],
+        joined(of_kind.statics, primitives_of(parts)) if own else parts,
         nworld=nworld,
         time_step=recipe.time_step,
         euler=profile.integrator == "euler",
         sweep=bool(profile.speculative_contacts),
         threads=threads,
     )
-    names = [*stage.names, *(each.model.name for each in movers)]
-    robots = {robot.name for robot in stage.robots}
-    kinematic = recipe.kinematic.union(name for name in stage.names if name not in robots)
-    models = ConvertedModels(recipe.world.models, kinematic)
-    return fleet, _layout_of(models, list(converted), names, levels, stage)
-
-
-def _parted(models: Iterable[Model]) -> tuple[list[Model], list[Model]]:
-    """Return models of Stage files, and all others."""
-    parted: tuple[list[Model], list[Model]] = [], []
-    for model in models:
-        parted[model.stage is None].append(model)
-    return parted
-
-
-def _heights_of(stage: StageLayout) -> frozenset[float]:
-    """Return the heights of the rangers of Stage's robots [m]."""
-    heights = [body.z for body in stage.bodies]
-    return frozenset(
-        round(heights[mount.body] + mount.z, 4)
-        for mounts in stage.mounts
-        for mount in mounts
-        if mount.body < len(heights)
-    )
+    names = [*of_kind.names, *(each.model.name for each in movers)]
+    models = ConvertedModels(recipe.world.models, recipe.kinematic.union(of_kind.passive))
+    return fleet, _layout_of(models, list(converted), names, levels, of_kind)
 
 
 def rolling_bases(layout: PlanarLayout, motors: Iterable[str]) -> list[RollingBase]:
@@ -152,7 +131,7 @@ def _layout_of(
     jointed: Iterable[str],
     movers: list[str],
     levels: Levels,
-    stage: StageLayout,
+    of_kind: KindLayout,
 ) -> PlanarLayout:
     joints: dict[str, tuple[int, int]] = {}
     columns = dict.fromkeys(models, 0)
@@ -164,4 +143,4 @@ def _layout_of(
             limits += [(axis.lower, axis.upper) for axis in joint.axes]
     bodies = {name: index for index, name in enumerate(movers)}
     bounds = np.array(limits).reshape(-1, 2).T.copy()
-    return PlanarLayout(models, bodies, models.owners(), joints, columns, levels, bounds, stage)
+    return PlanarLayout(models, bodies, models.owners(), joints, columns, levels, bounds, of_kind)

@@ -75,6 +75,25 @@ class PrimitiveTable:
         return PrimitiveTable(self.rows[kept], self.tags[kept])
 
 
+def segments_of(
+    lines: Floats, z: tuple[float, float], *, glow: float, solid: bool
+) -> PrimitiveTable:
+    """Return the segments of a closed outline.
+
+    Args:
+        lines: x0, y0, x1, y1 [m], shape (n, 4).
+        z: Lowest and highest height [m].
+        glow: As of a ``PlanarPart``.
+        solid: Whether bodies collide with it.
+    """
+    rows = np.zeros((len(lines), c.PRIMITIVE))
+    rows[:, c.X0 : c.Y1 + 1] = lines
+    rows[:, c.LOW], rows[:, c.HIGH] = z
+    rows[:, c.GLOW] = glow
+    rows[:, c.KIND] = c.SEGMENT if solid else c.SEGMENT + c.GHOST
+    return PrimitiveTable(rows, np.zeros(len(rows), np.int64))
+
+
 def joined(first: PrimitiveTable, second: PrimitiveTable) -> PrimitiveTable:
     """Return the primitives of two tables; the raster is that of the first, if it has one."""
     if not len(second.rows):

@@ -94,7 +94,10 @@ def _physics(stage: StageWorld) -> Physics:
     step = min(stage.interval_sim, _STEP)
     speed = max(stage.speedup, 0.0)
     return Physics(
-        max_step_size=step, real_time_factor=speed or 1.0, real_time_update_rate=speed / step
+        max_step_size=step,
+        kinematic_step=stage.interval_sim,
+        real_time_factor=speed or 1.0,
+        real_time_update_rate=speed / step,
     )
 
 

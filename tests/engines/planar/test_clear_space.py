@@ -14,8 +14,8 @@ from gazelle.engines.planar import scan_columns as k
 from gazelle.engines.planar.clear_space import measure_clear
 from gazelle.engines.planar.clear_space_grid import clear_space_grid_of
 from gazelle.engines.planar.shapes import PrimitiveTable
-from gazelle.engines.planar.stage_walls import table_of
 from gazelle.stage.outlines import distances, outlines_of
+from gazelle.stage.walls import table_of
 
 REACH = 6.0
 SEEDS = st.integers(0, 2**32 - 1)

@@ -17,13 +17,11 @@ from gazelle.description import (
     StageRanger,
     StageSensor,
 )
-from gazelle.engines.planar.fans import Fan, Mount
-from gazelle.engines.planar.fleet_bodies import Body, Drive
-from gazelle.engines.planar.shapes import PrimitiveTable
-from gazelle.engines.planar.stage_walls import table_of
-from gazelle.engines.stage_robots import Ranger, Rider, StageRobot, without_actuators
-from gazelle.engines.stage_shapes import parts_of
+from gazelle.engines.planar import Body, Drive, Fan, KindLayout, Mount, PlanarEngine
 from gazelle.geometry.planar_part import PlanarPart
+from gazelle.stage.robots import Ranger, Rider, StageRobot, without_actuators
+from gazelle.stage.shapes import parts_of
+from gazelle.stage.walls import table_of
 
 _FINEST = 1e-6
 """Least field of view [rad] and reach [m] of a fan."""
@@ -32,32 +30,26 @@ Key = tuple[int, int, int]
 
 
 @dataclass(slots=True)
-class StageLayout:
+class StageLayout(KindLayout):
     """Models of Stage files in a fleet.
 
+    Bodies are robots, then things, then kinematic models; there is a rider for each actuator.
+
     Attributes:
-        bodies: One a robot, then one a thing, then one a model that is only moved when told to.
-        riders: One an actuator; in a fleet they come after all others.
-        names: Of the models that ``bodies`` are of.
         robots: In file order.
         things: Models that grippers can take, if there are grippers.
         placed: Kinematic models.
         still: Models that never move.
-        statics: All that never moves.
         fans: Of each scanner.
         mounts: Of each scanner, one a sensor.
         noises: Of each scanner: of each sensor the standard deviation [m], the largest share
             of the distance, and the standard deviation of angles [rad].
     """
 
-    bodies: list[Body] = field(default_factory=list)
-    riders: list[Body] = field(default_factory=list)
-    names: list[str] = field(default_factory=list)
     robots: list[StageRobot] = field(default_factory=list)
     things: list[StageModel] = field(default_factory=list)
     placed: list[StageModel] = field(default_factory=list)
     still: list[StageModel] = field(default_factory=list)
-    statics: PrimitiveTable = field(default_factory=lambda: table_of(()))
     fans: list[Fan] = field(default_factory=list)
     mounts: list[list[Mount]] = field(default_factory=list)
     noises: list[list[tuple[float, float, float]]] = field(default_factory=list)
@@ -85,12 +77,31 @@ def layout_of(
     layout = maker.layout
     for name, model in robots:
         maker.robot(name, model, driven=name not in kinematic)
-    layout.names = [name for name, _ in (*robots, *things, *placed)]
+    layout.passive = [name for name, _ in (*things, *placed)]
+    layout.names = [*(name for name, _ in robots), *layout.passive]
     layout.things, layout.placed = [m for _, m in things], [m for _, m in placed]
     layout.still = [model for name, model in rest if name not in taken]
     layout.bodies += map(_thing, (*layout.things, *layout.placed))
     layout.statics = table_of(each for model in layout.still for each in model.walk())
+    layout.heights = _heights_of(layout)
     return layout
+
+
+def stage_layout(engine: PlanarEngine) -> StageLayout:
+    """Return the models of Stage files among those of an engine; an empty layout without any."""
+    of_kind = engine.layout.of_kind
+    return of_kind if isinstance(of_kind, StageLayout) else StageLayout()
+
+
+def _heights_of(layout: StageLayout) -> frozenset[float]:
+    """Return the heights of the rangers on robots [m]."""
+    heights = [body.z for body in layout.bodies]
+    return frozenset(
+        round(heights[mount.body] + mount.z, 4)
+        for mounts in layout.mounts
+        for mount in mounts
+        if mount.body < len(heights)
+    )
 
 
 def stage_model(model: Model) -> StageModel | None:

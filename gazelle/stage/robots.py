@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import warnings
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from gazelle.description import (
@@ -12,6 +13,7 @@ from gazelle.description import (
     StagePosition,
     StageSensor,
 )
+from gazelle.errors import SimulationWarning
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,3 +95,20 @@ def without_actuators(model: StageModel) -> StageModel:
     """Return a model without the bodies that its actuators move."""
     kept = (child for child in model.children if child.device_of(StageActuator) is None)
     return replace(model, children=tuple(without_actuators(child) for child in kept))
+
+
+def warn_of_mounted_drives(robots: Sequence[StageRobot]) -> None:
+    """Warn of position models on robots: they do not drive; once for robots of one macro."""
+    known = set()
+    for robot in robots:
+        if (kind := id(robot.model.children)) in known:
+            continue
+        known.add(kind)
+        own = replace(without_actuators(robot.model), pose=StagePose()).walk()
+        for placed in list(own)[1:]:
+            if placed.model.position is not None:
+                warnings.warn(
+                    f"'{placed.name}' is mounted on a robot, and does not drive by itself",
+                    SimulationWarning,
+                    stacklevel=2,
+                )
