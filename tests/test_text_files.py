@@ -9,9 +9,9 @@ from gazelle import FormatError, ResolveError, RosError, formats
 from gazelle.clients.descriptions import load_parameters
 from gazelle.control.checking import check_controllers, is_controllers
 from gazelle.formats import model_config
-from gazelle.formats.stage import load_stage
 from gazelle.path_texts import MAX_NAME, MAX_PATH, can_be_path, existing_file, expanded
 from gazelle.ros.launch import load_launch_text
+from gazelle.stage.format import load_stage
 from gazelle.text_files import read_rows, read_text
 from gazelle.training.tables import rows_until
 from gazelle.viewer.plots import read_table

@@ -9,12 +9,13 @@ from pathlib import Path
 
 from gazelle.description import Model, Parameters, World
 from gazelle.errors import FormatError, FormatWarning, ResolveError, closest_of
-from gazelle.formats import sdf, srdf, stage, urdf, xacro, xml
+from gazelle.formats import sdf, srdf, urdf, xacro, xml
 from gazelle.formats.map_world import map_world
 from gazelle.formats.model_config import entry_file
 from gazelle.formats.occupancy import load_map
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
+from gazelle.formats.world_formats import find_world_format
 from gazelle.path_texts import can_be_path, expanded, shortened
 
 PathLike = str | os.PathLike[str]
@@ -102,8 +103,9 @@ def load_string(
         raise FormatError(f"text is a string or bytes, not {text!r}", hint="load() reads files")
     reading = _reading(paths, xacro_args)
     data = text.encode(errors="surrogatepass") if isinstance(text, str) else text
-    if stage.is_stage(data):
-        world = stage.read_stage(data, name, reading)
+    own = find_world_format(data)
+    if own is not None:
+        world = own.read(data, name, reading)
         reading.report(strict=strict)
         return world
     root = xml.parse(text, name=name, report=reading.misread)
@@ -293,8 +295,9 @@ def read_path(file: Path, reading: Reading) -> World:
         return map_world(load_map(file))
     with reading.inside(file):
         data = xml.read_bytes(file)
-        if stage.is_stage(data, file.suffix):
-            return stage.read_stage(data, str(file), reading)
+        own = find_world_format(data, file.suffix)
+        if own is not None:
+            return own.read(data, str(file), reading)
         root = xml.parse(data, name=str(file), report=reading.misread)
         if root.tag in _EXPANDED and xacro.is_xacro(root):
             root = xacro.expand(file, reading)

@@ -17,10 +17,10 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
 from gazelle.description.stage import StageController
 from gazelle.errors import SimulationError, SimulationWarning
-from gazelle.formats.stage.models import known_controllers
 from gazelle.native.system import System
 from gazelle.stage.fleet import StageFleet
 from gazelle.stage.fleet_controller import FleetController
+from gazelle.stage.format.models import known_controllers
 from gazelle.stage.robots import Ranger, StageRobot
 from gazelle.stage.wandering import Wandering
 from gazelle.streams import Stream

@@ -16,7 +16,7 @@ from gazelle.formats.lint import lint
 from gazelle.formats.loader import find_file, read_path
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import MODEL_VARIABLES, PACKAGE_VARIABLE, Resolver
-from gazelle.formats.stage import is_stage
+from gazelle.stage.format import is_stage
 
 TABLE = Path(__file__).with_suffix(".txt")
 KINDS = ("sdf", "world", "urdf", "xacro", "gazebo")

@@ -19,7 +19,7 @@ import numpy as np
 import gazelle
 from gazelle import formats
 from gazelle.formats.lint import lint
-from gazelle.formats.stage import is_stage
+from gazelle.stage.format import is_stage
 from gazelle.text_files import read_text
 
 ARM = "fetch"

@@ -3,7 +3,7 @@
 import numpy as np
 from PIL import Image
 
-from gazelle.formats.stage import load_stage
+from gazelle.stage.format import load_stage
 
 SQUARE = "points 4 point[0] [0 0] point[1] [2 0] point[2] [2 1] point[3] [0 1]"
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from gazelle.errors import SimulationError
-from gazelle.formats.stage.models import known_controllers
 from gazelle.stage import FleetController, controllers, register_controller
+from gazelle.stage.format.models import known_controllers
 
 TEXT = """
 position ( name "a" ctrl "patrol 0.5" ) position ( name "b" pose [0 5 0 0] )

@@ -5,7 +5,7 @@ import time
 import pytest
 
 from gazelle import formats
-from gazelle.formats.stage import is_stage
+from gazelle.stage.format import is_stage
 
 pytestmark = pytest.mark.corpus
 

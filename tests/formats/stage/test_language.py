@@ -7,8 +7,8 @@ from stage_samples import read, write
 
 from gazelle import FormatError, ResolveError
 from gazelle.errors import FormatWarning
-from gazelle.formats.stage import load_stage
-from gazelle.formats.stage.lexer import Script, TokenKind, tokenize
+from gazelle.stage.format import load_stage
+from gazelle.stage.format.lexer import Script, TokenKind, tokenize
 
 
 def kinds(text):

@@ -13,8 +13,8 @@ from PIL import Image
 from stage_samples import draw, write
 
 from gazelle import Error, FormatError, formats
-from gazelle.formats.stage import load_stage
-from gazelle.formats.stage.devices import KINDS
+from gazelle.stage.format import load_stage
+from gazelle.stage.format.devices import KINDS
 
 SAMPLE = """
 include "part.inc"

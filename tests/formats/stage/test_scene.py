@@ -155,7 +155,7 @@ def test_random_colours_differ(tmp_path):
 
 
 def test_a_bitmap_with_too_many_boxes_is_drawn_coarser(tmp_path, monkeypatch):
-    monkeypatch.setattr("gazelle.formats.stage.scene.MAX_BOXES", 3)
+    monkeypatch.setattr("gazelle.stage.format.scene.MAX_BOXES", 3)
     draw(tmp_path, ["#.#.#.#."] * 8)
     with pytest.warns(FormatWarning, match="drawn 2 times coarser"):
         world = gazelle.load(write(tmp_path, 'model ( bitmap "map.png" size [7 8 1] )'))

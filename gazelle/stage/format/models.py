@@ -17,11 +17,11 @@ from gazelle.description.stage import (
 )
 from gazelle.description.stage_devices import StageGripper
 from gazelle.errors import did_you_mean
-from gazelle.formats.stage.body import gripper_body, is_block, read_body
-from gazelle.formats.stage.devices import KINDS
-from gazelle.formats.stage.entity import Entity, Property
-from gazelle.formats.stage.properties import Properties
-from gazelle.formats.stage.reader import Context
+from gazelle.stage.format.body import gripper_body, is_block, read_body
+from gazelle.stage.format.devices import KINDS
+from gazelle.stage.format.entity import Entity, Property
+from gazelle.stage.format.properties import Properties
+from gazelle.stage.format.reader import Context
 
 known_controllers = {"lasernoise", "wander"}
 """Those that are started here; others may join (``stage.register_controller``)."""

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from gazelle.description.stage import StageColor, StagePose, StageSize
 from gazelle.errors import did_you_mean
 from gazelle.formats.reading import Reading
-from gazelle.formats.stage.colors import color_of
-from gazelle.formats.stage.entity import Entity, Property
-from gazelle.formats.stage.lexer import Value
+from gazelle.stage.format.colors import color_of
+from gazelle.stage.format.entity import Entity, Property
+from gazelle.stage.format.lexer import Value
 
 LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
 ANGLES = {"degrees": math.pi / 180.0, "radians": 1.0}

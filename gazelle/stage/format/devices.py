@@ -23,9 +23,9 @@ from gazelle.description.stage_devices import (
     StageRanger,
     StageSensor,
 )
-from gazelle.formats.stage.colors import color_of
-from gazelle.formats.stage.entity import Entity
-from gazelle.formats.stage.properties import Properties, items_of
+from gazelle.stage.format.colors import color_of
+from gazelle.stage.format.entity import Entity
+from gazelle.stage.format.properties import Properties, items_of
 
 MAX_SAMPLES = 1_000_000
 MAX_STRIPS = 10_000

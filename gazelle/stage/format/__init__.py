@@ -11,11 +11,12 @@ from gazelle.description.stage import StageWorld
 from gazelle.formats import xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
-from gazelle.formats.stage.building import no_garbage
-from gazelle.formats.stage.parser import script_of
-from gazelle.formats.stage.scene import scene_of
-from gazelle.formats.stage.world import read_world
+from gazelle.formats.world_formats import WorldFormat
 from gazelle.path_texts import existing_file
+from gazelle.stage.format.building import no_garbage
+from gazelle.stage.format.parser import script_of
+from gazelle.stage.format.scene import scene_of
+from gazelle.stage.format.world import read_world
 
 SUFFIXES = (".world", ".inc")
 
@@ -26,7 +27,7 @@ _START = re.compile(
     re.VERBOSE,
 )
 
-__all__ = ["SUFFIXES", "is_stage", "load_stage", "read_stage", "scene_of"]
+__all__ = ["FORMAT", "SUFFIXES", "is_stage", "load_stage", "read_stage", "scene_of"]
 
 
 def is_stage(data: bytes, suffix: str = "") -> bool:
@@ -80,3 +81,7 @@ def read_stage(data: bytes, name: str, reading: Reading) -> World:
     with no_garbage():
         stage = read_world(script_of(name, data, reading), reading, reading.folder)
         return scene_of(stage, reading)
+
+
+FORMAT = WorldFormat(is_stage, read_stage)
+"""Entry point by which ``gazelle.formats.load`` finds Stage's files."""

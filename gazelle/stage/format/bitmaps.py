@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gazelle.errors import FormatError
 from gazelle.formats.picture import read_picture
-from gazelle.formats.stage.entity import Property
+from gazelle.stage.format.entity import Property
 
 WALL = 127
 """Greatest value of a pixel's first channel that is a wall."""

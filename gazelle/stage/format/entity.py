@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from gazelle.description import Source
 from gazelle.errors import FormatError
-from gazelle.formats.stage.lexer import Script, Token, Value, parse_value
+from gazelle.stage.format.lexer import Script, Token, Value, parse_value
 
 Kind = type[FormatError]
 

@@ -10,10 +10,10 @@ import numpy as np
 from gazelle.description.stage import StageBitmap, StageBlock, StageSize
 from gazelle.description.stage_devices import StageGripper
 from gazelle.errors import ResolveError
-from gazelle.formats.stage.entity import Entity
-from gazelle.formats.stage.parser import find_beside, looked
-from gazelle.formats.stage.properties import Properties
-from gazelle.formats.stage.reader import Context
+from gazelle.stage.format.entity import Entity
+from gazelle.stage.format.parser import find_beside, looked
+from gazelle.stage.format.properties import Properties
+from gazelle.stage.format.reader import Context
 
 BOUNDARY = 0.01
 """Thickness of the walls of ``boundary`` [m]."""

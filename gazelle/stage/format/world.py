@@ -8,14 +8,14 @@ from gazelle.description.source import Source
 from gazelle.description.stage import StageWindow, StageWorld
 from gazelle.errors import FormatError
 from gazelle.formats.reading import Reading
-from gazelle.formats.stage.bitmaps import BitmapCells
-from gazelle.formats.stage.devices import KINDS
-from gazelle.formats.stage.entity import Entity
-from gazelle.formats.stage.lexer import Script
-from gazelle.formats.stage.models import read_model, read_models
-from gazelle.formats.stage.parser import parse
-from gazelle.formats.stage.properties import ANGLES, LENGTHS, Properties, Units
-from gazelle.formats.stage.reader import Context
+from gazelle.stage.format.bitmaps import BitmapCells
+from gazelle.stage.format.devices import KINDS
+from gazelle.stage.format.entity import Entity
+from gazelle.stage.format.lexer import Script
+from gazelle.stage.format.models import read_model, read_models
+from gazelle.stage.format.parser import parse
+from gazelle.stage.format.properties import ANGLES, LENGTHS, Properties, Units
+from gazelle.stage.format.reader import Context
 
 _IGNORED = (
     ("interval_real", "say 'speedup'"),

@@ -50,8 +50,8 @@ from gazelle.description import (
     World,
 )
 from gazelle.formats.reading import Reading
-from gazelle.formats.stage.plugins import Names
 from gazelle.formats.terrain import rectangles
+from gazelle.stage.format.plugins import Names
 
 MAX_BOXES = 5_000
 """Boxes of one bitmap; a finer one is drawn coarser."""

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from gazelle.description.stage import StageModel
 from gazelle.formats.reading import Reading
-from gazelle.formats.stage.bitmaps import BitmapCells
-from gazelle.formats.stage.entity import Entity
-from gazelle.formats.stage.properties import Units
+from gazelle.stage.format.bitmaps import BitmapCells
+from gazelle.stage.format.entity import Entity
+from gazelle.stage.format.properties import Units
 
 
 @dataclass(slots=True)
