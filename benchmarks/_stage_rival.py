@@ -179,8 +179,8 @@ def of_fleet(file: Path, threads: int) -> float:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         world = formats.load(file)
-    layout = layout_of([model for model in world.models if model.stage is not None])
-    step = world.stage.interval_sim
+    layout = layout_of([model for model in world.models if model.kind == "stage"])
+    step = world.content.interval_sim
     fleet = Fleet(layout.bodies, layout.statics, time_step=step, euler=True, threads=threads)
     scanner = Scanner(fleet, layout.fans[0], layout.mounts[0]) if layout.fans else None
     roaming = Roaming(fleet, scanner)

@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import functools
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from gazelle.errors import Error
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -32,6 +34,23 @@ def entry_points_of(group: str) -> dict[str, EntryPoint]:
 def entry_points_of_others(group: str) -> dict[str, EntryPoint]:
     """Return entry points of a group by name, less those of Gazelle's own distribution."""
     return _installed(group, own=False)
+
+
+def load(point: EntryPoint, what: str, error: type[Error]) -> Any:
+    """Return the object of an entry point.
+
+    Args:
+        point: The entry point.
+        what: What it is, in the text of an error.
+        error: Class of the error.
+
+    Raises:
+        Error: It cannot be imported, of the given class.
+    """
+    try:
+        return point.load()
+    except (ImportError, AttributeError) as fault:
+        raise error(f"{what} ({point.value}) cannot be loaded: {fault}") from fault
 
 
 def _own(group: str) -> dict[str, EntryPoint]:

@@ -101,7 +101,7 @@ def _running(args: argparse.Namespace) -> Any:
     from gazelle.viewer.sources import SimulationSource
 
     world = formats.open_world(args.source, ground=args.ground)
-    engine = args.engine or ("planar" if world.stage is not None or args.top else "mujoco")
+    engine = args.engine or ("planar" if world.kind == "stage" or args.top else "mujoco")
     simulation = Simulation(world, engine, seed=args.seed or 0)
     try:
         for robot in args.spawn:

@@ -36,8 +36,8 @@ from gazelle.errors import SimulationError
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
-    from gazelle.description.stage import StageWorld
     from gazelle.simulation import Simulation
+    from gazelle.stage import StageWorld
     from gazelle.stage.bridge import StageServer
 
 _STATUS_EVERY = 0.5
@@ -113,6 +113,7 @@ def run(args: argparse.Namespace) -> int:
     if args.wander and args.ros:
         args.parser.error("on a ROS graph robots drive by cmd_vel; leave out --wander or --ros")
     from gazelle import formats
+    from gazelle.stage import stage_world
 
     sys.path[:0] = args.plugins
     world = formats.open_world(args.file, ground=args.ground)
@@ -120,11 +121,12 @@ def run(args: argparse.Namespace) -> int:
         from gazelle.stage import with_wander
 
         world = with_wander(world)
-    _take_from_file(args, world.stage)
+    stage = stage_world(world)
+    _take_from_file(args, stage)
     if args.ros:
         from gazelle.bridges import refuse_twin
 
-        refuse_twin("stageros" if world.stage and args.engine == "planar" else "gazebo")
+        refuse_twin("stageros" if stage and args.engine == "planar" else "gazebo")
     from gazelle.simulation import Simulation
 
     with Simulation(world, args.engine, seed=args.seed) as sim:

@@ -53,7 +53,7 @@ def _file(args: argparse.Namespace) -> int:
     from gazelle.simulation import Simulation
 
     world = formats.open_world(args.file, ground=args.ground)
-    engine = args.engine or ("mujoco" if world.stage is None else "planar")
+    engine = args.engine or ("planar" if world.kind == "stage" else "mujoco")
     args.seconds, args.rate, args.paused = None, 1.0, True
     with Simulation(world, engine, seed=args.seed) as sim, viewing(sim, args) as page:
         return go(sim, args, page)

@@ -5,6 +5,7 @@ A description is never changed once read: make a changed one with
 collision's, visual's or sensor's in its link's, a joint's in its child link's.
 """
 
+from gazelle.description.content import FileContent
 from gazelle.description.geometry import (
     Box,
     Capsule,
@@ -37,7 +38,7 @@ from gazelle.description.noise import Noise, NoiseType
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.description.parameters import Parameters
 from gazelle.description.physics import Ode, Physics
-from gazelle.description.plugin import Plugin, StagePlugin
+from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose, Quaternion, Vector3
 from gazelle.description.sensor import Camera, ContactSensor, Imu, Lidar, Scan, Sensor
 from gazelle.description.source import Source
@@ -48,34 +49,6 @@ from gazelle.description.srdf import (
     JointGroupState,
     Semantics,
     VirtualJoint,
-)
-from gazelle.description.stage import (
-    PlacedStageModel,
-    StageBitmap,
-    StageBlock,
-    StageController,
-    StageGui,
-    StageModel,
-    StagePose,
-    StagePower,
-    StageReturns,
-    StageSize,
-    StageWindow,
-    StageWorld,
-)
-from gazelle.description.stage_devices import (
-    StageActuator,
-    StageBlinkenlight,
-    StageBlobfinder,
-    StageBumper,
-    StageCamera,
-    StageDevice,
-    StageFiducial,
-    StageGripper,
-    StageLightIndicator,
-    StagePosition,
-    StageRanger,
-    StageSensor,
 )
 from gazelle.description.surface import Bounce, Contact, Friction, Surface, TorsionalFriction
 from gazelle.description.world import Atmosphere, Scene, SphericalCoordinates, World
@@ -97,6 +70,7 @@ __all__ = [
     "Ellipsoid",
     "Empty",
     "EndEffector",
+    "FileContent",
     "Frame",
     "Friction",
     "Geometry",
@@ -125,7 +99,6 @@ __all__ = [
     "Parameters",
     "Physics",
     "PlacedModel",
-    "PlacedStageModel",
     "Plane",
     "Plugin",
     "Polyline",
@@ -139,30 +112,6 @@ __all__ = [
     "Source",
     "Sphere",
     "SphericalCoordinates",
-    "StageActuator",
-    "StageBitmap",
-    "StageBlinkenlight",
-    "StageBlobfinder",
-    "StageBlock",
-    "StageBumper",
-    "StageCamera",
-    "StageController",
-    "StageDevice",
-    "StageFiducial",
-    "StageGripper",
-    "StageGui",
-    "StageLightIndicator",
-    "StageModel",
-    "StagePlugin",
-    "StagePose",
-    "StagePosition",
-    "StagePower",
-    "StageRanger",
-    "StageReturns",
-    "StageSensor",
-    "StageSize",
-    "StageWindow",
-    "StageWorld",
     "Surface",
     "TorsionalFriction",
     "Transmission",

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from gazelle.description.content import FileContent
 from gazelle.description.joint import Joint
 from gazelle.description.link import Link
 from gazelle.description.parameters import Parameters
 from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
-from gazelle.description.stage import StageModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,8 @@ class Model:
         extras: Elements kept whole: gripper, ...
         actor: The ``<actor>`` that the model stands for and is written as, without its pose;
             else None.
-        stage: All that a Stage file says of it, which the links are made of; else None.
+        content: All that its file says of it, which the links are made of, if its format has more
+            terms than descriptions; else None.
     """
 
     name: str
@@ -98,13 +99,13 @@ class Model:
     transmissions: tuple[Transmission, ...] = ()
     extras: tuple[Parameters, ...] = ()
     actor: Parameters | None = field(default=None, hash=False)
-    stage: StageModel | None = field(default=None, compare=False, repr=False)
+    content: FileContent | None = field(default=None, compare=False, repr=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 
     @property
     def kind(self) -> str:
-        """Name of the kind of world file, for what runs it in a way of its own; mostly empty."""
-        return "" if self.stage is None else "stage"
+        """Name of the format of ``content``; empty without."""
+        return "" if self.content is None else self.content.kind
 
     def walk(self, prefix: str = "", pose: Pose | None = None) -> Iterator[PlacedModel]:
         """Yield this model and all nested ones, depth first, each with its scope and pose.

@@ -22,11 +22,3 @@ class Plugin:
     filename: str
     parameters: Parameters = field(default_factory=lambda: Parameters("plugin"))
     source: Source | None = field(default=None, compare=False, repr=False)
-
-
-@dataclass(frozen=True, slots=True)
-class StagePlugin(Plugin):
-    """Drives or sees for one of Stage's models where no engine runs that as Stage does.
-
-    One of the same kind of another source is no ``StagePlugin``, and runs everywhere.
-    """

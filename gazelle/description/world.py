@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from gazelle.description.content import FileContent
 from gazelle.description.joint import Joint
 from gazelle.description.light import Light
 from gazelle.description.material import Color
@@ -13,7 +14,6 @@ from gazelle.description.physics import Physics
 from gazelle.description.plugin import Plugin
 from gazelle.description.pose import Pose, Vector3
 from gazelle.description.source import Source
-from gazelle.description.stage import StageWorld
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,7 +72,8 @@ class World:
         states: ``<state>`` elements kept whole, already applied to the poses above.
         unrestored: The world before they were applied, for what writes it again; else None.
         extras: Other elements kept whole: road, population, audio, gui, ...
-        stage: All that a Stage file says, which ``models`` above are made of; else None.
+        content: All that the file says, which ``models`` above are made of, if its format has more
+            terms than descriptions; else None.
         bare: True for the file of a robot or model, which says nothing of the world around it.
     """
 
@@ -93,14 +94,14 @@ class World:
     states: tuple[Parameters, ...] = ()
     unrestored: World | None = field(default=None, compare=False, repr=False)
     extras: tuple[Parameters, ...] = ()
-    stage: StageWorld | None = field(default=None, repr=False)
+    content: FileContent | None = field(default=None, repr=False)
     bare: bool = field(default=False, compare=False, repr=False)
     source: Source | None = field(default=None, compare=False, repr=False)
 
     @property
     def kind(self) -> str:
-        """Name of the kind of world file, for what runs it in a way of its own; mostly empty."""
-        return "" if self.stage is None else "stage"
+        """Name of the format of ``content``; empty without."""
+        return "" if self.content is None else self.content.kind
 
     @property
     def profile(self) -> Physics:

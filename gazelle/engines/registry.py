@@ -12,7 +12,7 @@ from typing import Protocol
 
 from gazelle.description import World
 from gazelle.engines.engine import Engine
-from gazelle.entry_points import entry_points_of_others
+from gazelle.entry_points import entry_points_of_others, load
 from gazelle.errors import EngineError, did_you_mean
 
 _GROUP = "gazelle.engines"
@@ -53,12 +53,7 @@ def find(name: str) -> EngineFactory:
     known = entry_points_of_others(_GROUP)
     if name not in known:
         raise EngineError(f"there is no engine '{name}'", hint=did_you_mean(name, names()))
-    try:
-        factory: EngineFactory = known[name].load()
-    except (ImportError, AttributeError) as error:
-        raise EngineError(
-            f"the engine '{name}' ({known[name].value}) cannot be loaded: {error}"
-        ) from error
+    factory: EngineFactory = load(known[name], f"the engine '{name}'", EngineError)
     return factory
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from gazelle.description import World
-from gazelle.entry_points import entry_points_of
+from gazelle.entry_points import entry_points_of, load
 from gazelle.errors import FormatError
 from gazelle.formats.reading import Reading
 
@@ -51,11 +51,5 @@ def _formats() -> tuple[WorldFormat, ...]:
 
 
 def _load(name: str) -> WorldFormat:
-    point = entry_points_of(_GROUP)[name]
-    try:
-        found: WorldFormat = point.load()
-    except (ImportError, AttributeError) as error:
-        raise FormatError(
-            f"the format '{name}' ({point.value}) cannot be loaded: {error}"
-        ) from error
+    found: WorldFormat = load(entry_points_of(_GROUP)[name], f"the format '{name}'", FormatError)
     return found

@@ -45,7 +45,7 @@ class RecordedRun(RunningState, Protocol):
 
 
 FORMAT = "gazelle-recording"
-VERSION = 2
+VERSION = 3
 
 
 def state_hash(state: NDArray[np.float64]) -> str:

@@ -19,7 +19,7 @@ from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.ports import TwistInput
 from gazelle.simulation.robot import Robot, RobotHost
 
-_FORMAT = 3
+_FORMAT = 4
 
 # What reading an archive may raise that is none, or broken.
 # Of a snapshot, unpacked [bytes].
@@ -150,7 +150,7 @@ def _restore_engine(simulation: RobotHost, header: dict[str, Any], state: Any) -
     laws = decode(header["laws"])
     if _plain(_laws_of(engine.world)) != header["laws"]:
         world = engine.world
-        engine.update_world(replace(laws, plugins=world.plugins, stage=world.stage))
+        engine.update_world(replace(laws, plugins=world.plugins, content=world.content))
         simulation.clock.set_step(engine.time_step)
     if _plain(engine.history()) != header["history"]:
         engine.adopt(decode(header["history"]))
@@ -176,7 +176,7 @@ def _names(simulation: RobotHost) -> list[str]:
 
 def _laws_of(world: World) -> World:
     """Return a world without its contents."""
-    return replace(world, models=(), plugins=(), stage=None)
+    return replace(world, models=(), plugins=(), content=None)
 
 
 def _plain(value: Any) -> Any:

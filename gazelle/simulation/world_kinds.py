@@ -1,20 +1,22 @@
 """Kinds of world files whose models run in a way of their own.
 
-A description names its kind (``World.kind``, ``Model.kind``). What runs a kind is in a room above,
-which is imported by its name when a simulation first has such a model: this room knows none.
+A description names its kind (``World.kind``, ``Model.kind``). What runs a kind is in a room above or
+another package. It is found by an entry point of the group ``gazelle.simulation.kinds``, named as the
+kind, when a simulation first has such a model.
 """
 
 from __future__ import annotations
 
-import pkgutil
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 from gazelle.description import Model, Plugin, Sensor
+from gazelle.entry_points import entry_points_of, load
+from gazelle.errors import SimulationError
 from gazelle.sensors import SensorModel
 from gazelle.simulation.robot import Robot, RobotHost
 
-_KINDS = {"stage": "gazelle.stage.kind:run_stage"}
+_GROUP = "gazelle.simulation.kinds"
 
 
 class WorldKind(Protocol):
@@ -41,8 +43,13 @@ Start = Callable[[RobotHost], WorldKind | None]
 
 
 def find_world_kind(name: str) -> Start | None:
-    """Return what starts a kind; None for one whose models run as all others."""
-    if name not in _KINDS:
+    """Return what starts a kind; None for one whose models run as all others.
+
+    Raises:
+        SimulationError: It cannot be imported.
+    """
+    point = entry_points_of(_GROUP).get(name) if name else None
+    if point is None:
         return None
-    start: Start = pkgutil.resolve_name(_KINDS[name])
+    start: Start = load(point, f"what runs '{name}' models", SimulationError)
     return start

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from gazelle.stage.actuators import Actuator
     from gazelle.stage.cameras import CameraPictures, MountedCamera, cameras_of
     from gazelle.stage.controllers import register_controller, with_wander
+    from gazelle.stage.description import StageModel, StageWorld, stage_model, stage_world
     from gazelle.stage.finders import Blob, Fiducial
     from gazelle.stage.fleet import StageFleet
     from gazelle.stage.fleet_controller import FleetController
@@ -37,12 +38,16 @@ _HOMES = {
     "MountedCamera": "cameras",
     "Ranger": "robots",
     "StageFleet": "fleet",
+    "StageModel": "description",
     "StageRobot": "robots",
     "StageSimulation": "simulation",
+    "StageWorld": "description",
     "cameras_of": "cameras",
     "load_stage": "format",
     "register_controller": "controllers",
+    "stage_model": "description",
     "stage_of": "simulation",
+    "stage_world": "description",
     "with_wander": "controllers",
 }
 
@@ -58,12 +63,16 @@ __all__ = [
     "MountedCamera",
     "Ranger",
     "StageFleet",
+    "StageModel",
     "StageRobot",
     "StageSimulation",
+    "StageWorld",
     "cameras_of",
     "load_stage",
     "register_controller",
+    "stage_model",
     "stage_of",
+    "stage_world",
     "with_wander",
 ]
 

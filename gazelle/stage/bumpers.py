@@ -7,7 +7,11 @@ import math
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.description import StageBumper, StageModel, StagePose
+from gazelle.stage.description import (
+    StageBumper,
+    StageModel,
+    StagePose,
+)
 from gazelle.stage.finders import Surroundings
 from gazelle.stage.outlines import Outlines
 

@@ -10,9 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.description import PlacedStageModel, StageCamera, StageModel, StagePose
 from gazelle.errors import SimulationError
 from gazelle.rendering import PinholeLens, Renderer, plain_surroundings
+from gazelle.stage.description import (
+    PlacedStageModel,
+    StageCamera,
+    StageModel,
+    StagePose,
+)
 from gazelle.stage.robots import StageRobot
 from gazelle.stage.scenery import SKY, scenery_of
 from gazelle.stage.stage_bodies import StageBodies

@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Model, World
-from gazelle.description.stage import StageController
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
+from gazelle.stage.description import stage_model, stage_world
+from gazelle.stage.description.models import StageController
 from gazelle.stage.fleet import StageFleet
 from gazelle.stage.fleet_controller import FleetController
 from gazelle.stage.format.models import known_controllers
@@ -80,7 +81,7 @@ def with_wander(world: World) -> World:
     Raises:
         SimulationError: It is of no Stage file.
     """
-    if world.stage is None:
+    if stage_world(world) is None:
         raise SimulationError(
             f"only robots of Stage files wander, and '{world.name}' is none",
             hint="robots of other files drive by 'cmd_vel', from --ros or the page of --view",
@@ -89,12 +90,12 @@ def with_wander(world: World) -> World:
 
 
 def _wandering(model: Model) -> Model:
-    stage = model.stage
+    stage = stage_model(model)
     if stage is None or stage.position is None:
         return model
     if any(placed.model.controllers for placed in stage.walk()):
         return model
-    return replace(model, stage=replace(stage, controllers=(StageController("wander"),)))
+    return replace(model, content=replace(stage, controllers=(StageController("wander"),)))
 
 
 class Wander(FleetController):

@@ -12,16 +12,16 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from gazelle.description import (
+from gazelle.simulation.ports import Input
+from gazelle.simulation.robot import Robot
+from gazelle.simulation.topics import absolute
+from gazelle.stage.description import (
     StageActuator,
     StageBlobfinder,
     StageBumper,
     StageFiducial,
     StageGripper,
 )
-from gazelle.simulation.ports import Input
-from gazelle.simulation.robot import Robot
-from gazelle.simulation.topics import absolute
 from gazelle.stage.fleet import StageFleet
 from gazelle.stage.robots import StageRobot
 from gazelle.stage.step_output import StepOutput

@@ -8,8 +8,9 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
-from gazelle.description import (
-    Color,
+from gazelle.description import Color
+from gazelle.errors import SimulationError
+from gazelle.stage.description import (
     PlacedStageModel,
     StageBlobfinder,
     StageBumper,
@@ -17,7 +18,6 @@ from gazelle.description import (
     StageModel,
     StagePose,
 )
-from gazelle.errors import SimulationError
 from gazelle.stage.outlines import Outlines, distances, joined, outlines_of
 from gazelle.stage.scenery import color_of
 from gazelle.stage.stage_bodies import StageBodies

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar import Fan, Fleet, Mount, PlanarEngine
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.inputs import chosen, one_world
 from gazelle.simulation.state_lock import StateLock
+from gazelle.stage.description import StageModel, StageWorld, stage_world
 from gazelle.stage.devices import Devices
 from gazelle.stage.drive_state import DriveState
 from gazelle.stage.fleet_controller import FleetController
@@ -100,7 +100,7 @@ class StageFleet(Senses):
     @property
     def description(self) -> StageWorld:
         """Description of the world in the file."""
-        return self.engine.world.stage or StageWorld()
+        return stage_world(self.engine.world) or StageWorld()
 
     @property
     def fleet(self) -> Fleet:

@@ -15,10 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.description import StageGripper, StageModel, StagePose
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, one_world
 from gazelle.stage.bumpers import gaps_to
+from gazelle.stage.description import (
+    StageGripper,
+    StageModel,
+    StagePose,
+)
 from gazelle.stage.outlines import Outlines, outlines_of
 from gazelle.stage.robots import StageRobot
 from gazelle.stage.stage_bodies import StageBodies

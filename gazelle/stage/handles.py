@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.description import Model, Sensor, StagePlugin
+from gazelle.description import Model, Sensor
 from gazelle.rotations import from_yaw
 from gazelle.sensors import LaserScan, SensorModel
 from gazelle.simulation.ports import TwistInput
@@ -18,6 +18,7 @@ from gazelle.simulation.topics import absolute
 from gazelle.simulation.values import Odometry
 from gazelle.stage.camera_model import StageCameraModel
 from gazelle.stage.cameras import cameras_of
+from gazelle.stage.description import StagePlugin
 from gazelle.stage.drive_input import DriveInput
 from gazelle.stage.fleet import StageFleet
 from gazelle.stage.ranger_model import RangerModel

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from gazelle.description import Model, Plugin, Sensor, StagePlugin
+from gazelle.description import Model, Plugin, Sensor
 from gazelle.engines.planar import PlanarEngine
 from gazelle.sensors import SensorModel
 from gazelle.simulation.robot import Robot, RobotHost
 from gazelle.simulation.scheduled_plugin import make_scheduled
 from gazelle.stage.controllers import make_controllers
+from gazelle.stage.description import StagePlugin
 from gazelle.stage.device_ports import open_devices
 from gazelle.stage.fleet import StageFleet
 from gazelle.stage.handles import inputs_of, open_outputs, sensor_models

@@ -6,8 +6,10 @@ import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
-from gazelle.description import (
-    Model,
+from gazelle.description import Model
+from gazelle.engines.planar import Body, Drive, Fan, KindLayout, Mount, PlanarEngine
+from gazelle.geometry.planar_part import PlanarPart
+from gazelle.stage.description import (
     PlacedStageModel,
     StageActuator,
     StageGripper,
@@ -16,9 +18,8 @@ from gazelle.description import (
     StagePosition,
     StageRanger,
     StageSensor,
+    stage_model,
 )
-from gazelle.engines.planar import Body, Drive, Fan, KindLayout, Mount, PlanarEngine
-from gazelle.geometry.planar_part import PlanarPart
 from gazelle.stage.robots import Ranger, Rider, StageRobot, without_actuators
 from gazelle.stage.shapes import parts_of
 from gazelle.stage.walls import table_of
@@ -65,7 +66,7 @@ def layout_of(
         kinematic: Names of kinematic models.
         others: Bodies that come between ``bodies`` and ``riders``.
     """
-    own = [(model.name, stage) for model in models if (stage := stage_model(model)) is not None]
+    own = [(model.name, stage) for model in models if (stage := _now(model)) is not None]
     robots = [(name, model) for name, model in own if model.position is not None]
     rest = [(name, model) for name, model in own if model.position is None]
     grips = any(_grips(model) for _, model in robots)
@@ -104,9 +105,9 @@ def _heights_of(layout: StageLayout) -> frozenset[float]:
     )
 
 
-def stage_model(model: Model) -> StageModel | None:
+def _now(model: Model) -> StageModel | None:
     """Return a model's Stage description, with the name and the pose that it has now."""
-    stage = model.stage
+    stage = stage_model(model)
     if stage is None:
         return None
     if stage.name.removeprefix("/") != model.name:

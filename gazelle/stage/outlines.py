@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.description import PlacedStageModel, StagePose
 from gazelle.geometry.planar_part import PlanarPart
+from gazelle.stage.description import PlacedStageModel, StagePose
 from gazelle.stage.shapes import bitmap_lines, blocks_of
 
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
-from gazelle.description import StageSensor
 from gazelle.sensors import LaserScan
+from gazelle.stage.description import StageSensor
 
 
 class RangerModel:

@@ -6,14 +6,14 @@ import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from gazelle.description import (
+from gazelle.errors import SimulationWarning
+from gazelle.stage.description import (
     StageActuator,
     StageModel,
     StagePose,
     StagePosition,
     StageSensor,
 )
-from gazelle.errors import SimulationWarning
 
 
 @dataclass(frozen=True, slots=True)

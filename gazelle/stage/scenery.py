@@ -12,18 +12,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gazelle.array_types import Floats, Ints64
-from gazelle.description import (
-    Color,
+from gazelle.description import Color
+from gazelle.formats.terrain import rectangles
+from gazelle.geometry.triangles import TriangleMesh, quadrangles
+from gazelle.rendering.painted import PaintedPart, painted_world
+from gazelle.rendering.visible import VisibleWorld
+from gazelle.stage.description import (
     PlacedStageModel,
     StageBitmap,
     StageCamera,
     StageModel,
     StagePose,
 )
-from gazelle.formats.terrain import rectangles
-from gazelle.geometry.triangles import TriangleMesh, quadrangles
-from gazelle.rendering.painted import PaintedPart, painted_world
-from gazelle.rendering.visible import VisibleWorld
 from gazelle.stage.faces import NO_FACES, in_tiles, plates, prism, walls_between
 from gazelle.stage.shapes import bitmap_lines, blocks_of
 

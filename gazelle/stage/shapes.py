@@ -8,10 +8,14 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.description import PlacedStageModel, StageBitmap, StagePose
 from gazelle.formats.terrain import rectangles
 from gazelle.geometry.bitmap_outline import bitmap_outline
 from gazelle.geometry.planar_part import PlanarPart
+from gazelle.stage.description import (
+    PlacedStageModel,
+    StageBitmap,
+    StagePose,
+)
 
 _TOUCH = 1e-9
 """In Stage bodies meet, and sensors see, also at the very heights where bodies end [m]."""

@@ -9,12 +9,13 @@ from typing import Any
 
 from gazelle import formats
 from gazelle.closing import Closeable
-from gazelle.description import Model, StageModel, World
+from gazelle.description import Model, World
 from gazelle.engines.laws import with_profile
 from gazelle.errors import SimulationError
 from gazelle.simulation.clock import Clock
 from gazelle.simulation.simulation import Simulation
 from gazelle.simulation.state_lock import StateLock
+from gazelle.stage.description import StageModel, stage_model, stage_world
 from gazelle.stage.fleet import StageFleet
 
 
@@ -68,7 +69,7 @@ class StageSimulation(Closeable):
         controllers: bool = True,
     ) -> None:
         loaded = world if isinstance(world, World) else formats.load(world)
-        if loaded.stage is None:
+        if stage_world(loaded) is None:
             place = loaded.source.file if loaded.source is not None else None
             raise SimulationError("this is no world of Stage", file=place, hint="use Simulation")
         integrator = "euler" if euler else loaded.profile.integrator
@@ -134,10 +135,10 @@ class StageSimulation(Closeable):
 
 
 def _uncontrolled(model: Model) -> Model:
-    stage = model.stage
+    stage = stage_model(model)
     if stage is None or not any(placed.model.controllers for placed in stage.walk()):
         return model
-    return replace(model, stage=_without_controllers(stage))
+    return replace(model, content=_without_controllers(stage))
 
 
 def _without_controllers(model: StageModel) -> StageModel:

@@ -6,8 +6,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 from gazelle.array_types import Floats
-from gazelle.description import StageModel, StageWorld
 from gazelle.engines.planar import Fleet, PlanarEngine
+from gazelle.stage.description import StageModel, StageWorld
 from gazelle.stage.robots import StageRobot
 
 

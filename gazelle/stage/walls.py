@@ -6,9 +6,9 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from gazelle.description import PlacedStageModel, StageBitmap
 from gazelle.engines.planar import PrimitiveTable, Raster, primitives_of, segments_of
 from gazelle.geometry.planar_part import PlanarPart
+from gazelle.stage.description import PlacedStageModel, StageBitmap
 from gazelle.stage.shapes import bitmap_lines, blocks_of, heights_of
 
 

@@ -217,10 +217,10 @@ def test_bundled_models_worlds_and_robots_load_by_name():
 
 def test_bundled_files_load_by_the_file_name_too(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert len(formats.load("fleet.world").stage.robots) == 72
+    assert len(formats.load("fleet.world").content.robots) == 72
     assert formats.load_model("turtlebot3_burger.urdf.xacro").links
     (tmp_path / "fleet.world").write_text("position ( )")
-    assert len(formats.load("fleet.world").stage.robots) == 1
+    assert len(formats.load("fleet.world").content.robots) == 1
 
 
 def test_a_folder_that_is_no_model_does_not_hide_what_is_bundled(tmp_path, monkeypatch):

@@ -97,7 +97,7 @@ def test_unusual_blanks_are_taken_as_spaces(blank, tmp_path):
     file = tmp_path / "odd.world"
     file.write_text(f"resolution{blank}0.02\n# a{blank}comment\nmodel( pose [1{blank}2 0 0] )\n")
     with pytest.warns(FormatWarning, match=r"odd.world:1: there is a no-break space"):
-        stage = formats.load(file).stage
+        stage = formats.load(file).content
     assert stage.resolution == 0.02
     robot = (
         f"<robot name='r'><link{blank}name='l'><inertial><mass value='1'/>"

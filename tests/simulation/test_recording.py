@@ -91,7 +91,7 @@ def test_a_different_outcome_is_noticed(tmp_path):
         ('{"format": "other"}', "no recording"),
         (
             '{"format": "gazelle-recording", "version": 99}',
-            "version 99, this Gazelle reads version 2",
+            "version 99, this Gazelle reads version 3",
         ),
     ],
 )

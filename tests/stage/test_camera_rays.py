@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from stage_samples import write
 
-from gazelle.description import StagePose
 from gazelle.engines.planar import columns as c
 from gazelle.stage import StageSimulation, cameras_of
+from gazelle.stage.description import StagePose
 from gazelle.stage.faces import in_tiles
 from gazelle.stage.senses import models_of
 from gazelle.stage.shapes import blocks_of

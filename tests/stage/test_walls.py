@@ -9,9 +9,14 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from stage_samples import draw, write
 
-from gazelle.description import PlacedStageModel, StageBitmap, StageModel, StagePose
 from gazelle.geometry.bitmap_outline import bitmap_outline
 from gazelle.stage import StageSimulation
+from gazelle.stage.description import (
+    PlacedStageModel,
+    StageBitmap,
+    StageModel,
+    StagePose,
+)
 from gazelle.stage.shapes import parts_of
 from gazelle.stage.walls import table_of
 

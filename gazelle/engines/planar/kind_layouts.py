@@ -15,7 +15,7 @@ from typing import Protocol
 from gazelle.description import Model
 from gazelle.engines.planar.fleet_bodies import Body
 from gazelle.engines.planar.shapes import PrimitiveTable, primitives_of
-from gazelle.entry_points import entry_points_of
+from gazelle.entry_points import entry_points_of, load
 from gazelle.errors import EngineError
 
 _GROUP = "gazelle.engines.planar"
@@ -98,10 +98,5 @@ def find_layout(kind: str) -> LayOut | None:
     point = entry_points_of(_GROUP).get(kind) if kind else None
     if point is None:
         return None
-    try:
-        found: LayOut = point.load()
-    except (ImportError, AttributeError) as error:
-        raise EngineError(
-            f"the layout of '{kind}' models ({point.value}) cannot be loaded: {error}"
-        ) from error
+    found: LayOut = load(point, f"the layout of '{kind}' models", EngineError)
     return found

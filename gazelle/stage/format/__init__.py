@@ -7,12 +7,12 @@ import re
 from collections.abc import Sequence
 
 from gazelle.description import World
-from gazelle.description.stage import StageWorld
 from gazelle.formats import xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.world_formats import WorldFormat
 from gazelle.path_texts import existing_file
+from gazelle.stage.description.models import StageWorld
 from gazelle.stage.format.building import no_garbage
 from gazelle.stage.format.parser import script_of
 from gazelle.stage.format.scene import scene_of
@@ -67,7 +67,7 @@ def load_stage(
 
 
 def read_stage(data: bytes, name: str, reading: Reading) -> World:
-    """Read the world of a Stage file's text; ``World.stage`` holds the file's content.
+    """Read the world of a Stage file's text; ``World.content`` holds what it says.
 
     Args:
         data: The text.

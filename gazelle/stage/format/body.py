@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gazelle.description.stage import StageBitmap, StageBlock, StageSize
-from gazelle.description.stage_devices import StageGripper
 from gazelle.errors import ResolveError
+from gazelle.stage.description.devices import StageGripper
+from gazelle.stage.description.models import StageBitmap, StageBlock, StageSize
 from gazelle.stage.format.entity import Entity
 from gazelle.stage.format.parser import find_beside, looked
 from gazelle.stage.format.properties import Properties

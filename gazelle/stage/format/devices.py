@@ -7,8 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from gazelle.description.material import Color
-from gazelle.description.stage import StageSize
-from gazelle.description.stage_devices import (
+from gazelle.stage.description.devices import (
     Quartet,
     StageActuator,
     StageBlinkenlight,
@@ -23,6 +22,7 @@ from gazelle.description.stage_devices import (
     StageRanger,
     StageSensor,
 )
+from gazelle.stage.description.models import StageSize
 from gazelle.stage.format.colors import color_of
 from gazelle.stage.format.entity import Entity
 from gazelle.stage.format.properties import Properties, items_of

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from gazelle.description.stage import (
+from gazelle.errors import did_you_mean
+from gazelle.stage.description.devices import StageGripper
+from gazelle.stage.description.models import (
     StageColor,
     StageController,
     StageGui,
@@ -15,8 +17,6 @@ from gazelle.description.stage import (
     StageReturns,
     StageSize,
 )
-from gazelle.description.stage_devices import StageGripper
-from gazelle.errors import did_you_mean
 from gazelle.stage.format.body import gripper_body, is_block, read_body
 from gazelle.stage.format.devices import KINDS
 from gazelle.stage.format.entity import Entity, Property

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from gazelle.description import Parameters, Sensor, StagePlugin
+from gazelle.description import Parameters, Sensor
+from gazelle.stage.description import StagePlugin
 
 _DRIVE = "libgazebo_ros_planar_move.so"
 _LASER = "libgazebo_ros_laser.so"

@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from gazelle.description.stage import StageColor, StagePose, StageSize
 from gazelle.errors import did_you_mean
 from gazelle.formats.reading import Reading
+from gazelle.stage.description.models import StageColor, StagePose, StageSize
 from gazelle.stage.format.colors import color_of
 from gazelle.stage.format.entity import Entity, Property
 from gazelle.stage.format.lexer import Value

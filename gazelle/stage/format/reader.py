@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gazelle.description.stage import StageModel
 from gazelle.formats.reading import Reading
+from gazelle.stage.description.models import StageModel
 from gazelle.stage.format.bitmaps import BitmapCells
 from gazelle.stage.format.entity import Entity
 from gazelle.stage.format.properties import Units

@@ -37,6 +37,13 @@ from gazelle.description import (
     Scan,
     Sensor,
     Source,
+    Surface,
+    Visual,
+    World,
+)
+from gazelle.formats.reading import Reading
+from gazelle.formats.terrain import rectangles
+from gazelle.stage.description import (
     StageBitmap,
     StageBlock,
     StageCamera,
@@ -45,12 +52,7 @@ from gazelle.description import (
     StageRanger,
     StageSensor,
     StageWorld,
-    Surface,
-    Visual,
-    World,
 )
-from gazelle.formats.reading import Reading
-from gazelle.formats.terrain import rectangles
 from gazelle.stage.format.plugins import Names
 
 MAX_BOXES = 5_000
@@ -71,7 +73,7 @@ _GOLDEN = 0.61803398875
 
 
 def scene_of(stage: StageWorld, reading: Reading) -> World:
-    """Return the world with ``models`` for the content of a Stage file, and itself as ``stage``.
+    """Return the world with ``models`` for the content of a Stage file, and itself as ``content``.
 
     Args:
         stage: What the file says.
@@ -84,7 +86,7 @@ def scene_of(stage: StageWorld, reading: Reading) -> World:
         models=(builder.ground(), *models),
         physics=(_physics(stage),),
         lights=(Light("sun", type="directional", pose=Pose(z=10.0), direction=(0.3, 0.2, -1.0)),),
-        stage=stage,
+        content=stage,
         source=stage.source,
     )
 
@@ -154,7 +156,7 @@ class _SceneBuilder:
             static=model.position is None,
             links=(link,),
             plugins=plugins,
-            stage=model,
+            content=model,
             source=model.source,
         )
 

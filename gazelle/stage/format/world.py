@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from gazelle.description.source import Source
-from gazelle.description.stage import StageWindow, StageWorld
 from gazelle.errors import FormatError
 from gazelle.formats.reading import Reading
+from gazelle.stage.description.models import StageWindow, StageWorld
 from gazelle.stage.format.bitmaps import BitmapCells
 from gazelle.stage.format.devices import KINDS
 from gazelle.stage.format.entity import Entity

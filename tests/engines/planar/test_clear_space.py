@@ -8,12 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gazelle.description import PlacedStageModel, StageBitmap, StageModel, StagePose
 from gazelle.engines.planar import Body, Fan, Fleet, Mount, PlanarPart, Scanner
 from gazelle.engines.planar import scan_columns as k
 from gazelle.engines.planar.clear_space import measure_clear
 from gazelle.engines.planar.clear_space_grid import clear_space_grid_of
 from gazelle.engines.planar.shapes import PrimitiveTable
+from gazelle.stage.description import (
+    PlacedStageModel,
+    StageBitmap,
+    StageModel,
+    StagePose,
+)
 from gazelle.stage.outlines import distances, outlines_of
 from gazelle.stage.walls import table_of
 

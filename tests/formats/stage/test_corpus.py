@@ -64,7 +64,7 @@ def test_stage_files_are_told_from_others(corpus):
 @pytest.mark.filterwarnings("ignore::gazelle.errors.FormatWarning")
 def test_it_loads(corpus, name):
     start = time.process_time()
-    stage = formats.load(corpus / name).stage
+    stage = formats.load(corpus / name).content
     assert time.process_time() - start < 1.0
     found = (len(stage.models), len(stage.robots), sum(map(rays, stage.robots)))
     assert found == LOADED[name]

@@ -6,9 +6,9 @@ import pytest
 from stage_samples import read
 
 from gazelle import FormatError
-from gazelle.description import StageController, StagePose
-from gazelle.description.stage import StageGui, StagePower, StageReturns
-from gazelle.description.stage_devices import (
+from gazelle.errors import FormatWarning
+from gazelle.stage.description import StageController, StagePose
+from gazelle.stage.description.devices import (
     StageActuator,
     StageBlinkenlight,
     StageBlobfinder,
@@ -21,7 +21,7 @@ from gazelle.description.stage_devices import (
     StageRanger,
     StageSensor,
 )
-from gazelle.errors import FormatWarning
+from gazelle.stage.description.models import StageGui, StagePower, StageReturns
 
 
 def one(folder, text):

@@ -61,7 +61,7 @@ def survives(folder, data):
 def test_the_sample_is_whole(folder):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        assert len(formats.load(write(folder, SAMPLE)).stage.models) == 11
+        assert len(formats.load(write(folder, SAMPLE)).content.models) == 11
 
 
 fuzzing = settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])

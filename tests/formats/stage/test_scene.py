@@ -30,14 +30,14 @@ def file(tmp_path):
 
 def test_load_tells_stage_from_sdf_by_content(tmp_path):
     sdf = '<sdf version="1.6"><world name="w"/></sdf>'
-    assert gazelle.load(write(tmp_path, sdf)).stage is None
-    assert gazelle.load(write(tmp_path, "resolution 0.5")).stage.resolution == 0.5
+    assert gazelle.load(write(tmp_path, sdf)).content is None
+    assert gazelle.load(write(tmp_path, "resolution 0.5")).content.resolution == 0.5
 
 
 @pytest.mark.parametrize("text", ["# only words\nresolution 0.5", 'include"a.inc"', "model()"])
 def test_the_suffix_does_not_matter_where_the_text_is_stages(tmp_path, text):
     write(tmp_path, "", "a.inc")
-    assert gazelle.load(write(tmp_path, text, "any.txt")).stage is not None
+    assert gazelle.load(write(tmp_path, text, "any.txt")).content is not None
 
 
 @pytest.mark.parametrize("text", ["just some words", "solid cube\nfacet", "%YAML", "{}"])
@@ -55,7 +55,7 @@ def test_a_world_holds_models_and_what_stage_said(file):
     world = gazelle.load(file)
     assert [model.name for model in world.models] == ["ground_plane", "plan", "r0", "r1"]
     assert [model.static for model in world.models] == [True, True, False, False]
-    assert [robot.name for robot in world.stage.robots] == ["r0", "r1"]
+    assert [robot.name for robot in world.content.robots] == ["r0", "r1"]
     assert world.models[2].pose.yaw == pytest.approx(math.pi / 2)
 
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal, NamedTuple, TypeVar
+from typing import ClassVar, Literal, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from gazelle.description.material import Color
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
-from gazelle.description.stage_devices import (
+from gazelle.stage.description.devices import (
     StageActuator,
     StageDevice,
     StagePosition,
@@ -211,6 +211,8 @@ class StageModel:
         power: Energy.
     """
 
+    kind: ClassVar[str] = "stage"
+
     type: str
     name: str
     pose: StagePose = _ORIGIN
@@ -330,6 +332,8 @@ class StageWorld:
         confirm_on_quit: Whether the window asks before it closes.
         window: The window; None without one.
     """
+
+    kind: ClassVar[str] = "stage"
 
     name: str = "default"
     models: tuple[StageModel, ...] = ()
