@@ -12,14 +12,11 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import ctypes
 import itertools
 import os
 import re
-import resource
 import shutil
 import signal
-import stat
 import sys
 import tempfile
 import time
@@ -33,6 +30,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 
 from cli.ending_states import spent  # noqa: E402
 from cli.forked import a_master, fork_command, import_everything  # noqa: E402
+from cli.line_folders import contents, limit, write_bag, write_files  # noqa: E402
 from cli.whole_files import broken_files  # noqa: E402
 from cli.wrong_words import Line, command_lines  # noqa: E402
 
@@ -41,7 +39,6 @@ SECONDS, CLOCK_S = 20.0, 300.0
 IDLE_S = 0.4
 END_S, END_CLOCK_S = 2.0, 60.0
 BYTES = 2 * 2**30
-ADDRESSES = 16 * 2**30
 POLL_S = 0.01
 WAITING = {
     *("bag-play", "bag-record", "bridge", "deploy", "exec", "launch", "master", "run", "shell"),
@@ -90,7 +87,8 @@ class End:
             yield f"it {self.stopped}"
         if self.late:
             yield "SIGTERM did not end it"
-        elif self.code not in (0, 1, 2, *((143, -15) if self.stopped else ())):
+        # 127: a shell that knows no such program
+        elif self.code not in (0, 1, 2, 127, *((143, -15) if self.stopped else ())):
             yield f"exit code {self.code}"
         if self.size > BYTES:
             yield f"{self.size / 2**30:.1f} GiB"
@@ -106,7 +104,7 @@ class End:
             yield found[0]
         elif self.code in (1, 2) and not self.stopped:
             errors = [line for line in self.said.splitlines() if _ERROR.search(line)]
-            if len(errors) > 1 or not (self.said or _ERROR.search(self.printed)):
+            if len(errors) > 1 or not (self.said or self.printed):
                 yield f"{len(errors)} lines of error"  # `check` lists what it finds
             yield from (f"it left {name}" for name in self.new)
 
@@ -129,9 +127,9 @@ class Sweep:
         begin = time.monotonic()
         folder = self.home / "beneath" / "folder"
         write_files(folder, self.home / "robot.npz")
-        before = _contents(folder)
+        before = contents(folder)
         end = run(line.words, folder, self.home, waiting=line.command in WAITING)
-        end.new = sorted(str(n) for n, data in _contents(folder).items() if before.get(n) != data)
+        end.new = sorted(str(n) for n, data in contents(folder).items() if before.get(n) != data)
         end.left = broken_files(folder)
         shutil.rmtree(folder)
         for each in (self.home / "beneath").iterdir():
@@ -167,7 +165,7 @@ def run(words: list[str], folder: Path, home: Path, *, waiting: bool) -> End:
     out, err = home / "stdout", home / "stderr"
     for each in (out, err):
         each.write_text("")
-    pid = fork_command(words, folder, out, err, _limit)
+    pid = fork_command(words, folder, out, err, limit)
     end, begin, used, changed, asked = End(), time.monotonic(), 0.0, time.monotonic(), 0.0
     while True:
         done, status, usage = os.wait4(pid, os.WNOHANG)
@@ -216,52 +214,12 @@ def _left(pid: int) -> bool:
     return False
 
 
-def _limit() -> None:
-    """Limit a child's memory, and let it read only what its user may, even as root."""
-    resource.setrlimit(resource.RLIMIT_AS, (ADDRESSES, ADDRESSES))
-    if os.getuid() == 0:
-        header = (ctypes.c_uint32 * 2)(0x20080522, 0)
-        ctypes.CDLL(None).capset(header, (ctypes.c_uint32 * 6)())
-
-
-def write_files(folder: Path, policy: Path) -> None:
-    """Write a good file of each kind that commands read, and places that cannot be used."""
-    folder.mkdir(parents=True)
-    for file in (policy, policy.with_suffix(".json"), policy.with_name("a.bag")):
-        shutil.copy(file, folder)
-    (folder / "table.csv").write_text("a,b\n1,2\n2,3\n")
-    (folder / "quick.py").write_text("def run(*, seed):\n    return {'twice': 2 * seed}\n")
-    (folder / "a.yaml").write_text("a: 1\n")
-    (folder / "a.launch").write_text('<launch><param name="a" value="1" /></launch>')
-    (folder / "folder").mkdir()
-    (folder / "locked").mkdir(mode=0o555)
-    (folder / "unreadable").touch(mode=0)
-    if os.getuid() == 0:  # who could remove the true one
-        os.mknod(folder / "null", 0o666 | stat.S_IFCHR, os.makedev(1, 3))
-    else:
-        (folder / "null").symlink_to(os.devnull)
-
-
-def _contents(folder: Path) -> dict[Path, bytes | None]:
-    """Return all that is in a folder."""
-    return {
-        each.relative_to(folder): each.read_bytes()
-        if each.is_file() and each.name != "unreadable"
-        else None
-        for each in folder.rglob("*")
-    }
-
-
 def sweep(names: list[str], every: int = 1, first: int = 0) -> Sweep:
     """Try the lines of some commands, of all without a name; of many only every n-th."""
-    from gazelle.ros import Time, load_message
-    from gazelle.ros.bags import Bag
-
     home = Path(tempfile.mkdtemp(prefix="wrong-lines-"))  # no object: a child would delete it
     with a_master(home) as uri:
         os.environ |= {"HOME": str(home), "XDG_CACHE_HOME": f"{home}/cache", "ROS_MASTER_URI": uri}
-        with Bag(home / "a.bag", "w") as bag:
-            bag.write("/words", load_message("std_msgs/String")("hello"), Time(1))
+        write_bag(home / "a.bag")
         found = Sweep(home)
         with contextlib.suppress(KeyboardInterrupt):
             for line in itertools.islice(command_lines(names), first, None, every):
