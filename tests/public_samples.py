@@ -21,7 +21,9 @@ import wrong_calls
 import gazelle
 import gazelle.builders
 from gazelle import Simulation, planning
-from gazelle.description import Box, Pose
+from gazelle.control import EFFORT, JointCommandInterface, JointStateInterface
+from gazelle.description import Box, OccupancyMap, Pose
+from gazelle.engines.tracer import make_tracer
 from gazelle.formats import Octree
 from gazelle.geometry import triangles
 from gazelle.sensors import View, look_at
@@ -57,9 +59,10 @@ def classes() -> dict[str, type]:
 
 
 class Samples:
-    """Good values; the call is what ``wrong_calls.calls`` takes."""
+    """Good values for what a room exports; the call is what ``wrong_calls.calls`` takes."""
 
-    def __init__(self) -> None:
+    def __init__(self, room: str = "") -> None:
+        self.room = room
         self.stack = contextlib.ExitStack()
         self._making: list[type] = []
 
@@ -74,6 +77,8 @@ class Samples:
             return gym.spaces.Dict({"a": box}) if "Dict" in plain else box
         if re.search(r"(Iterable|Sequence|tuple)\[tuple\[(Shape|Geometry)", plain):
             return ((Box((1.0, 1.0, 1.0)), Pose()),)
+        if plain.startswith("Sequence[tuple[Sensor"):
+            return []
         listed = re.match(r"(Sequence|Iterable|list|tuple)\[\(?(\w+)", plain)
         if listed and (listed[2] in TABLE or listed[2] in classes()):
             return (self(name, listed[2]),)
@@ -143,6 +148,16 @@ class Samples:
         env.reset(seed=1)
         return env.unwrapped.task
 
+    @property
+    def burger(self) -> Any:
+        """A robot with wheels and a lidar."""
+        return self.simulation.robots["burger"]
+
+    @functools.cached_property
+    def commands(self) -> JointCommandInterface:
+        """Commands to a joint in two worlds."""
+        return JointCommandInterface(EFFORT, ["a"], JointStateInterface(["a"], 2))
+
     @functools.cached_property
     def arm(self) -> Any:
         """Robot of a running simulation with a group "arm"."""
@@ -152,10 +167,29 @@ class Samples:
 
 TABLE: dict[str, Callable[[Samples], Any]] = {
     "Simulation": lambda s: s.simulation,
-    "Robot": lambda s: s.arm,
+    "RobotHost": lambda s: s.simulation,
+    "RunningState": lambda s: s.simulation,
+    "PopulatedState": lambda s: s.simulation,
+    "RecordedRun": lambda s: s.simulation,
+    "Spawned": lambda s: s.burger,
+    "SampledSensor": lambda s: next(iter(s.burger.sensors.values())),
+    "SensorUnit": lambda s: next(iter(s.burger.sensors.values())),
+    "LinkHandle": lambda s: next(iter(s.burger.links.values())),
+    "JointHandle": lambda s: next(iter(s.burger.joints.values())),
+    "WorldParameters": lambda s: s.simulation.parameters,
+    "PhysicsProperties": lambda s: s.simulation.physics,
+    "StateLock": lambda s: s.simulation.lock,
+    "Robot": lambda s: s.burger if s.room in ("simulation", "stage", "gazelle") else s.arm,
     "BatchedTask": lambda s: s.task,
     "SimulationTask": lambda s: s.task,
     "GoalSimulationTask": lambda s: s.goal_task,
+    "JointCommandInterface": lambda s: s.commands,
+    "JointHandles": lambda s: s.commands.handles(["a"]),
+    "JointStateInterface": lambda s: JointStateInterface(["a"], 2),
+    "Tracer": lambda s: make_tracer(s.simulation.world),
+    "OccupancyMap": lambda s: OccupancyMap(np.zeros((2, 3), np.int8), 0.1),
+    "Bytes": lambda s: np.zeros(4, np.uint8),
+    "UInts64": lambda s: np.zeros(2, np.uint64),
     "World": lambda s: scenes.world(scenes.ground(), scenes.box()),
     "Model": lambda s: scenes.box("new"),
     "RobotModel": lambda s: arms.arm("fetch"),
@@ -190,7 +224,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
 }
 BY_NAME: dict[str, Callable[[Samples], Any]] = {
     "group": lambda s: "arm",
-    "link": lambda s: "gripper_link",
+    "link": lambda s: "gripper_link" if s.room == "planning" else "burger::base_footprint",
     "joint": lambda s: "wrist_flex_joint",
     "effector": lambda s: "gripper",
     "path": lambda s: "file",

@@ -23,7 +23,7 @@ def sweep(room: str, only: str = "") -> Findings:
     """Call what a room exports, or one name of it, and the methods of what its classes make."""
     findings = Findings()
     with wrong_calls.limits():
-        good = public_samples.Samples()
+        good = public_samples.Samples(room)
         for name, call in public_samples.public(room):
             if only and name != only:
                 continue
@@ -45,13 +45,14 @@ HOOKS = {
     "act",
     "compute_reward",
     "draw_goals",
+    "join",
     "observe",
     "outcome",
     "reached",
     "scenario",
     "start",
 }
-"""Methods of tasks that the base class calls with what it checked."""
+"""Methods of tasks and sensors that their owners call with what they checked."""
 
 
 def _of_owners(handle: Any, name: str) -> bool:

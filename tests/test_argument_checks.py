@@ -118,7 +118,7 @@ def test_numbers_that_are_infinite_by_default_may_be():
 
 
 def test_arrays_of_shapes_that_do_not_fit_are_refused():
-    with pytest.raises(PlanningError, match="measure cannot take these arrays"):
+    with pytest.raises(PlanningError, match="measure cannot take these values"):
         measure(points=[1.0, 2.0, 3.0])
 
 

@@ -114,11 +114,16 @@ def test_a_simulation_refuses_wrong_values(engine):
 
 ROOMS = {
     "builders": 3000,
+    "control": 1300,
+    "description": 5000,
+    "engines": 400,
     "envs": 1000,
     "kinematics": 500,
     "navigation": 800,
     "planning": 2500,
     "rendering": 500,
+    "sensors": 3000,
+    "simulation": 3500,
 }
 """With the calls that are made at least."""
 

@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -176,6 +177,8 @@ BY_WORD: list[tuple[str, list[Any]]] = [
 def wrong(annotation: str) -> list[Any]:
     """Return wrong values of a type."""
     plain = re.sub(r"Callable\[.*\]", "", annotation)
+    if re.fullmatch(r"Path( \| None)?", plain):
+        return [Path(each) for each in PATHS]
     for word, values in BY_WORD:
         if re.search(word, plain):
             return values + (FLOATS if values is VECTORS else [])

@@ -14,6 +14,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.clients.agv_poses import PoseSource, pose_source
 from gazelle.clients.errors import ClientError
@@ -28,6 +29,7 @@ _PATIENCE_S = 30.0  # of wall time without a new pose
 _MOST_NAMES = 5  # in one message
 
 
+@checked(ClientError, after=True)
 class AGVFleet(Closeable):
     """Many AGVs, moved together by one thread; also a context manager, which stops them.
 

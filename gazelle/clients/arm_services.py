@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, Vector
@@ -13,6 +14,7 @@ from gazelle.ros import Node
 from gazelle.ros.msgs import geometry_msgs, trajectory_msgs
 
 
+@checked(ClientError, after=True)
 class ArmCommander(Closeable):
     """Calls ``ee_traj_srv``, ``joint_traj_srv``, ``ee_pose_srv`` and ``ee_rpy_srv`` (package ``fetch_train``).
 

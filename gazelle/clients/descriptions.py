@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from gazelle.clients.errors import ClientError
-from gazelle.path_texts import expanded
+from gazelle.path_texts import can_be_path, expanded, shortened
 from gazelle.ros import Node
 from gazelle.ros.builtin import xacro
 from gazelle.ros.launch.packages import Packages
@@ -95,7 +95,7 @@ def find_file(path: str | Path, package: str | None = None) -> Path:
     file = expanded(path)
     if package is not None:
         file = Packages().folder(package) / str(path).lstrip("/")
-    if not file.is_file():
+    if not can_be_path(file) or not file.is_file():
         where = f" in the package '{package}'" if package else ""
-        raise ClientError(f"there is no file '{path}'{where}", file=str(file))
+        raise ClientError(f"there is no file '{shortened(str(path))}'{where}")
     return file

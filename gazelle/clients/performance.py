@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.clients.errors import ClientError
 from gazelle.closing import Closeable
 from gazelle.errors import MissingExtraError
@@ -19,6 +20,7 @@ from gazelle.ros import Node
 from gazelle.ros.msgs import rosgraph_msgs
 from gazelle.writing import replacing, write_text
 
+_MOST_LOOKS = 1000.0
 _TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100
 _PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 
@@ -48,6 +50,7 @@ class Sample:
     memory: float
 
 
+@checked(ClientError, after=True)
 class PerformanceWatch(Closeable):
     """Looks at ``/clock`` and at processes at a rate; also a context manager.
 
@@ -63,6 +66,10 @@ class PerformanceWatch(Closeable):
     def __init__(self, node: Node, pids: tuple[int, ...] = (), rate: float = 2.0) -> None:
         self.samples: list[Sample] = []
         self._pids = pids
+        if not 0.0 < rate <= _MOST_LOOKS:
+            raise ClientError(
+                f"the rate must be above 0 and at most {_MOST_LOOKS:g} Hz, not {rate}"
+            )
         self._period = 1.0 / rate
         self._simulated = 0.0
         self._end = threading.Event()

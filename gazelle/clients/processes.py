@@ -11,6 +11,7 @@ from types import TracebackType
 from typing import Any, Self
 from xml.sax.saxutils import quoteattr
 
+from gazelle.argument_checks import checked
 from gazelle.clients.descriptions import find_file
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
@@ -25,6 +26,7 @@ _WATCH_S = 0.1
 _log = logging.getLogger("gazelle.clients")
 
 
+@checked(ClientError, after=True)
 class Processes:
     """Nodes and launch files that are ended with this; use it with ``with``.
 

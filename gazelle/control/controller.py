@@ -47,6 +47,7 @@ from gazelle.control.ports import (
     StatePort,
     TunableValue,
     TuningPort,
+    rows_of,
 )
 from gazelle.errors import ControlError, did_you_mean
 
@@ -247,8 +248,12 @@ class Controller:
         return f"{self.name}/{name}"
 
     def rows(self, worlds: Worlds | None) -> Worlds:
-        """Return indices of worlds, shape (n,)."""
-        return np.arange(self.nworld) if worlds is None else np.asarray(worlds, np.intp)
+        """Return indices of worlds, shape (n,).
+
+        Raises:
+            ControlError: There is no such world.
+        """
+        return rows_of(worlds, self.nworld)
 
     def add_input(
         self, name: str, kind: type[T], receive: Callable[[T, Worlds | None], None]

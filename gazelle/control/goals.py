@@ -13,7 +13,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from gazelle.array_types import Worlds
-from gazelle.control.ports import Serializer
+from gazelle.control.ports import Serializer, rows_of
 
 G = TypeVar("G")
 
@@ -201,9 +201,11 @@ class ActionPort(Generic[G]):
 
         Returns:
             The goal: ``ACTIVE`` or ended when this returns. One that is ``REJECTED`` has a text.
+
+        Raises:
+            ControlError: There is no such world.
         """
-        some = np.arange(self._nworld) if worlds is None else np.asarray(worlds, np.intp)
-        goal = Goal(value, some, self)
+        goal = Goal(value, rows_of(worlds, self._nworld), self)
         self.call(lambda: self._begin(goal))
         return goal
 

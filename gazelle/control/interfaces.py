@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
 from gazelle.errors import ControlError, did_you_mean
 
@@ -75,6 +76,7 @@ class HardwareInterface:
         return names
 
 
+@checked(ControlError, after=True)
 class JointStateInterface(HardwareInterface):
     """Positions, velocities and efforts of joints.
 
@@ -138,6 +140,9 @@ class JointCommandInterface(HardwareInterface):
         states: Of the joints.
         fields: What a command consists of; what ``COMMAND_FIELDS`` says if None.
 
+    Raises:
+        ControlError: ``COMMAND_FIELDS`` does not have the name, and there are no fields.
+
     Attributes:
         commands: By field, shape (nworld, joints): what controllers want now.
     """
@@ -152,7 +157,12 @@ class JointCommandInterface(HardwareInterface):
         super().__init__(name, names, claims=True)
         self._states = states
         nworld = len(states.position)
-        wanted = COMMAND_FIELDS[name] if fields is None else fields
+        wanted = COMMAND_FIELDS.get(name) if fields is None else fields
+        if wanted is None:
+            raise ControlError(
+                f"'{name}' is no interface of commands",
+                hint=did_you_mean(name, COMMAND_FIELDS) or "say what its fields are",
+            )
         self.commands = {field: np.zeros((nworld, len(self.resources))) for field in wanted}
 
     def handles(self, names: Sequence[str]) -> JointHandles:
@@ -163,6 +173,7 @@ class JointCommandInterface(HardwareInterface):
         return JointHandles(tuple(names), self._states, self._states.columns(names), commands)
 
 
+@checked(ControlError, after=True)
 class JointHandles:
     """Some joints of a robot, in the order that a controller wants them.
 
@@ -217,8 +228,11 @@ class JointHandles:
 
         Args:
             field: ``effort``, ``position``, ``velocity`` or ``acceleration``; the only one if None.
+
+        Raises:
+            ControlError: A command has no such field, or the joints can only be read.
         """
-        values, columns = self.commands[field or self.fields[0]]
+        values, columns = self._command_of(field)
         return values[:, columns]
 
     def set_command(
@@ -230,12 +244,26 @@ class JointHandles:
             values: Shape (n, joints), or what broadcasts to that.
             field: As of ``command``.
             worlds: Which worlds; all if None.
+
+        Raises:
+            ControlError: As of ``command``, or the values have another shape.
         """
-        target, columns = self.commands[field or self.fields[0]]
+        target, columns = self._command_of(field)
         if worlds is None:
             target[:, columns] = values
         else:
             target[np.ix_(worlds, columns)] = values
+
+    def _command_of(self, field: str | None) -> tuple[Floats, Indices]:
+        try:
+            return self.commands[self.fields[0] if field is None else field]
+        except LookupError:
+            known = ", ".join(self.fields)
+            raise ControlError(
+                f"these joints have no command '{field}', but: {known}"
+                if known
+                else "these joints can only be read"
+            ) from None
 
 
 class SensorInterface(HardwareInterface):

@@ -28,6 +28,8 @@ R = TypeVar("R")
 BASE_CLASS: Final = "controller_interface::ControllerBase"
 """Of all types, as list_controller_types says."""
 
+_LAST_NS = 2**63 - 1
+
 
 class Strictness(IntEnum):
     """Treatment of requests that a switch cannot meet (controller_manager_msgs)."""
@@ -221,6 +223,8 @@ class ControllerManager:
 
     @now_ns.setter
     def now_ns(self, time: int) -> None:
+        if not 0 <= time <= _LAST_NS:
+            raise ControlError(f"a time must be from 0 to 2^63 - 1 ns, not {time!r:.60}")
         self._now_ns = time
 
     def update(self, now_ns: int, period: float, *, restart: Worlds | None = None) -> None:
@@ -257,7 +261,7 @@ class ControllerManager:
             updates: How often.
             period: Of an update [s].
         """
-        self._now_ns = now_ns
+        self.now_ns = now_ns
         self._loaded.catch_up(now_ns, updates, period)
 
     def reset(self, worlds: Worlds | None) -> None:

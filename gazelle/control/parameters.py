@@ -9,6 +9,12 @@ from gazelle.errors import ControlError, did_you_mean
 from gazelle.real_numbers import real
 
 
+class UnknownParameterError(ControlError, KeyError):
+    """A controller has no parameter of that path."""
+
+    __str__ = Exception.__str__
+
+
 class ControllerParameters(Mapping[str, Any]):
     """Parameters of a controller from YAML, or a part of them; paths are separated by ``/``.
 
@@ -21,10 +27,15 @@ class ControllerParameters(Mapping[str, Any]):
         self._values, self.place = values, place
 
     def __getitem__(self, path: str) -> Any:
+        """Return a value.
+
+        Raises:
+            UnknownParameterError: There is none.
+        """
         found: Any = self._values
         for name in path.strip("/").split("/"):
             if not isinstance(found, Mapping) or name not in found:
-                raise KeyError(path)
+                raise UnknownParameterError(f"there is no parameter '{self.place}/{path}'")
             found = found[name]
         return found
 

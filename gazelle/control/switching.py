@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from gazelle.argument_checks import checked
 from gazelle.control.control_law import ControlLaw
 from gazelle.control.controller import Controller, law_of
 from gazelle.control.hardware import ControllerInfo, RobotHardware, SwitchResult
@@ -36,6 +37,7 @@ class LoadedController:
         return ControllerInfo(own.name, own.type, dict(own.claimed))
 
 
+@checked(ControlError)
 @dataclass(slots=True)
 class Switch:
     """A switch: what was stopped, and what is started when the robot is ready.

@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.description.pose import Pose
 from gazelle.description.source import Source
+from gazelle.errors import FormatError
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,10 +25,17 @@ class Inertia:
     iyz: float = 0.0
 
     @classmethod
+    @checked(FormatError, after=True)
     def from_matrix(cls, matrix: ArrayLike) -> Inertia:
-        """Create an inertia from a symmetric matrix, shape (3, 3) [kg m²]."""
-        rows = np.asarray(matrix, np.float64).tolist()
-        (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = rows
+        """Create an inertia from a symmetric matrix, shape (3, 3) [kg m²].
+
+        Raises:
+            FormatError: It has another shape, or is no matrix of numbers.
+        """
+        rows = np.asarray(matrix, np.float64)
+        if rows.shape != (3, 3):
+            raise FormatError(f"an inertia must be a matrix of shape (3, 3), not {rows.shape}")
+        (ixx, ixy, ixz), (_, iyy, iyz), (_, _, izz) = rows.tolist()
         return cls(ixx, iyy, izz, ixy, ixz, iyz)
 
     def matrix(self) -> NDArray[np.float64]:

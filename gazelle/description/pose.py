@@ -9,11 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
+from gazelle.errors import FormatError
+
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 
 _IDENTITY: Quaternion = (0.0, 0.0, 0.0, 1.0)
 _ROUNDING = 1e-14
+_FAILURES = (ArithmeticError, LookupError, TypeError, ValueError)
+"""Errors that values lead to which are no three or four numbers."""
 
 
 class Pose:
@@ -30,6 +35,9 @@ class Pose:
         roll: Rotation about x [rad].
         pitch: Rotation about y [rad].
         yaw: Rotation about z [rad].
+
+    Raises:
+        FormatError: One of them is no number, or an int beyond all floats.
     """
 
     __slots__ = ("_position", "_quaternion")
@@ -43,12 +51,15 @@ class Pose:
         pitch: float = 0.0,
         yaw: float = 0.0,
     ) -> None:
-        self._position: Vector3 = (float(x), float(y), float(z))
-        self._quaternion: Quaternion = (
-            _IDENTITY
-            if roll == 0.0 and pitch == 0.0 and yaw == 0.0
-            else quaternion_from_rpy(roll, pitch, yaw)
-        )
+        try:
+            self._position: Vector3 = (float(x), float(y), float(z))
+            self._quaternion: Quaternion = (
+                _IDENTITY
+                if roll == 0.0 and pitch == 0.0 and yaw == 0.0
+                else quaternion_from_rpy(roll, pitch, yaw)
+            )
+        except _FAILURES as error:
+            raise _refused("six numbers", error) from error
 
     @classmethod
     def from_quaternion(
@@ -58,12 +69,22 @@ class Pose:
 
         One that has length one but for rounding keeps its numbers, so that a pose that is
         written and read stays the same. One of length zero becomes the identity, as in Gazebo.
+
+        Raises:
+            FormatError: They are not three and four numbers.
         """
+        try:
+            return cls._normalized(position, quaternion)
+        except _FAILURES as error:
+            raise _refused("three numbers and a quaternion of four", error) from error
+
+    @classmethod
+    def _normalized(cls, position: Sequence[float], quaternion: Sequence[float]) -> Pose:
         norm = math.sqrt(sum(q * q for q in quaternion))
         if norm in (0.0, math.inf):  # the squares of very small or large numbers
             largest = max(map(abs, quaternion))
             if 0.0 < largest < math.inf:
-                return cls.from_quaternion(position, [q / largest for q in quaternion])
+                return cls._normalized(position, [q / largest for q in quaternion])
         pose = cls(*position)
         if norm != 0.0:
             scale = 1.0 if abs(norm - 1.0) < _ROUNDING else norm
@@ -74,11 +95,15 @@ class Pose:
     @classmethod
     def exactly(cls, position: Vector3, quaternion: Quaternion) -> Pose:
         """Return a pose of the very numbers of another's ``position`` and ``quaternion``."""
-        pose = cls(*position)
+        try:
+            pose = cls(*position)
+        except TypeError as error:
+            raise _refused("three numbers and a quaternion of four", error) from error
         pose._quaternion = quaternion  # its own class
         return pose
 
     @classmethod
+    @checked(FormatError, after=True)
     def from_matrix(cls, matrix: NDArray[np.float64]) -> Pose:
         """Return a pose from a homogeneous transform, shape (4, 4), or a rotation, shape (3, 3)."""
         position = matrix[:3, 3] if matrix.shape == (4, 4) else (0.0, 0.0, 0.0)
@@ -141,23 +166,26 @@ class Pose:
         """
         moved = rotate(self._quaternion, other._position)
         x, y, z = (a + b for a, b in zip(self._position, moved, strict=True))
-        return Pose.from_quaternion((x, y, z), multiply(self._quaternion, other._quaternion))
+        return Pose._normalized((x, y, z), multiply(self._quaternion, other._quaternion))
 
     def inverse(self) -> Pose:
         """Return the pose of the parent frame in the child frame."""
         x, y, z, w = self._quaternion
         conjugate: Quaternion = (-x, -y, -z, w)
         px, py, pz = rotate(conjugate, self._position)
-        return Pose.from_quaternion((-px, -py, -pz), conjugate)
+        return Pose._normalized((-px, -py, -pz), conjugate)
 
     def apply(self, point: Sequence[float]) -> Vector3:
         """Return a point [m] of the child frame in the parent frame."""
-        px, py, pz = rotate(self._quaternion, (point[0], point[1], point[2]))
+        px, py, pz = self.rotate(point)
         return (self.x + px, self.y + py, self.z + pz)
 
     def rotate(self, vector: Sequence[float]) -> Vector3:
         """Return a direction of the child frame in the parent frame."""
-        return rotate(self._quaternion, (vector[0], vector[1], vector[2]))
+        try:
+            return rotate(self._quaternion, (vector[0], vector[1], vector[2]))
+        except _FAILURES as error:
+            raise _refused("three numbers", error) from error
 
     def matrix(self) -> NDArray[np.float64]:
         """Return the homogeneous transform from child to parent, shape (4, 4)."""
@@ -190,6 +218,10 @@ class Pose:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (Pose.from_quaternion, (self._position, self._quaternion))
+
+
+def _refused(wanted: str, error: Exception) -> FormatError:
+    return FormatError(f"a pose takes {wanted}: {error}")
 
 
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:

@@ -6,10 +6,13 @@ import math
 import operator
 from typing import Any
 
+import numpy as np
+
 from gazelle.characters import can_be_written
 from gazelle.description import World
 from gazelle.errors import EngineError
 from gazelle.kinematics.tree import FARTHEST
+from gazelle.real_numbers import finite
 
 # Clocks count whole nanoseconds, and a step of weeks is a mistake [s].
 SHORTEST_STEP, LONGEST_STEP = 1e-9, 1e6
@@ -80,10 +83,9 @@ def check_world(world: World) -> None:
     physics_step(world.profile.max_step_size)
     laws = {"gravity": world.gravity, "magnetic field": world.magnetic_field, "wind": world.wind}
     for name, values in laws.items():
-        if not all(map(math.isfinite, values)):
-            raise EngineError(
-                f"the {name} must be finite, not {' '.join(f'{each:g}' for each in values)}"
-            )
+        if np.shape(values) != (3,) or not all(finite(each) is not None for each in values):
+            shown = " ".join(map(str, values)) if np.shape(values) else values
+            raise EngineError(f"the {name} must be three finite numbers, not {shown!s:.60}")
     for model in world.models:
         why = name_fault(model.name)
         if why is not None:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
+from gazelle.errors import EngineError
 from gazelle.rotations import cross
 
 
@@ -55,6 +57,7 @@ class ContactTable:
         )
 
 
+@checked(EngineError, after=True)
 @dataclass(frozen=True, slots=True)
 class Contacts:
     """The points where some collisions touch others, in the world frame.

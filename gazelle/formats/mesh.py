@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.description import Mesh, Source, Vector3
 from gazelle.errors import FormatError
 from gazelle.formats import collada, stl, wavefront, wavefront_looks
@@ -44,6 +45,7 @@ class MeshPart:
     look: MeshLook = PLAIN
 
 
+@checked(FormatError, after=True)
 def load_mesh(mesh: Mesh) -> MeshData:
     """Load the triangles of a description's mesh, scaled.
 
@@ -54,6 +56,7 @@ def load_mesh(mesh: Mesh) -> MeshData:
     return _placed(_joined(_parts_of(mesh)), mesh)
 
 
+@checked(FormatError, after=True)
 def load_mesh_parts(mesh: Mesh) -> tuple[MeshPart, ...]:
     """Load the pieces of a description's mesh, scaled, with their looks.
 

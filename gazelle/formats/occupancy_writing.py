@@ -32,11 +32,15 @@ def grey_levels(grid: OccupancyMap, *, occupied: float = 65.0, free: float = 25.
         free: Cells from 0 up to this value are white; others are grey.
 
     Raises:
-        FormatError: The limits are not in order.
+        FormatError: The limits are not in order, or the cells are no rows of numbers.
     """
+    if np.ndim(grid.data) != 2:
+        raise FormatError(
+            f"the cells of a map must be rows, shape (height, width), not {np.shape(grid.data)}"
+        )
     if not 0.0 <= free < occupied <= 100.0:
         raise FormatError("the limit of what is free is below that of what is occupied, 0 to 100")
-    cells = grid.data[::-1]
+    cells = np.asarray(grid.data)[::-1]
     levels = np.full(cells.shape, _UNKNOWN, np.uint8)
     levels[(cells >= 0) & (cells <= free)] = _FREE
     levels[cells >= occupied] = _OCCUPIED
@@ -56,7 +60,8 @@ def save_map(
         free: Cells up to this value are white; others are grey.
 
     Raises:
-        FormatError: The limits are not in order, or the name is of a folder or of no file, or it cannot be written.
+        FormatError: As of ``grey_levels``; the name is of a folder or of no file; or a file cannot
+            be written.
     """
     stem = os.fspath(name).removesuffix(".yaml")
     if stem.rpartition("/")[2] in ("", ".", ".."):

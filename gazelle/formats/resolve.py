@@ -249,6 +249,8 @@ class Resolver:
 
     def bundled_model(self, name: str) -> Path | None:
         """Return the folder of a model that comes with Gazelle, or None."""
+        if not _plain_name(name):
+            return None
         places = [self.assets / "models" / name]
         places += [folder for pattern in _PACKAGED for folder in self.assets.glob(pattern + name)]
         return next((folder for folder in places if (folder / "model.config").is_file()), None)
@@ -322,13 +324,15 @@ def _flat_model(name: str, roots: Sequence[Path]) -> Path | None:
 
 
 def _plain_name(name: str) -> bool:
-    return bool(name) and name not in {".", ".."} and os.sep not in name and "\0" not in name
+    return bool(name) and name not in {".", ".."} and os.sep not in name and can_be_path(name)
 
 
 def _ancestors(file: Path) -> list[Path]:
     """Return the folders around a file, nearest first, short of a home or a top-level folder."""
+    if not can_be_path(file):
+        return []
     start = file.absolute()
-    folders = [start] if start.is_dir() else []
+    folders = [start] if start.is_dir() and start.name else []
     for folder in list(start.parents)[:NEIGHBOUR_LEVELS]:
         too_wide = len(folder.parts) <= 2 or folder == Path.home()
         if too_wide and folders:

@@ -20,6 +20,7 @@ __all__ = [
     "Md5MismatchError",
     "NoListeningMasterError",
     "NoMasterError",
+    "NoTimeError",
     "NodeClosedError",
     "ParameterNotFoundError",
     "ProtocolError",
@@ -145,6 +146,10 @@ class ParameterNotFoundError(RosError, KeyError):
 
     def __str__(self) -> str:
         return self.message
+
+
+class NoTimeError(RosError, ValueError, OverflowError):
+    """Seconds are no time: NaN and infinity, for which genpy raises Python's errors."""
 
 
 class TimeMovedBackwardsError(RosError):

@@ -8,6 +8,8 @@ from __future__ import annotations
 import numbers
 from typing import Any, ClassVar, Self, overload
 
+from gazelle.ros.errors import NoTimeError
+
 _NSEC = 1_000_000_000
 Number = Any
 """An int or a float, also one of numpy's."""
@@ -21,7 +23,12 @@ def _canonical(secs: int, nsecs: int) -> tuple[int, int]:
 
 def _split(seconds: float) -> tuple[int, int]:
     """Return whole seconds and the nanoseconds left over, both rounded towards zero."""
-    secs = int(seconds)
+    try:
+        secs = int(seconds)
+    except (OverflowError, ValueError) as error:
+        raise NoTimeError(
+            f"a time in seconds must be a finite number, not {seconds!r:.60}"
+        ) from error
     return secs, int((seconds - secs) * _NSEC)
 
 
@@ -34,6 +41,7 @@ class TVal:
 
     Raises:
         ValueError: Seconds as a float and nanoseconds were both given.
+        NoTimeError: Seconds are not finite.
     """
 
     __slots__ = ["secs", "nsecs"]  # noqa: RUF023  # the order of the fields

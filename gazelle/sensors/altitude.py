@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Atmosphere, Noise, Parameters, Pose
 from gazelle.engines import Engine
+from gazelle.errors import SimulationError
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.sensors.carried import CarriedPoint
 from gazelle.sensors.model import NoisySensor
@@ -19,6 +21,7 @@ from gazelle.sensors.noise import NO_NOISE
 _GRAVITY, _MOLAR_MASS, _GAS_CONSTANT = 9.80665, 0.0289644, 8.31432
 
 
+@checked(SimulationError, after=True)
 def air_pressure(atmosphere: Atmosphere, altitude: Floats) -> Floats:
     """Return the pressure of still air [Pa] at altitudes [m], by the barometric formula.
 
@@ -65,6 +68,7 @@ class AltimeterReading:
     reference: Floats
 
 
+@checked(SimulationError, after=True)
 class AltimeterModel(NoisySensor):
     """Measures height and its change in every world, as Gazebo's altimeter does.
 
@@ -148,6 +152,7 @@ class PressureReading:
     variance: float
 
 
+@checked(SimulationError, after=True)
 class AirPressureModel(NoisySensor):
     """Measures the pressure of the world's atmosphere in every world.
 

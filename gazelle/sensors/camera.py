@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes, Floats32, Worlds
 from gazelle.description import Camera, Pose
 from gazelle.engines import Engine
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.rotations import multiply, rotate
+from gazelle.sensors.limits import check_worlds
 from gazelle.sensors.optics import Optics, optics_of
 from gazelle.states import restore_all, states_of
 from gazelle.streams import Stream
@@ -39,6 +41,7 @@ class CameraImage:
     depth: Floats32 | None = None
 
 
+@checked(SimulationError, after=True)
 class CameraModel:
     """Measures one camera, or several that see at once, in every world.
 
@@ -95,6 +98,7 @@ class CameraModel:
             interval: Plays no part.
         """
         del interval
+        check_worlds(worlds, self._engine.nworld)
         parts: list[Bytes] = []
         for number, optics in enumerate(self._optics):
             color, depth = self._look(number, optics, worlds, depth=self.depth)

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices, Worlds
 from gazelle.engines import Contacts, ContactTable, Engine
+from gazelle.errors import SimulationError
+from gazelle.sensors.limits import check_worlds
 from gazelle.sensors.model import FromPython, NoisySensor, SystemOf
 
 # Values of one contact: two names, position, normal, depth, force, torque.
@@ -29,6 +32,7 @@ class ContactReading:
     contacts: Contacts
 
 
+@checked(SimulationError, after=True)
 class ContactModel(NoisySensor):
     """Watches some collisions in every world.
 
@@ -63,6 +67,7 @@ class ContactModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Not used.
         """
+        check_worlds(worlds, self.engine.nworld)
         return self._alone.measure_all(interval, worlds)[:, 0]
 
     def system(self) -> SystemOf:

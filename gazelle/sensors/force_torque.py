@@ -6,10 +6,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.engines import Engine
-from gazelle.errors import FormatError
+from gazelle.errors import FormatError, SimulationError
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.sensors.model import NoisySensor
@@ -74,6 +75,7 @@ class WrenchReading:
     torque: Floats
 
 
+@checked(SimulationError, after=True)
 class ForceTorqueModel(NoisySensor):
     """Measures one joint's force and torque in every world, as Gazebo's sensor does.
 

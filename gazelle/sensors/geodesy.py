@@ -11,8 +11,10 @@ import math
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import SphericalCoordinates
+from gazelle.errors import SimulationError
 from gazelle.rotations import apply_matrix
 
 EQUATORIAL_RADIUS = 6378137.0
@@ -60,6 +62,7 @@ def to_geodetic(place: Floats) -> tuple[Floats, Floats, Floats]:
     return latitude, np.arctan2(y, x), altitude
 
 
+@checked(SimulationError, after=True)
 class TangentPlane:
     """The world's plane on Earth.
 

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose, SphericalCoordinates
 from gazelle.engines import Engine
+from gazelle.errors import SimulationError
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.sensors.carried import CarriedPoint
 from gazelle.sensors.geodesy import TangentPlane
@@ -66,6 +68,7 @@ class GpsReading:
     velocity: Floats
 
 
+@checked(SimulationError, after=True)
 class GpsModel(NoisySensor):
     """Measures where one receiver is on Earth, in every world.
 

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Imu, Pose
 from gazelle.engines import Engine, Motion, Placement
+from gazelle.errors import SimulationError
 from gazelle.rotations import conjugate, cross, multiply, rotate
 from gazelle.sensors.model import FromPython, NoisySensor, SystemOf
 from gazelle.sensors.noise import JoinedNoise
@@ -35,6 +37,7 @@ class ImuReading:
     variance: float = 0.0
 
 
+@checked(SimulationError, after=True)
 class ImuModel(NoisySensor):
     """Measures one IMU in every world.
 

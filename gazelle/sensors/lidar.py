@@ -8,11 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, UInts64, Worlds
 from gazelle.description import Lidar, Pose, Scan
 from gazelle.engines import Engine, RangeRays
+from gazelle.errors import SimulationError
 from gazelle.sensors.lidar_group import LidarGroup
 from gazelle.sensors.lidar_ranges import LidarNoise, RangeLaw, measure
+from gazelle.sensors.limits import check_worlds
 from gazelle.sensors.model import SystemOf
 from gazelle.sensors.noise import NoiseModel
 
@@ -44,6 +47,7 @@ class LaserScan:
     range_max: float
 
 
+@checked(SimulationError, after=True)
 class LidarModel:
     """Measures one lidar in every world.
 
@@ -96,6 +100,7 @@ class LidarModel:
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
+        check_worlds(worlds, self.engine.nworld)
         noise = self._noise
         if worlds is None and not noise.drifts:
             return np.ascontiguousarray(self._own().measure_all(interval)[:, 0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from gazelle.array_types import Worlds
 from gazelle.description import Scan, Sensor
 from gazelle.errors import SimulationError
 
@@ -40,6 +41,16 @@ def check_sensor(sensor: Sensor, name: str, nworld: int) -> None:
                 f"limit of {MAX_VALUES:,} in all of them",
                 source=sensor.source,
             )
+
+
+def check_worlds(worlds: Worlds | None, nworld: int) -> None:
+    """Check that no more worlds are measured in than there are.
+
+    Raises:
+        SimulationError: They are more.
+    """
+    if worlds is not None and len(worlds) > nworld:
+        raise SimulationError(f"a sensor measures in {nworld} worlds, not in {len(worlds)}")
 
 
 def _counts(sensor: Sensor) -> Iterator[tuple[str, float, int]]:

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.engines import Engine
+from gazelle.errors import SimulationError
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.sensors.model import NoisySensor
@@ -41,6 +43,7 @@ class MagneticReading:
     field: Floats
 
 
+@checked(SimulationError, after=True)
 class MagnetometerModel(NoisySensor):
     """Measures the magnetic field in every world; it is the same everywhere in a world.
 

@@ -9,8 +9,10 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise
+from gazelle.errors import SimulationError
 from gazelle.native.system import System
 from gazelle.sensors.noise import NoiseModel
 from gazelle.states import restore_all, states_of
@@ -118,6 +120,7 @@ class FromPython:
         raise TypeError(f"{type(self).__name__} has no kernel")
 
 
+@checked(SimulationError, after=True)
 class NoisySensor:
     """Holds the noise of a sensor's channels, each with random numbers of its own.
 

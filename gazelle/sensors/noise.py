@@ -9,13 +9,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices, UInts64, Worlds
 from gazelle.description import Noise
+from gazelle.errors import SimulationError
+from gazelle.sensors.limits import MAX_VALUES
 from gazelle.streams import Stream
 
 NO_NOISE = Noise()
 
 
+@checked(SimulationError, after=True)
 class NoiseModel:
     """White noise, a constant bias and a drifting bias on one group of channels.
 
@@ -28,9 +32,17 @@ class NoiseModel:
         name: Names the random stream; unique for each channel group.
         nworld: Number of worlds.
         channels: Number of values a measurement has.
+
+    Raises:
+        SimulationError: They are too many, or a number below 0.
     """
 
     def __init__(self, noise: Noise, seed: int, name: str, nworld: int, channels: int) -> None:
+        if min(nworld, channels) < 0 or nworld * channels > MAX_VALUES:
+            raise SimulationError(
+                f"there is no noise on {channels} values in each of {nworld} worlds, but on "
+                f"{MAX_VALUES:,} at most"
+            )
         self._noise = noise
         self._channels = channels
         self._stream = Stream(seed, name, nworld)

@@ -12,11 +12,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.description import Light, Plane, Pose, Visual, World
 from gazelle.engines.tracer import RayHits, Tracer
+from gazelle.errors import SimulationError
 from gazelle.rendering.lamps import SKY_HORIZON, SKY_TOP, SUN
 from gazelle.rendering.surface_looks import GREY
+from gazelle.sensors.limits import MAX_PIXELS
 
 _LINE = 0.012  # half width of the lines of the ground grid [m]
 _GAMMA = 1.35  # lifts the shadows to what a screen shows well
@@ -42,6 +45,7 @@ class View:
     samples: int = 2
 
 
+@checked(SimulationError, after=True)
 def look_at(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
     """Return the pose of an upright camera at ``eye`` [m] with ``target`` [m] in its middle."""
     dx, dy, dz = (t - e for e, t in zip(eye, target, strict=True))
@@ -81,7 +85,11 @@ def directions_of_view(view: View, samples: int) -> Floats:
     Args:
         view: From where and how.
         samples: Subpixels along each side of a pixel.
+
+    Raises:
+        SimulationError: The view has no or too many pixels, no finite pose, or no field of view.
     """
+    _check(view, samples)
     across, down = view.width * samples, view.height * samples
     focal = across / 2.0 / math.tan(view.horizontal_fov / 2.0)
     left = (across / 2.0 - 0.5 - np.arange(across)) / focal
@@ -90,6 +98,21 @@ def directions_of_view(view: View, samples: int) -> Floats:
     local = np.stack((np.ones_like(y), y, z), axis=-1).reshape(-1, 3)
     local /= np.linalg.norm(local, axis=1, keepdims=True)
     return np.ascontiguousarray(local @ view.pose.matrix()[:3, :3].T)
+
+
+def _check(view: View, samples: int) -> None:
+    sides = [*map(int, (view.width, view.height, samples))]
+    if min(sides) < 1 or sides[0] * sides[1] * sides[2] ** 2 > MAX_PIXELS:
+        raise SimulationError(
+            f"a picture of {view.width} x {view.height} pixels with {samples} x {samples} rays each "
+            f"cannot be taken: there must be one ray and {MAX_PIXELS:,} at most"
+        )
+    if not 0.0 < view.horizontal_fov < math.pi:
+        raise SimulationError(
+            f"the field of view must be more than 0 and less than pi, not {view.horizontal_fov}"
+        )
+    if not all(map(math.isfinite, view.pose.numbers)):
+        raise SimulationError(f"the pose of a view must be finite, not {view.pose}")
 
 
 def _background(world: World, directions: Floats) -> Floats:

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.engines import Engine
-from gazelle.errors import FormatError
+from gazelle.errors import FormatError, SimulationError
 from gazelle.formats.sdf.noise import read_noise
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
@@ -95,6 +96,7 @@ class SonarReading:
     field_of_view: float
 
 
+@checked(SimulationError, after=True)
 class SonarModel(NoisySensor):
     """Measures one sonar in every world.
 

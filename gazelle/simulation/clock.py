@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from gazelle.argument_checks import checked
+from gazelle.engines.limits import physics_step
+from gazelle.errors import SimulationError
+
 NANOSECONDS = 1_000_000_000
 
 
@@ -10,10 +14,13 @@ class Clock:
 
     Args:
         step: Physics step [s]; rounded to whole nanoseconds.
+
+    Raises:
+        EngineError: A clock cannot count such steps.
     """
 
     def __init__(self, step: float) -> None:
-        self.step_ns = round(step * NANOSECONDS)
+        self.set_step(step)
         self.now_ns = 0
 
     @property
@@ -23,19 +30,26 @@ class Clock:
 
     def set_step(self, step: float) -> None:
         """Set the physics step [s]."""
-        self.step_ns = round(step * NANOSECONDS)
+        self.step_ns = round(physics_step(step) * NANOSECONDS)
 
     def advance(self, steps: int) -> None:
         """Advance by physics steps."""
-        self.now_ns += steps * self.step_ns
+        try:
+            self.now_ns += steps * self.step_ns
+        except OverflowError:  # of numpy's ints
+            raise _beyond(steps) from None
 
+    @checked(SimulationError, after=True)
     def steps_in(self, seconds: float) -> int:
         """Return the number of physics steps nearest to a time."""
         return round(seconds * NANOSECONDS / self.step_ns)
 
     def steps_to(self, due_ns: int) -> int:
         """Return the physics steps until a time, at least 1."""
-        return max(1, -((self.now_ns - due_ns) // self.step_ns))
+        try:
+            return max(1, -((self.now_ns - due_ns) // self.step_ns))
+        except OverflowError:  # of numpy's ints
+            raise _beyond(due_ns) from None
 
 
 class Stopwatch:
@@ -106,8 +120,11 @@ class Schedule:
 
     @count.setter
     def count(self, value: int) -> None:
-        self._count = value
-        self.due_ns = 0 if self._rate <= 0.0 else round(value * NANOSECONDS / self._rate)
+        try:
+            due_ns = 0 if self._rate <= 0.0 else round(value * NANOSECONDS / self._rate)
+        except OverflowError:
+            raise _beyond(value) from None
+        self._count, self.due_ns = value, due_ns
 
     def copy(self) -> Schedule:
         """Return a schedule that is due at the same times."""
@@ -118,7 +135,10 @@ class Schedule:
     def follow(self, due_ns: int) -> None:
         """Set the time [ns] at which it is due next."""
         if due_ns != self.due_ns and self._rate > 0.0:
-            self._count, self.due_ns = round(due_ns * self._rate / NANOSECONDS), due_ns
+            try:
+                self._count, self.due_ns = round(due_ns * self._rate / NANOSECONDS), due_ns
+            except OverflowError:
+                raise _beyond(due_ns) from None
 
     def is_due(self, now_ns: int) -> bool:
         """Return whether it is due."""
@@ -127,10 +147,17 @@ class Schedule:
     def done(self, now_ns: int) -> None:
         """Set the next due time to the first multiple after now."""
         if self.rate > 0.0:
-            self.count = int(now_ns * self.rate // NANOSECONDS)
+            try:
+                self.count = int(now_ns * self.rate // NANOSECONDS)
+            except OverflowError:
+                raise _beyond(now_ns) from None
             while self.due_ns <= now_ns:
                 self.count += 1
 
     def restart(self) -> None:
         """Start over at time zero."""
         self.count = 0
+
+
+def _beyond(count: int) -> SimulationError:
+    return SimulationError(f"a clock cannot count to {count!r:.60}")

@@ -7,12 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Bools, Floats
 from gazelle.errors import SimulationError
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.state_lock import between_steps
 
 
+@checked(SimulationError, after=True)
 class JointArray:
     """First axes of some joints of one simulation, a column each; for plugins of many robots.
 

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from gazelle.argument_checks import checked
 from gazelle.engines import Motion, Placement
+from gazelle.errors import SimulationError
 from gazelle.simulation.links import LinkHandle
 from gazelle.simulation.running_state import RunningState
 from gazelle.simulation.state_lock import between_steps
 
 
+@checked(SimulationError, after=True)
 class LinkArray:
     """Some links of one simulation, a column each; for plugins of many robots.
 

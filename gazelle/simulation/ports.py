@@ -16,7 +16,9 @@ from typing import Any, Generic, NoReturn, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
+from gazelle.engines.limits import MAX_WORLDS, whole_number
 from gazelle.errors import SimulationError, UnknownNameError, did_you_mean
 from gazelle.simulation.inputs import chosen, size_of
 from gazelle.simulation.settings import Setting, Tuning
@@ -36,6 +38,9 @@ class TwistInput(StatePart):
         nworld: Number of worlds.
         topic: Topic name that the file asks for.
 
+    Raises:
+        EngineError: There cannot be so many worlds.
+
     Attributes:
         steers: Whether it takes turning for the angle of steered wheels [rad], not for a rate.
     """
@@ -43,6 +48,7 @@ class TwistInput(StatePart):
     steers = False
 
     def __init__(self, nworld: int, topic: str) -> None:
+        whole_number("the number of worlds", nworld, 1, MAX_WORLDS)
         self.topic = topic
         self._revision = np.zeros(1, np.int64)
         self.linear: Floats = np.zeros((nworld, 3))
@@ -62,7 +68,12 @@ class TwistInput(StatePart):
             linear: Shape (nworld, 3).
             angular: Likewise.
             revision: For the count of commands, shape (1,).
+
+        Raises:
+            SimulationError: An array has another shape.
         """
+        if not linear.shape == angular.shape == self.linear.shape:
+            raise SimulationError(f"commands are kept in arrays of shape {self.linear.shape}")
         linear[:], angular[:] = self.linear, self.angular
         self.linear, self.angular = linear, angular
         if revision is not None:
@@ -369,6 +380,7 @@ class Ports:
         """Return the present ports, for ``back_to``."""
         return tuple(dict(table) for table in self._tables())
 
+    @checked(SimulationError, after=True)
     def back_to(self, mark: tuple[Mapping[str, Any], ...]) -> None:
         """Close everything that was opened since."""
         for table, before in zip(self._tables(), mark, strict=True):

@@ -11,6 +11,7 @@ from gazelle.closing import Closeable
 from gazelle.description import Link, Model, World
 from gazelle.engines import CHANGES, DivergenceError
 from gazelle.errors import EngineError, SimulationError
+from gazelle.path_texts import shortened
 from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
 from gazelle.simulation.simulation import Simulation
@@ -164,7 +165,11 @@ def _begin(first: dict[str, Any], threads: int | None) -> Simulation:
 
 def _read(path: Path) -> list[dict[str, Any]]:
     lines: list[dict[str, Any]] = []
-    texts = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    try:
+        texts = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise SimulationError(f"it cannot be read: {reason}", file=shortened(str(path))) from error
     for number, text in enumerate(texts, 1):
         try:
             line = json.loads(text)

@@ -26,7 +26,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from gazelle.errors import FormatError, TaskError
+from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle.training.importing import TaskModule, modules_from_list, modules_to_list
 from gazelle.training.recipes import Recipe, recipe_from_dict, recipe_to_dict, task_name
 from gazelle.writing import naming, replacing, write_text
@@ -96,8 +96,12 @@ class Run:
             values: Fields of `RunConfig` that change.
 
         Raises:
-            TaskError: The folder cannot be written.
+            TaskError: A configuration has no such field, or the folder cannot be written.
         """
+        known = {each.name for each in dataclasses.fields(self.config)}
+        for name in sorted(values.keys() - known):
+            hint = did_you_mean(name, known)
+            raise TaskError(f"the configuration of a run has no field '{name}'", hint=hint)
         config = dataclasses.replace(self.config, **values)
         try:
             _write_config(self.folder, config)

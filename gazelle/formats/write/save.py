@@ -86,17 +86,19 @@ def format_of(file: Path) -> Format:
     return found
 
 
-def write_text(file: Path, text: str) -> None:
+def write_text(file: str | os.PathLike[str], text: str) -> None:
     """Write a whole text file or nothing.
 
     Raises:
         FormatError: It cannot be written.
     """
+    if not isinstance(file, str | os.PathLike) or not isinstance(text, str):
+        raise FormatError(f"a text is written to a path, not {text!r:.40} to {file!r:.40}")
     try:
         writing.write_text(file, text)
     except OSError as error:
         raise FormatError(f"it cannot be written: {error.strerror}", file=str(file)) from error
-    except UnicodeError as error:
+    except ValueError as error:  # a character that no path or text has
         raise FormatError(f"it cannot be written: {error}", file=str(file)) from error
 
 
