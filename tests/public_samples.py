@@ -20,7 +20,7 @@ import wrong_calls
 
 import gazelle
 import gazelle.builders
-from gazelle import Simulation, planning
+from gazelle import Simulation, planning, ros
 from gazelle.control import EFFORT, JointCommandInterface, JointStateInterface
 from gazelle.description import Box, OccupancyMap, Pose
 from gazelle.engines.tracer import make_tracer
@@ -148,6 +148,12 @@ class Samples:
         env.reset(seed=1)
         return env.unwrapped.task
 
+    @functools.cached_property
+    def node(self) -> Any:
+        """A node of a graph of its own."""
+        master = self.stack.enter_context(ros.Master(port=0))
+        return self.stack.enter_context(ros.Node("sweeper", master_uri=master.uri))
+
     @property
     def burger(self) -> Any:
         """A robot with wheels and a lidar."""
@@ -167,6 +173,7 @@ class Samples:
 
 TABLE: dict[str, Callable[[Samples], Any]] = {
     "Simulation": lambda s: s.simulation,
+    "Node": lambda s: s.node,
     "RobotHost": lambda s: s.simulation,
     "RunningState": lambda s: s.simulation,
     "PopulatedState": lambda s: s.simulation,

@@ -118,6 +118,7 @@ ROOMS = {
     "description": 5000,
     "engines": 400,
     "envs": 1000,
+    "formats": 650,
     "kinematics": 500,
     "navigation": 800,
     "planning": 2500,
