@@ -85,7 +85,7 @@ def check_world(world: World) -> None:
     for name, values in laws.items():
         if np.shape(values) != (3,) or not all(finite(each) is not None for each in values):
             shown = " ".join(map(str, values)) if np.shape(values) else values
-            raise EngineError(f"the {name} must be three finite numbers, not {shown!s:.60}")
+            raise EngineError(f"the {name} must be finite, three numbers, not {shown!s:.60}")
     for model in world.models:
         why = name_fault(model.name)
         if why is not None:
