@@ -1,9 +1,8 @@
-"""Entry points by which rooms and other packages extend Gazelle.
+"""Entry points by which other packages, and packages of Gazelle itself, extend it.
 
-Gazelle's own parts are found through its rooms, so that a new one is there without installing
-again. Only what stands on rooms above the one that looks for it, as `gazelle.drop_in` and
-`gazelle.stage` do, is found by entry points too. In a checkout its `pyproject.toml` lists them: what
-an installation recorded is as old as that.
+Gazelle's own modules are imported by name where imports may go that way (`tests/test_imports.py`). Those of
+packages above the one that looks for them, as `gazelle.drop_in` and `gazelle.stage`, are found by
+entry points. In a checkout its `pyproject.toml` lists them, as an installation's record may be older.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Formats of world files that are no XML, such as Stage's.
 
-Their readers are in rooms above or other packages, and are found by entry points of the group
-``gazelle.formats``, each of which gives a ``WorldFormat``.
+Their readers are found by entry points of the group ``gazelle.formats``, each of which gives a
+``WorldFormat``.
 """
 
 from __future__ import annotations

@@ -130,7 +130,10 @@ def find_address(host: str) -> str:
     known = known_address(host)
     if known is not None:
         return known
-    found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
+    try:
+        found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
+    except UnicodeError:  # empty, too long, or with characters that names do not have
+        raise OSError(f"{host!r} is no name of a host") from None
     families = sorted(found, key=lambda entry: entry[0] != socket.AF_INET)
     address = str(families[0][4][0])
     with _names_lock:

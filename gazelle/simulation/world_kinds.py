@@ -1,8 +1,8 @@
 """Kinds of world files whose models run in a way of their own.
 
-A description names its kind (``World.kind``, ``Model.kind``). What runs a kind is in a room above or
-another package. It is found by an entry point of the group ``gazelle.simulation.kinds``, named as the
-kind, when a simulation first has such a model.
+A description names its kind (``World.kind``, ``Model.kind``). What runs a kind is
+found by an entry point of the group ``gazelle.simulation.kinds``, named as the kind, when a
+simulation first has such a model.
 """
 
 from __future__ import annotations

@@ -25,6 +25,12 @@ def test_other_names_stay(host):
     assert net.usable_host(host) == host
 
 
+@pytest.mark.parametrize("host", ["", "a" * 70, "a..b", "\u2028", "\udc80"])
+def test_what_is_no_name_is_a_host_that_is_not_there(host):
+    with pytest.raises(OSError, match=r"name|known|address"):
+        net.find_address(host)
+
+
 def test_a_master_for_all_addresses_says_where_it_is(monkeypatch):
     with Master("0.0.0.0", 0, rosout=False) as master:  # on purpose
         assert "0.0.0.0" not in master.uri

@@ -1,8 +1,7 @@
 """Models of kinds that lay themselves out in the plane, as their files have outlines and drives.
 
-What lays out a kind (``Model.kind``) is in a room above or another package, and is found by an entry
-point of the group ``gazelle.engines.planar``, named as the kind. Models of other kinds are made of
-their links.
+What lays out a kind (``Model.kind``) is found by an entry point of the group
+``gazelle.engines.planar``, named as the kind. Models of other kinds are made of their links.
 """
 
 from __future__ import annotations
