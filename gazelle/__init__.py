@@ -1,6 +1,6 @@
 """Gazelle: robot simulator and learning kit in one package.
 
-The names here are the ones to start with; each room of the package has its own::
+The names here are the ones to start with; each subpackage has its own::
 
     import gazelle
 
@@ -76,7 +76,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Import a public name from its room on first use."""
+    """Import a public name from its subpackage on first use."""
     if name in _HOMES:
         value = getattr(importlib.import_module(_HOMES[name]), name)
         globals()[name] = value

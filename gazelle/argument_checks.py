@@ -26,7 +26,7 @@ Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 MOST = 1e15
 """Greatest magnitude of a float: its square and cube are numbers, too."""
-MOST_INT = 2**53
+MOST_INT = 2**63 - 1
 _DEEPEST = 4
 _CHECKED: set[type] = set()
 """Classes whose instances were checked when they were made."""
@@ -51,7 +51,7 @@ def checked(
     """Return a decorator of a function, or of what a class has in public, that refuses arguments.
 
     Floats, also those in tuples, lists, mappings, arrays, poses and dataclasses, must be finite and
-    not huge, unless the default is infinite; ints less than 2^53 in magnitude; texts without nulls
+    not huge, unless the default is infinite; ints of 64 bits; texts without nulls
     and surrogates; vectors of as many numbers as their annotation says.
 
     Args:
@@ -178,7 +178,7 @@ def _fault(value: Any, most: float, depth: int = 0) -> str | None:
     if value is None or kind is bool or kind in _CHECKED:
         return None
     if isinstance(value, Integral):
-        return None if abs(int(value)) <= MOST_INT else "less than 2^53"
+        return None if abs(int(value)) <= MOST_INT else "less than 2^63"
     if isinstance(value, Real):
         number = float(value)
         return None if abs(number) <= most else _limited(most, many=depth > 0)

@@ -1,4 +1,4 @@
-"""The errors Gazelle raises: one root, one subclass a room.
+"""The errors Gazelle raises: one root, one subclass a package.
 
 Every error can say where the fault is (file, line, element) and what to do
 about it (hint). The text is one line: ``FILE:LINE: <ELEMENT>: MESSAGE; HINT``.

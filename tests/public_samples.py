@@ -29,7 +29,7 @@ from gazelle.geometry import triangles
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
 
-ROOMS = {
+PACKAGES = {
     name: f"gazelle.{name}"
     for name in (
         *("builders", "clients", "control", "description", "engines", "envs", "formats"),
@@ -39,9 +39,9 @@ ROOMS = {
 } | {"gazelle": "gazelle"}
 
 
-def public(room: str) -> Iterator[tuple[str, Any]]:
-    """Yield functions and classes that a room exports."""
-    module = importlib.import_module(ROOMS[room])
+def public(package: str) -> Iterator[tuple[str, Any]]:
+    """Yield functions and classes that a package exports."""
+    module = importlib.import_module(PACKAGES[package])
     for name in module.__all__:
         value = getattr(module, name)
         kind = isinstance(value, type) and issubclass(value, BaseException | enum.Enum)
@@ -53,16 +53,16 @@ def public(room: str) -> Iterator[tuple[str, Any]]:
 def classes() -> dict[str, type]:
     """Return the public classes, by name."""
     found = {}
-    for room in ROOMS:
-        found.update({name: each for name, each in public(room) if isinstance(each, type)})
+    for package in PACKAGES:
+        found.update({name: each for name, each in public(package) if isinstance(each, type)})
     return found
 
 
 class Samples:
-    """Good values for what a room exports; the call is what ``wrong_calls.calls`` takes."""
+    """Good values for what a package exports; the call is what ``wrong_calls.calls`` takes."""
 
-    def __init__(self, room: str = "") -> None:
-        self.room = room
+    def __init__(self, package: str = "") -> None:
+        self.package = package
         self.stack = contextlib.ExitStack()
         self._making: list[type] = []
 
@@ -186,7 +186,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "WorldParameters": lambda s: s.simulation.parameters,
     "PhysicsProperties": lambda s: s.simulation.physics,
     "StateLock": lambda s: s.simulation.lock,
-    "Robot": lambda s: s.burger if s.room in ("simulation", "stage", "gazelle") else s.arm,
+    "Robot": lambda s: s.burger if s.package in ("simulation", "stage", "gazelle") else s.arm,
     "BatchedTask": lambda s: s.task,
     "SimulationTask": lambda s: s.task,
     "GoalSimulationTask": lambda s: s.goal_task,
@@ -231,7 +231,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
 }
 BY_NAME: dict[str, Callable[[Samples], Any]] = {
     "group": lambda s: "arm",
-    "link": lambda s: "gripper_link" if s.room == "planning" else "burger::base_footprint",
+    "link": lambda s: "gripper_link" if s.package == "planning" else "burger::base_footprint",
     "joint": lambda s: "wrist_flex_joint",
     "effector": lambda s: "gripper",
     "path": lambda s: "file",

@@ -1,4 +1,4 @@
-"""Calls of all that rooms export with wrong values.
+"""Calls of all that packages export with wrong values.
 
 ``python tests/public_sweep.py [ROOM[.NAME] ...]`` prints what ends in another error than Gazelle's, and
 what takes NaN for a number.
@@ -19,12 +19,12 @@ NOT_LOADED = {"GoToGoal"}
 """Plugins, whose methods a simulation calls after ``load``."""
 
 
-def sweep(room: str, only: str = "") -> Findings:
-    """Call what a room exports, or one name of it, and the methods of what its classes make."""
+def sweep(package: str, only: str = "") -> Findings:
+    """Call what a package exports, or one name of it, and the methods of what its classes make."""
     findings = Findings()
     with wrong_calls.limits():
-        good = public_samples.Samples(room)
-        for name, call in public_samples.public(room):
+        good = public_samples.Samples(package)
+        for name, call in public_samples.public(package):
             if only and name != only:
                 continue
             said = inspect.getdoc(call) or ""
@@ -63,7 +63,7 @@ def _of_owners(handle: Any, name: str) -> bool:
 
 
 if __name__ == "__main__":
-    for each in sys.argv[1:] or public_samples.ROOMS:
+    for each in sys.argv[1:] or public_samples.PACKAGES:
         print(f"== {each}", flush=True)
-        room, _, name = each.partition(".")
-        sweep(room, name).show()
+        package, _, name = each.partition(".")
+        sweep(package, name).show()

@@ -42,7 +42,7 @@ ORDER = (
     "viewer",
     "cli",
 )
-"""Rooms; each may import those before it. Data and paths (assets) are at the bottom."""
+"""Packages; each may import those before it. Data and paths (assets) are at the bottom."""
 
 SIMULATION = {
     "engines",
@@ -66,7 +66,7 @@ STRANGERS = {
     # They are the other side of a graph, as clients are.
     "drop_in": SIMULATION | {"bridges"},
 }
-"""Rooms that are lower in the order, and yet unknown to a room."""
+"""Packages that are lower in the order, and yet unknown to a package."""
 
 MOVEIT = "gazelle.drop_in.moveit"
 """Modules of MoveIt's client, which shares messages and robots with the node ``move_group``."""
@@ -84,7 +84,7 @@ OWNERS = {
 """Libraries that only these packages know, so that another can take their place."""
 
 FRONT_DOORS = {"gazelle", "gazelle.__main__"}
-"""``__init__`` names what all rooms offer, and imports it when it is used; the other runs."""
+"""``__init__`` names what all packages offer, and imports it when it is used; the other runs."""
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ def targets(node, module, *, is_package):
         base = ".".join([*home, base] if base else home)
     if base != "gazelle":
         return [base]
-    # Names of the front door count as imports of the rooms that they come from.
+    # Names of the front door count as imports of the packages that they come from.
     return [gazelle._HOMES.get(alias.name, f"gazelle.{alias.name}") for alias in node.names]
 
 
@@ -176,14 +176,14 @@ BELOW_ROS = {
 def beyond_ros(module, text, *, is_package=False):
     """Return what a module of ``ros``, or below it, imports of the rest of Gazelle."""
     named = {each.target for each in imports_of(module, text, is_package=is_package)}
-    return {name for name in named if room(name) != "ros" and name not in BELOW_ROS}
+    return {name for name in named if package_of(name) != "ros" and name not in BELOW_ROS}
 
 
 @pytest.mark.long
 def test_ros_is_usable_alone():
     found = {}
     for module, path in modules().items():
-        if room(module) == "ros" or module in BELOW_ROS:
+        if package_of(module) == "ros" or module in BELOW_ROS:
             text = path.read_text(encoding="utf-8")
             if names := beyond_ros(module, text, is_package=path.name == "__init__.py"):
                 found[module] = names
@@ -205,8 +205,8 @@ def test_what_ros_may_not_import_is_caught(text, expected):
     assert beyond_ros("gazelle.ros.tool", text) == expected
 
 
-def room(module):
-    """Return the room of a module; None for the modules at the top, which are below all rooms."""
+def package_of(module):
+    """Return the package of a module; None for the modules at the top, which are below all packages."""
     parts = module.split(".")
     return parts[1] if len(parts) > 1 and parts[1] in ORDER else None
 
@@ -222,14 +222,14 @@ def faults(found):
 
 def fault(each):
     """Return the reason why an import is wrong, or an empty text."""
-    here, there = room(each.module), room(each.target)
+    here, there = package_of(each.module), package_of(each.target)
     if each.module in FRONT_DOORS or there is None or here == there:
         return ""
     if here is None:
         # Errors say where in a file they are, with description's Source; streams are drawn natively;
         # xacro includes bundled files by the paths that their packages publish.
         below = there in ("assets", "description", "native")
-        return "" if below else "modules at the top are below all rooms"
+        return "" if below else "modules at the top are below all packages"
     if each.module.startswith(MOVEIT) and there in ("bridges", "planning"):
         return ""
     if there in STRANGERS.get(here, set()):
@@ -368,7 +368,7 @@ ENGINES = {"gazelle.engines.planar", "gazelle.engines.mujoco", "gazelle.engines.
 def test_nothing_outside_reaches_into_an_engine():
     paths, found = modules(), {}
     for module, path in paths.items():
-        if room(module) != "engines":
+        if package_of(module) != "engines":
             text = path.read_text(encoding="utf-8")
             own = imports_of(module, text, is_package=path.name == "__init__.py")
             if inside := reached_into(own, set(paths)):
@@ -422,7 +422,7 @@ def test_private_fields_of_others_are_read_line_by_line_only():
     assert leave == {}
 
 
-def test_every_folder_is_a_room():
+def test_every_folder_is_a_listed_package():
     folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
     assert folders <= set(ORDER)
 
@@ -504,7 +504,7 @@ def test_only_the_command_line_prints():
     printing = [
         f"{module}:{node.lineno}"
         for module, path in modules().items()
-        if room(module) != "cli"
+        if package_of(module) != "cli"
         for node in ast.walk(parsed(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.Call)
         and isinstance(node.func, ast.Name)

@@ -1,6 +1,6 @@
 """Table of the plugin libraries that Gazelle knows.
 
-The rows are in a room above, ``gazelle.plugins.table``, which is imported by its name when a
+The rows are in a package above, ``gazelle.plugins.table``, which is imported by its name when a
 description first has a plugin: this room runs plugins and knows none.
 """
 

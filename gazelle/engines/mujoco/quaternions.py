@@ -1,4 +1,4 @@
-"""MuJoCo's order of quaternions, (w, x, y, z), which no other room sees."""
+"""MuJoCo's order of quaternions, (w, x, y, z), which no other package sees."""
 
 from __future__ import annotations
 
