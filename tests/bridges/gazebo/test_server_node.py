@@ -54,7 +54,8 @@ def test_it_runs_a_world_with_all_flags_until_ctrl_c(master, world):
     process = subprocess.Popen([*program, *EVERY_FLAG.split(), str(world), "__name:=gazebo"])
     client = Client(master.uri)
     try:
-        client.node.wait_for_service("/gazebo/get_physics_properties", timeout=60.0)
+        for name in ("get_physics_properties", "get_world_properties", "unpause_physics"):
+            client.node.wait_for_service(f"/gazebo/{name}", timeout=60.0)  # advertised one by one
         assert client.call("get_physics_properties", "GetPhysicsProperties").pause
         properties = client.call("get_world_properties", "GetWorldProperties")
         assert (properties.model_names, properties.sim_time) == (["here"], 0.0)
