@@ -5,7 +5,10 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+N = TypeVar("N", int, float)
 
 _NEGATIVE = re.compile(r"-(\.?\d|\.?inf\b|\.?nan\b)", re.IGNORECASE)
 
@@ -26,35 +29,33 @@ class NumberParser(argparse.ArgumentParser):
         known = self._option_string_actions
         if text in known:
             return True
-        return not _is_number(text) and all(f"-{letter}" in known for letter in text[1:])
+        return _number(float, text) is None and all(f"-{letter}" in known for letter in text[1:])
 
 
-def _is_number(text: str) -> bool:
+def _number(kind: Callable[[str], N], text: str) -> N | None:
+    """Return the number that a text is; None if it is none."""
     try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+        return kind(text)
+    except (ValueError, OverflowError):
+        return None
+
+
+def _int(text: str) -> int:
+    return int(text) if "e" not in text.lower() else int(float(text))
 
 
 def positive_int(text: str) -> int:
     """Return an int of at least 1, also written like 2_000 or 1e6."""
-    try:
-        number = int(text) if "e" not in text.lower() else int(float(text))
-    except (ValueError, OverflowError):
-        number = 0
-    if number < 1:
+    number = _number(_int, text)
+    if number is None or number < 1:
         raise argparse.ArgumentTypeError(f"expected an int above 0, not '{text}'")
     return number
 
 
 def positive_float(text: str) -> float:
     """Return a number above 0, whose inverse and whose nanoseconds are of an ordinary size, too."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = 0.0
-    if not 0.0 < number < math.inf:
+    number = _number(float, text)
+    if number is None or not 0.0 < number < math.inf:
         raise argparse.ArgumentTypeError(f"expected a number above 0, not '{text}'")
     if not 1.0 / _LARGEST <= number <= _LARGEST:
         raise argparse.ArgumentTypeError(f"expected a number from 1e-9 to 1e9, not '{text}'")
@@ -63,21 +64,15 @@ def positive_float(text: str) -> float:
 
 def seconds(text: str) -> float:
     """Return a time of either sign that a clock can wait for [s]."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not -_LARGEST <= number <= _LARGEST:
+    number = _number(float, text)
+    if number is None or not -_LARGEST <= number <= _LARGEST:
         raise argparse.ArgumentTypeError(f"expected seconds from -1e9 to 1e9, not '{text}'")
     return number
 
 
 def port_number(text: str) -> int:
     """Return a TCP port, 0 for any free one."""
-    try:
-        number = int(text)
-    except ValueError:
-        number = -1
-    if not 0 <= number < 65536:
+    number = _number(int, text)
+    if number is None or not 0 <= number < 65536:
         raise argparse.ArgumentTypeError(f"expected a port from 0 to 65535, not '{text}'")
     return number
