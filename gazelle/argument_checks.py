@@ -6,6 +6,7 @@ anywhere is refused here, in one place; ranges of their own are the functions' o
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import inspect
 import math
@@ -17,7 +18,9 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
+from gazelle.array_types import Worlds
 from gazelle.characters import can_be_written
 from gazelle.errors import Error
 from gazelle.path_texts import can_be_path
@@ -33,7 +36,7 @@ _CHECKED: set[type] = set()
 _TRUSTED = {"from_dict", "restore"}
 """Methods that get what their own class made, such as a state with infinite costs."""
 _ARRAY = re.compile(r"\b(ArrayLike|Floats\d*|Bools|Indices|Ints\d*)\b")
-_TAKES_ARRAYS = re.compile(rf"{_ARRAY.pattern}|\b(Worlds|Picture|U?Ints\d*|NDArray|Bytes)\b")
+_TAKES_ARRAYS = re.compile(rf"{_ARRAY.pattern}|\b(Worlds|Picture|UInts\d*|NDArray|Bytes)\b")
 _OF_SHAPES = (IndexError, OverflowError, TypeError, ValueError)
 """Errors of NumPy about arrays that do not fit."""
 _OF_VALUES = (ArithmeticError, IndexError, MemoryError, TypeError, ValueError)
@@ -76,6 +79,27 @@ def checked(
     return decorate
 
 
+def world_indices(worlds: Any, nworld: int, error: type[Error]) -> Worlds:
+    """Return indices of worlds, shape (n,).
+
+    Args:
+        worlds: Given by a user.
+        nworld: There are so many.
+        error: Class of the error.
+
+    Raises:
+        Error: There is no such world, or they are no ints; of the given class.
+    """
+    rows: NDArray[Any] = np.zeros((0, 0))
+    with contextlib.suppress(ValueError):  # of rows of different lengths
+        rows = np.asarray(worlds)
+    if rows.ndim != 1 or (rows.size and rows.dtype.kind not in "iu"):
+        raise error(f"worlds must be ints, not {worlds!r:.60}")
+    if rows.size and not 0 <= rows.min() <= rows.max() < nworld:
+        raise error(f"worlds must be from 0 to {nworld - 1}, not {worlds!r:.60}")
+    return rows.astype(np.intp, copy=False)
+
+
 def _decorate_members(kind: type, checking: Callable[[Any], Any]) -> None:
     for name, member in list(vars(kind).items()):
         if name not in ("__init__", "__getitem__") and (name[0] == "_" or name in _TRUSTED):
@@ -89,9 +113,25 @@ def _decorate_members(kind: type, checking: Callable[[Any], Any]) -> None:
 
 
 def _checking(function: Any, error: type[Error], most: float, *, after: bool) -> Any:
-    look = _look_at(inspect.signature(function).parameters, error, most)
-    made = _looking_after(function, look, error) if after else _looking(function, look, error)
-    return functools.wraps(function)(made)
+    parameters = inspect.signature(function).parameters
+    look = _look_at(parameters, error, most)
+    arrays = any(_TAKES_ARRAYS.search(str(each.annotation)) for each in parameters.values())
+    failures: tuple[type[Exception], ...] = _OF_VALUES if after else _OF_SHAPES if arrays else ()
+
+    @functools.wraps(function)
+    def call(*positional: Any, **named: Any) -> Any:
+        if not after:
+            look(positional, named)
+        try:
+            return function(*positional, **named)
+        except Error:
+            raise
+        except failures as failure:
+            if after:
+                look(positional, named)
+            raise _explained(function, failure, error) from failure
+
+    return call
 
 
 def _look_at(
@@ -118,37 +158,6 @@ def _look_at(
                 raise error(f"'{name}' must be {fault}, not {value!r:.60}")
 
     return look
-
-
-def _looking(function: Any, look: Callable[..., None], error: type[Error]) -> Any:
-    parameters = inspect.signature(function).parameters.values()
-    arrays = any(_TAKES_ARRAYS.search(str(each.annotation)) for each in parameters)
-
-    def call(*positional: Any, **named: Any) -> Any:
-        look(positional, named)
-        if not arrays:
-            return function(*positional, **named)
-        try:
-            return function(*positional, **named)
-        except Error:
-            raise
-        except _OF_SHAPES as failure:
-            raise _explained(function, failure, error) from failure
-
-    return call
-
-
-def _looking_after(function: Any, look: Callable[..., None], error: type[Error]) -> Any:
-    def call(*positional: Any, **named: Any) -> Any:
-        try:
-            return function(*positional, **named)
-        except Error:
-            raise
-        except _OF_VALUES as failure:
-            look(positional, named)
-            raise _explained(function, failure, error) from failure
-
-    return call
 
 
 def _explained(function: Any, failure: Exception, error: type[Error]) -> Exception:

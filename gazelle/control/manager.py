@@ -11,6 +11,7 @@ from typing import Any, Final, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import MOST_INT
 from gazelle.array_types import Worlds
 from gazelle.control import registry
 from gazelle.control.control_law import ControlLaw
@@ -27,8 +28,6 @@ R = TypeVar("R")
 
 BASE_CLASS: Final = "controller_interface::ControllerBase"
 """Of all types, as list_controller_types says."""
-
-_LAST_NS = 2**63 - 1
 
 
 class Strictness(IntEnum):
@@ -223,7 +222,7 @@ class ControllerManager:
 
     @now_ns.setter
     def now_ns(self, time: int) -> None:
-        if not 0 <= time <= _LAST_NS:
+        if not 0 <= time <= MOST_INT:
             raise ControlError(f"a time must be from 0 to 2^63 - 1 ns, not {time!r:.60}")
         self._now_ns = time
 

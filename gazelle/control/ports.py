@@ -8,14 +8,13 @@ topic (``CommandPort``), a published one (``StatePort``), a service (``QueryPort
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gazelle.argument_checks import world_indices
 from gazelle.array_types import Worlds
 from gazelle.errors import ControlError, did_you_mean
 
@@ -30,16 +29,7 @@ def rows_of(worlds: Worlds | None, nworld: int) -> Worlds:
     Raises:
         ControlError: There is no such world, or they are no ints.
     """
-    if worlds is None:
-        return np.arange(nworld)
-    rows: NDArray[Any] = np.zeros((0, 0))
-    with contextlib.suppress(ValueError):  # of rows of different lengths
-        rows = np.asarray(worlds)
-    if rows.ndim != 1 or (rows.size and rows.dtype.kind not in "iu"):
-        raise ControlError(f"worlds must be ints, not {worlds!r:.60}")
-    if rows.size and not 0 <= rows.min() <= rows.max() < nworld:
-        raise ControlError(f"worlds must be from 0 to {nworld - 1}, not {worlds!r:.60}")
-    return rows.astype(np.intp, copy=False)
+    return np.arange(nworld) if worlds is None else world_indices(worlds, nworld, ControlError)
 
 
 class Serializer(Protocol):

@@ -10,6 +10,7 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.argument_checks import world_indices
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.autoreset import with_idle
 from gazelle.envs.contract import PolicyContract, generic_contract
@@ -20,7 +21,6 @@ from gazelle.envs.row_checks import (
     checked_info,
     checked_observation,
     checked_reward,
-    checked_worlds,
 )
 from gazelle.errors import TaskError
 
@@ -176,7 +176,7 @@ class BatchedTask(ABC):
         Returns:
             First observations, shape (n, size), and their info.
         """
-        worlds = checked_worlds(worlds, self.nworld)
+        worlds = world_indices(worlds, self.nworld, TaskError)
         self.elapsed[worlds] = 0
         self._begin(worlds)
         seen, told = self._look(worlds)
@@ -264,7 +264,7 @@ class BatchedTask(ABC):
         Raises:
             TaskError: The actions have the wrong shape or values.
         """
-        over = checked_worlds(over, self.nworld)
+        over = world_indices(over, self.nworld, TaskError)
         if not len(over):
             return self.advance(actions)
         kept = self._hold(over)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Bools, Floats, Worlds
+from gazelle.array_types import Bools, Floats
 from gazelle.errors import TaskError
 
 _NUMBERS = "biuf"
@@ -26,20 +26,6 @@ def action_array(actions: Any) -> NDArray[Any]:
     if given.dtype.kind not in _NUMBERS:
         raise TaskError(f"actions must be an array of numbers, not {actions!r:.60}")
     return given
-
-
-def checked_worlds(worlds: Any, count: int) -> Worlds:
-    """Return indices of worlds, shape (n,).
-
-    Raises:
-        TaskError: There is no such world, or they are no ints.
-    """
-    given = np.asarray(worlds)
-    if given.ndim != 1 or (given.size and given.dtype.kind not in "iu"):
-        raise TaskError(f"worlds must be ints, not {worlds!r:.60}")
-    if given.size and not 0 <= given.min() <= given.max() < count:
-        raise TaskError(f"worlds must be from 0 to {count - 1}, not {worlds!r:.60}")
-    return given.astype(np.intp, copy=False)
 
 
 def checked_reward(values: Any, count: int) -> Floats:

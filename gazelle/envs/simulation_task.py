@@ -11,13 +11,13 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gazelle.argument_checks import checked
+from gazelle.argument_checks import checked, world_indices
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import World
 from gazelle.envs.batched_task import BatchedTask, Info, Verdict
 from gazelle.envs.limits import MAX_DRAWS
 from gazelle.envs.options import TaskSettings, check_whole
-from gazelle.envs.row_checks import checked_observation, checked_worlds
+from gazelle.envs.row_checks import checked_observation
 from gazelle.errors import TaskError
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
@@ -112,7 +112,9 @@ class SimulationTask(BatchedTask):
             TaskError: There is no such world, or a number cannot be.
         """
         check_whole("count", count, 0, MAX_DRAWS)
-        return low + (high - low) * self._stream.uniform(count, checked_worlds(worlds, self.nworld))
+        return low + (high - low) * self._stream.uniform(
+            count, world_indices(worlds, self.nworld, TaskError)
+        )
 
     @property
     def lasting(self) -> Bools:
