@@ -31,7 +31,7 @@ def check(release, tmp_path, monkeypatch):
 
     def run(chosen, everything, commit="5", since=None):
         monkeypatch.setattr(release, "clean_commit", lambda: commit)
-        good = release.check(chosen, everything, report, state=tmp_path / "state", since=since)
+        good = release.check(chosen, everything, report, since=since)
         return good, report.read_text()
 
     return run

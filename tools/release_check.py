@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 import fnmatch
-import json
 import os
 import shlex
 import subprocess
@@ -21,7 +20,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
@@ -41,7 +40,6 @@ from gazelle.training.claims import (  # noqa: E402
 )
 
 REPORT = ROOT / "docs" / "release-check.md"
-STATE = ROOT / "build" / "release-check"
 GAZELLE = (sys.executable, "-m", "gazelle.cli.main")
 
 
@@ -148,23 +146,19 @@ def last_line(output: str) -> str:
 
 
 def run(step: Step, commit: str) -> Outcome:
-    """Run a step of a commit; its output is shown and its last line kept."""
+    """Run a step of a commit; its output is shown, and its last line kept."""
     print(f"--- {step.name}: {shlex.join(step.command)}", flush=True)
     start = time.monotonic()
-    done = subprocess.run(
-        step.command,
-        cwd=ROOT,
-        env=os.environ | step.environment,
-        stdout=subprocess.PIPE,
-        text=True,
-        check=False,
-    )
-    print(done.stdout, flush=True)
-    good, summary = (
-        step.judge(done.stdout) if done.returncode == 0 else (False, last_line(done.stdout))
-    )
-    if done.returncode:
-        summary = f"exit code {done.returncode}; {summary}"
+    output = ""
+    with subprocess.Popen(
+        step.command, cwd=ROOT, env=os.environ | step.environment, stdout=subprocess.PIPE, text=True
+    ) as process:
+        for line in process.stdout or ():
+            print(line, end="", flush=True)
+            output += line
+    good, summary = step.judge(output) if process.returncode == 0 else (False, last_line(output))
+    if process.returncode:
+        summary = f"exit code {process.returncode}; {summary}"
     return Outcome(good, round(time.monotonic() - start, 1), summary, commit)
 
 
@@ -173,7 +167,6 @@ def check(
     everything: Sequence[Step],
     report: Path,
     *,
-    state: Path = STATE,
     since: str | None = None,
 ) -> bool:
     """Run the steps that have not passed yet and write the report after each.
@@ -181,47 +174,33 @@ def check(
     Args:
         chosen: Steps to run.
         everything: Steps that the report lists.
-        report: File to write.
-        state: Folder with the outcomes so far.
+        report: File with the outcomes so far, to write again.
         since: What passed at this commit or later is not repeated; by default only at today's.
 
     Returns:
         Whether all of them are good.
     """
-    state.mkdir(parents=True, exist_ok=True)
     commit = clean_commit()
     oldest = since or commit
-    names = []
+    found = {name: each for name, each in outcomes(report).items() if is_since(each.commit, oldest)}
     for step in chosen:
-        names.append(step.name)
-        known = recent(state, oldest).get(step.name)
+        known = found.get(step.name)
         if known is None or not known.good:
-            save(state, step.name, run(step, commit))
-        report.write_text(written(everything, recent(state, oldest)), encoding="utf-8")
-    found = recent(state, oldest)
-    return all(found[name].good for name in names)
+            found[step.name] = run(step, commit)
+        report.write_text(written(everything, found), encoding="utf-8")
+    return all(found[step.name].good for step in chosen)
 
 
-def recent(state: Path, oldest: str) -> dict[str, Outcome]:
-    """Return the outcomes at a commit or later, by the steps' names."""
-    found = outcomes(state)
-    return {name: each for name, each in found.items() if is_since(each.commit, oldest)}
-
-
-def outcomes(state: Path) -> dict[str, Outcome]:
-    """Return the outcomes so far, by the steps' names."""
-    file = state / "outcomes.json"
-    if not file.exists():
+def outcomes(report: Path) -> dict[str, Outcome]:
+    """Return the outcomes that a report lists, by the steps' names."""
+    if not report.exists():
         return {}
-    return {name: Outcome(**each) for name, each in json.loads(file.read_text()).items()}
-
-
-def save(state: Path, name: str, outcome: Outcome) -> None:
-    """Add an outcome to those so far."""
-    found = outcomes(state) | {name: outcome}
-    part = state / "outcomes.part"
-    part.write_text(json.dumps({key: asdict(each) for key, each in found.items()}, indent=1))
-    part.replace(state / "outcomes.json")
+    rows = [line[2:-2].split(" | ") for line in report.read_text("utf-8").splitlines()]
+    return {
+        name: Outcome(good == "good", float(seconds.replace(",", "")), summary, commit)
+        for name, good, commit, seconds, summary in (row for row in rows if len(row) == 5)
+        if good in ("good", "FAILED")
+    }
 
 
 def written(everything: Sequence[Step], found: dict[str, Outcome]) -> str:
