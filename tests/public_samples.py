@@ -28,6 +28,7 @@ from gazelle.formats import Octree
 from gazelle.geometry import triangles
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
+from gazelle.training import Actor
 
 PACKAGES = {
     name: f"gazelle.{name}"
@@ -171,6 +172,14 @@ class Samples:
         return sim.robots["fetch"]
 
 
+def policy() -> Actor:
+    """Return a policy of two numbers and two actions, which may do anything."""
+    numbers = np.ones(2, np.float32)
+    return Actor(
+        (np.eye(2, dtype=np.float32),), (numbers,), "tanh", "gaussian", numbers, -numbers, numbers
+    )
+
+
 TABLE: dict[str, Callable[[Samples], Any]] = {
     "Simulation": lambda s: s.simulation,
     "Node": lambda s: s.node,
@@ -221,6 +230,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Terrain": lambda s: gazelle.builders.terrain(np.eye(3)),
     "Point": lambda s: (0.0, 1.0),
     "Octree": lambda s: Octree(0.1, b""),
+    "Actor": lambda s: policy(),
     "TriangleMesh": lambda s: triangles.box((1.0, 1.0, 1.0)),
     "PlanningScene": lambda s: planning.PlanningScene(arms.arm("fetch")),
     "Group": lambda s: planning.Group(s.arm, "arm"),

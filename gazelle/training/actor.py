@@ -19,6 +19,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats32
 from gazelle.bounded_npz import BROKEN, open_npz
 from gazelle.errors import FormatError, TaskError
@@ -37,6 +38,7 @@ _MEMORY = ("memory_inputs", "memory_hidden", "memory_bias")
 _OPTIONAL = ("log_std", "low", "high", "limits")
 
 
+@checked(TaskError, after=True)
 @dataclass(frozen=True, slots=True)
 class Actor:
     """A policy in numpy.
@@ -213,7 +215,11 @@ class Actor:
         return clipped
 
     def save(self, path: Path) -> None:
-        """Write the policy to a ``.npz`` file without Python objects."""
+        """Write the policy to a ``.npz`` file without Python objects.
+
+        Raises:
+            OSError: It cannot be written.
+        """
         arrays = {f"weight{i}": weight for i, weight in enumerate(self.weights)}
         arrays |= {f"bias{i}": bias for i, bias in enumerate(self.biases)}
         for name in _OPTIONAL:
@@ -262,7 +268,7 @@ def load_actor(path: Path) -> Actor:
             )
             _refuse_unfit(actor)
             return actor
-    except BROKEN as error:
+    except (*BROKEN, TaskError) as error:
         text = " ".join(str(error).split()) or type(error).__name__
         raise FormatError(
             f"not a policy: {text}", file=str(path), hint="expected a policy.npz of a Gazelle run"

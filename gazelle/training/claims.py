@@ -152,6 +152,7 @@ class Claim:
         return dataclasses.replace(self, trials=tuple(trials))
 
 
+@checked(TaskError)
 @dataclass(frozen=True, slots=True)
 class Claims:
     """All published success rates."""
@@ -195,7 +196,11 @@ class Claims:
         return Claims(tuple(sorted(known.values(), key=_place)), unverified)
 
     def write(self, file: Path) -> None:
-        """Write them to a file, which is replaced as a whole."""
+        """Write them to a file, which is replaced as a whole.
+
+        Raises:
+            OSError: It cannot be written.
+        """
         unverified = yaml.safe_dump({"unverified": dict(self.unverified)}, width=_LINE)
         claims = yaml.safe_dump(
             {"claims": [_to_dict(claim) for claim in self.claims]},

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from gazelle.errors import FormatError
+from gazelle.argument_checks import checked
+from gazelle.errors import FormatError, TaskError
 from gazelle.training.runs import Run
 from gazelle.training.tables import rows_until
 
@@ -39,6 +41,7 @@ class RunSummary:
         return self.steps >= self.run.config.recipe.steps
 
 
+@checked(TaskError)
 def list_runs(folder: str | Path = "runs") -> list[RunSummary]:
     """Return the runs in a folder and in folders below it, oldest first.
 
@@ -46,13 +49,15 @@ def list_runs(folder: str | Path = "runs") -> list[RunSummary]:
 
     Raises:
         FormatError: There is no such folder.
+        TaskError: No folder can have this name.
     """
     root = Path(folder)
     if not root.is_dir():
         raise FormatError(
             "there is no such folder", file=str(root), hint="'gazelle train TASK' makes runs"
         )
-    files = sorted(root.rglob("config.json"), key=lambda file: file.stat().st_mtime)
+    found = filter(os.path.isfile, root.rglob("config.json"))  # no links to what is gone
+    files = sorted(found, key=lambda file: file.stat().st_mtime)
     return [summary for file in files if (summary := _summary(file.parent)) is not None]
 
 

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import os
 import platform
 import shutil
 from collections.abc import Callable
@@ -26,6 +27,9 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from gazelle.argument_checks import checked
 from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle.training.importing import TaskModule, modules_from_list, modules_to_list
 from gazelle.training.recipes import Recipe, recipe_from_dict, recipe_to_dict, task_name
@@ -62,6 +66,7 @@ class RunConfig:
     """True if workers play its rollouts, see `gazelle.training.workers`."""
 
 
+@checked(TaskError)
 @dataclass(frozen=True)
 class Run:
     """A run on disk."""
@@ -117,12 +122,12 @@ class Run:
             FormatError: There is no run, or its configuration is damaged.
         """
         file = folder / "config.json"
-        if not file.is_file():
+        if not os.path.isfile(file):  # noqa: PTH113  # False, too, where it may not be looked
             hint = "expected the folder of a training run, such as runs/TASK-ppo-DATE"
             raise FormatError("no run here: there is no config.json", file=str(folder), hint=hint)
         try:
             return Run(folder, _config_from_dict(json.loads(file.read_text(encoding="utf-8"))))
-        except (ArithmeticError, LookupError, TypeError, ValueError, TaskError) as error:
+        except (ArithmeticError, LookupError, OSError, TypeError, ValueError, TaskError) as error:
             raise FormatError(f"not a run's configuration: {error}", file=str(file)) from error
 
     def checkpoints(self) -> list[Path]:
@@ -167,6 +172,9 @@ class Run:
 
         Returns:
             The checkpoint's folder.
+
+        Raises:
+            OSError: It cannot be written.
         """
         place = self.folder / "checkpoints" / f"{steps:012d}"
         draft = place.with_name(place.name + ".part")
@@ -202,7 +210,16 @@ def _new_folder(out: Path, name: str) -> Path:
 
 def _write_config(folder: Path, config: RunConfig) -> None:
     """Write the configuration atomically, so that a run is never without one."""
-    write_text(folder / "config.json", json.dumps(_config_to_dict(config), indent=2) + "\n")
+    write_text(
+        folder / "config.json", json.dumps(_config_to_dict(config), indent=2, default=_plain) + "\n"
+    )
+
+
+def _plain(value: Any) -> Any:
+    """Return a number of NumPy as one of Python."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"a run keeps no {type(value).__name__}")
 
 
 def _config_to_dict(config: RunConfig) -> dict[str, Any]:

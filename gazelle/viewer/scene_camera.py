@@ -10,6 +10,7 @@ import numpy as np
 from PIL import Image
 
 from gazelle.array_types import Floats, Picture
+from gazelle.description.pose import Vector3
 from gazelle.errors import EngineError
 from gazelle.rendering import LiveScene, PinholeLens
 from gazelle.rotations import conjugate, rotate
@@ -17,8 +18,6 @@ from gazelle.sensors import look_at
 from gazelle.simulation import Simulation
 from gazelle.simulation.inputs import one_world
 from gazelle.viewer.page.shapes import extent_of_world
-
-Place = tuple[float, float, float]
 
 _GAMMA = 1.35  # lifts the shadows to what a screen shows well
 _FINER = 2  # drawn so many times larger, and made smaller: smooth edges
@@ -50,8 +49,8 @@ class SceneCamera:
         self,
         simulation: Simulation,
         *,
-        eye: Place | None = None,
-        target: Place | None = None,
+        eye: Vector3 | None = None,
+        target: Vector3 | None = None,
         follow: str = "",
         world: int = 0,
         size: tuple[int, int] = (960, 600),
@@ -118,7 +117,7 @@ class SceneCamera:
         clear = (hits.distance[0] >= lengths - _NEAR) & ~hits.from_inside[0]
         return ways[int(np.argmax(clear))]
 
-    def _usual(self, eye: Place | None, target: Place | None) -> tuple[Floats, Floats]:
+    def _usual(self, eye: Vector3 | None, target: Vector3 | None) -> tuple[Floats, Floats]:
         """Return eye and target, by default from the size of the scene."""
         if self._follow:
             middle = np.array([0.0, 0.0, 0.1])
@@ -164,6 +163,6 @@ def distance_to_see(half: Floats, away: Floats, lens: PinholeLens) -> float:
     return max(_MARGIN * float(needed.max()), 4.0 * lens.near) / length
 
 
-def _triple(point: Floats) -> Place:
+def _triple(point: Floats) -> Vector3:
     x, y, z = point.tolist()
     return x, y, z

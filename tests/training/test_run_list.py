@@ -25,6 +25,12 @@ def test_the_last_row_counts(tmp_path):
     assert not found.resumable
 
 
+def test_a_link_to_what_is_gone_is_no_run(tmp_path):
+    run = make_run(tmp_path)
+    (tmp_path / "config.json").symlink_to(tmp_path / "gone")
+    assert [each.run for each in list_runs(tmp_path)] == [run]
+
+
 def test_a_run_that_just_began_and_one_without_successes(tmp_path):
     make_run(tmp_path)
     make_run(tmp_path, "1000,1.5,2.5,")

@@ -2,10 +2,11 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 
 from gazelle.errors import FormatError, TaskError
-from gazelle.training import Recipe, Run, RunConfig
+from gazelle.training import Recipe, Run, RunConfig, list_runs
 
 CONFIG = RunConfig(task="x/Corridor-v0", recipe=Recipe(), seed=3, options={"limit": 4})
 
@@ -20,6 +21,19 @@ def test_a_place_that_cannot_be_written_is_one_clear_error(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(TaskError, match="cannot write the run"):
         Run.create(CONFIG, tmp_path / "file")
+
+
+def test_numbers_of_numpy_are_kept_as_numbers(tmp_path):
+    recipe = Recipe(steps=np.int64(300), net_arch=(np.int32(8),), gamma=np.float32(0.5))
+    config = RunConfig(task="x/Corridor-v0", recipe=recipe, seed=np.int64(3), sharded=np.True_)
+    assert Run.open(Run.create(config, tmp_path).folder).config == config
+
+
+@pytest.mark.parametrize("path", ["a" * 10_000, "\x00", "\ud800"])
+def test_names_that_no_folder_can_have(tmp_path, path):
+    for call in (Run.open, lambda out: Run.create(CONFIG, out), list_runs):
+        with pytest.raises(TaskError):
+            call(tmp_path / path)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+import public_samples
 import pytest
 
 from gazelle.errors import Error, TaskError
@@ -54,3 +56,12 @@ def test_values_that_cannot_be(call):
 def test_paths_of_no_run(call, path):
     with pytest.raises(Error):
         call(path)
+
+
+@pytest.mark.parametrize(
+    "obs", [np.zeros(0), np.zeros((3, 5)), np.zeros((1, 2, 3)), np.float64(0.0)]
+)
+@pytest.mark.parametrize("call", ["act", "outputs"])
+def test_observations_of_another_size(call, obs):
+    with pytest.raises(TaskError):
+        getattr(public_samples.policy(), call)(obs)
