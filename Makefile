@@ -46,12 +46,12 @@ $(VENV)/bin/python:
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Gazelle needs Python 3.11 or newer; set PYTHON=python3.11 or so")'
 	$(PYTHON) -m venv $(VENV)
 
-$(STAMP)-demo: $(VENV)/bin/python pyproject.toml constraints.txt $(KERNELS)
-	$(PIP) install --quiet --constraint constraints.txt --editable '.[train]'
+$(STAMP)-demo: $(VENV)/bin/python pyproject.toml packages/gazelle-ros/pyproject.toml constraints.txt $(KERNELS)
+	$(PIP) install --quiet --constraint constraints.txt --editable packages/gazelle-ros --editable '.[train]'
 	@touch $@
 
-$(ALL): $(VENV)/bin/python pyproject.toml constraints.txt $(KERNELS)
-	$(PIP) install --quiet --constraint constraints.txt --editable '.[$(EXTRAS)]'
+$(ALL): $(VENV)/bin/python pyproject.toml packages/gazelle-ros/pyproject.toml constraints.txt $(KERNELS)
+	$(PIP) install --quiet --constraint constraints.txt --editable packages/gazelle-ros --editable '.[$(EXTRAS)]'
 	@touch $@
 
 setup: $(ALL)
@@ -71,7 +71,7 @@ ros-suites: $(ALL)
 
 # ONLY names steps, such as ONLY="'recipe Kobuki*' 'slow tests'".
 release-check: $(ALL)
-	$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]'
+	$(PIP) install --quiet --constraint constraints.txt --editable packages/gazelle-ros --editable '.[bench]'
 	$(VENV)/bin/python tools/release_check.py $(if $(ONLY),--only $(ONLY))
 
 lint: $(ALL)
@@ -80,7 +80,7 @@ lint: $(ALL)
 	$(VENV)/bin/mypy
 
 bench: $(ALL)
-	$(PIP) install --quiet --constraint constraints.txt --editable '.[bench]'
+	$(PIP) install --quiet --constraint constraints.txt --editable packages/gazelle-ros --editable '.[bench]'
 	$(VENV)/bin/gazelle bench env
 
 checked: $(ALL)
@@ -95,4 +95,4 @@ wheel: $(ALL)
 	$(VENV)/bin/python tools/compiling/wheels.py dist $(TARGETS)
 
 clean:
-	rm -rf $(VENV) build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) build packages/gazelle-ros/build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis

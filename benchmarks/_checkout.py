@@ -11,6 +11,7 @@ from gazelle.errors import Error
 ROOT = Path(__file__).parent.parent
 _MEASURED = (
     "gazelle",
+    "packages",
     "benchmarks",
     "setup.py",
     "constraints.txt",

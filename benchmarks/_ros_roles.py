@@ -17,9 +17,9 @@ from typing import Any
 
 if sys.argv[1] == "gazelle":
     sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-    import gazelle.ros
+    import gazelle_ros
 
-    gazelle.ros.install()
+    gazelle_ros.install()
 
 _BEGIN = time.perf_counter()
 import rospy  # noqa: E402  # which one is decided above

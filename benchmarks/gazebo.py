@@ -22,7 +22,7 @@ from pathlib import Path
 
 import gazelle
 from gazelle.bridges import serve_ros
-from gazelle.ros import Master, Node, WallClock, load_message, load_service
+from gazelle_ros import Master, Node, WallClock, load_message, load_service
 
 DEBIAN = "/usr/bin/python3"
 TURNS = 8

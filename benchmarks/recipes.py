@@ -29,10 +29,10 @@ from _claim_table import table
 from _verify import CHEAP, seed_of, verify, within, worth_verifying
 
 from gazelle.cli import train as train_command
-from gazelle.cli.parsing import Parser
 from gazelle.training import find_task, recipe_for
 from gazelle.training.claims import CLAIMS_FILE, Claim, Trial, read_claims
 from gazelle.training.recipes import task_name
+from gazelle_ros.cli.parsing import Parser
 
 _STAGES = tuple(f"TurtleBot3Stage{stage}" for stage in (1, 2, 3, 4))
 _SEEDS = (0, 1, 2)

@@ -1,4 +1,4 @@
-"""Topics, services and start-up of gazelle.ros beside the real rospy, in turns in one run.
+"""Topics, services and start-up of gazelle_ros beside the real rospy, in turns in one run.
 
 Both run the same programs (`_ros_roles.py`, written for rospy) in the same interpreter, on a
 Gazelle master; times are those of the best round. Debian packages the real one: python3-rospy,

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.ros.messages import load_message
+from gazelle_ros.messages import load_message
 
 _DEBIAN = Path("/usr/lib/python3/dist-packages")
 _JOINTS = [f"joint_{index}" for index in range(12)]

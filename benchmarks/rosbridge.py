@@ -15,9 +15,9 @@ import time
 import numpy as np
 from websockets.sync.client import ClientConnection, connect
 
-from gazelle.ros import Master, Node, Publisher, load_message
-from gazelle.ros.rosbridge.server import BridgeServer
-from gazelle.ros.rosbridge.settings import settings_from
+from gazelle_ros import Master, Node, Publisher, load_message
+from gazelle_ros.rosbridge.server import BridgeServer
+from gazelle_ros.rosbridge.settings import settings_from
 
 RAYS = 360
 TOPIC = "/scan"

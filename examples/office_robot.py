@@ -17,7 +17,7 @@ from itertools import pairwise
 from typing import Any
 
 from gazelle.clients import SimulatorProcess
-from gazelle.ros import Master, Node, load_message
+from gazelle_ros import Master, Node, load_message
 
 GOALS = [(0.6, -1.2), (1.4, 0.4), (0.0, 0.0)]
 NEAR = 0.15  # of a goal counts as there [m]

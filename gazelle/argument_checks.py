@@ -21,9 +21,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
-from gazelle.characters import can_be_written
 from gazelle.errors import Error
-from gazelle.path_texts import can_be_path
+from gazelle_ros.base.characters import can_be_written
+from gazelle_ros.base.path_texts import can_be_path
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 

@@ -20,7 +20,8 @@ import wrong_calls
 
 import gazelle
 import gazelle.builders
-from gazelle import Simulation, planning, ros
+import gazelle_ros as ros
+from gazelle import Simulation, planning
 from gazelle.control import EFFORT, JointCommandInterface, JointStateInterface
 from gazelle.description import Box, OccupancyMap, Pose
 from gazelle.engines.tracer import make_tracer

@@ -6,9 +6,11 @@ import re
 from pathlib import Path
 
 import gazelle
+import gazelle_ros
 
 PACKAGE = Path(gazelle.__file__).parent
-HOME = PACKAGE / "array_types.py"
+ROS = Path(gazelle_ros.__file__).parent
+HOMES = {PACKAGE / "array_types.py", ROS / "base" / "array_types.py"}
 ALIAS = re.compile(r"^\w+ *(?:: *TypeAlias)? *= *(?:npt\.)?NDArray\[np\.(\w+)\]$", re.MULTILINE)
 
 COMPILED = re.compile(r"^engines/mujoco/contact_laws/")
@@ -17,8 +19,9 @@ COMPILED = re.compile(r"^engines/mujoco/contact_laws/")
 
 def test_no_module_names_arrays_for_itself():
     named = {
-        str(path.relative_to(PACKAGE)): ALIAS.findall(path.read_text(encoding="utf-8"))
-        for path in PACKAGE.rglob("*.py")
-        if path != HOME and not COMPILED.match(str(path.relative_to(PACKAGE)))
+        str(path.relative_to(folder)): ALIAS.findall(path.read_text(encoding="utf-8"))
+        for folder in (PACKAGE, ROS)
+        for path in folder.rglob("*.py")
+        if path not in HOMES and not COMPILED.match(str(path.relative_to(folder)))
     }
     assert {path: kinds for path, kinds in named.items() if kinds} == {}

@@ -3,13 +3,14 @@
 import pytest
 import yaml
 
-from gazelle import bounded_yaml, formats
+from gazelle import formats
 from gazelle.errors import FormatError
-from gazelle.ros import load_message
-from gazelle.ros.launch.errors import LaunchError
-from gazelle.ros.launch.values import load_yaml, load_yaml_documents
-from gazelle.ros.messages import MessageException
-from gazelle.ros.messages.yaml import from_yaml
+from gazelle_ros import load_message
+from gazelle_ros.base import bounded_yaml
+from gazelle_ros.launch.errors import LaunchError
+from gazelle_ros.launch.values import load_yaml, load_yaml_documents
+from gazelle_ros.messages import MessageException
+from gazelle_ros.messages.yaml import from_yaml
 
 BOMB = "a: &a [x, x, x, x, x, x, x, x, x, x]\n" + "".join(
     f"{name}: &{name} [{', '.join([f'*{before}'] * 10)}]\n"

@@ -11,11 +11,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from gazelle.child_processes import child_process
 from gazelle.cli.main import main
-from gazelle.interrupts import Interrupted, holding, interruptible
-from gazelle.ros.launch import Packages, programs
-from gazelle.ros.launch.process import NodeProcess, Start
+from gazelle_ros.base.child_processes import child_process
+from gazelle_ros.base.interrupts import Interrupted, holding, interruptible
+from gazelle_ros.launch import Packages, programs
+from gazelle_ros.launch.process import NodeProcess, Start
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="sends signals")
 PAIRS = [

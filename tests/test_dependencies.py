@@ -14,6 +14,8 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+ROS_FILE = ROOT / "packages" / "gazelle-ros" / "pyproject.toml"
+ROS_PROJECT = tomllib.loads(ROS_FILE.read_text(encoding="utf-8"))["project"]
 DEVELOPERS = {"test", "lint", "oracle", "bench"}
 """Extras that no user installs."""
 
@@ -32,9 +34,11 @@ def distributions(lines):
     found = set()
     for line in lines:
         name = re.split(r"[^A-Za-z0-9_.-]", line)[0]
-        if name == "gazelle":
-            for extra in re.search(r"\[(.*)\]", line)[1].split(","):
-                found |= distributions(PROJECT["optional-dependencies"][extra.strip()])
+        project = {"gazelle": PROJECT, "gazelle-ros": ROS_PROJECT}.get(name)
+        if project is not None:
+            extras = re.search(r"\[(.*)\]", line)
+            for extra in extras[1].split(",") if extras else ():
+                found |= distributions(project["optional-dependencies"][extra.strip()])
         else:
             found.add(plain(name))
     return found
@@ -82,13 +86,25 @@ def sources():
     return sorted(set((ROOT / "gazelle").rglob("*.py")) - programs)
 
 
+def ros_sources():
+    return sorted((ROOT / "packages" / "gazelle-ros").rglob("*.py"))
+
+
 @pytest.mark.long
 def test_what_users_import_is_declared_for_users():
     extras = set(PROJECT["optional-dependencies"]) - DEVELOPERS
     allowed = distributions(PROJECT["dependencies"])
     for extra in extras:
         allowed |= distributions(PROJECT["optional-dependencies"][extra])
-    assert strangers(sources(), allowed, own={"gazelle", *NOT_OURS}) == {}
+    assert strangers(sources(), allowed, own={"gazelle", "gazelle_ros", *NOT_OURS}) == {}
+
+
+@pytest.mark.long
+def test_what_ros_imports_is_declared_by_its_distribution():
+    allowed = distributions(ROS_PROJECT["dependencies"])
+    for lines in ROS_PROJECT["optional-dependencies"].values():
+        allowed |= distributions(lines)
+    assert strangers(ros_sources(), allowed, own={"gazelle_ros", *NOT_OURS}) == {}
 
 
 @pytest.mark.long
@@ -97,7 +113,12 @@ def test_what_tests_import_at_once_comes_with_the_extra_test():
     allowed = distributions(PROJECT["dependencies"])
     allowed |= distributions(PROJECT["optional-dependencies"]["test"])
     folders = [ROOT / name for name in ("tests", "tools", "benchmarks")]
-    own = {"gazelle", "tests", *(each.stem for folder in folders for each in folder.rglob("*"))}
+    own = {
+        "gazelle",
+        "gazelle_ros",
+        "tests",
+        *(each.stem for folder in folders for each in folder.rglob("*")),
+    }
     collected = [*ROOT.glob("tests/**/test_*.py"), *ROOT.glob("tests/**/conftest.py")]
     assert len(collected) > 300
     found = strangers(collected, allowed, own=own)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from gazelle.cli.commands import COMMANDS
-from gazelle.ros import tool_names
+from gazelle_ros import tool_names
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
@@ -96,7 +96,7 @@ def test_our_names_beside_those_of_other_tools_exist():
     for name in re.findall(r"`sim\.physics\.(\w+)", text):
         if name not in PHYSICS and not hasattr(PhysicsProperties, name):
             missing.append(f"sim.physics.{name}")
-    for dotted in re.findall(r"`(?:with )?(gazelle(?:\.\w+)+)", text):
+    for dotted in re.findall(r"`(?:with )?(gazelle(?:_ros)?(?:\.\w+)+)", text):
         module, _, name = dotted.rpartition(".")
         if not hasattr(importlib.import_module(module), name):
             missing.append(dotted)

@@ -14,8 +14,10 @@ from pathlib import Path
 import pytest
 
 import gazelle
+import gazelle_ros
 
 PACKAGE = Path(gazelle.__file__).parent
+ROS = Path(gazelle_ros.__file__).parent
 ORDER = (
     "assets",
     "native",
@@ -83,7 +85,7 @@ OWNERS = {
 }
 """Libraries that only these packages know, so that another can take their place."""
 
-FRONT_DOORS = {"gazelle", "gazelle.__main__"}
+FRONT_DOORS = {"gazelle", "gazelle.__main__", "gazelle_ros", "gazelle_ros.__main__"}
 """``__init__`` names what all packages offer, and imports it when it is used; the other runs."""
 
 
@@ -111,6 +113,9 @@ def modules():
     for path in sorted(set(PACKAGE.rglob("*.py")) - programs):
         parts = ("gazelle", *path.relative_to(PACKAGE).with_suffix("").parts)
         found[".".join(parts).removesuffix(".__init__")] = path
+    for path in sorted(ROS.rglob("*.py")):
+        parts = ("gazelle_ros", *path.relative_to(ROS).with_suffix("").parts)
+        found[".".join(parts).removesuffix(".__init__")] = path
     return found
 
 
@@ -127,7 +132,7 @@ def imports_of(module, text, *, is_package=False):
         Import(module, target, node.lineno, lazy, taken(node))
         for node, lazy in statements(parsed(text))
         for target in targets(node, module, is_package=is_package)
-        if target.split(".")[0] == "gazelle"
+        if target.split(".")[0] in {"gazelle", "gazelle_ros"}
     ]
 
 
@@ -162,28 +167,17 @@ def targets(node, module, *, is_package):
     return [gazelle._HOMES.get(alias.name, f"gazelle.{alias.name}") for alias in node.names]
 
 
-BELOW_ROS = {
-    f"gazelle.{name}"
-    for name in (
-        "argument_types", "array_types", "bounded_yaml", "bundled_packages", "characters",
-        "child_processes", "closing", "entry_points", "errors", "interrupts", "package_folders",
-        "path_texts", "text_files", "writing", "xacro_engine",
-    )
-}  # fmt: skip
-"""Modules at the top that ``ros`` uses; they use only each other, so that it is usable alone."""
-
-
 def beyond_ros(module, text, *, is_package=False):
-    """Return what a module of ``ros``, or below it, imports of the rest of Gazelle."""
+    """Return what a module of ROS's distribution imports of Gazelle."""
     named = {each.target for each in imports_of(module, text, is_package=is_package)}
-    return {name for name in named if package_of(name) != "ros" and name not in BELOW_ROS}
+    return {name for name in named if name.split(".")[0] != "gazelle_ros"}
 
 
 @pytest.mark.long
 def test_ros_is_usable_alone():
     found = {}
     for module, path in modules().items():
-        if package_of(module) == "ros" or module in BELOW_ROS:
+        if module.split(".")[0] == "gazelle_ros":
             text = path.read_text(encoding="utf-8")
             if names := beyond_ros(module, text, is_package=path.name == "__init__.py"):
                 found[module] = names
@@ -193,21 +187,23 @@ def test_ros_is_usable_alone():
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("from gazelle.ros.node import Node\nfrom gazelle import bounded_yaml", set()),
-        ("from gazelle.errors import RosError\nfrom . import names", set()),
+        ("from gazelle_ros.node import Node\nfrom gazelle_ros.base import bounded_yaml", set()),
+        ("from . import names", set()),
         ("from gazelle import assets", {"gazelle.assets"}),
         ("def f():\n    from gazelle.formats import load", {"gazelle.formats"}),
-        ("from gazelle.argument_checks import positive", {"gazelle.argument_checks"}),
+        ("from gazelle.errors import Error", {"gazelle.errors"}),
         ("from gazelle import Pose", {"gazelle.description"}),
     ],
 )
 def test_what_ros_may_not_import_is_caught(text, expected):
-    assert beyond_ros("gazelle.ros.tool", text) == expected
+    assert beyond_ros("gazelle_ros.tool", text) == expected
 
 
 def package_of(module):
     """Return the package of a module; None for the modules at the top, which are below all packages."""
     parts = module.split(".")
+    if parts[0] == "gazelle_ros":
+        return "ros" if parts[1:2] not in ([], ["base"]) else None
     return parts[1] if len(parts) > 1 and parts[1] in ORDER else None
 
 
@@ -440,7 +436,7 @@ def test_every_folder_is_a_listed_package():
             "gazelle.engines.engine",
             "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import gazelle.simulation",
         ),
-        ("gazelle.ros.master", "from gazelle.simulation import Simulation"),
+        ("gazelle_ros.master", "from gazelle.simulation import Simulation"),
         ("gazelle.envs.maze", "from gazelle.bridges import serve"),
         ("gazelle.training.runs", "def f():\n    import gazelle.viewer"),
         ("gazelle.cli.run", "import gazelle.viewer"),

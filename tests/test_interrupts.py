@@ -11,7 +11,7 @@ import time
 
 import pytest
 
-from gazelle.interrupts import Interrupted, SignalRelay, exit_code, interruptible, stopping
+from gazelle_ros.base.interrupts import Interrupted, SignalRelay, exit_code, interruptible, stopping
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -38,7 +38,7 @@ def test_a_signal_sets_the_event_and_calls_the_action_on_another_thread(number):
 
 @pytest.mark.parametrize("number", SIGNALS)
 def test_a_signal_interrupts_what_waits_and_a_second_right_after_it_does_not(number, monkeypatch):
-    monkeypatch.setattr("gazelle.interrupts._SAME_S", 60.0)  # however slow it is today
+    monkeypatch.setattr("gazelle_ros.base.interrupts._SAME_S", 60.0)  # however slow it is today
     tidied = []
 
     def wait():
@@ -141,7 +141,7 @@ def child(text):
 def test_a_forked_child_has_the_handlers_of_before():
     process = child(
         "import os, signal, time\n"
-        "from gazelle.interrupts import stopping\n"
+        "from gazelle_ros.base.interrupts import stopping\n"
         "with stopping() as stop:\n"
         "    begun, say = os.pipe()\n"
         "    pid = os.fork()\n"
@@ -163,7 +163,7 @@ def test_a_forked_child_has_the_handlers_of_before():
 def test_what_is_inside_a_library_for_long_ends_all_the_same():
     process = child(
         "import hashlib, os, signal, threading\n"
-        "from gazelle.interrupts import interruptible\n"
+        "from gazelle_ros.base.interrupts import interruptible\n"
         "with interruptible(ends_process=True):\n"
         "    print('ready', flush=True)\n"
         "    threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGTERM]).start()\n"
@@ -192,7 +192,7 @@ def test_a_thousand_double_signals_end_a_thousand_waits(first, second):
         "import signal, sys\n"
         "for number in (signal.SIGINT, signal.SIGTERM):\n"
         "    signal.signal(number, signal.SIG_IGN)\n"  # the second of two that come too late
-        "from gazelle.interrupts import stopping\n"
+        "from gazelle_ros.base.interrupts import stopping\n"
         "print('ready', flush=True)\n"
         "for _ in range(250):\n"
         "    with stopping() as stop:\n"

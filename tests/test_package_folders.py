@@ -5,9 +5,9 @@ import time
 import pytest
 
 from gazelle.formats.resolve import Resolver
-from gazelle.package_folders import package_name
-from gazelle.ros.compat.rospkg.manifest import parse_manifest_file
-from gazelle.ros.messages import search
+from gazelle_ros.base.package_folders import package_name
+from gazelle_ros.compat.rospkg.manifest import parse_manifest_file
+from gazelle_ros.messages import search
 
 BOMB = (
     '<!DOCTYPE p [<!ENTITY a "aaaaaaaaaa">'

@@ -9,12 +9,12 @@ from gazelle import FormatError, ResolveError, RosError, formats
 from gazelle.clients.descriptions import load_parameters
 from gazelle.control.checking import check_controllers, is_controllers
 from gazelle.formats import model_config
-from gazelle.path_texts import MAX_NAME, MAX_PATH, can_be_path, existing_file, expanded
-from gazelle.ros.launch import load_launch_text
 from gazelle.stage.format import load_stage
-from gazelle.text_files import read_rows, read_text
 from gazelle.training.tables import rows_until
 from gazelle.viewer.plots import read_table
+from gazelle_ros.base.path_texts import MAX_NAME, MAX_PATH, can_be_path, existing_file, expanded
+from gazelle_ros.base.text_files import read_rows, read_text
+from gazelle_ros.launch import load_launch_text
 
 NAMES = ["a" * (MAX_NAME + 1), "a/" * MAX_PATH, "a\x00b", "\ud800", "~nobody_is_called_this/a.sdf"]
 LOADERS = {

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gazelle import ros
+import gazelle_ros as ros
 from gazelle.argument_checks import checked
 from gazelle.control import EFFORT, ControllerManager, JointStateInterface, RobotHardware
 from gazelle.control.parameters import ControllerParameters

@@ -1,4 +1,4 @@
-"""Write the type stubs of the bundled ROS messages and services into gazelle/ros/msgs.
+"""Write the type stubs of the bundled ROS messages and services into packages/gazelle-ros/gazelle_ros/msgs.
 
 python tools/message_stubs.py
 python tools/message_stubs.py --check    # list those out of date
@@ -12,12 +12,12 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path.insert(0, str(ROOT / "packages" / "gazelle-ros"))
 
-from gazelle.ros.messages.library import PackageDefinitions, bundled, bundled_packages  # noqa: E402
-from gazelle.ros.messages.modules import KINDS  # noqa: E402
-from gazelle.ros.messages.parse import parse_message, parse_service  # noqa: E402
-from gazelle.ros.messages.spec import (  # noqa: E402
+from gazelle_ros.messages.library import PackageDefinitions, bundled, bundled_packages  # noqa: E402
+from gazelle_ros.messages.modules import KINDS  # noqa: E402
+from gazelle_ros.messages.parse import parse_message, parse_service  # noqa: E402
+from gazelle_ros.messages.spec import (  # noqa: E402
     FLOATS,
     INTEGER_BITS,
     OCTETS,
@@ -26,7 +26,7 @@ from gazelle.ros.messages.spec import (  # noqa: E402
     python_name,
 )
 
-FOLDER = ROOT / "gazelle" / "ros" / "msgs"
+FOLDER = ROOT / "packages" / "gazelle-ros" / "gazelle_ros" / "msgs"
 HEAD = "# Written by tools/message_stubs.py from the bundled definitions; not to be edited.\n"
 
 
@@ -93,10 +93,10 @@ IMPORTS = {
     "_Any": "from typing import Any as _Any",
     "_ClassVar": "from typing import ClassVar as _ClassVar",
     "_NDArray": "from numpy.typing import NDArray as _NDArray",
-    "_Message": "from gazelle.ros.messages import Message as _Message",
-    "_ServiceDefinition": "from gazelle.ros.messages import ServiceDefinition as _ServiceDefinition",
-    "_Duration": "from gazelle.ros.time import Duration as _Duration",
-    "_Time": "from gazelle.ros.time import Time as _Time",
+    "_Message": "from gazelle_ros.messages import Message as _Message",
+    "_ServiceDefinition": "from gazelle_ros.messages import ServiceDefinition as _ServiceDefinition",
+    "_Duration": "from gazelle_ros.time import Duration as _Duration",
+    "_Time": "from gazelle_ros.time import Time as _Time",
 }
 """Lines that import the names which a stub may use."""
 
@@ -119,7 +119,7 @@ def module_stub(package: str, kind: str) -> str:
     used = set(re.findall(r"\b_\w+", body))
     lines = [line for name, line in IMPORTS.items() if name in used]
     homes = sorted(name[1:] for name in used if name[1:] in bundled_packages())
-    lines += [f"from gazelle.ros.msgs.{home} import msg as _{home}" for home in homes]
+    lines += [f"from gazelle_ros.msgs.{home} import msg as _{home}" for home in homes]
     return HEAD + "\n".join(lines) + "\n\n" + body
 
 

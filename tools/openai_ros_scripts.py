@@ -22,8 +22,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
-from gazelle import ros
-from gazelle.ros.errors import RosError
+import gazelle_ros as ros
+from gazelle_ros.errors import RosError
 
 _SCRIPT = re.compile(r'<node[^>]*type="([^"]+\.py)"')
 _NO_TRAINING = ("simulation", "spawn", "publisher", "tests", "controller", "setup")

@@ -18,9 +18,6 @@ from gazelle.bridges.graph import Graph
 from gazelle.bridges.listening import HeardTopic
 from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.errors import RosError, SimulationError, SimulationWarning
-from gazelle.ros import load_message, load_service
-from gazelle.ros.msgs import geometry_msgs
-from gazelle.ros.tf.naming import FramePrefixes
 from gazelle.simulation import (
     FramePrefix,
     Input,
@@ -32,6 +29,9 @@ from gazelle.simulation import (
     TwistInput,
 )
 from gazelle.simulation.plugin_errors import warn_of_fault
+from gazelle_ros import load_message, load_service
+from gazelle_ros.msgs import geometry_msgs
+from gazelle_ros.tf.naming import FramePrefixes
 
 _LOOK_S = 0.1
 _MISSING = (None, "")

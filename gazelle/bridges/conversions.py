@@ -12,9 +12,9 @@ from gazelle.bridges import message_kinds
 from gazelle.control.measurements import JointStates, Odometry, Transforms, TruePose, WrenchValue
 from gazelle.engines import Motion, Placement
 from gazelle.errors import RosError
-from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs, tf2_msgs
-from gazelle.ros.tf.naming import resolve_frame
-from gazelle.ros.time import Time
+from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs, tf2_msgs
+from gazelle_ros.tf.naming import resolve_frame
+from gazelle_ros.time import Time
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,5 +300,5 @@ def _found(table: Mapping[Any, Any], kind: Any, done: str) -> Any:
         name = getattr(kind, "__name__", str(kind))
         raise RosError(
             f"a port of kind '{name}' cannot be {done} over ROS",
-            hint="take a class of gazelle.ros.load_message, or see gazelle.bridges.conversions",
+            hint="take a class of gazelle_ros.load_message, or see gazelle.bridges.conversions",
         ) from None

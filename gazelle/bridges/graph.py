@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
-from gazelle.ros import Node, Time
+from gazelle_ros import Node, Time
 
 if TYPE_CHECKING:
     from gazelle.simulation import Simulation

@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.bridges.conversions import ConversionContext, encoder_of
 from gazelle.bridges.graph import TimedGraph
-from gazelle.ros import Publisher, load_message
+from gazelle_ros import Publisher, load_message
 
 Listen = Callable[[Callable[[Any], None]], Callable[[], None]]
 """Has a function called with every value; returns what ends that."""

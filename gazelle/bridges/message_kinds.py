@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from gazelle.ros.messages import Message
+from gazelle_ros.messages import Message
 
 
 def name_of(kind: Any) -> str | None:

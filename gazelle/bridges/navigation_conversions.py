@@ -15,8 +15,8 @@ from gazelle.bridges.conversions import (
     set_pose,
 )
 from gazelle.navigation.values import GoalPose, Path
-from gazelle.ros.msgs import geometry_msgs, nav_msgs
 from gazelle.rotations import from_yaw, yaw_of
+from gazelle_ros.msgs import geometry_msgs, nav_msgs
 
 
 def _goal(message: geometry_msgs.msg.PoseStamped) -> GoalPose:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from gazelle.ros import Publisher
+from gazelle_ros import Publisher
 
 # Longest that a message waits for others, in wall time [s], and how many go at once.
 _PATIENCE_S = 0.002

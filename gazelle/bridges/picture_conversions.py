@@ -12,13 +12,13 @@ from gazelle.bridges.conversions import (
     add_encoder,
     set_header,
 )
-from gazelle.ros.msgs import sensor_msgs
 from gazelle.simulation.values import (
     CameraInfoValue,
     CompressedImageValue,
     ImageValue,
     PixelPoints,
 )
+from gazelle_ros.msgs import sensor_msgs
 
 _FLOAT32 = 7  # sensor_msgs/PointField
 _FIELDS = (("x", 0), ("y", 4), ("z", 8), ("rgb", 16))

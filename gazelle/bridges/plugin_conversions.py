@@ -18,13 +18,6 @@ from gazelle.bridges.conversions import (
     point,
     quaternion,
 )
-from gazelle.ros.msgs import (
-    gazebo_msgs,
-    gazebo_ros_link_attacher,
-    geometry_msgs,
-    std_msgs,
-    trajectory_msgs,
-)
 from gazelle.simulation.values import (
     DriveCommand,
     EmergencyStop,
@@ -37,6 +30,13 @@ from gazelle.simulation.values import (
     Push,
     ServiceOutcome,
     TurnCommand,
+)
+from gazelle_ros.msgs import (
+    gazebo_msgs,
+    gazebo_ros_link_attacher,
+    geometry_msgs,
+    std_msgs,
+    trajectory_msgs,
 )
 
 

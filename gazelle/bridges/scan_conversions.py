@@ -17,9 +17,9 @@ from gazelle.bridges.conversions import (
     set_point,
     set_quaternion,
 )
-from gazelle.ros.msgs import gazebo_msgs, geometry_msgs, sensor_msgs
 from gazelle.sensors import ImuReading, LaserScan
 from gazelle.simulation.values import RangeValue, Touches
+from gazelle_ros.msgs import gazebo_msgs, geometry_msgs, sensor_msgs
 
 
 def _scan(message: sensor_msgs.msg.LaserScan, value: LaserScan, view: ConversionContext) -> None:

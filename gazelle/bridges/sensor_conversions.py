@@ -23,14 +23,6 @@ from gazelle.bridges.conversions import (
     set_plain_header,
     set_point,
 )
-from gazelle.ros.msgs import (
-    geometry_msgs,
-    hector_gazebo_plugins,
-    hector_uav_msgs,
-    kobuki_msgs,
-    sensor_msgs,
-    tf2_msgs,
-)
 from gazelle.rotations import yaw_of
 from gazelle.sensors import ImuReading
 from gazelle.simulation.values import (
@@ -52,6 +44,14 @@ from gazelle.simulation.values import (
     Trigger,
     UnsureImu,
     VectorValue,
+)
+from gazelle_ros.msgs import (
+    geometry_msgs,
+    hector_gazebo_plugins,
+    hector_uav_msgs,
+    kobuki_msgs,
+    sensor_msgs,
+    tf2_msgs,
 )
 
 # Velodyne's layout: name, offset, type as sensor_msgs/PointField counts, type here.

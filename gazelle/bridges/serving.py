@@ -9,13 +9,13 @@ from typing import Self
 
 from gazelle.bridges.gazebo import GazeboDoor
 from gazelle.bridges.pacing import Pacer
-from gazelle.closing import Closeable
 from gazelle.errors import RosError
-from gazelle.ros import Master, Node, WallClock, net
-from gazelle.ros.errors import ApiError, MasterUnreachableError, UnreachableError
-from gazelle.ros.tools.graph import GraphInspector
-from gazelle.ros.tools.nodes import process_of
 from gazelle.simulation import Simulation
+from gazelle_ros import Master, Node, WallClock, net
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.errors import ApiError, MasterUnreachableError, UnreachableError
+from gazelle_ros.tools.graph import GraphInspector
+from gazelle_ros.tools.nodes import process_of
 
 
 class RosDoor(Closeable):

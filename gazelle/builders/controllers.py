@@ -21,7 +21,7 @@ from gazelle.builders.sensors import plugin
 from gazelle.description import Joint, Link, Model
 from gazelle.kinematics.joint_graph import JointGraph
 from gazelle.rotations import conjugate, rotate
-from gazelle.writing import write_text
+from gazelle_ros.base.writing import write_text
 
 Interface = Literal["effort", "position", "velocity"]
 Kind = Literal["trajectory", "group", "joint"]

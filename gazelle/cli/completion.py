@@ -13,8 +13,8 @@ import argparse
 import sys
 
 from gazelle.cli.commands import COMMANDS
-from gazelle.cli.parsing import Parser
-from gazelle.ros import tool_names
+from gazelle_ros import tool_names
+from gazelle_ros.cli.parsing import Parser
 
 _GRAPH = ("node", "param", "service", "topic")
 """Commands whose sub-command ``list`` gives the names that their others take."""

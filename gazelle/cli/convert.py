@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, cast, get_args
 
 from gazelle.errors import Error, FormatError, did_you_mean
-from gazelle.path_texts import expanded
+from gazelle_ros.base.path_texts import expanded
 
 if TYPE_CHECKING:
     from gazelle.description import Model, World

@@ -15,16 +15,16 @@ import time
 from pathlib import Path
 from typing import Any
 
-from gazelle.argument_types import positive_int
 from gazelle.cli import showing
-from gazelle.cli.parsing import (
+from gazelle.cli.train import report
+from gazelle.cli.viewing import add_view, watched
+from gazelle_ros.base.argument_types import positive_int
+from gazelle_ros.cli.parsing import (
     add_environment_options,
     add_file_options,
     add_scenario_options,
     environment_options,
 )
-from gazelle.cli.train import report
-from gazelle.cli.viewing import add_view, watched
 
 _TASK = "TurtleBot3Stage1"
 _WORLD = "turtlebot3_stage_1"

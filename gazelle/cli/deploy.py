@@ -24,8 +24,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle.argument_types import positive_float
-from gazelle.cli.parsing import Parser, add_import_option
+from gazelle_ros.base.argument_types import positive_float
+from gazelle_ros.cli.parsing import Parser, add_import_option
 
 if TYPE_CHECKING:
     from gazelle.training.deploy import GoalPlace, GoalResult, Policy, SafetyLimits
@@ -78,9 +78,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
-    from gazelle.interrupts import stopping
-    from gazelle.ros.builtin.arguments import parse_arguments
     from gazelle.training.deploy import DeployNode, open_policy
+    from gazelle_ros.base.interrupts import stopping
+    from gazelle_ros.builtin.arguments import parse_arguments
 
     arguments = parse_arguments(args.names, "gazelle_policy")
     if arguments.plain:

@@ -11,8 +11,8 @@ from gazelle.errors import Error
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
-    from gazelle.ros.robot import JointTree
     from gazelle.simulation import Robot, Simulation
+    from gazelle_ros.robot import JointTree
 
 _PARAMETER = "/robot_description"
 _NODE = "robot_state_publisher"
@@ -36,8 +36,8 @@ def descriptions_beside(sim: Simulation, door: RosDoor) -> Iterator[None]:
     if joints is None:
         yield
         return
-    from gazelle.ros import Node
-    from gazelle.ros.robot import RobotStatePublisher
+    from gazelle_ros import Node
+    from gazelle_ros.robot import RobotStatePublisher
 
     door.node.set_param(_PARAMETER, text)
     with Node(_NODE, master_uri=door.master_uri) as node:
@@ -66,7 +66,7 @@ def _first_urdf(sim: Simulation) -> str | None:
 
 
 def _joints(text: str) -> JointTree | None:
-    from gazelle.ros.robot import read_joints
+    from gazelle_ros.robot import read_joints
 
     try:
         return read_joints(text)

@@ -17,10 +17,10 @@ import json
 import sys
 from pathlib import Path
 
-from gazelle.argument_types import positive_int
 from gazelle.cli import showing
 from gazelle.cli.failures import failures_file, save_failures
-from gazelle.cli.parsing import (
+from gazelle_ros.base.argument_types import positive_int
+from gazelle_ros.cli.parsing import (
     add_environment_options,
     add_file_options,
     add_import_option,

@@ -18,8 +18,8 @@ import sys
 from pathlib import Path
 
 from gazelle.cli import showing
-from gazelle.cli.parsing import add_import_option
 from gazelle.errors import TaskError
+from gazelle_ros.cli.parsing import add_import_option
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -8,7 +8,7 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle.writing import replacing, write_text
+from gazelle_ros.base.writing import replacing, write_text
 
 if TYPE_CHECKING:
     from gazelle.training import Evaluation

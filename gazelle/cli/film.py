@@ -17,10 +17,10 @@ import argparse
 import sys
 from collections.abc import Iterable, Iterator
 
-from gazelle.argument_types import positive_float
 from gazelle.array_types import Picture
 from gazelle.cli.filming import add_source, opened
-from gazelle.interrupts import StopRequest, stopping
+from gazelle_ros.base.argument_types import positive_float
+from gazelle_ros.base.interrupts import StopRequest, stopping
 
 _SECONDS = 10.0
 

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gazelle.cli.grounding import add_ground
-from gazelle.cli.parsing import (
+from gazelle.cli.spawning import spawn, wanted
+from gazelle_ros.cli.parsing import (
     add_environment_options,
     add_file_options,
     add_import_option,
     add_scenario_options,
     environment_options,
 )
-from gazelle.cli.spawning import spawn, wanted
 
 if TYPE_CHECKING:
     from gazelle.simulation import Simulation

@@ -163,8 +163,8 @@ def ros_variables() -> Iterator[Finding]:
 
 def _host(found: dict[str, str]) -> Iterator[Finding]:
     """Yield whether the names of the master and of this machine can be resolved."""
-    from gazelle.ros.errors import ProtocolError
-    from gazelle.ros.net import find_address, split_uri
+    from gazelle_ros.errors import ProtocolError
+    from gazelle_ros.net import find_address, split_uri
 
     uri = found.get("ROS_MASTER_URI", "")
     hosts: dict[str, str] = {}

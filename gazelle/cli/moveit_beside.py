@@ -13,11 +13,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gazelle import bounded_yaml
-from gazelle.child_processes import child_process
 from gazelle.cli.descriptions_beside import urdf_of
 from gazelle.errors import ControlError, ResolveError
-from gazelle.text_files import read_text
+from gazelle_ros.base import bounded_yaml
+from gazelle_ros.base.child_processes import child_process
+from gazelle_ros.base.text_files import read_text
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor

@@ -22,7 +22,7 @@ from pathlib import Path
 
 from gazelle.cli import showing
 from gazelle.errors import TaskError
-from gazelle.writing import write_text
+from gazelle_ros.base.writing import write_text
 
 _FILES = {"task.py": "{}.py", "robot.urdf": "{}.urdf", "test.py": "test_{}.py"}
 

@@ -13,8 +13,8 @@ from __future__ import annotations
 import argparse
 import sys
 
-from gazelle.argument_types import positive_float
 from gazelle.cli.filming import add_source, opened
+from gazelle_ros.base.argument_types import positive_float
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

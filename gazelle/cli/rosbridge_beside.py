@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from gazelle.argument_types import port_number
+from gazelle_ros.base.argument_types import port_number
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
@@ -40,8 +40,8 @@ def rosbridge_beside(door: RosDoor | StageServer, args: argparse.Namespace) -> I
     if args.rosbridge is None:
         yield
         return
-    from gazelle.ros.rosbridge.nodes import bridge, listening_text
-    from gazelle.ros.rosbridge.settings import settings_from
+    from gazelle_ros.rosbridge.nodes import bridge, listening_text
+    from gazelle_ros.rosbridge.settings import settings_from
 
     settings = settings_from({"port": args.rosbridge})
     with bridge(settings, door.master_uri) as server:

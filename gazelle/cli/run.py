@@ -25,7 +25,6 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from gazelle.argument_types import positive_float
 from gazelle.cli.descriptions_beside import descriptions_beside
 from gazelle.cli.grounding import add_ground
 from gazelle.cli.moveit_beside import add_moveit, moveit_beside, start_wanted_controllers
@@ -33,6 +32,7 @@ from gazelle.cli.rosbridge_beside import add_rosbridge, rosbridge_beside
 from gazelle.cli.spawning import spawn, wanted
 from gazelle.cli.viewing import add_view, viewing
 from gazelle.errors import SimulationError
+from gazelle_ros.base.argument_types import positive_float
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor

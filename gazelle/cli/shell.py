@@ -18,10 +18,10 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from gazelle.child_processes import become, child_process
 from gazelle.cli.completion import script_for
 from gazelle.errors import Error
-from gazelle.writing import write_text
+from gazelle_ros.base.child_processes import become, child_process
+from gazelle_ros.base.writing import write_text
 
 _RC = """{user}
 PATH={path}
@@ -38,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
-    from gazelle.ros.builtin.on_path import offer
+    from gazelle_ros.builtin.on_path import offer
 
     env = dict(os.environ)
     if offer(env) is None:

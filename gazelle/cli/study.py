@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from gazelle.argument_types import positive_int
+from gazelle_ros.base.argument_types import positive_int
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

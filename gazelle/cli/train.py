@@ -18,9 +18,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gazelle.argument_types import positive_int
 from gazelle.cli import showing
-from gazelle.cli.parsing import (
+from gazelle.cli.viewing import add_view, watched
+from gazelle_ros.base.argument_types import positive_int
+from gazelle_ros.cli.parsing import (
     add_environment_options,
     add_file_options,
     add_import_option,
@@ -29,7 +30,6 @@ from gazelle.cli.parsing import (
     environment_options,
     key_value,
 )
-from gazelle.cli.viewing import add_view, watched
 
 if TYPE_CHECKING:
     from gazelle.training import TrainResult

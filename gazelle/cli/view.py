@@ -16,10 +16,10 @@ import argparse
 import sys
 import time
 
-from gazelle.argument_types import port_number
 from gazelle.cli.grounding import add_ground
 from gazelle.cli.run import go
 from gazelle.cli.viewing import viewing
+from gazelle_ros.base.argument_types import port_number
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from gazelle.argument_types import port_number
-from gazelle.closing import Closeable
+from gazelle_ros.base.argument_types import port_number
+from gazelle_ros.base.closing import Closeable
 
 if TYPE_CHECKING:
     from gazelle.simulation import Simulation

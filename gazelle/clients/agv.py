@@ -19,11 +19,11 @@ from gazelle.array_types import Floats
 from gazelle.clients.agv_poses import PoseSource, pose_source
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import twist_message
-from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
 from gazelle.navigation import Limits, Motions, Outcome
-from gazelle.ros import Node
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros import Node
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.msgs import geometry_msgs
 
 _PATIENCE_S = 30.0  # of wall time without a new pose
 _MOST_NAMES = 5  # in one message
@@ -40,7 +40,7 @@ class AGVFleet(Closeable):
             x, y [m] and an angle [degrees], as ``sim_agv/AgvPose`` does.
         pose_name: Of the topic or service under each namespace; ``base_pose_ground_truth`` or
             ``get_pose`` by default.
-        service_type: Of the service; register its text first, see ``gazelle.ros.messages``.
+        service_type: Of the service; register its text first, see ``gazelle_ros.messages``.
         limits: How fast and how exact they are.
         rate: How often a service is asked [Hz of simulated time].
 

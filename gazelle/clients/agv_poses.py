@@ -13,9 +13,9 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
-from gazelle.ros import Node, load_service
-from gazelle.ros.errors import RosError
-from gazelle.ros.msgs import nav_msgs
+from gazelle_ros import Node, load_service
+from gazelle_ros.errors import RosError
+from gazelle_ros.msgs import nav_msgs
 
 _SECOND = 1_000_000_000
 

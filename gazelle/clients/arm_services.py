@@ -9,9 +9,9 @@ from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, Vector
-from gazelle.closing import Closeable
-from gazelle.ros import Node
-from gazelle.ros.msgs import geometry_msgs, trajectory_msgs
+from gazelle_ros import Node
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.msgs import geometry_msgs, trajectory_msgs
 
 
 @checked(ClientError, after=True)

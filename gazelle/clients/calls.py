@@ -6,8 +6,8 @@ import time
 from typing import Any
 
 from gazelle.clients.errors import ClientError
-from gazelle.ros import Node, ServiceClient, load_service
-from gazelle.ros.errors import RosError, RosTimeoutError, ServiceFailedError
+from gazelle_ros import Node, ServiceClient, load_service
+from gazelle_ros.errors import RosError, RosTimeoutError, ServiceFailedError
 
 _PAUSE_S = 0.05
 

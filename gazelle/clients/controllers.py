@@ -9,9 +9,9 @@ from typing import Any
 from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
 from gazelle.clients.refusals import why_not_loaded, why_not_switched, why_not_unloaded
-from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
-from gazelle.ros import Node
+from gazelle_ros import Node
+from gazelle_ros.base.closing import Closeable
 
 Names = str | Iterable[str]
 """One name, or several."""

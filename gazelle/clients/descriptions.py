@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from gazelle.clients.errors import ClientError
-from gazelle.path_texts import can_be_path, expanded, shortened
-from gazelle.ros import Node
-from gazelle.ros.builtin import xacro
-from gazelle.ros.launch.packages import Packages
-from gazelle.ros.launch.values import load_yaml
-from gazelle.text_files import read_text
+from gazelle_ros import Node
+from gazelle_ros.base.path_texts import can_be_path, expanded, shortened
+from gazelle_ros.base.text_files import read_text
+from gazelle_ros.builtin import xacro
+from gazelle_ros.launch.packages import Packages
+from gazelle_ros.launch.values import load_yaml
 
 
 def read_urdf(

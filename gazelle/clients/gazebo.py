@@ -21,10 +21,10 @@ from gazelle.clients.poses import (
     twist_message,
 )
 from gazelle.clients.states import LiveStates
-from gazelle.closing import Closeable
-from gazelle.ros import Duration, Node, Time, WallClock
-from gazelle.ros.msgs import gazebo_msgs, geometry_msgs
-from gazelle.text_files import read_text
+from gazelle_ros import Duration, Node, Time, WallClock
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.text_files import read_text
+from gazelle_ros.msgs import gazebo_msgs, geometry_msgs
 
 _FOREVER = Duration(-1, 0)
 # What Gazebo answers to a spawn or delete that was carried out already.

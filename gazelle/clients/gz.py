@@ -11,13 +11,13 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 
 import gazelle
-from gazelle.argument_types import NumberParser
-from gazelle.bundled_packages import published, published_hint
 from gazelle.clients.gazebo import Gazebo
 from gazelle.clients.gz_elsewhere import add_elsewhere, elsewhere
 from gazelle.description.pose import rpy_from_quaternion
 from gazelle.errors import RosError
-from gazelle.text_files import read_text
+from gazelle_ros.base.argument_types import NumberParser
+from gazelle_ros.base.bundled_packages import published, published_hint
+from gazelle_ros.base.text_files import read_text
 
 _TIMEOUT_S = 10.0
 _STATS_S = 0.2

@@ -13,11 +13,11 @@ from pathlib import Path
 
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
-from gazelle.closing import Closeable
-from gazelle.ros import net
-from gazelle.ros.errors import MasterUnreachableError, RosError
-from gazelle.ros.tools import nodes as node_tools
-from gazelle.ros.tools.graph import GraphInspector
+from gazelle_ros import net
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.errors import MasterUnreachableError, RosError
+from gazelle_ros.tools import nodes as node_tools
+from gazelle_ros.tools.graph import GraphInspector
 
 _POLL_S = 0.05
 _END_S = 10.0

@@ -8,10 +8,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gazelle.clients.errors import ClientError
-from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
-from gazelle.ros import Node
-from gazelle.ros.msgs import sensor_msgs, std_msgs
+from gazelle_ros import Node
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.msgs import sensor_msgs, std_msgs
 
 _LOOK_S = 0.01
 Progress = Callable[[Mapping[str, float]], object]

@@ -8,9 +8,9 @@ from typing import Self
 
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, read_state, twist_message
-from gazelle.closing import Closeable
-from gazelle.ros import Node
-from gazelle.ros.msgs import geometry_msgs, nav_msgs
+from gazelle_ros import Node
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.msgs import geometry_msgs, nav_msgs
 
 _ZERO = (0.0, 0.0, 0.0)
 _UNKNOWN = (math.nan, math.nan, math.nan)

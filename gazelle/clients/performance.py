@@ -14,11 +14,11 @@ from typing import Any
 
 from gazelle.argument_checks import checked
 from gazelle.clients.errors import ClientError
-from gazelle.closing import Closeable
 from gazelle.errors import MissingExtraError
-from gazelle.ros import Node
-from gazelle.ros.msgs import rosgraph_msgs
-from gazelle.writing import replacing, write_text
+from gazelle_ros import Node
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.writing import replacing, write_text
+from gazelle_ros.msgs import rosgraph_msgs
 
 _MOST_LOOKS = 1000.0
 _TICKS = os.sysconf("SC_CLK_TCK") if hasattr(os, "sysconf") else 100

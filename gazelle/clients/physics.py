@@ -8,7 +8,7 @@ from typing import Any
 from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import Vector, three
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from typing import TypedDict
 
 from gazelle.clients.errors import ClientError
 from gazelle.description.pose import quaternion_from_rpy
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]

@@ -15,12 +15,12 @@ from gazelle.argument_checks import checked
 from gazelle.clients.descriptions import find_file
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
-from gazelle.ros import names, net
-from gazelle.ros.launch import LaunchPlan, Packages, load_launch, load_launch_text
-from gazelle.ros.launch.finding import find_launch_file
-from gazelle.ros.launch.runner import Launch, Options
-from gazelle.ros.tools import nodes as node_tools
-from gazelle.ros.tools.graph import GraphInspector
+from gazelle_ros import names, net
+from gazelle_ros.launch import LaunchPlan, Packages, load_launch, load_launch_text
+from gazelle_ros.launch.finding import find_launch_file
+from gazelle_ros.launch.runner import Launch, Options
+from gazelle_ros.tools import nodes as node_tools
+from gazelle_ros.tools.graph import GraphInspector
 
 _WATCH_S = 0.1
 _log = logging.getLogger("gazelle.clients")

@@ -12,17 +12,17 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 from xml.sax.saxutils import escape
 
-from gazelle.argument_types import NumberParser
-from gazelle.bundled_packages import published, published_hint
 from gazelle.clients.poses import pose_message
 from gazelle.errors import RosError
-from gazelle.interrupts import stopping
-from gazelle.path_texts import expanded
-from gazelle.ros import Node, load_service
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.compat.rosgraph.roslogging import RosStreamHandler
-from gazelle.ros.errors import RosTimeoutError
-from gazelle.text_files import read_text
+from gazelle_ros import Node, load_service
+from gazelle_ros.base.argument_types import NumberParser
+from gazelle_ros.base.bundled_packages import published, published_hint
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.base.path_texts import expanded
+from gazelle_ros.base.text_files import read_text
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.compat.rosgraph.roslogging import RosStreamHandler
+from gazelle_ros.errors import RosTimeoutError
 
 # After this wall time without Gazebo's services a word is said; they are waited for all the same [s].
 _PATIENCE_S = 10.0

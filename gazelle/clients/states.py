@@ -8,10 +8,10 @@ from typing import Self
 
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, read_state
-from gazelle.closing import Closeable
 from gazelle.errors import did_you_mean
-from gazelle.ros import Node
-from gazelle.ros.msgs import gazebo_msgs
+from gazelle_ros import Node
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.msgs import gazebo_msgs
 
 
 class LiveStates(Mapping[str, ModelState], Closeable):

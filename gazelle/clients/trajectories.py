@@ -8,10 +8,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from gazelle.clients.errors import ClientError
-from gazelle.closing import Closeable
-from gazelle.ros import Duration, Node, load_message
-from gazelle.ros.actions import ActionClient, ClientGoalHandle, CommState, TerminalState
-from gazelle.ros.msgs import control_msgs, trajectory_msgs
+from gazelle_ros import Duration, Node, load_message
+from gazelle_ros.actions import ActionClient, ClientGoalHandle, CommState, TerminalState
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.msgs import control_msgs, trajectory_msgs
 
 _LOOK_S = 0.01
 _ACTION = "control_msgs/FollowJointTrajectory"

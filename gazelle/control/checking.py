@@ -11,7 +11,6 @@ from typing import Any
 
 import yaml
 
-from gazelle import bounded_yaml
 from gazelle.control.hardware import RobotHardware
 from gazelle.control.interfaces import (
     COMMAND_FIELDS,
@@ -24,7 +23,8 @@ from gazelle.control.manager import ControllerManager
 from gazelle.description import Joint, Model
 from gazelle.errors import ControlError, Error, did_you_mean
 from gazelle.formats import Problem, load_model
-from gazelle.text_files import read_text
+from gazelle_ros.base import bounded_yaml
+from gazelle_ros.base.text_files import read_text
 
 _PREFIX = "hardware_interface/"
 _NAMES = re.compile(r"^(joints?|(left|right|front|rear)_.*|.*_(joint|wheel|steer)s?)$")

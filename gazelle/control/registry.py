@@ -15,8 +15,8 @@ from typing import TypeVar
 
 from gazelle.control.controller import Controller, ControllerSetup
 from gazelle.control.table import CONTROLLERS
-from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import ControlError, did_you_mean
+from gazelle_ros.base.entry_points import entry_points_of_others
 
 C = TypeVar("C", bound=type[Controller])
 

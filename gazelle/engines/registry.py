@@ -12,8 +12,8 @@ from typing import Protocol
 
 from gazelle.description import World
 from gazelle.engines.engine import Engine
-from gazelle.entry_points import entry_points_of_others, load
 from gazelle.errors import EngineError, did_you_mean
+from gazelle_ros.base.entry_points import entry_points_of_others, load
 
 _GROUP = "gazelle.engines"
 

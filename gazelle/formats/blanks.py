@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import Literal, Protocol
 
-from gazelle import characters
 from gazelle.description import Source
+from gazelle_ros.base import characters
 
 
 class Report(Protocol):

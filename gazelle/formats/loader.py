@@ -16,7 +16,7 @@ from gazelle.formats.occupancy import load_map
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.world_formats import find_world_format
-from gazelle.path_texts import can_be_path, expanded, shortened
+from gazelle_ros.base.path_texts import can_be_path, expanded, shortened
 
 PathLike = str | os.PathLike[str]
 

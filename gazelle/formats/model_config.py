@@ -7,7 +7,7 @@ from pathlib import Path
 from gazelle.description import Parameters
 from gazelle.errors import FormatError
 from gazelle.formats import xml
-from gazelle.path_texts import can_be_path
+from gazelle_ros.base.path_texts import can_be_path
 
 NEWEST = (1, 12)
 

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle import characters
 from gazelle.array_types import Bytes
 from gazelle.description import Pose, Source
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
@@ -26,7 +25,8 @@ from gazelle.formats import blanks, xml
 from gazelle.formats.picture import read_picture
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
-from gazelle.path_texts import existing_file
+from gazelle_ros.base import characters
+from gazelle_ros.base.path_texts import existing_file
 
 if TYPE_CHECKING:
     import yaml

@@ -13,7 +13,7 @@ from gazelle.argument_checks import checked
 from gazelle.array_types import Bytes
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import FormatError
-from gazelle.writing import replacing, write_bytes
+from gazelle_ros.base.writing import replacing, write_bytes
 
 PathLike = str | os.PathLike[str]
 

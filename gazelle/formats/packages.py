@@ -9,7 +9,13 @@ from pathlib import Path
 
 from gazelle.errors import FormatError
 from gazelle.formats import xml
-from gazelle.package_folders import IGNORED, MANIFESTS, NOT_DEEPER, package_folders, package_name
+from gazelle_ros.base.package_folders import (
+    IGNORED,
+    MANIFESTS,
+    NOT_DEEPER,
+    package_folders,
+    package_name,
+)
 
 MAX_DEPTH = 5
 MAX_FOLDERS = 5_000

@@ -17,9 +17,9 @@ from importlib import resources
 from pathlib import Path
 from urllib.parse import unquote
 
-from gazelle.bundled_packages import published
 from gazelle.formats import packages
-from gazelle.path_texts import can_be_path, expanded
+from gazelle_ros.base.bundled_packages import published
+from gazelle_ros.base.path_texts import can_be_path, expanded
 
 MODEL_VARIABLES = (
     "GAZEBO_MODEL_PATH",

@@ -26,7 +26,7 @@ from gazelle.errors import did_you_mean
 from gazelle.formats import values, xacro, xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
-from gazelle.path_texts import existing_file
+from gazelle_ros.base.path_texts import existing_file
 
 PathLike = str | os.PathLike[str]
 

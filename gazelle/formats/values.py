@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 import re
 
-from gazelle.characters import curly_hint
 from gazelle.description import Color, Parameters, Vector3
 from gazelle.errors import FormatError
+from gazelle_ros.base.characters import curly_hint
 
 INFINITE = 1e16
 """SDF writes "no limit" as a number at least this large."""

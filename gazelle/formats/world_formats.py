@@ -11,9 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from gazelle.description import World
-from gazelle.entry_points import entry_points_of, load
 from gazelle.errors import FormatError
 from gazelle.formats.reading import Reading
+from gazelle_ros.base.entry_points import entry_points_of, load
 
 _GROUP = "gazelle.formats"
 _BLANK = b" \t\r\n\xef\xbb\xbf"

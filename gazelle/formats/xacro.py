@@ -23,14 +23,14 @@ from xml.parsers.expat import ExpatError
 import xacro as engine
 from xacro import substitution_args
 
-from gazelle import bounded_yaml, xacro_engine
-from gazelle.bundled_packages import published, published_hint
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import expressions, xml
 from gazelle.formats.lfs import refuse_pointer_file
 from gazelle.formats.reading import Reading
 from gazelle.formats.xacro_hints import hint_of
+from gazelle_ros.base import bounded_yaml, xacro_engine
+from gazelle_ros.base.bundled_packages import published, published_hint
 
 _LOCK = threading.Lock()  # the package keeps its state in module globals
 

@@ -14,7 +14,6 @@ from pathlib import Path
 from types import MappingProxyType
 from xml.parsers import expat
 
-from gazelle import characters
 from gazelle.description import Parameters, Source
 from gazelle.errors import FormatError
 from gazelle.formats import blanks
@@ -23,6 +22,7 @@ from gazelle.formats.lfs import refuse_pointer
 from gazelle.formats.limits import read_bounded
 from gazelle.formats.wellformed import well_formed
 from gazelle.formats.xml_faults import Opened, explained
+from gazelle_ros.base import characters
 
 MAX_BYTES = 64 * 2**20
 MAX_DEPTH = 256

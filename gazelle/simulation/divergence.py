@@ -15,7 +15,7 @@ from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.encoding import encode
 from gazelle.simulation.recording import header
 from gazelle.simulation.running_state import RunningState
-from gazelle.writing import write_text
+from gazelle_ros.base.writing import write_text
 
 Policy = Literal["raise", "reset"]
 POLICIES = ("raise", "reset")

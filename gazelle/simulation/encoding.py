@@ -19,8 +19,8 @@ import numpy as np
 from gazelle import description
 from gazelle.description import Pose
 from gazelle.engines import Call
-from gazelle.entry_points import entry_points_of, load
 from gazelle.errors import SimulationError
+from gazelle_ros.base.entry_points import entry_points_of, load
 
 _GROUP = "gazelle.descriptions"
 

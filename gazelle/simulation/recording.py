@@ -18,16 +18,16 @@ from typing import IO, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.closing import Closeable
 from gazelle.engines import CHANGES, Call, DivergenceError, Engine
 from gazelle.errors import Error, SimulationError
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.system import System
-from gazelle.path_texts import shortened
 from gazelle.simulation.clock import Schedule
 from gazelle.simulation.encoding import encode
 from gazelle.simulation.running_state import RunningState
-from gazelle.writing import write_text
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.path_texts import shortened
+from gazelle_ros.base.writing import write_text
 
 
 class StepCuts(Protocol):

@@ -14,10 +14,10 @@ from importlib.metadata import EntryPoint
 from typing import TypeVar, cast
 
 from gazelle import description
-from gazelle.entry_points import entry_points_of_others
 from gazelle.errors import SimulationError, SimulationWarning, did_you_mean, located
 from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.plugin_table import known_plugins
+from gazelle_ros.base.entry_points import entry_points_of_others
 
 P = TypeVar("P", bound=type[BasePlugin])
 

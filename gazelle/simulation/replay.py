@@ -7,14 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from gazelle.closing import Closeable
 from gazelle.description import Link, Model, World
 from gazelle.engines import CHANGES, DivergenceError
 from gazelle.errors import EngineError, SimulationError
-from gazelle.path_texts import shortened
 from gazelle.simulation.encoding import decode, encode
 from gazelle.simulation.recording import FORMAT, VERSION, state_hash
 from gazelle.simulation.simulation import Simulation
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.path_texts import shortened
 
 # What values of a wrong kind or shape raise, wherever they are used.
 _DAMAGE = (ArithmeticError, AttributeError, EngineError, LookupError, TypeError, ValueError)

@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle import formats
 from gazelle.array_types import Worlds
-from gazelle.closing import Closeable
 from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import Engine, make_engine
 from gazelle.errors import SimulationError
@@ -39,6 +38,7 @@ from gazelle.simulation.state_lock import StateLock
 from gazelle.simulation.step_loop import CLOSED, StepLoop
 from gazelle.simulation.step_plan import indices_of
 from gazelle.streams import seed_of
+from gazelle_ros.base.closing import Closeable
 
 T = TypeVar("T")
 

@@ -11,10 +11,10 @@ from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
 from gazelle.description import Model, Plugin, Sensor
-from gazelle.entry_points import entry_points_of, load
 from gazelle.errors import SimulationError
 from gazelle.sensors import SensorModel
 from gazelle.simulation.robot import Robot, RobotHost
+from gazelle_ros.base.entry_points import entry_points_of, load
 
 _GROUP = "gazelle.simulation.kinds"
 

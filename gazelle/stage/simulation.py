@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from gazelle import formats
-from gazelle.closing import Closeable
 from gazelle.description import Model, World
 from gazelle.engines.laws import with_profile
 from gazelle.errors import SimulationError
@@ -17,6 +16,7 @@ from gazelle.simulation.simulation import Simulation
 from gazelle.simulation.state_lock import StateLock
 from gazelle.stage.description import StageModel, stage_model, stage_world
 from gazelle.stage.fleet import StageFleet
+from gazelle_ros.base.closing import Closeable
 
 
 def stage_of(simulation: Simulation) -> StageFleet:

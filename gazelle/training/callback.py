@@ -9,7 +9,6 @@ from typing import Any
 from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.logger import KVWriter, Logger
 
-from gazelle.interrupts import StopRequest
 from gazelle.training.checkpoint import write_checkpoint
 from gazelle.training.event_files import EventTable, trim_events
 from gazelle.training.export import export_actor
@@ -19,7 +18,8 @@ from gazelle.training.progress import Progress
 from gazelle.training.runs import Run
 from gazelle.training.statistics import EpisodeLog
 from gazelle.training.tables import row_bytes, rows_until
-from gazelle.writing import GrowingFile, write_bytes
+from gazelle_ros.base.interrupts import StopRequest
+from gazelle_ros.base.writing import GrowingFile, write_bytes
 
 _COLUMNS = (
     "time/steps",

@@ -19,7 +19,7 @@ from gazelle.argument_checks import checked
 from gazelle.errors import FormatError, TaskError
 from gazelle.training.prediction import predicted_range
 from gazelle.training.statistics import SuccessRate
-from gazelle.writing import write_text
+from gazelle_ros.base.writing import write_text
 
 CLAIMS_FILE = Path(__file__).with_name("claims.yaml")
 HELD_OUT = "held-out"

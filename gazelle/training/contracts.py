@@ -16,7 +16,7 @@ from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.runs import Run, RunConfig, versions
 from gazelle.training.tasks import control_period, make_task, told_by
 from gazelle.training.trust import require_trust
-from gazelle.writing import write_text
+from gazelle_ros.base.writing import write_text
 
 CONTRACT = "contract.json"
 

@@ -25,7 +25,7 @@ from tensorboard.summary.writer.record_writer import (  # type: ignore[import-un
 )
 from torch.utils.tensorboard.writer import FileWriter, SummaryWriter
 
-from gazelle.writing import GrowingFile, write_bytes
+from gazelle_ros.base.writing import GrowingFile, write_bytes
 
 _LENGTH = struct.Struct("<Q")
 _HEAD, _FOOT = 12, 4

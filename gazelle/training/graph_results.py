@@ -11,10 +11,10 @@ from stable_baselines3.common.callbacks import BaseCallback
 from stable_baselines3.common.logger import KVWriter
 
 from gazelle.errors import TaskError
-from gazelle.ros import Node
-from gazelle.ros.msgs import std_msgs
 from gazelle.training.deploy.messages import floats_message
 from gazelle.training.export import export_actor
+from gazelle_ros import Node
+from gazelle_ros.msgs import std_msgs
 
 _RETURN = "episodes/return"
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import PluginWarning, TaskError, did_you_mean
-from gazelle.path_texts import can_be_path, shortened
+from gazelle_ros.base.path_texts import can_be_path, shortened
 
 GROUP = "gazelle.tasks"
 """Entry points of this group name a module that registers tasks, or a function that does."""

@@ -10,7 +10,7 @@ from gazelle.training.evaluation import Evaluation, evaluate
 from gazelle.training.runs import Run
 from gazelle.training.tables import row_bytes, rows_until
 from gazelle.training.tasks import evaluation_options
-from gazelle.writing import GrowingFile, replacing, write_bytes
+from gazelle_ros.base.writing import GrowingFile, replacing, write_bytes
 
 SEED = 20_000
 """Of the environment of these evaluations: other episodes than those of ``gazelle eval``."""

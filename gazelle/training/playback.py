@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Picture
-from gazelle.closing import Closeable
 from gazelle.errors import TaskError
 from gazelle.training.actor import Actor
 from gazelle.training.evaluation import resolve_policy
 from gazelle.training.importing import load_all
 from gazelle.training.stepper import Stepper
 from gazelle.training.tasks import control_period, make_task
+from gazelle_ros.base.closing import Closeable
 
 
 class Playback(Closeable):

@@ -15,7 +15,7 @@ from gazelle.training.contracts import CONTRACT, load_contract, run_contract
 from gazelle.training.importing import load_all
 from gazelle.training.recipes import task_name
 from gazelle.training.runs import Run
-from gazelle.writing import replacing, write_bytes, write_text
+from gazelle_ros.base.writing import replacing, write_bytes, write_text
 
 FORMATS = {"onnx": ".onnx", "numpy": ".npz"}
 """The formats by name, with the ends of their files' names."""

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import Any, Protocol, TextIO
 
-from gazelle.closing import Closeable
+from gazelle_ros.base.closing import Closeable
 
 _SECONDS_BETWEEN_LINES = 10.0
 

@@ -33,7 +33,7 @@ from gazelle.argument_checks import checked
 from gazelle.errors import FormatError, TaskError, did_you_mean
 from gazelle.training.importing import TaskModule, modules_from_list, modules_to_list
 from gazelle.training.recipes import Recipe, recipe_from_dict, recipe_to_dict, task_name
-from gazelle.writing import naming, replacing, write_text
+from gazelle_ros.base.writing import naming, replacing, write_text
 
 _FORMAT = "gazelle-run-1"
 _PACKAGES = ("gazelle", "gymnasium", "mujoco-core", "numpy", "stable-baselines3", "torch")

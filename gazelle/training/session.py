@@ -14,7 +14,6 @@ import torch
 
 from gazelle.argument_checks import checked
 from gazelle.errors import TaskError, TaskWarning
-from gazelle.interrupts import stopping
 from gazelle.training.callback import StopRequested, TrainingCallback
 from gazelle.training.checkpoint import read_checkpoint, usable
 from gazelle.training.contracts import contract_of, save_contract
@@ -38,6 +37,7 @@ from gazelle.training.trust import require_trust
 from gazelle.training.user_callbacks import find_callbacks, make_callbacks
 from gazelle.training.vecenv import VectorEnvAdapter
 from gazelle.training.workers.joining import join_workers
+from gazelle_ros.base.interrupts import stopping
 
 _CHECKPOINTS = 10
 _STOPPING = "stopping after this update (Ctrl-C again stops at once) ..."

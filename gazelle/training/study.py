@@ -23,11 +23,11 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import FormatError, TaskError, did_you_mean
-from gazelle.text_files import read_rows
 from gazelle.training.importing import TaskModule
 from gazelle.training.tables import row_bytes
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
-from gazelle.writing import GrowingFile, write_bytes
+from gazelle_ros.base.text_files import read_rows
+from gazelle_ros.base.writing import GrowingFile, write_bytes
 
 _OWN = ("seed", "seconds", "error")
 """Columns that a study adds to those of parameters and results."""

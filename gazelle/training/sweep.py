@@ -21,7 +21,7 @@ from gazelle.training.recipes import task_name
 from gazelle.training.sweep_plan import SweepPlan
 from gazelle.training.trials import TrialHost, TrialJob, TrialOutcome, TrialValues
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
-from gazelle.writing import naming
+from gazelle_ros.base.writing import naming
 
 try:
     import optuna

@@ -8,8 +8,8 @@ from typing import Any
 
 import yaml
 
-from gazelle import bounded_yaml
 from gazelle.errors import FormatError, TaskError, did_you_mean
+from gazelle_ros.base import bounded_yaml
 
 METRICS = ("success", "return")
 _KEYS = {"parameters", "trials", "workers", "steps", "episodes", "metric", "algo", "seed"}

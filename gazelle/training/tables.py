@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gazelle.errors import FormatError
-from gazelle.text_files import read_rows
+from gazelle_ros.base.text_files import read_rows
 
 
 def row_bytes(

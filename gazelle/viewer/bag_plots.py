@@ -12,8 +12,8 @@ from gazelle.array_types import Floats
 from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.description import OccupancyMap
 from gazelle.errors import RosError, did_you_mean
-from gazelle.ros.bags import Bag
 from gazelle.viewer.plots import Series
+from gazelle_ros.bags import Bag
 
 _POSES = {
     "geometry_msgs/PoseStamped": ("pose", "position"),

@@ -14,13 +14,13 @@ from gazelle.array_types import Bytes, Floats, Picture
 from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.description import OccupancyMap
 from gazelle.errors import RosError
-from gazelle.ros.bags import Bag
-from gazelle.ros.tf.core import FrameTree
-from gazelle.ros.tf.errors import TransformException
-from gazelle.ros.tf.taking import take_transforms
 from gazelle.rotations import rotate, yaw_of
 from gazelle.viewer.plan import PAPER, PlanFrame, colour_of
 from gazelle.viewer.sources import IMAGES, BagSource, FilmSource
+from gazelle_ros.bags import Bag
+from gazelle_ros.tf.core import FrameTree
+from gazelle_ros.tf.errors import TransformException
+from gazelle_ros.tf.taking import take_transforms
 
 _TRANSFORMS = ("tf2_msgs/TFMessage", "tf/tfMessage")
 _SCAN, _MAP, _PATH = "sensor_msgs/LaserScan", "nav_msgs/OccupancyGrid", "nav_msgs/Path"

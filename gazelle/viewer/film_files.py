@@ -13,7 +13,7 @@ from PIL import Image
 
 from gazelle.array_types import Picture
 from gazelle.errors import Error, MissingExtraError, did_you_mean
-from gazelle.writing import replacing
+from gazelle_ros.base.writing import replacing
 
 if TYPE_CHECKING:
     from av.video.stream import VideoStream

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from gazelle.argument_checks import checked
-from gazelle.closing import Closeable
 from gazelle.errors import Error, SimulationError, SimulationWarning
 from gazelle.rendering import PinholeLens
 from gazelle.simulation import Robot, Simulation
@@ -31,6 +30,7 @@ from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.shapes import extent_of_world
 from gazelle.viewer.page.world_layer import ShapeLayer
 from gazelle.viewer.scene_camera import distance_to_see
+from gazelle_ros.base.closing import Closeable
 
 _BESIDE = 4  # worlds of a batch that are shown by default
 _LENS = PinholeLens(400, 400, 1.25)  # about that of the page

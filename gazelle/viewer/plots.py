@@ -11,8 +11,8 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import FormatError, MissingExtraError, did_you_mean
-from gazelle.text_files import read_rows
-from gazelle.writing import replacing
+from gazelle_ros.base.text_files import read_rows
+from gazelle_ros.base.writing import replacing
 
 if TYPE_CHECKING:
     from gazelle.description import OccupancyMap

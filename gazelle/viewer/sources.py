@@ -12,11 +12,11 @@ import numpy as np
 from PIL import Image
 
 from gazelle.array_types import Picture
-from gazelle.closing import Closeable
 from gazelle.errors import RosError, did_you_mean
-from gazelle.ros.msgs import sensor_msgs
 from gazelle.simulation import Simulation
 from gazelle.viewer.filming import FilmCamera
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.msgs import sensor_msgs
 
 IMAGES = ("sensor_msgs/Image", "sensor_msgs/CompressedImage")
 _NANOSECONDS = 1e9
@@ -141,7 +141,7 @@ class BagSource(FilmSource):
     """
 
     def __init__(self, path: Path, topic: str | None = None) -> None:
-        from gazelle.ros.bags import Bag
+        from gazelle_ros.bags import Bag
 
         self._bag = Bag(str(path))
         found = self._bag.get_type_and_topic_info().topics

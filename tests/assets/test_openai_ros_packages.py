@@ -10,8 +10,8 @@ import pytest
 
 import gazelle
 from gazelle import assets
-from gazelle.ros.launch import load_launch
-from gazelle.ros.launch.plan import ParameterCommand
+from gazelle_ros.launch import load_launch
+from gazelle_ros.launch.plan import ParameterCommand
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,14 @@ from xml.etree import ElementTree as ET
 import pytest
 
 import gazelle
-from gazelle import assets, bundled_packages, formats
+from gazelle import assets, formats
 from gazelle.bridges.gazebo.server import find_world
 from gazelle.errors import FormatError, ResolveError
 from gazelle.formats.resolve import Resolver
-from gazelle.ros.builtin import xacro
-from gazelle.ros.launch import LaunchError, load_launch
-from gazelle.ros.launch.packages import Packages
+from gazelle_ros.base import bundled_packages
+from gazelle_ros.builtin import xacro
+from gazelle_ros.launch import LaunchError, load_launch
+from gazelle_ros.launch.packages import Packages
 
 REAL = [
     *(f"turtlebot3_gazebo/worlds/turtlebot3_stage_{number}.world" for number in (1, 2, 3, 4)),

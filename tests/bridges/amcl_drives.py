@@ -10,9 +10,9 @@ import numpy as np
 from PIL import Image
 
 import gazelle
-from gazelle.ros import Time, load_message
-from gazelle.ros.bags import Bag
 from gazelle.stage import stage_of
+from gazelle_ros import Time, load_message
+from gazelle_ros.bags import Bag
 
 SIDE, CELL = 60.0, 0.1
 """Of the hall and of its map's cells [m]; as in those tests the map begins at the origin."""

@@ -10,7 +10,7 @@ from door_client import Client
 
 import gazelle
 from gazelle.bridges import serve_ros
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from gazelle.ros import Node, WallClock, load_message, load_service
+from gazelle_ros import Node, WallClock, load_message, load_service
 
 BALL = """<sdf version="1.6"><model name="ball"><link name="link"><inertial><mass>2</mass></inertial>
 <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>

@@ -9,7 +9,7 @@ import sys
 import time
 from dataclasses import dataclass, field
 
-from gazelle.ros import Node, WallClock, load_message
+from gazelle_ros import Node, WallClock, load_message
 
 # What is there without any robot, and what every node has.
 _ALWAYS = {

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from gazelle.ros.compat.cv_bridge.core import CvBridge
 from gazelle.simulation.values import (
     CameraInfoValue,
     CompressedImageValue,
     ImageValue,
     PixelPoints,
 )
+from gazelle_ros.compat.cv_bridge.core import CvBridge
 
 ENCODINGS = {
     "mono8": (np.uint8, ()),

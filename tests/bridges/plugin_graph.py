@@ -12,7 +12,7 @@ from door_client import Client
 import gazelle
 from gazelle import formats
 from gazelle.bridges import serve_ros
-from gazelle.ros import Master, load_message
+from gazelle_ros import Master, load_message
 
 
 @contextlib.contextmanager

@@ -10,9 +10,9 @@ from gazelle.bridges.navigation.explore import ExploreNode
 from gazelle.bridges.navigation.map_messages import grid_message
 from gazelle.description import Pose
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.ros import Master, Node, Time, load_message
-from gazelle.ros.actions import SimpleActionServer
-from gazelle.ros.clock import SimulatedClock
+from gazelle_ros import Master, Node, Time, load_message
+from gazelle_ros.actions import SimpleActionServer
+from gazelle_ros.clock import SimulatedClock
 
 PARAMETERS = {"costmap_topic": "map", "costmap_updates_topic": "map_updates", "visualize": True,
               "min_frontier_size": 0.2, "progress_timeout": 30.0}  # fmt: skip

@@ -13,9 +13,9 @@ import gazelle
 from gazelle.bridges import serve_ros
 from gazelle.bridges.conversions import ConversionContext, decoder_of, encoder_of
 from gazelle.navigation import GoalPose, Path
-from gazelle.ros import Master, Node, load_message
-from gazelle.ros.time import Time
 from gazelle.rotations import from_yaw
+from gazelle_ros import Master, Node, load_message
+from gazelle_ros.time import Time
 
 POSE = "geometry_msgs/PoseStamped"
 

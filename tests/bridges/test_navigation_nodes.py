@@ -20,10 +20,10 @@ from gazelle.bridges.navigation.messages import wrong_quaternion
 from gazelle.bridges.navigation.move_base import MoveBaseNode
 from gazelle.description import Pose
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.ros import Master, Node, Time, load_message, load_service
-from gazelle.ros.actions import GoalStatus, SimpleActionClient
-from gazelle.ros.clock import SimulatedClock
-from gazelle.ros.tf import FrameTree
+from gazelle_ros import Master, Node, Time, load_message, load_service
+from gazelle_ros.actions import GoalStatus, SimpleActionClient
+from gazelle_ros.clock import SimulatedClock
+from gazelle_ros.tf import FrameTree
 
 ROOM = np.zeros((80, 80), np.int8)
 ROOM[[0, -1]] = ROOM[:, [0, -1]] = 100

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gazelle.bridges.navigation.scan_queue import ScanQueue
-from gazelle.ros import Master, Node, load_message
+from gazelle_ros import Master, Node, load_message
 
 
 class Transforms:

@@ -15,8 +15,8 @@ from ros.graph import until
 
 from gazelle.clients import Gazebo
 from gazelle.formats import save_map
-from gazelle.ros import Master, Node, Time, load_message
-from gazelle.ros.actions import GoalStatus, SimpleActionClient
+from gazelle_ros import Master, Node, Time, load_message
+from gazelle_ros.actions import GoalStatus, SimpleActionClient
 
 PATIENCE = 600.0
 """For anything to happen, on a machine that may be busy [s of wall time]."""

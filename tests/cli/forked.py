@@ -15,7 +15,7 @@ from pathlib import Path
 import gazelle
 from gazelle.cli.commands import COMMANDS
 from gazelle.cli.main import main
-from gazelle.interrupts import end_process
+from gazelle_ros.base.interrupts import end_process
 
 TESTS = Path(__file__).parents[1]
 
@@ -90,7 +90,7 @@ def a_master(folder: Path) -> Iterator[str]:
     """Run a master in a process of its own, and write the policy there: both start threads."""
     script = (
         "import sys, pathlib; sys.path.insert(0, sys.argv[1]); from cli.ending_states import *;"
-        "from gazelle.ros import Master; write_policy(pathlib.Path(sys.argv[2]));"
+        "from gazelle_ros import Master; write_policy(pathlib.Path(sys.argv[2]));"
         "print(Master(port=0).uri, flush=True); sys.stdin.read()"
     )
     command = [sys.executable, "-c", script, str(TESTS), str(folder)]

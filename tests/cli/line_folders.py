@@ -51,8 +51,8 @@ def contents(folder: Path) -> dict[Path, bytes | None]:
 
 def write_bag(file: Path) -> None:
     """Write a bag of one message."""
-    from gazelle.ros import Time, load_message
-    from gazelle.ros.bags import Bag
+    from gazelle_ros import Time, load_message
+    from gazelle_ros.bags import Bag
 
     with Bag(file, "w") as bag:
         bag.write("/words", load_message("std_msgs/String")("hello"), Time(1))

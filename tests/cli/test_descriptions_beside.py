@@ -8,8 +8,8 @@ from ros.graph import until
 import gazelle
 from gazelle.bridges import serve_ros
 from gazelle.cli.descriptions_beside import descriptions_beside
-from gazelle.ros import Master, Node, load_message
-from gazelle.ros.tf import FrameTree, take_transforms
+from gazelle_ros import Master, Node, load_message
+from gazelle_ros.tf import FrameTree, take_transforms
 
 BURGER = "turtlebot3_burger"
 

@@ -24,7 +24,7 @@ from cli.ending_states import (
 from ports import free_port
 
 from gazelle.cli.commands import COMMANDS
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 pytestmark = [
     pytest.mark.long,

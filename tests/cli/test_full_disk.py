@@ -17,9 +17,9 @@ import pytest
 from cli.ending_states import write_policy
 from ros.graph import until
 
-from gazelle.ros import Master, Node, load_message
-from gazelle.ros.bags import Bag
-from gazelle.writing import replacing, write_bytes, write_text
+from gazelle_ros import Master, Node, load_message
+from gazelle_ros.bags import Bag
+from gazelle_ros.base.writing import replacing, write_bytes, write_text
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs limits of processes")
 

@@ -16,8 +16,8 @@ import pytest
 import gazelle
 from gazelle.errors import Error
 from gazelle.geometry import piece_cache
-from gazelle.ros.messages import load_message
 from gazelle.simulation import Replay
+from gazelle_ros.messages import load_message
 
 resource = pytest.importorskip("resource")
 
@@ -50,7 +50,7 @@ def record(file, sim, count=100):
 
 
 def write_bag(file, _sim):
-    from gazelle.ros.bags import Bag
+    from gazelle_ros.bags import Bag
 
     with Bag(str(file), "w", chunk_threshold=100) as bag:
         for number in range(100):
@@ -276,7 +276,7 @@ def test_a_cache_that_finds_no_room_stops_nothing(tmp_path, monkeypatch):
     with little_room():
         piece_cache.store("a" * 64, ([(points, faces)], 0, 0.0, True))
     assert not [each for each in tmp_path.rglob("*") if each.is_file()]
-    from gazelle.ros.builtin import on_path
+    from gazelle_ros.builtin import on_path
 
     with little_room(10):
         assert on_path._made(on_path._files()) is None
@@ -284,7 +284,7 @@ def test_a_cache_that_finds_no_room_stops_nothing(tmp_path, monkeypatch):
 
 
 def test_a_log_of_a_node_ends_with_one_line(tmp_path, capsys):
-    from gazelle.ros.compat.rospy.logs import _LogFile
+    from gazelle_ros.compat.rospy.logs import _LogFile
 
     handler = _LogFile(tmp_path / "node.log", encoding="utf-8", delay=True)
     logger = logging.getLogger("a log of a node")

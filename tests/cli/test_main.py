@@ -183,7 +183,7 @@ def test_commands_module_imports_no_command():
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == (
-        "['gazelle.cli.commands', 'gazelle.cli.parsing', 'gazelle.cli.main']"
+        "['gazelle.cli.commands', 'gazelle_ros.cli.parsing', 'gazelle.cli.main']"
     )
 
 

@@ -14,8 +14,8 @@ import time
 import pytest
 from ports import free_port
 
-from gazelle.ros import Master, MasterProxy
-from gazelle.ros.errors import RosError
+from gazelle_ros import Master, MasterProxy
+from gazelle_ros.errors import RosError
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ import pytest
 from ros.graph import until
 
 from gazelle.errors import RosError
-from gazelle.ros import Master, Node, load_service
+from gazelle_ros import Master, Node, load_service
 
 
 def test_moveit_needs_a_graph(cli):

@@ -4,10 +4,10 @@ import argparse
 
 import pytest
 
-from gazelle.argument_types import port_number, positive_float, positive_int
 from gazelle.cli.commands import COMMANDS
-from gazelle.cli.parsing import Parser, key_value
 from gazelle.clients import gz, spawn_model
+from gazelle_ros.base.argument_types import port_number, positive_float, positive_int
+from gazelle_ros.cli.parsing import Parser, key_value
 
 
 @pytest.mark.parametrize(("text", "number"), [("1", 1), ("2_000", 2000), ("1e6", 1_000_000)])

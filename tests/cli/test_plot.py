@@ -9,10 +9,10 @@ import pytest
 from PIL import Image
 
 from gazelle.cli.main import main
-from gazelle.ros import Time, load_message
-from gazelle.ros.bags import Bag
 from gazelle.viewer.bag_plots import bag_map, bag_paths, bag_series
 from gazelle.viewer.plots import read_table
+from gazelle_ros import Time, load_message
+from gazelle_ros.bags import Bag
 
 
 @pytest.fixture

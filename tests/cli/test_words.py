@@ -13,9 +13,9 @@ from ports import free_port
 
 from gazelle.cli.commands import COMMANDS
 from gazelle.cli.completion import script_for
-from gazelle.ros import Master, Node, load_message
-from gazelle.ros.tool_names import COMMANDS as TOOLS
-from gazelle.ros.tool_names import translated
+from gazelle_ros import Master, Node, load_message
+from gazelle_ros.tool_names import COMMANDS as TOOLS
+from gazelle_ros.tool_names import translated
 
 
 @pytest.fixture

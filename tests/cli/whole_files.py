@@ -16,7 +16,7 @@ def _npz(file: Path) -> None:
 
 
 def _bag(file: Path) -> None:
-    from gazelle.ros.bags import Bag
+    from gazelle_ros.bags import Bag
 
     with Bag(str(file)) as bag:
         bag.get_message_count()

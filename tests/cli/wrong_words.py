@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from gazelle.cli.commands import COMMANDS
-from gazelle.cli.parsing import Parser
+from gazelle_ros.cli.parsing import Parser
 
 NUMBERS = ["nan", "inf", "-inf", "-1", "0", "1e308", "1e400", "9" * 30, "1.5", "", "no such", "½"]
 WORDS = [

@@ -10,7 +10,7 @@ import pytest
 import gazelle
 from gazelle.bridges import serve_ros
 from gazelle.clients import Gazebo
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 
 @pytest.fixture

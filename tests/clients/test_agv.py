@@ -10,11 +10,11 @@ from gazelle.clients import AGV, AGVFleet, ClientError
 from gazelle.description import World
 from gazelle.formats import load
 from gazelle.navigation import Limits
-from gazelle.ros import Master, Node
-from gazelle.ros.messages import UnknownTypeError, register
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
 from gazelle.stage.bridge import serve_stage
+from gazelle_ros import Master, Node
+from gazelle_ros.messages import UnknownTypeError, register
 
 WORLD = """
 interval_sim 100

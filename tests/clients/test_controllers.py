@@ -7,7 +7,7 @@ import contextlib
 import pytest
 
 from gazelle.clients import ClientError, Controllers
-from gazelle.ros import Master, Node, load_message, load_service
+from gazelle_ros import Master, Node, load_message, load_service
 
 MANAGER = "/r1/controller_manager"
 KNOWN = {"left", "right"}

@@ -8,7 +8,7 @@ import pytest
 from ros.real import INSTALLED, RealNode
 
 from gazelle.clients import ClientError, Controllers, JointCommander, TrajectoryClient
-from gazelle.ros import Master, Node, load_message, load_service
+from gazelle_ros import Master, Node, load_message, load_service
 
 pytestmark = pytest.mark.ros
 

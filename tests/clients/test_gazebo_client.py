@@ -8,7 +8,7 @@ from ros.graph import until
 
 from gazelle import assets
 from gazelle.clients import ClientError, Gazebo
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 BALL = """<sdf version="1.6"><model name="ball"><link name="core"><inertial><mass>2</mass></inertial>
 <gravity>0</gravity></link></model></sdf>"""

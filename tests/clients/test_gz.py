@@ -10,7 +10,7 @@ import gazelle
 from gazelle.bridges import serve_ros
 from gazelle.clients.gz import main
 from gazelle.clients.gz_elsewhere import NOT_HERE
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ from gazelle.clients import (
     read_urdf,
     spawn_robot,
 )
-from gazelle.ros import Master, Node
+from gazelle_ros import Master, Node
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

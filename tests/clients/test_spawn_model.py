@@ -16,7 +16,7 @@ from ros.graph import until
 
 from gazelle.clients.spawn_model import main
 from gazelle.errors import RosError
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 BALL = """<sdf version="1.6"><model name="ball"><link name="link"><inertial><mass>2</mass></inertial>
 <collision name="c"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>
@@ -125,7 +125,7 @@ def test_it_waits_for_another_model(spawn, graph, ball):
 
 @pytest.mark.long
 def test_a_bond_takes_the_model_away_at_the_end(graph, ball):
-    program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "spawn_model"]
+    program = [sys.executable, "-m", "gazelle_ros.builtin.start", "gazebo_ros", "spawn_model"]
     process = subprocess.Popen(
         [*program, "-sdf", "-file", ball, "-model", "guest", "-b"],
         env=os.environ | {"ROS_MASTER_URI": graph.master.uri},

@@ -10,7 +10,8 @@ from types import SimpleNamespace
 import pytest
 
 import gazelle
-from gazelle import assets, ros
+import gazelle_ros as ros
+from gazelle import assets
 from gazelle.bridges import serve_ros
 from gazelle.clients import load_parameters
 from gazelle.description import World
@@ -19,7 +20,7 @@ from gazelle.description import World
 @contextlib.contextmanager
 def cart_graph(space="/cartpole_v0"):
     """Yield ``sim``, ``node`` (another one than rospy's), ``rospy``."""
-    from gazelle.ros.compat.rospy import client
+    from gazelle_ros.compat.rospy import client
 
     with (
         pytest.MonkeyPatch.context() as patch,

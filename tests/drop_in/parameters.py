@@ -8,7 +8,7 @@ import pytest
 from gazelle.clients.descriptions import find_file
 from gazelle.drop_in.openai_ros.task_envs import graph_task
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import MODULES
-from gazelle.ros.launch.values import load_yaml
+from gazelle_ros.launch.values import load_yaml
 
 READERS = ("_read_steering", "_read_parameters", "get_params")
 

@@ -12,7 +12,7 @@ from drop_in.cart_graph import cart_graph
 from graph import until
 from gymnasium import spaces
 
-from gazelle import ros
+import gazelle_ros as ros
 from gazelle.drop_in import gym
 from gazelle.drop_in.frobs_rl.common import (
     connection,

@@ -12,7 +12,7 @@ import gymnasium
 import numpy as np
 import pytest
 
-import gazelle.ros as ros
+import gazelle_ros as ros
 from gazelle.drop_in import gym
 from gazelle.drop_in.gym import error, spaces, wrappers
 from gazelle.drop_in.gym.envs import registration

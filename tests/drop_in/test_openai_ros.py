@@ -10,12 +10,12 @@ import pytest
 from drop_in.cart_graph import cart_graph
 from graph import until
 
-import gazelle.ros as ros
+import gazelle_ros as ros
 from gazelle.clients import Controllers
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import MODULES, WITHOUT_ROBOT
 from gazelle.drop_in.shared import background
 from gazelle.errors import TaskError
-from gazelle.ros.launch.errors import MissingPackageError
+from gazelle_ros.launch.errors import MissingPackageError
 
 CONTROLLERS = [
     "joint_state_controller",

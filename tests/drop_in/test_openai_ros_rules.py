@@ -21,7 +21,7 @@ from gazelle.envs.moving_cube.task import MovingCubeSettings, MovingCubeTask
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.parrot_drone.task import ParrotDroneSettings, ParrotDroneTask
 from gazelle.envs.wamv.task import WamvSettings, WamvTask
-from gazelle.ros.transformations import quaternion_from_euler
+from gazelle_ros.transformations import quaternion_from_euler
 
 NAMES = {
     "maze": "MyTurtleBot2Maze-v0",

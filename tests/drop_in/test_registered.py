@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 import gazelle.drop_in
-from gazelle import entry_points
-from gazelle.entry_points import entry_points_of
-from gazelle.ros.compat import finder
+from gazelle_ros.base import entry_points
+from gazelle_ros.base.entry_points import entry_points_of
+from gazelle_ros.compat import finder
 
 HOME = Path(gazelle.drop_in.__file__).parent
 PRIVATE = {"moveit_client", "shared"}
@@ -70,11 +70,11 @@ def test_a_checkout_needs_no_new_installation(tmp_path, monkeypatch, project, ex
 @pytest.mark.parametrize(
     ("name", "place"),
     [
-        ("rospy.topics", "gazelle.ros.compat.rospy.topics"),
+        ("rospy.topics", "gazelle_ros.compat.rospy.topics"),
         ("gym.spaces", "gazelle.drop_in.gym.spaces"),
         ("gym", "gazelle.drop_in.gym"),
         ("other.deep.module", "elsewhere.inside.deep.module"),
-        ("rosbag", "gazelle.ros.compat.rosbag"),
+        ("rosbag", "gazelle_ros.compat.rosbag"),
     ],
 )
 def test_a_module_is_where_its_entry_point_says_but_ours_of_ros_first(monkeypatch, name, place):
@@ -91,7 +91,7 @@ def test_a_module_is_where_its_entry_point_says_but_ours_of_ros_first(monkeypatc
 
 def test_entry_points_are_read_for_missing_modules_only():
     code = (
-        "import gazelle.ros as ros, sys\n"
+        "import gazelle_ros as ros, sys\n"
         "with ros.install():\n"
         "    import rospy, yaml, json.tool\n"
         "    assert 'importlib.metadata' not in sys.modules\n"

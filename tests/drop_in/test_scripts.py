@@ -10,7 +10,7 @@ import sys
 import pytest
 from graph import until
 
-from gazelle import ros
+import gazelle_ros as ros
 
 LEARN = """#!/usr/bin/env python
 import gym

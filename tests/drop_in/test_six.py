@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-import gazelle.ros as ros
+import gazelle_ros as ros
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from gazelle import ros
+import gazelle_ros as ros
 from gazelle.drop_in import smach
 
 WAIT_S = 60.0

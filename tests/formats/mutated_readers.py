@@ -17,10 +17,11 @@ from pathlib import Path
 import numpy as np
 
 import gazelle
+import gazelle_ros
 from gazelle import formats
 from gazelle.formats.lint import lint
 from gazelle.stage.format import is_stage
-from gazelle.text_files import read_text
+from gazelle_ros.base.text_files import read_text
 
 ARM = "fetch"
 """The bundled robot that parameters of arms are read for."""
@@ -150,7 +151,7 @@ def semantics(path: Path) -> None:
 
 def launch(path: Path) -> None:
     """Read a launch file; nothing is started."""
-    from gazelle.ros.launch import Packages, describing, load_launch
+    from gazelle_ros.launch import Packages, describing, load_launch
 
     packages = Packages()
     plan = load_launch(path)
@@ -165,9 +166,9 @@ def launch(path: Path) -> None:
 def manifest(path: Path) -> None:
     """Read a package's manifest, with all of its readers."""
     from gazelle.formats.packages import exported_model_paths
-    from gazelle.package_folders import package_name
-    from gazelle.ros.compat.rospkg import InvalidManifest
-    from gazelle.ros.compat.rospkg.manifest import parse_manifest_file
+    from gazelle_ros.base.package_folders import package_name
+    from gazelle_ros.compat.rospkg import InvalidManifest
+    from gazelle_ros.compat.rospkg.manifest import parse_manifest_file
 
     package_name(path.parent)
     list(exported_model_paths(path.parent))
@@ -177,8 +178,8 @@ def manifest(path: Path) -> None:
 
 
 @functools.cache
-def _graph() -> tuple[gazelle.ros.Master, gazelle.ros.Node]:
-    from gazelle.ros import Master, Node
+def _graph() -> tuple[gazelle_ros.Master, gazelle_ros.Node]:
+    from gazelle_ros import Master, Node
 
     master = Master(port=0)
     return master, Node("reader", master_uri=master.uri)
@@ -186,8 +187,8 @@ def _graph() -> tuple[gazelle.ros.Master, gazelle.ros.Node]:
 
 def rosparam(path: Path) -> None:
     """Read a file as ``rosparam load`` does."""
-    from gazelle.ros.tools import params
-    from gazelle.ros.tools.graph import GraphInspector
+    from gazelle_ros.tools import params
+    from gazelle_ros.tools.graph import GraphInspector
 
     with GraphInspector("reader", _graph()[0].uri) as graph:
         params.load_parameters(graph, str(path), "/given")
@@ -205,7 +206,7 @@ def controllers(path: Path) -> None:
 def joint_limits(path: Path) -> None:
     """Read limits of an arm's joints, and MoveIt's other parameters."""
     from gazelle.bridges.moveit.description import margins_of_parameters, robot_of_parameters
-    from gazelle.ros.launch.values import load_yaml
+    from gazelle_ros.launch.values import load_yaml
 
     _, node = _graph()
     node.set_param("/robot_description", formats.to_string(formats.load_model(ARM), "urdf"))
@@ -218,16 +219,16 @@ def navigation(path: Path) -> None:
     """Read parameters of navigation."""
     from gazelle.navigation.move_base import navigation_stack
     from gazelle.navigation.usual_parameters import USUAL, merged
-    from gazelle.ros.launch.values import load_yaml
+    from gazelle_ros.launch.values import load_yaml
 
     navigation_stack(merged(USUAL, load_yaml(read_text(path))))
 
 
 def bag(path: Path) -> None:
     """Describe, read and check a bag."""
-    from gazelle.ros.bags import Bag
-    from gazelle.ros.bags.info import describe
-    from gazelle.ros.bags.operations import check, fix_bag
+    from gazelle_ros.bags import Bag
+    from gazelle_ros.bags.info import describe
+    from gazelle_ros.bags.operations import check, fix_bag
 
     check(str(path))
     fix_bag(str(path), str(path.with_name("mutated_fixed.bag")), force=True)
@@ -364,8 +365,8 @@ def make_seeds(folder: Path) -> Iterator[Seed]:
 
 
 def _bag(folder: Path) -> Path:
-    from gazelle.ros import load_message
-    from gazelle.ros.bags import Bag
+    from gazelle_ros import load_message
+    from gazelle_ros.bags import Bag
 
     folder.mkdir()
     word, twist = load_message("std_msgs/String"), load_message("geometry_msgs/Twist")

@@ -8,7 +8,7 @@ import pytest
 
 from gazelle import FormatError, ResolveError, formats
 from gazelle.formats import Resolver
-from gazelle.ros.launch.packages import Packages
+from gazelle_ros.launch.packages import Packages
 
 
 def model(folder, name):

@@ -3,8 +3,9 @@
 import pytest
 from xml_samples import INERTIAL
 
-from gazelle import FormatError, bounded_yaml, formats
+from gazelle import FormatError, formats
 from gazelle.errors import FormatWarning
+from gazelle_ros.base import bounded_yaml
 
 NAMESPACE = "xmlns:xacro='http://www.ros.org/wiki/xacro'"
 

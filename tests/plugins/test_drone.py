@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from models import block, plugin, simulate
 
-from gazelle import ros
+import gazelle_ros as ros
 from gazelle.bridges.conversions import ConversionContext, encoder_of
 from gazelle.engines import Motion, Placement
 from gazelle.plugins.drone import Drone, FlightPhase

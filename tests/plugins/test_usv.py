@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from models import plugin, simulate
 
-from gazelle import ros
+import gazelle_ros as ros
 from gazelle.bridges import plugin_conversions  # noqa: F401  it teaches the messages
 from gazelle.bridges.conversions import decoder_of
 from gazelle.plugins.usv_thrust import ThrustCurve

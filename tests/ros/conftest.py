@@ -9,12 +9,12 @@ import sys
 
 import pytest
 
-import gazelle.ros.node as node_module
-from gazelle.ros import Master, Node, load_message
+import gazelle_ros.node as node_module
+from gazelle_ros import Master, Node, load_message
 
 FLOOD = """
 import sys, time
-from gazelle.ros import Node, load_message
+from gazelle_ros import Node, load_message
 node = Node("flood", master_uri=sys.argv[1])
 queue = None if sys.argv[2] == "None" else int(sys.argv[2])
 publisher = node.advertise("flood", load_message("std_msgs/String"), queue_size=queue)
@@ -76,7 +76,7 @@ def start(master, tmp_path):
     made = []
 
     def run(package, kind, *arguments):
-        command = [sys.executable, "-m", "gazelle.ros.builtin.start", package, kind, *arguments]
+        command = [sys.executable, "-m", "gazelle_ros.builtin.start", package, kind, *arguments]
         env = os.environ | {"ROS_MASTER_URI": master.uri}
         made.append(
             subprocess.Popen(command, env=env, cwd=tmp_path, stderr=subprocess.PIPE, text=True)

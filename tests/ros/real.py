@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from ports import free_port
 
-from gazelle.ros.errors import RosError
-from gazelle.ros.master.proxy import MasterProxy
+from gazelle_ros.errors import RosError
+from gazelle_ros.master.proxy import MasterProxy
 
 PYTHON = "/usr/bin/python3"
 INSTALLED = (

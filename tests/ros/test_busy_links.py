@@ -10,9 +10,9 @@ import time
 import pytest
 from ros.graph import Flag, Text, Word, until
 
-from gazelle.ros import loop as loops
-from gazelle.ros.errors import ServiceError, ServiceFailedError, ServiceNotFoundError
-from gazelle.ros.slave import SlaveApi
+from gazelle_ros import loop as loops
+from gazelle_ros.errors import ServiceError, ServiceFailedError, ServiceNotFoundError
+from gazelle_ros.slave import SlaveApi
 
 only_linux = pytest.mark.skipif(sys.platform != "linux", reason="only on Linux")
 

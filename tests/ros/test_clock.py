@@ -10,10 +10,10 @@ import time
 import pytest
 from ros.graph import until
 
-from gazelle.ros import Rate, SimulatedClock, Time, WallClock, load_message
-from gazelle.ros.clock import SECOND
-from gazelle.ros.clock_topic import follow_clock
-from gazelle.ros.errors import TimeMovedBackwardsError
+from gazelle_ros import Rate, SimulatedClock, Time, WallClock, load_message
+from gazelle_ros.clock import SECOND
+from gazelle_ros.clock_topic import follow_clock
+from gazelle_ros.errors import TimeMovedBackwardsError
 
 
 class Sleeper(threading.Thread):

@@ -13,10 +13,10 @@ import pytest
 from ports import free_port
 from ros.graph import Flag, Text, until
 
-from gazelle.ros import MasterProxy, Node
-from gazelle.ros.errors import RosError
+from gazelle_ros import MasterProxy, Node
+from gazelle_ros.errors import RosError
 
-MASTER = "import sys; from gazelle.ros import run_master; run_master('127.0.0.1', int(sys.argv[1]))"
+MASTER = "import sys; from gazelle_ros import run_master; run_master('127.0.0.1', int(sys.argv[1]))"
 
 
 def resident():

@@ -14,11 +14,11 @@ from types import SimpleNamespace
 import pytest
 from ros.graph import until
 
-import gazelle.ros
-from gazelle.ros import loop as loops
-from gazelle.ros import thread_pool
-from gazelle.ros.loop import READ, WRITE, EventLoop
-from gazelle.ros.serial_queue import SerialQueue
+import gazelle_ros
+from gazelle_ros import loop as loops
+from gazelle_ros import thread_pool
+from gazelle_ros.loop import READ, WRITE, EventLoop
+from gazelle_ros.serial_queue import SerialQueue
 
 
 @pytest.fixture
@@ -136,7 +136,7 @@ def test_no_module_closes_a_watched_socket_itself():
     """Who gives its sockets to the loop leaves closing to it; a blocking client has no loop."""
     found = [
         f"{path.name}:{node.lineno} {ast.unparse(node)}"
-        for path in Path(gazelle.ros.__file__).parent.rglob("*.py")
+        for path in Path(gazelle_ros.__file__).parent.rglob("*.py")
         for part in ast.parse(path.read_text(encoding="utf-8")).body
         if isinstance(part, ast.ClassDef) and "loop.watch(" in ast.unparse(part)
         for node in ast.walk(part)

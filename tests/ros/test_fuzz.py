@@ -11,12 +11,12 @@ import threading
 import pytest
 from ros.graph import Flag, Text, until
 
-from gazelle.ros import Master, MasterProxy
-from gazelle.ros.limits import NetworkLimits
-from gazelle.ros.net import split_uri
-from gazelle.ros.tcpros import headers
-from gazelle.ros.xmlrpc.http import request
-from gazelle.ros.xmlrpc.writing import write_call
+from gazelle_ros import Master, MasterProxy
+from gazelle_ros.limits import NetworkLimits
+from gazelle_ros.net import split_uri
+from gazelle_ros.tcpros import headers
+from gazelle_ros.xmlrpc.http import request
+from gazelle_ros.xmlrpc.writing import write_call
 
 ROUNDS = int(os.environ.get("GAZELLE_FUZZ_ROUNDS", "600"))
 """600 take a second or two; a release is checked with half a million."""
@@ -150,8 +150,8 @@ def test_a_publisher_that_lies_does_not_hurt_its_subscriber(master, make_node):
         def dispatch(method, params):
             return [1, "", ["TCPROS", "127.0.0.1", port]]
 
-        from gazelle.ros import loop
-        from gazelle.ros.xmlrpc.server import XmlRpcServer
+        from gazelle_ros import loop
+        from gazelle_ros.xmlrpc.server import XmlRpcServer
 
         running = loop.acquire()
         slave = XmlRpcServer(running, "127.0.0.1", 0, dispatch)

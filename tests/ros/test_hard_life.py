@@ -14,9 +14,9 @@ import pytest
 from ports import free_port
 from ros.graph import Flag, Text, Word, until
 
-from gazelle.ros import Master, MasterProxy, Node, RawMessage, SimulatedClock, thread_pool
-from gazelle.ros.clock import SECOND
-from gazelle.ros.errors import (
+from gazelle_ros import Master, MasterProxy, Node, RawMessage, SimulatedClock, thread_pool
+from gazelle_ros.clock import SECOND
+from gazelle_ros.errors import (
     MasterUnreachableError,
     Md5MismatchError,
     NodeClosedError,
@@ -25,7 +25,7 @@ from gazelle.ros.errors import (
     ServiceError,
     ServiceNotFoundError,
 )
-from gazelle.ros.tcpros import headers
+from gazelle_ros.tcpros import headers
 
 DESCRIPTORS = Path("/proc/self/fd")
 
@@ -359,7 +359,7 @@ def test_a_local_publisher_without_queue_waits_for_a_slow_subscriber(make_node):
 
 
 def test_statistics_tell_what_subscribers_measure(master, make_node, strangers):
-    from gazelle.ros import load_message
+    from gazelle_ros import load_message
 
     make_node("boss").set_param("/enable_statistics", True)
     make_node("boss2").set_param("/statistics_window_min_size", 0.2)

@@ -6,7 +6,7 @@ import socket
 
 import pytest
 
-from gazelle.ros import Master, MasterProxy, Node, net
+from gazelle_ros import Master, MasterProxy, Node, net
 
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "::", "0:0:0:0:0:0:0:0"])  # on purpose

@@ -11,8 +11,8 @@ from ports import free_port
 from ros import real
 from ros.graph import Flag, FlagResponse, Text, Word, until
 
-from gazelle.ros import Master, MasterProxy, Node
-from gazelle.ros.errors import ServiceFailedError
+from gazelle_ros import Master, MasterProxy, Node
+from gazelle_ros.errors import ServiceFailedError
 
 pytestmark = [pytest.mark.ros, real.needs_ros]
 
@@ -173,7 +173,7 @@ def test_rosnode_kill_ends_our_node(graph, node):
 
 def test_a_real_node_logs_through_our_rosout():
     with Master(port=0) as master, Node("ours", master_uri=master.uri) as node:
-        from gazelle.ros import load_message
+        from gazelle_ros import load_message
 
         got = []
         node.subscribe("/rosout_agg", load_message("rosgraph_msgs/Log"), got.append)

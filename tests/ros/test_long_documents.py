@@ -14,10 +14,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from ros.graph import until
 
-from gazelle.ros import MasterProxy
-from gazelle.ros.master.parameters import ParameterTree
-from gazelle.ros.xmlrpc.long_documents import LONG_BYTES, is_long
-from gazelle.ros.xmlrpc.writing import write_call, write_response
+from gazelle_ros import MasterProxy
+from gazelle_ros.master.parameters import ParameterTree
+from gazelle_ros.xmlrpc.long_documents import LONG_BYTES, is_long
+from gazelle_ros.xmlrpc.writing import write_call, write_response
 
 NUMBERS = list(range(60_000))
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.ros import names
-from gazelle.ros.errors import InvalidNameError
+from gazelle_ros import names
+from gazelle_ros.errors import InvalidNameError
 
 
 @pytest.mark.parametrize(

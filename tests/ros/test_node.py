@@ -8,9 +8,9 @@ import pytest
 from ports import free_port
 from ros.graph import Flag, Text, Word, until
 
-from gazelle.ros import Master, Node
-from gazelle.ros.errors import MasterUnreachableError, ServiceFailedError
-from gazelle.ros.raw import RawMessage
+from gazelle_ros import Master, Node
+from gazelle_ros.errors import MasterUnreachableError, ServiceFailedError
+from gazelle_ros.raw import RawMessage
 
 
 def test_a_message_reaches_a_subscriber_as_the_same_object(make_node):

@@ -7,8 +7,8 @@ import logging
 import pytest
 from ros.graph import until
 
-from gazelle.ros import Master, Node, load_message, load_service
-from gazelle.ros.peer_reports import PeerReports
+from gazelle_ros import Master, Node, load_message, load_service
+from gazelle_ros.peer_reports import PeerReports
 
 
 @pytest.fixture
@@ -31,7 +31,7 @@ def test_one_line_for_each_peer_and_no_traceback(lines):
 
 def test_what_was_not_told_is_counted(lines, monkeypatch):
     now = [0.0]
-    monkeypatch.setattr("gazelle.ros.peer_reports.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("gazelle_ros.peer_reports.time.monotonic", lambda: now[0])
     reports = PeerReports()
     for now[0] in (0.0, 1.0, 2.0, 11.0):
         reports.complain("a call", "/a", ValueError("bad"))

@@ -10,9 +10,9 @@ import time
 import pytest
 from ros.graph import until
 
-from gazelle.ros import loop as loops
-from gazelle.ros.limits import LIMITS
-from gazelle.ros.tcpros.service_links import ServiceConnection
+from gazelle_ros import loop as loops
+from gazelle_ros.limits import LIMITS
+from gazelle_ros.tcpros.service_links import ServiceConnection
 
 REQUEST = struct.pack("<I", 1) + b"x"
 

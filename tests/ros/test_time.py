@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.ros.time import Duration, Time, TVal
+from gazelle_ros.time import Duration, Time, TVal
 
 _DEBIAN = "/usr/lib/python3/dist-packages"
 NSEC = 10**9

@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.package_folders import package_folders
-from gazelle.ros.compat.rospkg.manifest import InvalidManifest, parse_manifest_file
-from gazelle.ros.errors import FaultError, MarshalError, ProtocolError
-from gazelle.ros.launch.document import parse_element
-from gazelle.ros.launch.errors import LaunchError
-from gazelle.ros.xmlrpc.http import MessageReader, request, response
-from gazelle.ros.xmlrpc.reading import read_call, read_response
-from gazelle.ros.xmlrpc.writing import write_call, write_fault, write_response
+from gazelle_ros.base.package_folders import package_folders
+from gazelle_ros.compat.rospkg.manifest import InvalidManifest, parse_manifest_file
+from gazelle_ros.errors import FaultError, MarshalError, ProtocolError
+from gazelle_ros.launch.document import parse_element
+from gazelle_ros.launch.errors import LaunchError
+from gazelle_ros.xmlrpc.http import MessageReader, request, response
+from gazelle_ros.xmlrpc.reading import read_call, read_response
+from gazelle_ros.xmlrpc.writing import write_call, write_fault, write_response
 
 # The standard library turns a lone carriage return into a line feed, as XML says.
 TEXTS = st.text(

@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 
 from gazelle.cli import evaluate, train
-from gazelle.cli.parsing import Parser
 from gazelle.errors import FormatError
 from gazelle.training import list_tasks, recipe_for
 from gazelle.training.claims import CLAIMS_FILE, Claim, Trial, published_claims, read_claims
+from gazelle_ros.cli.parsing import Parser
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 CLAIMS = published_claims().claims

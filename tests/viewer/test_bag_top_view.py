@@ -7,10 +7,10 @@ import pytest
 
 from gazelle.cli.main import main
 from gazelle.errors import RosError
-from gazelle.ros import Time, load_message
-from gazelle.ros.bags import Bag
 from gazelle.viewer.bag_top_view import BagTopView, bag_source
 from gazelle.viewer.sources import BagSource, pictures_of
+from gazelle_ros import Time, load_message
+from gazelle_ros.bags import Bag
 
 SIZE = (200, 150)
 RED, BLUE, GREEN, BLACK = (206, 62, 52), (55, 110, 175), (40, 140, 70), (60, 60, 66)

@@ -9,11 +9,11 @@ pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
 from PIL import Image as Pictures
 
-from gazelle.ros import Master, Node, Time, WallClock, load_message
-from gazelle.ros.tf import take_transforms
 from gazelle.viewer.graph import GraphView
 from gazelle.viewer.graph.drawing import points_of, rainbow
 from gazelle.viewer.graph.motions import motion_of, robot_of
+from gazelle_ros import Master, Node, Time, WallClock, load_message
+from gazelle_ros.tf import take_transforms
 from tests.ros.graph import until
 
 BODY = '<visual><geometry><box size="1 1 1"/></geometry></visual><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'

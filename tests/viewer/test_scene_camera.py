@@ -10,13 +10,13 @@ from gazelle import assets, formats
 from gazelle.cli.main import main
 from gazelle.errors import Error, RosError
 from gazelle.rendering import PinholeLens
-from gazelle.ros import load_message
-from gazelle.ros.bags import Bag
 from gazelle.sensors import look_at
 from gazelle.simulation import Simulation
 from gazelle.viewer import SceneCamera, film
 from gazelle.viewer.scene_camera import distance_to_see
 from gazelle.viewer.sources import BagSource, RecordingSource, picture_of, pictures_of
+from gazelle_ros import load_message
+from gazelle_ros.bags import Bag
 
 side = st.floats(0.01, 50.0)
 away = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(0.1, 1))
@@ -118,7 +118,7 @@ def test_a_recording_is_filmed_in_steps_finer_than_it_was_made(tmp_path):
 def bag(tmp_path):
     """Return ten red images a second, brighter and brighter, beside another topic."""
     image, text = load_message("sensor_msgs/Image"), load_message("std_msgs/String")
-    from gazelle.ros import Time
+    from gazelle_ros import Time
 
     with Bag(str(tmp_path / "drive.bag"), "w") as written:
         for number in range(11):

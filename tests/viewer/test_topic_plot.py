@@ -6,9 +6,9 @@ import pytest
 from PIL import Image
 
 from gazelle.errors import FormatError
-from gazelle.ros import Master, Node
 from gazelle.training.deploy.messages import floats_message
 from gazelle.viewer.graph.topic_plot import TopicPlot
+from gazelle_ros import Master, Node
 
 
 @pytest.fixture

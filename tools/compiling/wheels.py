@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -43,7 +44,9 @@ def main() -> None:
         parser.error(f"{', '.join(unknown)}: the targets are {', '.join(TARGETS)}")
     folder = options.folder.resolve()
     folder.mkdir(exist_ok=True)
-    source = _made(folder, "*.tar.gz", "--sdist", str(ROOT))
+    source = _made(folder, "gazelle-*.tar.gz", "--sdist", str(ROOT))
+    shutil.rmtree(ROOT / "packages" / "gazelle-ros" / "build", ignore_errors=True)
+    ros = _made(folder, "gazelle_ros-*.whl", "--wheel", str(ROOT / "packages" / "gazelle-ros"))
     with tempfile.TemporaryDirectory() as place:
         with tarfile.open(source) as archive:
             archive.extractall(place, filter="data")
@@ -53,7 +56,7 @@ def main() -> None:
         for wheel in wheels:
             wheel_checks.check(wheel, [str(ROOT), place])
     subprocess.run(
-        [sys.executable, "-m", "twine", "check", "--strict", source, *wheels], check=True
+        [sys.executable, "-m", "twine", "check", "--strict", source, ros, *wheels], check=True
     )
 
 
@@ -68,17 +71,17 @@ def _share_what_is_compiled(tree: Path) -> None:
 
 def _wheel(folder: Path, tree: Path, target: str) -> Path:
     platform = f"--config-setting=--build-option=--plat-name={TARGETS[target]}"
-    ending = f"*-{TARGETS[target]}.whl"
+    ending = f"gazelle-*-{TARGETS[target]}.whl"
     return _made(folder, ending, "--wheel", platform, str(tree), GAZELLE_TARGET=target)
 
 
 def _made(folder: Path, ending: str, *words: str, **environment: str) -> Path:
     """Run ``build``, and return what it has written to a folder."""
-    for old in folder.glob(f"gazelle-{ending}"):
+    for old in folder.glob(ending):
         old.unlink()
     command = [sys.executable, "-m", "build", "--no-isolation", "--outdir", str(folder), *words]
     subprocess.run(command, env=os.environ | environment, check=True)
-    (made,) = folder.glob(f"gazelle-{ending}")
+    (made,) = folder.glob(ending)
     return made
 
 

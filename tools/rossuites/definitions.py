@@ -6,8 +6,8 @@ from collections.abc import Container
 from pathlib import Path
 from typing import Any
 
-from gazelle.ros import load_message, load_service
-from gazelle.ros.messages import definitions
+from gazelle_ros import load_message, load_service
+from gazelle_ros.messages import definitions
 
 _RULE = "=" * 80
 

@@ -22,12 +22,12 @@ from gazelle.control.values import (
     TrajectoryResult,
 )
 from gazelle.errors import ControlError, RosError
-from gazelle.ros import load_message
-from gazelle.ros.actions import ActionServer, GoalStatus, ServerGoalHandle
-from gazelle.ros.errors import NodeClosedError
-from gazelle.ros.messages import Message
-from gazelle.ros.msgs import control_msgs
-from gazelle.ros.serial_queue import SerialQueue
+from gazelle_ros import load_message
+from gazelle_ros.actions import ActionServer, GoalStatus, ServerGoalHandle
+from gazelle_ros.errors import NodeClosedError
+from gazelle_ros.messages import Message
+from gazelle_ros.msgs import control_msgs
+from gazelle_ros.serial_queue import SerialQueue
 
 Fill = Callable[[Any, Any, ConversionContext], None]
 
@@ -94,7 +94,7 @@ def codec_of(kind: type[Any]) -> ActionCodec:
     if found is None:
         raise RosError(
             f"goals of kind '{kind.__name__}' cannot be sent over ROS",
-            hint="take the goal's class of gazelle.ros.load_message",
+            hint="take the goal's class of gazelle_ros.load_message",
         )
     return found
 

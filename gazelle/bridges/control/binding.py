@@ -28,8 +28,8 @@ from gazelle.control import (
 )
 from gazelle.control.values import TrajectoryAnswer, TrajectoryQuery
 from gazelle.errors import ControlError, ControlWarning, RosError
-from gazelle.ros import load_message, load_service
-from gazelle.ros.errors import ServiceError
+from gazelle_ros import load_message, load_service
+from gazelle_ros.errors import ServiceError
 
 
 class ManagerBinding:

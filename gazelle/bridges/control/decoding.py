@@ -23,8 +23,8 @@ from gazelle.control.values import (
     TrajectoryGoal,
     TrajectoryPoint,
 )
-from gazelle.ros.msgs import control_msgs, four_wheel_steering_msgs, geometry_msgs, trajectory_msgs
-from gazelle.ros.time import Time
+from gazelle_ros.msgs import control_msgs, four_wheel_steering_msgs, geometry_msgs, trajectory_msgs
+from gazelle_ros.time import Time
 
 Read = Callable[[Any, TimedGraph], Any]
 """Makes a value of a message."""

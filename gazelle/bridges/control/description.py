@@ -6,7 +6,7 @@ import warnings
 
 from gazelle.description import Model
 from gazelle.errors import ControlWarning, Error
-from gazelle.ros import Node
+from gazelle_ros import Node
 
 _PARAMETER = "robot_description"
 

@@ -22,15 +22,15 @@ from gazelle.control.values import (
     StampedWrench,
     TrajectoryState,
 )
-from gazelle.ros.messages import Message
-from gazelle.ros.msgs import (
+from gazelle_ros.messages import Message
+from gazelle_ros.msgs import (
     control_msgs,
     four_wheel_steering_msgs,
     geometry_msgs,
     sensor_msgs,
     trajectory_msgs,
 )
-from gazelle.ros.time import Duration
+from gazelle_ros.time import Duration
 
 
 def trajectory_state(

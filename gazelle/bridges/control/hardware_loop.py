@@ -9,12 +9,12 @@ from collections.abc import Callable
 from typing import Any
 
 from gazelle.bridges.control.binding import ManagerBinding
-from gazelle.closing import Closeable
 from gazelle.control import ControllerManager
 from gazelle.errors import ControlError, ControlWarning, Error
-from gazelle.ros import Node, Time
-from gazelle.ros.clock import SECOND
-from gazelle.ros.errors import NodeClosedError, TimeMovedBackwardsError
+from gazelle_ros import Node, Time
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.clock import SECOND
+from gazelle_ros.errors import NodeClosedError, TimeMovedBackwardsError
 
 
 class LiveGraph:

@@ -18,13 +18,13 @@ from gazelle.bridges.conversions import point
 from gazelle.errors import ControlError, Error
 from gazelle.kinematics import RobotModel
 from gazelle.kinematics.pointing import Pointing
-from gazelle.ros.actions import SimpleActionServer
-from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.msgs import control_msgs, geometry_msgs, tf2_msgs, trajectory_msgs
-from gazelle.ros.node import Node
-from gazelle.ros.tf import FrameTree, TransformException, take_transforms
-from gazelle.ros.time import Duration
 from gazelle.rotations import rotate
+from gazelle_ros.actions import SimpleActionServer
+from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.msgs import control_msgs, geometry_msgs, tf2_msgs, trajectory_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.tf import FrameTree, TransformException, take_transforms
+from gazelle_ros.time import Duration
 
 _PATIENCE_S = 10.0  # for the controller's first words
 _GRACE_S = 3.0  # after the time that a motion is to take

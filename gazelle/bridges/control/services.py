@@ -17,8 +17,8 @@ from gazelle.control import (
     cpp_name,
 )
 from gazelle.errors import ControlError
-from gazelle.ros import Node, load_service
-from gazelle.ros.msgs import controller_manager_msgs
+from gazelle_ros import Node, load_service
+from gazelle_ros.msgs import controller_manager_msgs
 
 LOG = logging.getLogger("gazelle.control")
 _LOOK_S = 0.005

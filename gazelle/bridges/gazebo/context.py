@@ -6,8 +6,8 @@ from typing import Any
 
 from gazelle.bridges.gazebo.entities import Entities
 from gazelle.bridges.graph import Graph
-from gazelle.ros import Node, load_service
 from gazelle.simulation import Simulation
+from gazelle_ros import Node, load_service
 
 
 class GazeboContext(Graph):

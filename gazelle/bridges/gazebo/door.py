@@ -18,15 +18,15 @@ from gazelle.bridges.gazebo.models import ModelServices
 from gazelle.bridges.gazebo.reconfigure import PhysicsReconfigure
 from gazelle.bridges.gazebo.states import ClockPublisher, PerformancePublisher, StatesPublisher
 from gazelle.bridges.gazebo.world import WorldServices
-from gazelle.closing import Closeable
 from gazelle.control import ControllerManager
 from gazelle.errors import ControlWarning, RosError
-from gazelle.ros import Node, load_message, load_service
-from gazelle.ros.loggers import serve_loggers
-from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Ports, Robot, Simulation
 from gazelle.simulation.inputs import one_world
 from gazelle.simulation.scheduled_plugin import make_scheduled
+from gazelle_ros import Node, load_message, load_service
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.loggers import serve_loggers
+from gazelle_ros.rosout_log import report_on_rosout
 
 _MOVES = {
     *("spawn_sdf_model", "spawn_urdf_model", "set_model_state", "set_link_state"),

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.errors import Error
-from gazelle.ros.msgs import gazebo_msgs
 from gazelle.simulation import JointHandle
+from gazelle_ros.msgs import gazebo_msgs
 
 
 class JointServices:

@@ -8,7 +8,7 @@ from gazelle.bridges.conversions import point, quaternion
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.description import Light, Pose
-from gazelle.ros.msgs import gazebo_msgs, std_msgs
+from gazelle_ros.msgs import gazebo_msgs, std_msgs
 
 
 class LightServices:

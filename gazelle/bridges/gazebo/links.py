@@ -12,10 +12,10 @@ from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.gazebo.entities import State, is_world
 from gazelle.bridges.gazebo.models import read_state
 from gazelle.errors import Error
-from gazelle.ros.msgs import gazebo_msgs
-from gazelle.ros.time import Duration
 from gazelle.rotations import cross, rotate
 from gazelle.simulation import LinkHandle
+from gazelle_ros.msgs import gazebo_msgs
+from gazelle_ros.time import Duration
 
 _UNSCOPED = "link not found, did you forget to scope the link by model name?"
 

@@ -25,9 +25,9 @@ from gazelle.bridges.gazebo.spawning import (
 )
 from gazelle.description import Light, Model, Pose
 from gazelle.errors import EngineError, Error
-from gazelle.ros.errors import ServiceError
-from gazelle.ros.msgs import gazebo_msgs, geometry_msgs
 from gazelle.simulation import Robot
+from gazelle_ros.errors import ServiceError
+from gazelle_ros.msgs import gazebo_msgs, geometry_msgs
 
 _NO_FRAME = "reference reference_frame not found, did you forget to scope the link by model name?"
 

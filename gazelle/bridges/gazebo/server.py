@@ -12,12 +12,12 @@ from pathlib import Path
 
 from gazelle import assets
 from gazelle.bridges.serving import RosDoor, refuse_twin
-from gazelle.bundled_packages import published, published_hint
 from gazelle.errors import ResolveError, SimulationWarning
-from gazelle.interrupts import stopping
-from gazelle.ros import names
-from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.simulation import Simulation
+from gazelle_ros import names
+from gazelle_ros.base.bundled_packages import published, published_hint
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import parse_arguments
 
 # Options that change nothing here, with a value and without.
 _PASSED_OVER = ("-g", "--gui-plugin", "-o", "--profile")

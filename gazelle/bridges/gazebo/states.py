@@ -13,8 +13,8 @@ from gazelle.array_types import Worlds
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.outbox import Outbox
 from gazelle.engines import Motion, Placement
-from gazelle.ros.msgs import gazebo_msgs, rosgraph_msgs
 from gazelle.simulation import BasePlugin, LinkHandle, Robot
+from gazelle_ros.msgs import gazebo_msgs, rosgraph_msgs
 
 # How often the performance is published, in simulated time [Hz].
 _PERFORMANCE_RATE = 5.0

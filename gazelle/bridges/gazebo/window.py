@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from gazelle.ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.builtin.arguments import parse_arguments, spin
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -10,8 +10,8 @@ from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.pacing import ACCEPTED, read_factor
 from gazelle.errors import Error
-from gazelle.ros.msgs import gazebo_msgs, gazelle_msgs, std_srvs
 from gazelle.simulation.physics import PhysicsProperties
+from gazelle_ros.msgs import gazebo_msgs, gazelle_msgs, std_srvs
 
 _MOST_STEPS = 10_000_000
 

@@ -6,7 +6,7 @@ import warnings
 from typing import Any
 
 from gazelle.errors import PlanningWarning, did_you_mean
-from gazelle.ros.node import Node
+from gazelle_ros.node import Node
 
 CAPABILITIES = {
     "ApplyPlanningSceneService": ("apply_planning_scene",),

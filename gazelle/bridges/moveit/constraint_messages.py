@@ -15,7 +15,7 @@ from gazelle.planning import (
     PositionConstraint,
 )
 from gazelle.planning.constraints import Region
-from gazelle.ros.msgs import moveit_msgs, shape_msgs
+from gazelle_ros.msgs import moveit_msgs, shape_msgs
 
 _BOX, _SPHERE, _CYLINDER = 1, 2, 3
 _ROTATION_VECTOR = 1

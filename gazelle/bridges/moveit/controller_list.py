@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.errors import PlanningError, RosError
-from gazelle.ros.msgs import controller_manager_msgs
-from gazelle.ros.node import Node
+from gazelle_ros.msgs import controller_manager_msgs
+from gazelle_ros.node import Node
 
 _LOG = logging.getLogger("gazelle.planning")
 TRAJECTORY, GRIPPER = "FollowJointTrajectory", "GripperCommand"

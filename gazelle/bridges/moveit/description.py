@@ -10,7 +10,7 @@ from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.formats import load_model_string, load_srdf_string
 from gazelle.kinematics import JointBounds, RobotModel
 from gazelle.real_numbers import real
-from gazelle.ros.node import Node
+from gazelle_ros.node import Node
 
 DESCRIPTION = "robot_description"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.msgs import moveit_msgs
 
 
 class Coded(Protocol):

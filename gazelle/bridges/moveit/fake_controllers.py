@@ -12,8 +12,8 @@ from gazelle.array_types import Floats
 from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanOutcome
-from gazelle.ros.msgs import sensor_msgs, trajectory_msgs
-from gazelle.ros.time import Time
+from gazelle_ros.msgs import sensor_msgs, trajectory_msgs
+from gazelle_ros.time import Time
 
 _RATE = 10.0
 _LOOK_S = 0.002

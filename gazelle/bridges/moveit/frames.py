@@ -9,10 +9,10 @@ from gazelle.bridges.conversions import point, quaternion, set_pose
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanningScene, PlanOutcome
-from gazelle.ros.msgs import geometry_msgs, tf2_msgs
-from gazelle.ros.node import Node
-from gazelle.ros.tf import FrameTree, TransformException, take_transforms
-from gazelle.ros.time import Time
+from gazelle_ros.msgs import geometry_msgs, tf2_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.tf import FrameTree, TransformException, take_transforms
+from gazelle_ros.time import Time
 
 
 class PlanningFrames:

@@ -18,7 +18,7 @@ from gazelle.planning import (
     PlaceLocation,
     PlanOutcome,
 )
-from gazelle.ros.msgs import moveit_msgs, trajectory_msgs
+from gazelle_ros.msgs import moveit_msgs, trajectory_msgs
 
 
 class GraspReader:

@@ -7,7 +7,7 @@ from gazelle.bridges.moveit.frames import PlanningFrames
 from gazelle.bridges.moveit.object_messages import object_of_message
 from gazelle.errors import Error, PlanningError
 from gazelle.planning import OCTOMAP, AttachedObject, NoPlanError, PlanningScene, PlanOutcome
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.msgs import moveit_msgs
 
 _REMOVE = 1
 

@@ -23,8 +23,8 @@ from gazelle.planning import (
 )
 from gazelle.planning.goal_states import GoalStates
 from gazelle.planning.state_validity import StateValidity
-from gazelle.ros.msgs import geometry_msgs, moveit_msgs
-from gazelle.ros.time import Time
+from gazelle_ros.msgs import geometry_msgs, moveit_msgs
+from gazelle_ros.time import Time
 
 _LINK, _OBJECT, _ATTACHED = 0, 1, 2
 _EXACT = (1e-5, 1e-5)

@@ -14,8 +14,8 @@ from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
 from gazelle.bridges.moveit.trajectory_messages import trajectory_message
 from gazelle.errors import PlanningError
 from gazelle.planning import MotionPlan, NoPlanError, PlanOutcome
-from gazelle.ros.actions import SimpleActionServer
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.actions import SimpleActionServer
+from gazelle_ros.msgs import moveit_msgs
 
 if TYPE_CHECKING:
     from gazelle.bridges.moveit.error_codes import ActionResult

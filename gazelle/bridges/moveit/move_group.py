@@ -14,8 +14,8 @@ from gazelle.bridges.moveit.planning_context import PlanningContext
 from gazelle.bridges.moveit.planning_services import PlanningServices
 from gazelle.bridges.moveit.scene_services import SceneServices
 from gazelle.bridges.moveit.trajectory_execution import TrajectoryExecutor
-from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.node import Node
+from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.node import Node
 
 
 def main(arguments: Sequence[str]) -> int:

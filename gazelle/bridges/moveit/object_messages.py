@@ -16,7 +16,7 @@ from gazelle.errors import PlanningError
 from gazelle.formats import MeshData
 from gazelle.planning import SceneObject
 from gazelle.planning.scene_objects import object_of
-from gazelle.ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
+from gazelle_ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
 
 _T = TypeVar("_T")
 _BOX, _SPHERE, _CYLINDER, _CONE = 1, 2, 3, 4

@@ -8,7 +8,7 @@ from gazelle.bridges.moveit.frames import pose_message, pose_of_message
 from gazelle.description import Pose
 from gazelle.formats import Octree
 from gazelle.planning import OCTOMAP, PlanningScene, SceneObject, octree_object
-from gazelle.ros.msgs import octomap_msgs
+from gazelle_ros.msgs import octomap_msgs
 
 
 def octomap_of_message(

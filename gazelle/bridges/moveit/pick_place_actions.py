@@ -25,8 +25,8 @@ from gazelle.planning import (
     PlanOptions,
     PlanOutcome,
 )
-from gazelle.ros.actions import SimpleActionServer
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.actions import SimpleActionServer
+from gazelle_ros.msgs import moveit_msgs
 
 _GoalT = TypeVar("_GoalT", "moveit_msgs.msg.PickupGoal", "moveit_msgs.msg.PlaceGoal")
 _ResultT = TypeVar("_ResultT", "moveit_msgs.msg.PickupResult", "moveit_msgs.msg.PlaceResult")

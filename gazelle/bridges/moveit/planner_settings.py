@@ -10,7 +10,7 @@ from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.planning.planner_names import BOUND, planner_of
 from gazelle.planning.state_validity import LONGEST_SEGMENT
 from gazelle.real_numbers import real
-from gazelle.ros.node import Node
+from gazelle_ros.node import Node
 
 PIPELINE = "ompl"
 

@@ -18,9 +18,9 @@ from gazelle.bridges.moveit.robot_states import JointStateMonitor, state_of_mess
 from gazelle.errors import Error, PlanningError
 from gazelle.kinematics import JointModelGroup, RobotModel
 from gazelle.planning import ConstraintSet, NoPlanError, PlanningScene, PlanOutcome
-from gazelle.ros.messages import ServiceDefinition
-from gazelle.ros.msgs import moveit_msgs
-from gazelle.ros.node import Node
+from gazelle_ros.messages import ServiceDefinition
+from gazelle_ros.msgs import moveit_msgs
+from gazelle_ros.node import Node
 
 LOG = logging.getLogger("gazelle.planning")
 

@@ -25,8 +25,8 @@ from gazelle.planning import (
     PlanOptions,
     PlanOutcome,
 )
-from gazelle.ros.messages import load_service
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.messages import load_service
+from gazelle_ros.msgs import moveit_msgs
 
 _TIME = 1.0
 """To plan, where a request gives none, as in MoveIt [s]."""

@@ -9,9 +9,9 @@ import time
 from gazelle.array_types import Floats
 from gazelle.kinematics import RobotModel
 from gazelle.planning import NoPlanError, PlanOutcome
-from gazelle.ros.msgs import moveit_msgs, sensor_msgs
-from gazelle.ros.node import Node
-from gazelle.ros.time import Time
+from gazelle_ros.msgs import moveit_msgs, sensor_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.time import Time
 
 _REGULAR_S = 0.5
 """Between messages that come regularly, at most."""

@@ -8,7 +8,7 @@ from gazelle.bridges.moveit.object_messages import object_message
 from gazelle.bridges.moveit.octomap_messages import octomap_message
 from gazelle.bridges.moveit.robot_states import state_message
 from gazelle.planning import OCTOMAP, AllowedCollisionMatrix, PlanningScene
-from gazelle.ros.msgs import moveit_msgs, std_msgs
+from gazelle_ros.msgs import moveit_msgs, std_msgs
 
 STATE, ATTACHED, NAMES, GEOMETRY, MAP, ALLOWED, PADDING, COLORS = 2, 4, 8, 16, 32, 128, 256, 512
 """Of ``moveit_msgs/PlanningSceneComponents``."""

@@ -15,8 +15,8 @@ from gazelle.bridges.moveit.planning_context import LOG, PlanningContext
 from gazelle.bridges.moveit.scene_messages import matrix_of_message, scene_message
 from gazelle.errors import Error, PlanningError
 from gazelle.planning import OCTOMAP, NoPlanError, PlanOutcome
-from gazelle.ros.messages import Message
-from gazelle.ros.msgs import moveit_msgs, octomap_msgs, std_msgs, std_srvs
+from gazelle_ros.messages import Message
+from gazelle_ros.msgs import moveit_msgs, octomap_msgs, std_msgs, std_srvs
 
 _ALL = 1023
 _ADD, _REMOVE, _APPEND, _MOVE = 0, 1, 2, 3

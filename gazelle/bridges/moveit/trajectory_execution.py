@@ -22,10 +22,10 @@ from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanOutcome
 from gazelle.planning.execution import DURATION_MARGIN, DURATION_SCALING, choose_controllers
 from gazelle.planning.group import START_TOLERANCE
-from gazelle.ros.actions import GoalStatus, SimpleActionClient
-from gazelle.ros.errors import NodeClosedError
-from gazelle.ros.messages import load_message
-from gazelle.ros.msgs import control_msgs, moveit_msgs, std_msgs, trajectory_msgs
+from gazelle_ros.actions import GoalStatus, SimpleActionClient
+from gazelle_ros.errors import NodeClosedError
+from gazelle_ros.messages import load_message
+from gazelle_ros.msgs import control_msgs, moveit_msgs, std_msgs, trajectory_msgs
 
 _LOOK_S = 0.01
 _SERVER_S = 5.0

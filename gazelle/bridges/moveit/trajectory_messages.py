@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from gazelle.planning import MotionPlan, TimedPath
-from gazelle.ros.msgs import moveit_msgs, trajectory_msgs
-from gazelle.ros.time import Duration
+from gazelle_ros.msgs import moveit_msgs, trajectory_msgs
+from gazelle_ros.time import Duration
 
 
 def trajectory_message(plan: MotionPlan, frame: str) -> moveit_msgs.msg.RobotTrajectory:

@@ -21,7 +21,6 @@ from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import Error
-from gazelle.interrupts import stopping
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.localization import AmclSettings, Localizer, PlanarScan
@@ -29,12 +28,13 @@ from gazelle.navigation.localization.odometry_models import MODELS
 from gazelle.navigation.localization.settings import LASER_MODELS
 from gazelle.navigation.planners.planar import between, composed
 from gazelle.real_numbers import finite
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_srvs
-from gazelle.ros.node import Node
-from gazelle.ros.tf import StampedTransform
-from gazelle.ros.time import Time
 from gazelle.simulation import Tunable
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_srvs
+from gazelle_ros.node import Node
+from gazelle_ros.tf import StampedTransform
+from gazelle_ros.time import Time
 
 SECOND = 1_000_000_000
 _LOOK_S = 0.2

@@ -17,10 +17,10 @@ from gazelle.navigation.costmap.footprint import footprint_of, placed
 from gazelle.navigation.costmap.parameters import SensorTopic
 from gazelle.navigation.costmap.values import Window, shown
 from gazelle.navigation.following import Pose2
-from gazelle.ros.messages import load_message
-from gazelle.ros.msgs import geometry_msgs, map_msgs, nav_msgs, sensor_msgs
-from gazelle.ros.node import Node
-from gazelle.ros.time import Time
+from gazelle_ros.messages import load_message
+from gazelle_ros.msgs import geometry_msgs, map_msgs, nav_msgs, sensor_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.time import Time
 
 if TYPE_CHECKING:
     Cloud = sensor_msgs.msg.PointCloud | sensor_msgs.msg.PointCloud2

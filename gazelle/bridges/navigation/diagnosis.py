@@ -7,8 +7,8 @@ import warnings
 from collections.abc import Callable
 
 from gazelle.errors import GazelleWarning
-from gazelle.ros.clock import SimulatedClock
-from gazelle.ros.node import Node
+from gazelle_ros.clock import SimulatedClock
+from gazelle_ros.node import Node
 
 _PATIENCE_S = 5.0
 """Of wall time; a graph that begins has all of it by then, or says why not."""

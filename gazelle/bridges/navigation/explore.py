@@ -14,17 +14,17 @@ from gazelle.array_types import Bytes
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames
 from gazelle.bridges.navigation.messages import stamped
-from gazelle.interrupts import stopping
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.costmap.values import LETHAL, NO_INFORMATION
 from gazelle.navigation.exploration import Explorer, ExploreSettings, Place
 from gazelle.navigation.frontiers import Frontier, find_frontiers
-from gazelle.ros.actions import GoalStatus, SimpleActionClient
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.clock import Rate
-from gazelle.ros.msgs import geometry_msgs, map_msgs, move_base_msgs, nav_msgs, visualization_msgs
-from gazelle.ros.node import Node
-from gazelle.ros.time import Time
+from gazelle_ros.actions import GoalStatus, SimpleActionClient
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.clock import Rate
+from gazelle_ros.msgs import geometry_msgs, map_msgs, move_base_msgs, nav_msgs, visualization_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.time import Time
 
 SECOND = 1_000_000_000
 _LOG = logging.getLogger(__name__)

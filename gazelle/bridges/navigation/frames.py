@@ -6,11 +6,11 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.navigation.following import Pose2
-from gazelle.ros.msgs import geometry_msgs, tf2_msgs
-from gazelle.ros.node import Node
-from gazelle.ros.tf import FrameTree, StampedTransform, TransformException, take_transforms
-from gazelle.ros.time import Time
 from gazelle.rotations import from_yaw, rotate, yaw_of
+from gazelle_ros.msgs import geometry_msgs, tf2_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.tf import FrameTree, StampedTransform, TransformException, take_transforms
+from gazelle_ros.time import Time
 
 _BACK_NS = 1_000_000_000
 """A jump back that is longer than this begins time again [ns]."""

@@ -11,16 +11,16 @@ from gazelle.array_types import Floats
 from gazelle.bridges.navigation.frames import flat
 from gazelle.bridges.navigation.mapping_node import MappingNode
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.interrupts import stopping
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.hector import HectorSettings, HectorSlam
 from gazelle.navigation.planners.planar import composed, inverse
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.msgs import geometry_msgs, sensor_msgs, std_msgs, std_srvs
-from gazelle.ros.node import Node
-from gazelle.ros.time import Time
 from gazelle.rotations import from_yaw, yaw_of
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.msgs import geometry_msgs, sensor_msgs, std_msgs, std_srvs
+from gazelle_ros.node import Node
+from gazelle_ros.time import Time
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -10,13 +10,13 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.bridges.navigation.mapping_node import MappingNode
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.interrupts import stopping
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.karto import KartoSettings, KartoSlam
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.msgs import sensor_msgs
-from gazelle.ros.node import Node
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.msgs import sensor_msgs
+from gazelle_ros.node import Node
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -7,8 +7,8 @@ import numpy as np
 from gazelle.description import Pose
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import RosError
-from gazelle.ros.msgs import nav_msgs
-from gazelle.ros.time import Time
+from gazelle_ros.msgs import nav_msgs
+from gazelle_ros.time import Time
 
 
 def grid_message(grid: OccupancyMap, frame: str, now: int) -> nav_msgs.msg.OccupancyGrid:

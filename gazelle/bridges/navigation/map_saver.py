@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.errors import RosError
 from gazelle.formats.occupancy_writing import save_map
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.msgs import nav_msgs
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.msgs import nav_msgs
 
 
 def main(arguments: Sequence[str]) -> int:

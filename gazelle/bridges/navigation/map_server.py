@@ -12,9 +12,9 @@ from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import Error, FormatError, ResolveError, RosError
 from gazelle.formats.occupancy import MapSettings, cells, load_map
 from gazelle.formats.picture import read_picture
-from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.msgs import nav_msgs
-from gazelle.ros.node import Node
+from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.msgs import nav_msgs
+from gazelle_ros.node import Node
 
 _USAGE = "map_server MAP.yaml"
 _LIMITS = 0.65, 0.196

@@ -18,9 +18,9 @@ from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
-from gazelle.ros.msgs import nav_msgs, sensor_msgs
-from gazelle.ros.node import Node
-from gazelle.ros.tf import StampedTransform
+from gazelle_ros.msgs import nav_msgs, sensor_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.tf import StampedTransform
 
 SECOND = 1_000_000_000
 

@@ -9,8 +9,8 @@ from collections.abc import Callable
 from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import RosError
-from gazelle.ros.msgs import nav_msgs
-from gazelle.ros.node import Node
+from gazelle_ros.msgs import nav_msgs
+from gazelle_ros.node import Node
 
 _AGAIN_S = 0.5
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.navigation.following import Pose2
-from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
-from gazelle.ros.time import Time
 from gazelle.rotations import from_yaw, yaw_of
+from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
+from gazelle_ros.time import Time
 
 _LEAST_LENGTH = 1e-6
 
@@ -93,7 +93,7 @@ def cloud_points(message: sensor_msgs.msg.PointCloud | sensor_msgs.msg.PointClou
     if hasattr(message, "points"):
         rows = [(each.x, each.y, each.z) for each in message.points]
     else:
-        from gazelle.ros.compat.sensor_msgs.point_cloud2 import read_points
+        from gazelle_ros.compat.sensor_msgs.point_cloud2 import read_points
 
         rows = list(read_points(message, ("x", "y", "z"), skip_nans=True))
     points = np.array(rows, np.float64).reshape(-1, 3)

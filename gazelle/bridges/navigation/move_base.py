@@ -18,18 +18,18 @@ from gazelle.bridges.navigation.messages import (
     twist_message,
     wrong_quaternion,
 )
-from gazelle.interrupts import stopping
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.move_base import GoalOutcome, RobotState, navigation_stack
 from gazelle.navigation.move_base.state_machine import MoveStep
 from gazelle.navigation.planners.planar import composed
 from gazelle.navigation.planners.plugins import STOP, Velocity
-from gazelle.ros.actions import SimpleActionServer
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.clock import Rate
-from gazelle.ros.msgs import geometry_msgs, move_base_msgs, nav_msgs, std_srvs
-from gazelle.ros.node import Node
-from gazelle.ros.time import Time
+from gazelle_ros.actions import SimpleActionServer
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.clock import Rate
+from gazelle_ros.msgs import geometry_msgs, move_base_msgs, nav_msgs, std_srvs
+from gazelle_ros.node import Node
+from gazelle_ros.time import Time
 
 SECOND = 1_000_000_000
 

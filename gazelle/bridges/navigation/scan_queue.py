@@ -7,8 +7,8 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from gazelle.ros.msgs import sensor_msgs
-from gazelle.ros.node import Node
+from gazelle_ros.msgs import sensor_msgs
+from gazelle_ros.node import Node
 
 _LOOK_S = 0.2
 _KEPT = 100

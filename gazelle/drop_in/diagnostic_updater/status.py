@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.ros.msgs import diagnostic_msgs
+from gazelle_ros.msgs import diagnostic_msgs
 
 DiagnosticArray = diagnostic_msgs.msg.DiagnosticArray
 DiagnosticStatus = diagnostic_msgs.msg.DiagnosticStatus

@@ -13,7 +13,7 @@ from gazelle.drop_in.diagnostic_updater.status import (
     DiagnosticArray,
     DiagnosticStatusWrapper,
 )
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 _LOOK_S = 0.25  # between two looks at ~diagnostic_period
 

@@ -12,8 +12,8 @@ from typing import Any
 import gymnasium
 from gymnasium.spaces import Dict, Space
 
-from gazelle.closing import Closeable
 from gazelle.drop_in.gym.error import Error
+from gazelle_ros.base.closing import Closeable
 
 __all__ = [
     "ActionWrapper",

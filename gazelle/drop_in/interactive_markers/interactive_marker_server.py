@@ -8,8 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import geometry_msgs, std_msgs, visualization_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import geometry_msgs, std_msgs, visualization_msgs
 
 InteractiveMarker = visualization_msgs.msg.InteractiveMarker
 InteractiveMarkerFeedback = visualization_msgs.msg.InteractiveMarkerFeedback

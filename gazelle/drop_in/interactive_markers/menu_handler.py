@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle.drop_in.interactive_markers.interactive_marker_server import InteractiveMarkerFeedback
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import visualization_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import visualization_msgs
 
 MenuEntry = visualization_msgs.msg.MenuEntry
 

@@ -16,10 +16,10 @@ from gazelle.drop_in.moveit_commander import (
 )
 from gazelle.errors import PlanningError
 from gazelle.planning import PlanOutcome
-from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.messages import load_service
-from gazelle.ros.msgs import fetch_train
-from gazelle.ros.node import Node
+from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.messages import load_service
+from gazelle_ros.msgs import fetch_train
+from gazelle_ros.node import Node
 
 _GOOD = "Everything went OK"
 _GROUP = "arm"

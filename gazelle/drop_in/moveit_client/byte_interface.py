@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from gazelle.drop_in.moveit_client.session import LOG, packed, unpacked
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
 from gazelle.errors import did_you_mean
-from gazelle.ros.messages import DeserializationError, Message, load_message
+from gazelle_ros.messages import DeserializationError, Message, load_message
 
 
 class ByteInterface:

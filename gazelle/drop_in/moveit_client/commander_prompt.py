@@ -13,8 +13,8 @@ from gazelle.drop_in.moveit_commander.group_commands import (
     MoveGroupInfoLevel,
 )
 from gazelle.drop_in.moveit_commander.interpreter import MoveGroupCommandInterpreter
-from gazelle.ros.builtin.arguments import parse_arguments, spin
-from gazelle.ros.compat.rospy.client import init_node
+from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.compat.rospy.client import init_node
 
 _NAME = "move_group_interface_cmdline"
 _COLOURS = {

@@ -12,7 +12,7 @@ from gazelle.drop_in.moveit_client.robot_access import RobotAccess
 from gazelle.drop_in.moveit_client.session import LOG
 from gazelle.errors import PlanningError
 from gazelle.kinematics import InverseKinematics
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.msgs import moveit_msgs
 
 
 class GroupTarget:

@@ -9,8 +9,8 @@ from gazelle.bridges.moveit.frames import pose_message
 from gazelle.description import Box, Cylinder, Mesh, Sphere
 from gazelle.description.geometry import Geometry
 from gazelle.kinematics import RobotModel
-from gazelle.ros.msgs import visualization_msgs
-from gazelle.ros.time import Time
+from gazelle_ros.msgs import visualization_msgs
+from gazelle_ros.time import Time
 
 _BOX, _SPHERE, _CYLINDER, _MESH = 1, 2, 3, 10
 _GREY = 0.5

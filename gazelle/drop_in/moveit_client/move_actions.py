@@ -8,11 +8,11 @@ from typing import Any
 
 from gazelle.drop_in.moveit_client.session import LOG
 from gazelle.planning import PlanOutcome
-from gazelle.ros import names
-from gazelle.ros.actions import GoalStatus, SimpleActionClient, TerminalState
-from gazelle.ros.messages import Message, load_message, load_service
-from gazelle.ros.msgs import moveit_msgs, std_msgs
-from gazelle.ros.node import Node
+from gazelle_ros import names
+from gazelle_ros.actions import GoalStatus, SimpleActionClient, TerminalState
+from gazelle_ros.messages import Message, load_message, load_service
+from gazelle_ros.msgs import moveit_msgs, std_msgs
+from gazelle_ros.node import Node
 
 _ACTIONS = {
     "move_group": "MoveGroup",

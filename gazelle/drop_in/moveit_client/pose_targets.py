@@ -8,7 +8,7 @@ from typing import Literal
 from gazelle.bridges.moveit.frames import pose_message
 from gazelle.description import Pose
 from gazelle.drop_in.moveit_client.session import LOG
-from gazelle.ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
+from gazelle_ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
 
 TargetKind = Literal["joint", "pose", "position", "orientation"]
 _SPHERE = 2

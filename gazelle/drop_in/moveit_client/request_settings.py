@@ -5,9 +5,9 @@ from __future__ import annotations
 from gazelle.bridges.moveit.description import DESCRIPTION, find_parameter
 from gazelle.drop_in.moveit_client.session import LOG
 from gazelle.real_numbers import real
-from gazelle.ros import names
-from gazelle.ros.msgs import moveit_msgs
-from gazelle.ros.node import Node
+from gazelle_ros import names
+from gazelle_ros.msgs import moveit_msgs
+from gazelle_ros.node import Node
 
 _FACTOR = 0.1
 _TOLERANCES = {"joint": 1e-4, "position": 1e-4, "orientation": 1e-3}

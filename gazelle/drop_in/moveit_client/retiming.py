@@ -12,7 +12,7 @@ from gazelle.errors import PlanningError
 from gazelle.kinematics import RobotModel
 from gazelle.planning import PathLimits, parameterize
 from gazelle.planning.time_parameterization import TimeAlgorithm
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.msgs import moveit_msgs
 
 _ALGORITHMS: dict[str, TimeAlgorithm] = {
     "iterative_time_parameterization": "iterative parabolic",

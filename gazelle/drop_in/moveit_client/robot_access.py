@@ -18,9 +18,9 @@ from gazelle.bridges.moveit.robot_states import JointStateMonitor
 from gazelle.drop_in.moveit_client.robot_names import RobotNames
 from gazelle.drop_in.moveit_client.session import LOG, session
 from gazelle.errors import Error
-from gazelle.ros import names
-from gazelle.ros.msgs import moveit_msgs
-from gazelle.ros.node import Node
+from gazelle_ros import names
+from gazelle_ros.msgs import moveit_msgs
+from gazelle_ros.node import Node
 
 _WAIT_S = 1.0
 """For a state that is as new as the question, as MoveIt's clients wait."""

@@ -10,10 +10,10 @@ import threading
 from collections.abc import Iterable
 from typing import TypeVar
 
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.compat.rospy.state import process
-from gazelle.ros.messages import Message
-from gazelle.ros.node import Node
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.compat.rospy.state import process
+from gazelle_ros.messages import Message
+from gazelle_ros.node import Node
 
 MessageT = TypeVar("MessageT", bound=Message)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.msgs import moveit_msgs
 
 
 def set_default(matrix: moveit_msgs.msg.AllowedCollisionMatrix, obj: str, allow: bool) -> None:  # noqa: FBT001  # MoveIt's interface

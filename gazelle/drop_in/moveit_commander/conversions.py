@@ -8,9 +8,9 @@ from gazelle.bridges.conversions import Triple
 from gazelle.description import Pose
 from gazelle.drop_in.moveit_client.session import packed
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
-from gazelle.ros.compat.rospy.rostime import Time
-from gazelle.ros.messages import Message
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.compat.rospy.rostime import Time
+from gazelle_ros.messages import Message
+from gazelle_ros.msgs import geometry_msgs
 
 __all__ = [
     "list_to_pose",

@@ -9,7 +9,7 @@ from gazelle.drop_in.moveit_commander import conversions
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
 from gazelle.drop_in.moveit_commander.move_group import MoveGroupCommander
 from gazelle.planning import PlanOutcome
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.msgs import moveit_msgs
 
 __all__ = ["MoveGroupInfoLevel"]
 

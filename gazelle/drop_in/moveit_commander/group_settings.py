@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from gazelle.drop_in.moveit_client.session import LOG, copied
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
 from gazelle.drop_in.moveit_commander.group_targets import GroupTargets
-from gazelle.ros.msgs import moveit_msgs
+from gazelle_ros.msgs import moveit_msgs
 
 _FLAT, _SOLID = 4, 6
 

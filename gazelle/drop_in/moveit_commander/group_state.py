@@ -17,8 +17,8 @@ from gazelle.drop_in.moveit_client.robot_access import shared_robot
 from gazelle.drop_in.moveit_client.session import LOG, session
 from gazelle.drop_in.moveit_commander import conversions
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
-from gazelle.ros.messages import DeserializationError
-from gazelle.ros.msgs import geometry_msgs, moveit_msgs
+from gazelle_ros.messages import DeserializationError
+from gazelle_ros.msgs import geometry_msgs, moveit_msgs
 
 
 class GroupState:

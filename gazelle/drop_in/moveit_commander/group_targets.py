@@ -13,7 +13,7 @@ from gazelle.drop_in.moveit_client.session import LOG, copied
 from gazelle.drop_in.moveit_commander import conversions
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
 from gazelle.drop_in.moveit_commander.group_state import GroupState
-from gazelle.ros.msgs import geometry_msgs, moveit_msgs, sensor_msgs
+from gazelle_ros.msgs import geometry_msgs, moveit_msgs, sensor_msgs
 
 if TYPE_CHECKING:
     AnyPose = geometry_msgs.msg.Pose | geometry_msgs.msg.PoseStamped | Sequence[float]

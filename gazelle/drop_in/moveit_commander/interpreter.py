@@ -28,8 +28,8 @@ from gazelle.drop_in.moveit_commander.planning_scene_interface import (
 )
 from gazelle.drop_in.moveit_commander.robot import RobotCommander
 from gazelle.errors import Error
-from gazelle.ros.msgs import moveit_msgs
-from gazelle.writing import write_text
+from gazelle_ros.base.writing import write_text
+from gazelle_ros.msgs import moveit_msgs
 
 __all__ = ["MoveGroupCommandInterpreter", "MoveGroupInfoLevel"]
 

@@ -13,9 +13,9 @@ from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
 from gazelle.drop_in.moveit_commander.group_settings import GroupSettings
 from gazelle.drop_in.moveit_commander.group_targets import listed
 from gazelle.planning import PlanOutcome
-from gazelle.ros.errors import RosError
-from gazelle.ros.msgs import geometry_msgs, moveit_msgs, trajectory_msgs
-from gazelle.ros.time import Time
+from gazelle_ros.errors import RosError
+from gazelle_ros.msgs import geometry_msgs, moveit_msgs, trajectory_msgs
+from gazelle_ros.time import Time
 
 if TYPE_CHECKING:
     from gazelle.bridges.moveit.error_codes import Coded

@@ -14,12 +14,12 @@ from gazelle.drop_in.moveit_commander import allowed_collisions
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
 from gazelle.errors import Error
 from gazelle.formats import load_mesh
-from gazelle.ros import names
-from gazelle.ros.compat.rospy.topics import Publisher
-from gazelle.ros.errors import RosError, RosTimeoutError
-from gazelle.ros.messages import ServiceDefinition
-from gazelle.ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
-from gazelle.ros.services import ServiceClient
+from gazelle_ros import names
+from gazelle_ros.compat.rospy.topics import Publisher
+from gazelle_ros.errors import RosError, RosTimeoutError
+from gazelle_ros.messages import ServiceDefinition
+from gazelle_ros.msgs import geometry_msgs, moveit_msgs, shape_msgs
+from gazelle_ros.services import ServiceClient
 
 __all__ = ["PlanningSceneInterface"]
 

@@ -13,7 +13,7 @@ from gazelle.drop_in.moveit_commander import conversions
 from gazelle.drop_in.moveit_commander.exception import MoveItCommanderException
 from gazelle.drop_in.moveit_commander.move_group import MoveGroupCommander
 from gazelle.errors import did_you_mean
-from gazelle.ros.msgs import geometry_msgs, moveit_msgs, visualization_msgs
+from gazelle_ros.msgs import geometry_msgs, moveit_msgs, visualization_msgs
 
 __all__ = ["RobotCommander"]
 

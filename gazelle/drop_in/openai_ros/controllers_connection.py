@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from gazelle.clients.controllers import Controllers
 from gazelle.clients.errors import ClientError
-from gazelle.ros.compat import rospy
-from gazelle.ros.compat.rospy.state import process
+from gazelle_ros.compat import rospy
+from gazelle_ros.compat.rospy.state import process
 
 _STRICT = 2
 

@@ -8,8 +8,8 @@ from typing import Final
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
 from gazelle.errors import TaskError, did_you_mean
-from gazelle.ros.compat import rospy
-from gazelle.ros.compat.rospy.state import process
+from gazelle_ros.compat import rospy
+from gazelle_ros.compat.rospy.state import process
 
 SIMULATION: Final = "SIMULATION"
 WORLD: Final = "WORLD"

@@ -11,8 +11,8 @@ from gazelle.drop_in.gym.core import Env
 from gazelle.drop_in.gym.utils import seeding
 from gazelle.drop_in.openai_ros.controllers_connection import ControllersConnection
 from gazelle.drop_in.openai_ros.gazebo_connection import GazeboConnection
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import openai_ros
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import openai_ros
 
 REWARD_TOPIC = "/openai/reward"
 

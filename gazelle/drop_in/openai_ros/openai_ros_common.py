@@ -10,9 +10,9 @@ from gazelle.drop_in.gym.envs.registration import make
 from gazelle.drop_in.openai_ros.sources import missing_package
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import RegisterOpenAI_Ros_Env
 from gazelle.drop_in.shared import background
-from gazelle.ros.compat import rospy
-from gazelle.ros.launch.errors import MissingPackageError
-from gazelle.ros.launch.packages import Packages
+from gazelle_ros.compat import rospy
+from gazelle_ros.launch.errors import MissingPackageError
+from gazelle_ros.launch.packages import Packages
 
 _STEPS = 10000
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from gazelle.ros.compat import rospy
-from gazelle.ros.compat.rospy.state import process
-from gazelle.ros.tools import nodes
-from gazelle.ros.tools.graph import GraphInspector
+from gazelle_ros.compat import rospy
+from gazelle_ros.compat.rospy.state import process
+from gazelle_ros.tools import nodes
+from gazelle_ros.tools.graph import GraphInspector
 
 _SERVICE = "/gazebo/pause_physics"
 

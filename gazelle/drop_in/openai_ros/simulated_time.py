@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import time
 
-from gazelle.ros.clock import SECOND, SimulatedClock, TimeSource
-from gazelle.ros.clock_topic import follow_clock
-from gazelle.ros.compat import rospy
-from gazelle.ros.compat.rospy.state import process
-from gazelle.ros.errors import TimeMovedBackwardsError
+from gazelle_ros.clock import SECOND, SimulatedClock, TimeSource
+from gazelle_ros.clock_topic import follow_clock
+from gazelle_ros.compat import rospy
+from gazelle_ros.compat.rospy.state import process
+from gazelle_ros.errors import TimeMovedBackwardsError
 
 CLOCK = "/clock"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.ros.launch.errors import MissingPackageError
+from gazelle_ros.launch.errors import MissingPackageError
 
 _CONSTRUCT = "bitbucket.org/theconstructcore"
 _SOURCES = {

@@ -8,7 +8,7 @@ from gazelle.drop_in.smach_ros.service_state import ServiceState
 from gazelle.drop_in.smach_ros.simple_action_state import SimpleActionState
 from gazelle.drop_in.smach_ros.util import set_preempt_handler
 from gazelle.drop_in.smach_ros.waiting import ConditionState, MonitorState
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 smach.set_loggers(rospy.loginfo, rospy.logwarn, rospy.logdebug, rospy.logerr)
 smach.set_shutdown_check(rospy.is_shutdown)

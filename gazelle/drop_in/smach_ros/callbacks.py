@@ -8,7 +8,7 @@ from typing import Any
 
 from gazelle.drop_in.smach import InvalidStateError, Remapper, State
 from gazelle.drop_in.smach.state import add_interface
-from gazelle.ros.messages import Message
+from gazelle_ros.messages import Message
 
 
 @dataclass

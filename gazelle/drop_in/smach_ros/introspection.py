@@ -7,9 +7,9 @@ import pickle
 import threading
 
 from gazelle.drop_in.smach import Container, UserData
-from gazelle.ros.compat import rospy
-from gazelle.ros.messages import load_message
-from gazelle.ros.msgs import smach_msgs, std_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.messages import load_message
+from gazelle_ros.msgs import smach_msgs, std_msgs
 
 _PERIOD_S = 2.0
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.drop_in.smach import State
 from gazelle.drop_in.smach_ros.callbacks import UserCallback, filled, taken_apart
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 
 class ServiceState(State):

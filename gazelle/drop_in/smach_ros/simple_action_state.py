@@ -8,9 +8,9 @@ from typing import Any
 
 from gazelle.drop_in.smach import InvalidStateError, State
 from gazelle.drop_in.smach_ros.callbacks import UserCallback, filled, taken_apart
-from gazelle.ros.compat import rospy
-from gazelle.ros.compat.actionlib import GoalStatus, SimpleActionClient
-from gazelle.ros.messages import Message
+from gazelle_ros.compat import rospy
+from gazelle_ros.compat.actionlib import GoalStatus, SimpleActionClient
+from gazelle_ros.messages import Message
 
 _SERVER_S = 60.0
 _LOOK_S = 0.1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 _LOOK_S = 0.1
 _LOOKS = 15

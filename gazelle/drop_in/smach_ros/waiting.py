@@ -7,7 +7,7 @@ from typing import Any
 
 from gazelle.drop_in.smach import State
 from gazelle.drop_in.smach.state import add_interface
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 _POLL_S = 0.05
 

@@ -14,8 +14,8 @@ from typing import Protocol
 from gazelle.description import Model
 from gazelle.engines.planar.fleet_bodies import Body
 from gazelle.engines.planar.shapes import PrimitiveTable, primitives_of
-from gazelle.entry_points import entry_points_of, load
 from gazelle.errors import EngineError
+from gazelle_ros.base.entry_points import entry_points_of, load
 
 _GROUP = "gazelle.engines.planar"
 

@@ -7,14 +7,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Literal, get_args
 
-from gazelle import writing
 from gazelle.description import Model, Parameters, World
 from gazelle.errors import FormatError, did_you_mean
 from gazelle.formats.write.sdf import write_sdf
 from gazelle.formats.write.urdf import write_urdf
 from gazelle.formats.write.writing import Writing
 from gazelle.formats.write.xml import document
-from gazelle.path_texts import expanded
+from gazelle_ros.base import writing
+from gazelle_ros.base.path_texts import expanded
 
 Format = Literal["sdf", "urdf"]
 

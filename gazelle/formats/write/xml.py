@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator
 from xml.sax.saxutils import escape
 
-from gazelle import characters
 from gazelle.description import Parameters
 from gazelle.errors import FormatError
+from gazelle_ros.base import characters
 
 _NAME = re.compile(r"[^\W\d][\w.:-]*")
 _ILLEGAL = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

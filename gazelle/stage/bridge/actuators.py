@@ -8,9 +8,9 @@ from collections.abc import Callable
 import numpy as np
 
 from gazelle.array_types import Worlds
-from gazelle.ros.msgs import std_msgs
 from gazelle.stage import Actuator
 from gazelle.stage.bridge.place import GraphRobot
+from gazelle_ros.msgs import std_msgs
 
 
 class ActuatorTopics:

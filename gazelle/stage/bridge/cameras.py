@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.ros import Publisher, Time
-from gazelle.ros.msgs import sensor_msgs
 from gazelle.stage import MountedCamera, cameras_of
 from gazelle.stage.bridge.place import GraphRobot
+from gazelle_ros import Publisher, Time
+from gazelle_ros.msgs import sensor_msgs
 
 _MILLIMETRES = 1000.0
 

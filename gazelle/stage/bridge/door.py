@@ -5,10 +5,6 @@ from __future__ import annotations
 import threading
 import time
 
-from gazelle.closing import Closeable
-from gazelle.ros import Node, Time
-from gazelle.ros.msgs import rosgraph_msgs, tf2_msgs
-from gazelle.ros.rosout_log import report_on_rosout
 from gazelle.simulation import Simulation
 from gazelle.simulation.clock import Schedule
 from gazelle.stage import stage_of
@@ -19,6 +15,10 @@ from gazelle.stage.bridge.poses import PoseServices
 from gazelle.stage.bridge.robot import Messages, RobotInputs, RobotTopics, facts_of
 from gazelle.stage.bridge.services import Services
 from gazelle.stage.bridge.watchdog import Watchdog
+from gazelle_ros import Node, Time
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.msgs import rosgraph_msgs, tf2_msgs
+from gazelle_ros.rosout_log import report_on_rosout
 
 _SLICE = 0.005  # wall time between two looks at a pause [s]
 _LOOK = 0.05  # longest wait without a look at pause, pace and end [s]

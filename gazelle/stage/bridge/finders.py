@@ -6,14 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.ros import Publisher, Time, load_message
-from gazelle.ros.msgs import gazelle_msgs, std_msgs
 from gazelle.stage.bridge.place import GraphRobot
 from gazelle.stage.description import (
     StageBlobfinder,
     StageBumper,
     StageFiducial,
 )
+from gazelle_ros import Publisher, Time, load_message
+from gazelle_ros.msgs import gazelle_msgs, std_msgs
 
 
 @dataclass(frozen=True, slots=True)

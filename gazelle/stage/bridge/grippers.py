@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from gazelle.ros import Time
-from gazelle.ros.msgs import gazelle_msgs, std_msgs
 from gazelle.stage import COMMANDS
 from gazelle.stage.bridge.place import GraphRobot
+from gazelle_ros import Time
+from gazelle_ros.msgs import gazelle_msgs, std_msgs
 
 
 class GripperTopics:

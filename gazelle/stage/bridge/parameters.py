@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from gazelle.errors import RosError, SimulationWarning, did_you_mean
-from gazelle.ros import Node
+from gazelle_ros import Node
 
 _POSE_TYPES = ("Pose", "Pose2D")
 

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.ros import Node, Publisher, Subscriber
-from gazelle.ros.messages import Message
 from gazelle.stage import StageFleet, StageRobot
 from gazelle.stage.bridge.naming import Naming
+from gazelle_ros import Node, Publisher, Subscriber
+from gazelle_ros.messages import Message
 
 _QUEUE = 10
 

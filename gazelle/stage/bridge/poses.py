@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from gazelle.ros import Node, load_service
-from gazelle.ros.messages import InvalidDefinitionError, Message, ServiceDefinition
-from gazelle.ros.messages.registry import package_names
 from gazelle.stage import StageFleet, StageRobot
 from gazelle.stage.bridge.naming import Naming
+from gazelle_ros import Node, load_service
+from gazelle_ros.messages import InvalidDefinitionError, Message, ServiceDefinition
+from gazelle_ros.messages.registry import package_names
 
 USUAL_TYPE = "sim_agv/AgvPose"
 """Its response is float64 x, y [m] and angle [degrees]; the request is empty."""
@@ -21,7 +21,7 @@ class PoseServices:
     """``get_pose`` of every robot, until it is closed.
 
     The type is loaded by its name as any user's: from ``ROS_PACKAGE_PATH``, or from a text
-    given to ``gazelle.ros.messages.register``.
+    given to ``gazelle_ros.messages.register``.
 
     Args:
         simulation: Runs.

@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.ros import Publisher, Time, load_message
-from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs
 from gazelle.stage import Ranger, StageFleet
 from gazelle.stage.bridge.actuators import ActuatorTopics
 from gazelle.stage.bridge.cameras import CameraTopics
 from gazelle.stage.bridge.finders import FinderTopics
 from gazelle.stage.bridge.grippers import GripperTopics
 from gazelle.stage.bridge.place import GraphRobot
+from gazelle_ros import Publisher, Time, load_message
+from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs
 
 Values = list[float]
 

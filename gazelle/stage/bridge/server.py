@@ -6,11 +6,11 @@ import argparse
 import threading
 from collections.abc import Sequence
 
-from gazelle.interrupts import stopping
-from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
 from gazelle.stage.bridge.door import StageDoor
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import parse_arguments
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -10,12 +10,12 @@ import numpy as np
 
 from gazelle.bridges.pacing import ACCEPTED, read_factor
 from gazelle.errors import SimulationError
-from gazelle.ros import Node, Time
-from gazelle.ros.messages import ServiceDefinition
-from gazelle.ros.msgs import gazelle_msgs, std_srvs
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
 from gazelle.stage.bridge.robot import heading_of
+from gazelle_ros import Node, Time
+from gazelle_ros.messages import ServiceDefinition
+from gazelle_ros.msgs import gazelle_msgs, std_srvs
 
 Answer = dict[str, Any]
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from gazelle.bridges.serving import join_graph
-from gazelle.closing import Closeable
-from gazelle.ros import Master, Node
 from gazelle.simulation import Simulation
 from gazelle.stage import stage_of
 from gazelle.stage.bridge.door import StageDoor
+from gazelle_ros import Master, Node
+from gazelle_ros.base.closing import Closeable
 
 
 class StageServer(Closeable):

@@ -11,12 +11,12 @@ from gazelle.formats import xml
 from gazelle.formats.reading import Reading
 from gazelle.formats.resolve import Resolver
 from gazelle.formats.world_formats import WorldFormat
-from gazelle.path_texts import existing_file
 from gazelle.stage.description.models import StageWorld
 from gazelle.stage.format.building import no_garbage
 from gazelle.stage.format.parser import script_of
 from gazelle.stage.format.scene import scene_of
 from gazelle.stage.format.world import read_world
+from gazelle_ros.base.path_texts import existing_file
 
 SUFFIXES = (".world", ".inc")
 

@@ -13,9 +13,9 @@ from enum import IntEnum
 from sys import intern
 from typing import NamedTuple
 
-from gazelle.characters import curly_hint
 from gazelle.description import Source
 from gazelle.errors import FormatError
+from gazelle_ros.base.characters import curly_hint
 
 Value = float | str | tuple[float | str, ...]
 

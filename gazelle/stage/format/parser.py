@@ -15,9 +15,9 @@ from pathlib import Path
 from gazelle.errors import FormatError, ResolveError
 from gazelle.formats import blanks, xml
 from gazelle.formats.reading import Reading
-from gazelle.path_texts import expanded
 from gazelle.stage.format.entity import Entity, Property
 from gazelle.stage.format.lexer import Script, Token, TokenKind, parse_value, tokenize
+from gazelle_ros.base.path_texts import expanded
 
 MAX_DEPTH = 64
 """Entities in each other, macros in macros."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from gazelle.ros import Node
-from gazelle.ros.msgs import tf2_msgs
-from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.training.deploy.goals import GoalPlace
+from gazelle_ros import Node
+from gazelle_ros.msgs import tf2_msgs
+from gazelle_ros.tf import FrameTree, TransformException, take_transforms
 
 
 class GoalFrames:

@@ -6,7 +6,7 @@ because the node ended in whatever way (`SIGKILL` too), or when nothing comes th
 of the node can come after that. It ignores Ctrl-C and SIGTERM, which ask the node to end.
 
 Run as ``python -m gazelle.training.deploy.guard OPTIONS``, options being JSON: ``node`` (what
-`gazelle.ros.Node` takes), ``topic``, ``timeout`` [s].
+`gazelle_ros.Node` takes), ``topic``, ``timeout`` [s].
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ import sys
 import time
 from typing import Any
 
-from gazelle.ros import Node, Publisher
-from gazelle.ros.errors import RosError
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros import Node, Publisher
+from gazelle_ros.errors import RosError
+from gazelle_ros.msgs import geometry_msgs
 
 ORDER = struct.Struct("<?dd")
 """Format of orders in the pipe: whether the node is in control, forward speed [m/s], yaw rate

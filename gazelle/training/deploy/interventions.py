@@ -10,7 +10,7 @@ from typing import Any
 from gazelle.errors import TaskError
 from gazelle.training.deploy.pilot import Tick
 from gazelle.training.deploy.safety import VelocityCommand
-from gazelle.writing import GrowingFile
+from gazelle_ros.base.writing import GrowingFile
 
 _LOG = logging.getLogger(__name__)
 

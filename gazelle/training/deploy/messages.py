@@ -7,9 +7,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs
 from gazelle.training.deploy.goals import GoalPlace
 from gazelle.training.deploy.sensing import OdometryReading, ScanReading
+from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs
 
 
 def scan_of(message: sensor_msgs.msg.LaserScan) -> ScanReading:

@@ -9,10 +9,6 @@ import threading
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from gazelle.closing import Closeable
-from gazelle.ros import MasterProxy, Node
-from gazelle.ros.errors import RosError
-from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs, std_srvs
 from gazelle.training.deploy.frames import GoalFrames
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.guarding import Guarded, GuardLostError
@@ -21,6 +17,10 @@ from gazelle.training.deploy.messages import floats_message, goal_of, odometry_o
 from gazelle.training.deploy.pilot import Acted, Pilot, Tick
 from gazelle.training.deploy.policies import Policy
 from gazelle.training.deploy.safety import SafetyLimits
+from gazelle_ros import MasterProxy, Node
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.errors import RosError
+from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs, std_srvs
 
 _LOG = logging.getLogger(__name__)
 

@@ -15,14 +15,14 @@ from gazelle.clients import Gazebo
 from gazelle.clients.errors import ClientError
 from gazelle.envs.goals import GoalTable
 from gazelle.envs.turtlebot3.places import grid_goals, plaza_goals
-from gazelle.interrupts import stopping
-from gazelle.path_texts import expanded
-from gazelle.ros import Node
-from gazelle.ros.builtin.arguments import parse_arguments
 from gazelle.training.deploy.goals import GoalPlace, GoalResult
 from gazelle.training.deploy.node import DeployNode
 from gazelle.training.deploy.policies import Policy, open_policy
 from gazelle.training.deploy.safety import SafetyLimits
+from gazelle_ros import Node
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.base.path_texts import expanded
+from gazelle_ros.builtin.arguments import parse_arguments
 
 _CALLBACK = "gazelle.training.graph_results:GraphResults"
 _SERVICE_S = 2.0

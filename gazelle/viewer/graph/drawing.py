@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gazelle.array_types import Bytes, Floats
-from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
 from gazelle.viewer.page.shapes import textured_mesh
 from gazelle.viewer.sources import picture_of
+from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
 
 if TYPE_CHECKING:
     from viser import ViserServer

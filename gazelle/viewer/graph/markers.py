@@ -13,8 +13,8 @@ from gazelle.errors import GazelleWarning
 from gazelle.formats.resolve import Resolver
 from gazelle.rendering import columns as c
 from gazelle.rendering.visible import visible_world
-from gazelle.ros.msgs import std_msgs, visualization_msgs
 from gazelle.viewer.graph.drawing import Drawing, pose_of
+from gazelle_ros.msgs import std_msgs, visualization_msgs
 
 # Types of visualization_msgs/Marker.
 _ARROW, _CUBE, _SPHERE, _CYLINDER, _STRIP, _LIST = 0, 1, 2, 3, 4, 5

@@ -9,11 +9,11 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.errors import Error
-from gazelle.ros.msgs import moveit_msgs
-from gazelle.ros.tf import FrameTree, TransformException
 from gazelle.simulation.joint_motion import JointMotion
 from gazelle.viewer.graph.robots import DescribedRobot
 from gazelle.viewer.page.motion_ghost import MotionGhost
+from gazelle_ros.msgs import moveit_msgs
+from gazelle_ros.tf import FrameTree, TransformException
 
 if TYPE_CHECKING:
     from viser import SceneApi

@@ -10,10 +10,10 @@ import numpy as np
 from gazelle.array_types import Bools
 from gazelle.description import Model, World
 from gazelle.errors import Error, GazelleWarning
-from gazelle.ros.tf.core import FrameTree
-from gazelle.ros.tf.errors import TransformException
 from gazelle.rotations import conjugate, multiply, rotate
 from gazelle.viewer.page.shapes import ShapeBatches
+from gazelle_ros.tf.core import FrameTree
+from gazelle_ros.tf.errors import TransformException
 
 if TYPE_CHECKING:
     from viser import SceneApi

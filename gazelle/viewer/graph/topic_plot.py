@@ -13,12 +13,12 @@ from pathlib import Path
 
 import numpy as np
 
-from gazelle.interrupts import stopping
-from gazelle.path_texts import expanded
-from gazelle.ros import Node
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.msgs import std_msgs
 from gazelle.viewer.plots import plot_series
+from gazelle_ros import Node
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.base.path_texts import expanded
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.msgs import std_msgs
 
 _LOOK_S = 1.0
 _STEPS = 1000

@@ -10,19 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from gazelle.closing import Closeable
 from gazelle.errors import Error
-from gazelle.ros import Node, WallClock, load_message
-from gazelle.ros.errors import ApiError, UnreachableError
-from gazelle.ros.messages import Message
-from gazelle.ros.msgs import tf2_msgs
-from gazelle.ros.tf import FrameTree, TransformException, take_transforms
 from gazelle.viewer.graph import drawing as d
 from gazelle.viewer.graph.markers import draw_marker, draw_markers
 from gazelle.viewer.graph.motions import KIND as MOTION
 from gazelle.viewer.graph.motions import MotionTopic
 from gazelle.viewer.graph.robots import DescribedRobot
 from gazelle.viewer.page.server import PageServer
+from gazelle_ros import Node, WallClock, load_message
+from gazelle_ros.base.closing import Closeable
+from gazelle_ros.errors import ApiError, UnreachableError
+from gazelle_ros.messages import Message
+from gazelle_ros.msgs import tf2_msgs
+from gazelle_ros.tf import FrameTree, TransformException, take_transforms
 
 _FIXED = ("map", "odom", "world", "base_link", "base_footprint")
 _LOOK = 1.0  # between two looks at what topics there are [s]

@@ -19,8 +19,8 @@ from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, urlsplit
 
-from gazelle.closing import Closeable
 from gazelle.errors import Error, MissingExtraError
+from gazelle_ros.base.closing import Closeable
 
 if TYPE_CHECKING:
     import viser

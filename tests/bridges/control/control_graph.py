@@ -7,7 +7,7 @@ from control.stand_in import Frictionless
 
 from gazelle.bridges.control import HardwareLoop
 from gazelle.control import ControllerManager
-from gazelle.ros import Master, Node, load_message, load_service
+from gazelle_ros import Master, Node, load_message, load_service
 
 KINDS = {
     "list_controllers": "ListControllers",

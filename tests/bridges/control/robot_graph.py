@@ -8,7 +8,7 @@ from bridges.control.control_graph import ControlGraph
 import gazelle
 from gazelle.bridges import serve_ros
 from gazelle.description import World
-from gazelle.ros import Master, Node
+from gazelle_ros import Master, Node
 
 
 class RobotGraph(ControlGraph):

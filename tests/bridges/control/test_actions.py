@@ -18,9 +18,9 @@ from gazelle.control.values import (
     TrajectoryState,
 )
 from gazelle.errors import ControlError
-from gazelle.ros import load_message
-from gazelle.ros.actions import ActionClient, SimpleActionClient
-from gazelle.ros.time import Duration, Time
+from gazelle_ros import load_message
+from gazelle_ros.actions import ActionClient, SimpleActionClient
+from gazelle_ros.time import Duration, Time
 
 CONTROL = "control_msgs/"
 

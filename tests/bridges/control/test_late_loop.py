@@ -11,10 +11,10 @@ from ros.graph import until
 
 from gazelle.bridges.control import HardwareLoop
 from gazelle.control import ControllerManager
-from gazelle.ros import Master, Node, Time, load_message
-from gazelle.ros.actions import ActionClient, CommState, TerminalState
-from gazelle.ros.clock import SECOND, SimulatedClock
-from gazelle.ros.time import Duration
+from gazelle_ros import Master, Node, Time, load_message
+from gazelle_ros.actions import ActionClient, CommState, TerminalState
+from gazelle_ros.clock import SECOND, SimulatedClock
+from gazelle_ros.time import Duration
 
 JOINTS = ["one", "two"]
 PERIOD_S = 0.01

@@ -11,11 +11,11 @@ from gazelle import formats
 from gazelle.bridges.control.point_head import HeadPointer
 from gazelle.kinematics import RobotModel
 from gazelle.kinematics.pointing import Pointing
-from gazelle.ros import Master, Node
-from gazelle.ros.actions import SimpleActionClient
-from gazelle.ros.actions.states import GoalStatus
-from gazelle.ros.messages import load_message
-from gazelle.ros.time import Time
+from gazelle_ros import Master, Node
+from gazelle_ros.actions import SimpleActionClient
+from gazelle_ros.actions.states import GoalStatus
+from gazelle_ros.messages import load_message
+from gazelle_ros.time import Time
 
 MASS = """<inertial><mass value="1"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>"""

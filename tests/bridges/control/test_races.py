@@ -13,7 +13,7 @@ from bridges.control.robot_graph import robot_graph
 from control.arms import JOINTS, arm_text
 
 from gazelle.clients import ClientError, Controllers
-from gazelle.ros import Node, load_service
+from gazelle_ros import Node, load_service
 
 CLIENTS = 4
 PATIENCE_S = 250.0

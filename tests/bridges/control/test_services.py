@@ -9,7 +9,7 @@ from control.stand_in import Frictionless
 from ros.graph import until
 
 from gazelle.control import SwitchResult
-from gazelle.ros import load_service
+from gazelle_ros import load_service
 
 EFFORT = "effort_controllers/JointEffortController"
 VELOCITY = "velocity_controllers/JointVelocityController"

@@ -12,7 +12,7 @@ from gazelle.builders import add_transmissions
 from gazelle.control.actuators import ACTUATOR_STATE
 from gazelle.errors import ControlWarning
 from gazelle.formats import load_model_string, load_string
-from gazelle.ros import load_message, load_service
+from gazelle_ros import load_message, load_service
 
 STATES = ("joints", "joint_state_controller/JointStateController")
 EFFORT = "effort_controllers/JointEffortController"

@@ -6,8 +6,8 @@ import pytest
 from door_client import model_state
 from odd_calls import ODD, kind_of
 
-from gazelle.ros import load_message
-from gazelle.ros.messages import load_service
+from gazelle_ros import load_message
+from gazelle_ros.messages import load_service
 
 POST = """<sdf version="1.6"><model name="post"><link name="foot"><inertial><mass>1</mass></inertial>
 <collision name="sole"><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link>

@@ -8,7 +8,7 @@ import pytest
 from ros.graph import until
 
 from gazelle.bridges.gazebo.finite import not_finite
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 NAN, INF = math.nan, math.inf
 

@@ -7,7 +7,7 @@ import pytest
 
 import gazelle
 from gazelle.errors import SimulationWarning
-from gazelle.ros import Duration, Time, load_message
+from gazelle_ros import Duration, Time, load_message
 
 BALL = """<sdf version="1.6"><model name="{name}"><link name="core">
 <inertial><mass>2</mass><inertia><ixx>1</ixx><iyy>1</iyy><izz>1</izz></inertia></inertial>

@@ -7,8 +7,8 @@ import pytest
 from door_client import BALL, model_state, pose
 from ros.graph import until
 
-from gazelle.ros import load_message
-from gazelle.ros.errors import ServiceError
+from gazelle_ros import load_message
+from gazelle_ros.errors import ServiceError
 
 ARM = """<?xml version="1.0"?><!-- a comment --><robot name="arm"><link name="base"><inertial><mass
 value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link><link name="tip">

@@ -10,7 +10,7 @@ from door_client import Client
 import gazelle
 from gazelle import formats
 from gazelle.bridges.serving import RosDoor
-from gazelle.ros import Master, Node
+from gazelle_ros import Master, Node
 
 PLANAR = "<plugin name='p' filename='libgazebo_ros_planar_move.so'>{}</plugin>"
 ROBOT = """<robot name='r'><link name='base'><inertial><mass value='1'/>

@@ -7,9 +7,9 @@ import yaml
 
 import gazelle
 from gazelle.bridges import serve_ros
-from gazelle.ros import Master
-from gazelle.ros.tools import services
-from gazelle.ros.tools.graph import GraphInspector
+from gazelle_ros import Master
+from gazelle_ros.tools import services
+from gazelle_ros.tools.graph import GraphInspector
 
 pytestmark = pytest.mark.corpus
 FOLDER = "ros-simulation__gazebo_ros_pkgs/gazebo_ros/test/ros_network"

@@ -21,8 +21,8 @@ from gazelle.bridges import refuse_twin, serve_ros
 from gazelle.bridges.gazebo.server import find_world
 from gazelle.bridges.gazebo.server import main as serve
 from gazelle.errors import ResolveError, RosError, SimulationWarning
-from gazelle.ros import Master, Node, load_message
-from gazelle.ros.master.proxy import MasterProxy
+from gazelle_ros import Master, Node, load_message
+from gazelle_ros.master.proxy import MasterProxy
 
 WORLD = """<sdf version="1.6"><world name="w"><model name="here"><static>true</static>
 <link name="l"/></model></world></sdf>"""
@@ -50,7 +50,7 @@ def world(tmp_path):
 
 @pytest.mark.long
 def test_it_runs_a_world_with_all_flags_until_ctrl_c(master, world):
-    program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "gzserver"]
+    program = [sys.executable, "-m", "gazelle_ros.builtin.start", "gazebo_ros", "gzserver"]
     process = subprocess.Popen([*program, *EVERY_FLAG.split(), str(world), "__name:=gazebo"])
     client = Client(master.uri)
     try:
@@ -124,7 +124,7 @@ def test_what_does_not_answer_any_more_is_no_obstacle(master):
 def test_what_is_not_supported_is_a_line_and_no_more(master, world):
     text = WORLD.replace("<link", "<plugin name='p' filename='libno_such.so'/><link")
     world.write_text(text, encoding="utf-8")
-    program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "gzserver"]
+    program = [sys.executable, "-m", "gazelle_ros.builtin.start", "gazebo_ros", "gzserver"]
     done = subprocess.run(
         [*program, "--iters", "1", str(world)],
         capture_output=True, text=True, timeout=60, check=True,
@@ -156,7 +156,7 @@ def heard_of(master, node):
 @pytest.mark.long
 def test_what_the_world_warns_of_is_on_rosout(master, world):
     world.write_text(ODD, encoding="utf-8")
-    program = [sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "gzserver"]
+    program = [sys.executable, "-m", "gazelle_ros.builtin.start", "gazebo_ros", "gzserver"]
     listener, said = heard_of(master, "/gazebo")
     flags = ["--play", "a.log", str(world), "__name:=gazebo"]
     with subprocess.Popen([*program, *flags], stderr=subprocess.PIPE, text=True) as process:

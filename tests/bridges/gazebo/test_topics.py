@@ -7,7 +7,7 @@ from ros.graph import until
 
 import gazelle
 from gazelle.bridges import serve_ros
-from gazelle.ros import Master, Node, WallClock, load_message
+from gazelle_ros import Master, Node, WallClock, load_message
 
 KINDS = {
     "/odom": "nav_msgs/Odometry",

@@ -5,7 +5,7 @@ import time
 import pytest
 from ros.graph import until
 
-from gazelle.ros import load_message, load_service
+from gazelle_ros import load_message, load_service
 
 
 def empty(graph, name):

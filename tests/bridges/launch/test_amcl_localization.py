@@ -17,7 +17,7 @@ from ports import free_port
 from ros.graph import until
 
 from gazelle.bridges.navigation.frames import GraphFrames
-from gazelle.ros import Master, Node, load_service
+from gazelle_ros import Master, Node, load_service
 
 MAPS = ("willow-full.pgm", "willow-full-0.05.pgm")
 

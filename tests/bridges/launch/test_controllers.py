@@ -13,8 +13,8 @@ from launching import Launched, stub_packages
 from ros.graph import until
 
 from gazelle.errors import RosError
-from gazelle.ros import Master, Node, load_message, load_service
-from gazelle.ros.messages.yaml import fill_message_args
+from gazelle_ros import Master, Node, load_message, load_service
+from gazelle_ros.messages.yaml import fill_message_args
 
 DATA = Path(__file__).parents[2] / "data"
 PATIENCE_S = 120.0

@@ -17,10 +17,10 @@ from gazelle import assets
 from gazelle.formats import load_map
 from gazelle.navigation.move_base import navigation_stack
 from gazelle.navigation.true_map import true_map
-from gazelle.ros import Master
-from gazelle.ros.launch import load_launch
 from gazelle.stage import stage_of
 from gazelle.stage.bridge.naming import Naming
+from gazelle_ros import Master
+from gazelle_ros.launch import load_launch
 
 PACKAGE = assets.root() / "fleet_stage"
 DEPOT = PACKAGE / "launch" / "depot.launch"

@@ -14,7 +14,7 @@ from wall_errors import distances, drawn_walls, lit, seen_walls
 import gazelle
 from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.navigation.true_map import true_map
-from gazelle.ros import Master, Node, load_message
+from gazelle_ros import Master, Node, load_message
 
 pytestmark = [pytest.mark.corpus, pytest.mark.slow, pytest.mark.timeout(3600)]
 

@@ -7,7 +7,7 @@ from launch_table import HUSKY, HUSKY_INCLUDES, QUICK, REFUSED, SLOW
 from launching import Launched, stub_packages
 from ros.graph import until
 
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 pytestmark = pytest.mark.corpus
 

@@ -7,8 +7,8 @@ import pytest
 from launching import Launched
 from ros.graph import until
 
-from gazelle.ros import Master, Node, load_message
-from gazelle.ros.tf import FrameTree, TransformException, take_transforms
+from gazelle_ros import Master, Node, load_message
+from gazelle_ros.tf import FrameTree, TransformException, take_transforms
 
 pytestmark = [pytest.mark.corpus, pytest.mark.slow]
 

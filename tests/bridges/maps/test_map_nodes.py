@@ -12,7 +12,7 @@ from gazelle.bridges.navigation.map_messages import grid_message, grid_of_messag
 from gazelle.bridges.navigation.map_server import read_map
 from gazelle.errors import RosError
 from gazelle.formats import save_map
-from gazelle.ros import load_message, load_service
+from gazelle_ros import load_message, load_service
 
 
 @pytest.fixture

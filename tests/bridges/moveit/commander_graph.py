@@ -8,9 +8,9 @@ import threading
 import pytest
 from bridges.moveit.moveit_graph import READY, moveit_graph
 
-import gazelle.ros as ros
-from gazelle.ros import load_message
-from gazelle.ros.time import Time
+import gazelle_ros as ros
+from gazelle_ros import load_message
+from gazelle_ros.time import Time
 
 TORSO = "torso_lift_joint"
 ARM = (
@@ -73,7 +73,7 @@ def commander_graph(**own):
         patch.setattr(sys, "argv", ["script"])
         stack.callback(SpokenJoints(client).close)
         stack.enter_context(ros.install())
-        from gazelle.ros.compat.rospy import client as rospy_client
+        from gazelle_ros.compat.rospy import client as rospy_client
 
         rospy_client.reset()
         stack.callback(rospy_client.reset)

@@ -7,7 +7,7 @@ import numpy as np
 from ros.graph import until
 
 from gazelle.bridges.moveit.move_group import MoveGroupNode
-from gazelle.ros import Master, Node, load_message, load_service
+from gazelle_ros import Master, Node, load_message, load_service
 
 READY = {"shoulder_lift_joint": -0.8, "elbow_flex_joint": 1.2, "wrist_flex_joint": -0.4}
 LIMITS = {"shoulder_pan_joint": {"has_acceleration_limits": True, "max_acceleration": 6.0}}

@@ -7,8 +7,8 @@ from bridges.moveit.commander_graph import commander_graph
 
 from gazelle.clients import ArmCommander, ClientError
 from gazelle.drop_in.moveit_client.arm_services import ArmServices
-from gazelle.ros import Node, load_message, load_service
-from gazelle.ros.builtin.registry import main_of
+from gazelle_ros import Node, load_message, load_service
+from gazelle_ros.builtin.registry import main_of
 
 READY = (0.0, -0.8, 0.0, 1.2, 0.0, -0.4, 0.0)
 SUMS = {

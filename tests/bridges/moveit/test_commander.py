@@ -10,8 +10,8 @@ from ros.graph import until
 
 from gazelle.description import Pose
 from gazelle.drop_in.moveit_client.session import packed, session, unpacked
-from gazelle.ros import load_message
-from gazelle.ros.messages import DeserializationError
+from gazelle_ros import load_message
+from gazelle_ros.messages import DeserializationError
 
 TIP = "gripper_link"
 READY = [0.0, -0.8, 0.0, 1.2, 0.0, -0.4, 0.0]

@@ -12,7 +12,7 @@ from bridges.moveit.commander_graph import ARM, commander_graph
 from ros.graph import until
 
 from gazelle.drop_in.moveit_client.commander_prompt import CommandCompleter, converse, main
-from gazelle.ros.builtin.registry import main_of
+from gazelle_ros.builtin.registry import main_of
 
 FAIL, WARN, SUCCESS, INFO, DEBUG = range(1, 6)
 OK = (DEBUG, "OK")

@@ -11,8 +11,8 @@ from ros.graph import until
 from gazelle.bridges.moveit.controller_list import controllers_of
 from gazelle.bridges.moveit.frames import pose_message
 from gazelle.planning import PlanOutcome
-from gazelle.ros import load_message
-from gazelle.ros.actions import GoalStatus, SimpleActionClient, SimpleActionServer
+from gazelle_ros import load_message
+from gazelle_ros.actions import GoalStatus, SimpleActionClient, SimpleActionServer
 
 ARM = (
     "shoulder_pan_joint",

@@ -21,7 +21,7 @@ from gazelle.planning import (
     PlanningScene,
     PlanOptions,
 )
-from gazelle.ros import Master, Node, load_service
+from gazelle_ros import Master, Node, load_service
 
 TIP = "gripper_link"
 SIDE = {"shoulder_pan_joint": 1.2}

@@ -15,7 +15,7 @@ from gazelle.errors import PlanningError
 from gazelle.formats import MeshData
 from gazelle.planning import AllowedCollisionMatrix
 from gazelle.planning.scene_objects import object_of
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 ADD, REMOVE, APPEND, MOVE = 0, 1, 2, 3
 TIP = "gripper_link"

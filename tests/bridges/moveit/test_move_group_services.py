@@ -12,9 +12,9 @@ from gazelle.description import Box, Pose
 from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.kinematics import InverseKinematics
 from gazelle.planning import PlanOutcome
-from gazelle.ros import Master, Node, load_message, load_service
-from gazelle.ros.builtin.registry import main_of
-from gazelle.ros.time import Duration
+from gazelle_ros import Master, Node, load_message, load_service
+from gazelle_ros.builtin.registry import main_of
+from gazelle_ros.time import Duration
 
 MESSAGES = {
     "MoveGroupActionGoal": "b7138704cefd43a8dd9758d697350b85",

@@ -7,8 +7,8 @@ from control.arms import JOINTS, arm_text
 
 from gazelle.bridges.moveit.move_group import MoveGroupNode
 from gazelle.planning import PlanOutcome
-from gazelle.ros import Node, load_message
-from gazelle.ros.actions import SimpleActionClient
+from gazelle_ros import Node, load_message
+from gazelle_ros.actions import SimpleActionClient
 
 SRDF = """<robot name="two_link_arm"><group name="arm">
   <joint name="shoulder"/><joint name="elbow"/></group></robot>"""

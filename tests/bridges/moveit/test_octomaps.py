@@ -11,7 +11,7 @@ from ros.graph import until
 from gazelle.bridges.moveit.frames import pose_message, pose_of_message
 from gazelle.description import Pose
 from gazelle.planning import OCTOMAP
-from gazelle.ros import load_message, load_service
+from gazelle_ros import load_message, load_service
 
 LEVELS, EDGE = 13, 0.1
 TIP = "gripper_link"

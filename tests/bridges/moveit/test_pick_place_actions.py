@@ -13,9 +13,9 @@ from gazelle.bridges.moveit.frames import stamped_message
 from gazelle.bridges.moveit.move_group import MoveGroupNode
 from gazelle.description import Pose
 from gazelle.planning import PlanOutcome, box_grasps
-from gazelle.ros import Master, Node, load_message
-from gazelle.ros.actions import GoalStatus, SimpleActionClient
-from gazelle.ros.time import Duration
+from gazelle_ros import Master, Node, load_message
+from gazelle_ros.actions import GoalStatus, SimpleActionClient
+from gazelle_ros.time import Duration
 
 HAND, SIZE = fetch_robot.HAND, (0.06, 0.06, 0.06)
 CONTROLLERS = [

@@ -7,7 +7,7 @@ from bridges.moveit.commander_graph import ARM, commander_graph
 from bridges.moveit.moveit_graph import READY
 
 from gazelle.drop_in.moveit_client.session import packed, unpacked
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 TIP = "gripper_link"
 PACKAGE = "moveit_ros_planning_interface"

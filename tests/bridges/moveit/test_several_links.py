@@ -9,7 +9,7 @@ from gazelle.bridges.moveit.frames import stamped_message
 from gazelle.bridges.moveit.move_group import MoveGroupNode
 from gazelle.description import Pose, Sphere
 from gazelle.planning import PlanOutcome
-from gazelle.ros import Master, Node
+from gazelle_ros import Master, Node
 
 LINKS = ["left_6", "right_6"]
 

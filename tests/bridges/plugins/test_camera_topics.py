@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 from plugin_graph import first, running, send, wait
 
-from gazelle.ros.compat.cv_bridge.core import CvBridge
-from gazelle.ros.messages import load_message
+from gazelle_ros.compat.cv_bridge.core import CvBridge
+from gazelle_ros.messages import load_message
 
 TARGET = """<model name="red"><static>1</static><pose>3 0 0.5 0 0 0</pose><link name="l">
 <visual name="v"><geometry><box><size>1 1 1</size></box></geometry><material>

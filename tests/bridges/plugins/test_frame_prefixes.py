@@ -5,7 +5,7 @@ from models import block, plugin
 from plugin_graph import first, running, send
 from test_state_plugins import ARM, RAYS
 
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 ROOT, BOTH = {"/tf_prefix": "all"}, {"/tf_prefix": "all", "/r1/tf_prefix": "own"}
 LASERS = {

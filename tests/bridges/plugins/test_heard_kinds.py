@@ -13,7 +13,6 @@ import gazelle.bridges.binding  # noqa: F401  it teaches all kinds
 from gazelle.bridges import conversions
 from gazelle.bridges.conversions import decoder_of
 from gazelle.navigation.values import GoalPose
-from gazelle.ros import load_message, load_service
 from gazelle.simulation import Transforms
 from gazelle.simulation.values import (
     Bias,
@@ -31,6 +30,7 @@ from gazelle.simulation.values import (
     Trigger,
     TurnCommand,
 )
+from gazelle_ros import load_message, load_service
 
 DECODERS, SERVICES = conversions._DECODERS, conversions._SERVICES
 

@@ -7,7 +7,7 @@ from plugin_graph import running, send, wait
 from test_harness import harness
 from test_wheel_slip import LATERAL, LONGITUDINAL, wheels
 
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 
 def test_a_winch_is_told_its_speed_and_to_let_go():

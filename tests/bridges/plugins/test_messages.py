@@ -10,7 +10,7 @@ from kobuki_model import kobuki
 from models import block, plugin
 from plugin_graph import first, running, send, wait
 
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 RAYS = """<sensor name="eye" type="ray"><pose>0.2 0 0 0 0 0</pose><update_rate>50</update_rate>
 <ray><scan><horizontal><samples>3</samples><min_angle>-0.2</min_angle><max_angle>0.2</max_angle>

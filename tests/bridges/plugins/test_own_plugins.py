@@ -8,8 +8,8 @@ from models import block
 from plugin_graph import first, running, send, wait
 
 from gazelle.errors import SimulationWarning
-from gazelle.ros import load_message, load_service
 from gazelle.simulation import Input, ModelPlugin, Output, Service, register
+from gazelle_ros import load_message, load_service
 
 String = load_message("std_msgs/String")
 PoseStamped = load_message("geometry_msgs/PoseStamped")

@@ -16,8 +16,6 @@ from gazelle.bridges import conversions
 from gazelle.bridges.conversions import ConversionContext, encoder_of
 from gazelle.engines import Motion, Placement
 from gazelle.navigation.values import Path
-from gazelle.ros import Time, load_message
-from gazelle.ros.tf.naming import resolve_frame
 from gazelle.sensors import ImuReading, LaserScan
 from gazelle.simulation import JointStates, Odometry, Transforms, WrenchValue
 from gazelle.simulation.values import (
@@ -37,6 +35,8 @@ from gazelle.simulation.values import (
     UnsureImu,
     VectorValue,
 )
+from gazelle_ros import Time, load_message
+from gazelle_ros.tf.naming import resolve_frame
 
 ENCODERS = conversions._ENCODERS
 OFFSET_NS = 5_000_000_000

@@ -11,8 +11,8 @@ from plugin_graph import first, running
 import gazelle
 from gazelle.bridges import serve_ros
 from gazelle.errors import SimulationWarning
-from gazelle.ros import Master, load_message
 from gazelle.simulation import Setting, Tunable, Tuning, WorldPlugin
+from gazelle_ros import Master, load_message
 
 
 class Tuned(WorldPlugin):

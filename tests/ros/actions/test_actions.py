@@ -7,8 +7,8 @@ from types import SimpleNamespace
 import pytest
 from ros.graph import until
 
-import gazelle.ros.actions.client as client_module
-from gazelle.ros.actions import (
+import gazelle_ros.actions.client as client_module
+from gazelle_ros.actions import (
     ActionClient,
     ActionException,
     ActionServer,
@@ -17,8 +17,8 @@ from gazelle.ros.actions import (
     SimpleActionClient,
     SimpleActionServer,
 )
-from gazelle.ros.actions.states import TRANSITIONS, name_of
-from gazelle.ros.messages import load_message
+from gazelle_ros.actions.states import TRANSITIONS, name_of
+from gazelle_ros.messages import load_message
 
 TEST = load_message("actionlib/TestAction")
 GOAL = load_message("actionlib/TestGoal")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.ros import Time, load_message
-from gazelle.ros.bags import Bag
+from gazelle_ros import Time, load_message
+from gazelle_ros.bags import Bag
 
 
 @pytest.fixture

@@ -10,11 +10,11 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from rosbags.rosbag1 import Reader
 
-from gazelle.errors import RosError
-from gazelle.ros import Time, load_message
-from gazelle.ros.bags import Bag, BagError, BagFormatError, BagUnindexedError, Compression
-from gazelle.ros.bags.info import as_dict, as_yaml, describe, value_of
-from gazelle.ros.bags.operations import check, filter_bag, keep_of, recompress, reindex
+from gazelle_ros import Time, load_message
+from gazelle_ros.bags import Bag, BagError, BagFormatError, BagUnindexedError, Compression
+from gazelle_ros.bags.info import as_dict, as_yaml, describe, value_of
+from gazelle_ros.bags.operations import check, filter_bag, keep_of, recompress, reindex
+from gazelle_ros.base.errors import RosError
 
 KINDS = ["none", "bz2", "lz4"]
 ROWS = [("/a", "one", 1.0), ("/b", "two", 2.5), ("/a", "three", 3.0)]

@@ -6,10 +6,10 @@ import io
 
 import pytest
 
-from gazelle.cli.main import main
-from gazelle.ros import Time
-from gazelle.ros.bags import Bag, BagUnindexedError
-from gazelle.ros.messages import class_from_text
+from gazelle_ros import Time
+from gazelle_ros.bags import Bag, BagUnindexedError
+from gazelle_ros.cli.main import main
+from gazelle_ros.messages import class_from_text
 
 ROWS = [("/a", "one", 1.0), ("/b", "two", 2.5), ("/a", "three", 3.0)]
 

@@ -5,10 +5,10 @@ import threading
 import pytest
 from ros.graph import until
 
-from gazelle.cli.main import main
-from gazelle.ros import Duration, Time, load_message
-from gazelle.ros.bags import Bag
-from gazelle.ros.bags.playing import Player, PlayOptions
+from gazelle_ros import Duration, Time, load_message
+from gazelle_ros.bags import Bag
+from gazelle_ros.bags.playing import Player, PlayOptions
+from gazelle_ros.cli.main import main
 
 
 @pytest.mark.parametrize("nanoseconds", [123456789, 123456700, 999999999, 1])

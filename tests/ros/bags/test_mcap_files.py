@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from mcap.reader import make_reader
 
-from gazelle.cli.main import main
-from gazelle.ros import Time, load_message
-from gazelle.ros.bags import Bag, BagError
-from gazelle.ros.bags.mcap_files import write_mcap
+from gazelle_ros import Time, load_message
+from gazelle_ros.bags import Bag, BagError
+from gazelle_ros.bags.mcap_files import write_mcap
+from gazelle_ros.cli.main import main
 
 
 @pytest.fixture

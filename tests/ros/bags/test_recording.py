@@ -9,11 +9,11 @@ import time
 import pytest
 from ros.graph import until
 
-from gazelle.ros import Time, WallClock, load_message
-from gazelle.ros.bags import Bag, BagError
-from gazelle.ros.bags.playing import Player, PlayOptions
-from gazelle.ros.bags.recording import BagRecorder, RecordOptions, check, duration_of
-from gazelle.ros.errors import RosError
+from gazelle_ros import Time, WallClock, load_message
+from gazelle_ros.bags import Bag, BagError
+from gazelle_ros.bags.playing import Player, PlayOptions
+from gazelle_ros.bags.recording import BagRecorder, RecordOptions, check, duration_of
+from gazelle_ros.errors import RosError
 
 
 @pytest.fixture

@@ -10,10 +10,10 @@ import sys
 import pytest
 from ros.real import PYTHON, environment, needs_ros, tool
 
-from gazelle.ros import Master, Time, load_message
-from gazelle.ros.bags import Bag
-from gazelle.ros.bags.info import as_dict, as_yaml, describe
-from gazelle.ros.bags.operations import reindex
+from gazelle_ros import Master, Time, load_message
+from gazelle_ros.bags import Bag
+from gazelle_ros.bags.info import as_dict, as_yaml, describe
+from gazelle_ros.bags.operations import reindex
 
 pytestmark = [pytest.mark.ros, needs_ros]
 KINDS = ["none", "bz2", "lz4"]
@@ -158,7 +158,7 @@ def finish(process):
 
 
 def command(kind, *arguments):
-    tools = {"ours": [sys.executable, "-m", "gazelle.cli.main", "bag"], "real": ["rosbag"]}
+    tools = {"ours": [sys.executable, "-m", "gazelle_ros.cli.main", "bag"], "real": ["rosbag"]}
     return [*tools[kind], *arguments]
 
 

@@ -1,6 +1,6 @@
 """A controller manager of a few lines that keeps ros_control's rules, without a robot."""
 
-from gazelle.ros import load_message, load_service
+from gazelle_ros import load_message, load_service
 
 SERVICES = {
     "list_controllers": "ListControllers",

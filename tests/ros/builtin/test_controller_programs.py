@@ -11,9 +11,9 @@ import pytest
 from ros.builtin.manager_stand_in import ManagerStandIn
 from ros.graph import until
 
-from gazelle.ros import load_message
-from gazelle.ros.tools.graph import GraphInspector
-from gazelle.ros.tools.nodes import kill
+from gazelle_ros import load_message
+from gazelle_ros.tools.graph import GraphInspector
+from gazelle_ros.tools.nodes import kill
 
 BOOL = load_message("std_msgs/Bool")
 JOINTS = {"effort": "elbow", "position": "elbow"}
@@ -38,7 +38,7 @@ def start(master, tmp_path):
     made = []
 
     def run(kind, *arguments, **env):
-        words = [sys.executable, "-m", "gazelle.ros.builtin.start", "controller_manager", kind]
+        words = [sys.executable, "-m", "gazelle_ros.builtin.start", "controller_manager", kind]
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
         env = os.environ | {"ROS_MASTER_URI": master.uri} | env
         made.append(subprocess.Popen([*words, *arguments], env=env, cwd=tmp_path, **pipes))

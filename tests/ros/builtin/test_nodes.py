@@ -13,13 +13,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from ros.graph import until
 
-from gazelle.errors import RosError
-from gazelle.ros import RawMessage, load_message, load_service
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.builtin.registry import main_of
-from gazelle.ros.builtin.static_transform import from_angles
-from gazelle.ros.tools.graph import GraphInspector
-from gazelle.ros.tools.nodes import kill
+from gazelle_ros import RawMessage, load_message, load_service
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.builtin.registry import main_of
+from gazelle_ros.builtin.static_transform import from_angles
+from gazelle_ros.tools.graph import GraphInspector
+from gazelle_ros.tools.nodes import kill
 
 STRING = load_message("std_msgs/String")
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from gazelle.ros.builtin.on_path import offer
+from gazelle_ros.builtin.on_path import offer
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="the programs are for shells")
 
@@ -71,7 +71,7 @@ def test_what_runs_can_be_ended_by_its_name(surroundings, tmp_path):
     env = surroundings | {"ROS_MASTER_URI": "http://127.0.0.1:9"}
     for command, name in (
         (["rosmaster", "-p", "0"], "rosmaster"),
-        ([sys.executable, "-m", "gazelle.ros.builtin.start", "gazebo_ros", "spawn_model"], "spawn"),
+        ([sys.executable, "-m", "gazelle_ros.builtin.start", "gazebo_ros", "spawn_model"], "spawn"),
     ):
         arguments = [] if name == "rosmaster" else ["-sdf", "-stdin", "-model", "m", "-wait", "m"]
         process = subprocess.Popen(

@@ -15,12 +15,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from ros.graph import until
 
-from gazelle.errors import RosError
-from gazelle.ros import Master, MasterProxy, Node, WallClock, load_message
-from gazelle.ros.builtin.teleop.keyboard import DOWN, LEFT, RIGHT, UP, Keyboard
-from gazelle.ros.builtin.teleop.turtlebot3 import LIMITS, StepwiseDrive
-from gazelle.ros.builtin.teleop.twist import KeyDrive
-from gazelle.ros.xmlrpc.client import BlockingClient
+from gazelle_ros import Master, MasterProxy, Node, WallClock, load_message
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.builtin.teleop.keyboard import DOWN, LEFT, RIGHT, UP, Keyboard
+from gazelle_ros.builtin.teleop.turtlebot3 import LIMITS, StepwiseDrive
+from gazelle_ros.builtin.teleop.twist import KeyDrive
+from gazelle_ros.xmlrpc.client import BlockingClient
 
 termios = pytest.importorskip("termios")
 pty = pytest.importorskip("pty")
@@ -37,7 +37,7 @@ class Typist:
         self.terminal = terminal
         self.before = termios.tcgetattr(terminal)
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "gazelle.cli.main", *arguments],
+            [sys.executable, "-m", "gazelle_ros.cli.main", *arguments],
             env=os.environ | {"ROS_MASTER_URI": uri},
             stdin=terminal,
             stdout=subprocess.PIPE,
@@ -175,7 +175,7 @@ def test_the_launcher_gives_the_terminal_back_of_a_node_that_was_killed(typist, 
 
 def test_without_a_terminal_it_says_so(master):
     done = subprocess.run(
-        [sys.executable, "-m", "gazelle.cli.main", "exec", *TURTLEBOT3],
+        [sys.executable, "-m", "gazelle_ros.cli.main", "exec", *TURTLEBOT3],
         env=os.environ | {"ROS_MASTER_URI": master.uri},
         stdin=subprocess.DEVNULL,
         capture_output=True,

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from ros.graph import until
 
-from gazelle.ros.builtin.on_path import offer
-from gazelle.ros.builtin.terminal import programs, real_terminal
+from gazelle_ros.builtin.on_path import offer
+from gazelle_ros.builtin.terminal import programs, real_terminal
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="there are no such terminals")
 
@@ -134,8 +134,8 @@ def test_nodes_with_the_prefix_run(tmp_path, prefix):
     )
     env = {key: value for key, value in os.environ.items() if "DISPLAY" not in key}
     env |= {"ROS_PACKAGE_PATH": str(tmp_path), "ROS_HOME": str(tmp_path / "ros")}
-    command = [sys.executable, "-m", "gazelle.cli.main", "launch", "--port", "0", str(file)]
-    from gazelle.ros import Master
+    command = [sys.executable, "-m", "gazelle_ros.cli.main", "launch", "--port", "0", str(file)]
+    from gazelle_ros import Master
 
     with Master(port=0, rosout=False) as master:
         command[5] = str(master.port)

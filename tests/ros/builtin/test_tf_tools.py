@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 from ros.real import environment
 
-from gazelle.errors import RosError
-from gazelle.ros import Time, load_message
-from gazelle.ros.builtin.registry import main_of
-from gazelle.ros.builtin.static_transform import from_angles
+from gazelle_ros import Time, load_message
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.builtin.registry import main_of
+from gazelle_ros.builtin.static_transform import from_angles
 
 REAL = Path("/usr/lib/tf/tf_echo")
 ECHOED = """\
@@ -68,7 +68,7 @@ def first_lines(command, env, folder, enough):
 
 
 def ours(uri, folder, *words, enough):
-    command = [sys.executable, "-m", "gazelle.ros.builtin.start", "tf", *words]
+    command = [sys.executable, "-m", "gazelle_ros.builtin.start", "tf", *words]
     return first_lines(command, os.environ | {"ROS_MASTER_URI": uri}, folder, enough)
 
 

@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-import gazelle.ros as ros
+import gazelle_ros as ros
 
 
 @pytest.fixture
@@ -14,7 +14,7 @@ def rospy(master, monkeypatch):
     with ros.install():
         import rospy
 
-        from gazelle.ros.compat.rospy import client
+        from gazelle_ros.compat.rospy import client
 
         client.reset()
         yield rospy

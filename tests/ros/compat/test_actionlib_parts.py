@@ -4,7 +4,7 @@ import importlib
 
 import pytest
 
-from gazelle.ros.messages import load_message
+from gazelle_ros.messages import load_message
 
 
 @pytest.fixture

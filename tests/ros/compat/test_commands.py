@@ -49,6 +49,6 @@ def test_the_arguments_are_by_default_the_programs(
 
 def test_a_command_may_be_a_node_of_a_launch_file(node):
     line = ["rosparam", "set", "/gain", "3", "__name:=setter", "__log:=/dev/null"]
-    script = f"import gazelle.ros as r; r.install(); import rosparam; rosparam.yamlmain({line})"
+    script = f"import gazelle_ros as r; r.install(); import rosparam; rosparam.yamlmain({line})"
     subprocess.run([sys.executable, "-c", script], check=True, timeout=60)
     assert node.get_param("/gain") == 3

@@ -3,7 +3,7 @@
 import pytest
 from ros.builtin.manager_stand_in import INTERFACE, SERVICES, ManagerStandIn
 
-from gazelle.ros import load_message, load_service
+from gazelle_ros import load_message, load_service
 
 
 @pytest.fixture

@@ -7,10 +7,10 @@ import sys
 import pytest
 from ros import real
 
-import gazelle.ros as ros
-from gazelle.cli.main import main
-from gazelle.errors import FormatError
-from gazelle.ros.messages import search
+import gazelle_ros as ros
+from gazelle_ros.base.errors import FormatError
+from gazelle_ros.cli.main import main
+from gazelle_ros.messages import search
 
 CFG = """
 from dynamic_reconfigure.parameter_generator_catkin import *

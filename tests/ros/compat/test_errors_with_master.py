@@ -10,7 +10,7 @@ import sys
 import pytest
 from ros import real
 
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 CALLS = (
     "rosparam.get_param('/missing')",
@@ -85,7 +85,7 @@ def files(tmp_path_factory):
 @pytest.fixture(scope="module")
 def ours(files):
     with Master(port=0, rosout=False) as master:
-        command = [sys.executable, "-m", "gazelle.cli.main", "exec", *files]
+        command = [sys.executable, "-m", "gazelle_ros.cli.main", "exec", *files]
         return ask(command, os.environ | {"ROS_MASTER_URI": master.uri})
 
 

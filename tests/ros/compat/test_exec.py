@@ -8,7 +8,11 @@ import time
 
 import pytest
 
-COMMAND = [sys.executable, "-c", "import sys; from gazelle.cli.main import main; sys.exit(main())"]
+COMMAND = [
+    sys.executable,
+    "-c",
+    "import sys; from gazelle_ros.cli.main import main; sys.exit(main())",
+]
 TALKER = """
 import sys, rospy
 from std_msgs.msg import String
@@ -47,7 +51,7 @@ def execute(tmp_path, master):
 
 
 def test_a_node_runs_talks_and_ends_at_ctrl_c(execute, make_node):
-    from gazelle.ros.messages import load_message
+    from gazelle_ros.messages import load_message
 
     process = execute(TALKER, "chatter:=/told", "_text:=hello", "--flag", "__name:=other")
     assert process.stdout.readline() == "ready ['--flag'] __main__\n"
@@ -88,8 +92,8 @@ def test_a_missing_script_is_one_line(execute):
 
 
 def test_sleep_can_mean_simulated_time(execute, make_node):
-    from gazelle.ros.messages import load_message
-    from gazelle.ros.time import Time
+    from gazelle_ros.messages import load_message
+    from gazelle_ros.time import Time
 
     driver = make_node("driver")
     driver.set_param("/use_sim_time", True)

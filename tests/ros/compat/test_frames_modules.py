@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from ros import real
 
-import gazelle.ros as ros
-from gazelle.ros.compat import PyKDL
-from gazelle.ros.messages import load_message
+import gazelle_ros as ros
+from gazelle_ros.compat import PyKDL
+from gazelle_ros.messages import load_message
 
 NUMBERS = st.floats(-4.0, 4.0)
 VECTORS = st.builds(PyKDL.Vector, NUMBERS, NUMBERS, NUMBERS)

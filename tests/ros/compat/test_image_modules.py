@@ -6,8 +6,8 @@ import importlib.util
 import numpy as np
 import pytest
 
-import gazelle.ros as ros
-from gazelle.ros.messages import load_message
+import gazelle_ros as ros
+from gazelle_ros.messages import load_message
 
 
 @pytest.fixture(autouse=True)

@@ -6,9 +6,9 @@ import types
 
 import pytest
 
-import gazelle.ros as ros
-from gazelle.ros.compat.finder import own_modules
-from gazelle.ros.messages import search
+import gazelle_ros as ros
+from gazelle_ros.compat.finder import own_modules
+from gazelle_ros.messages import search
 
 MODULES = [
     "actionlib",
@@ -64,7 +64,7 @@ def test_installing_twice_takes_uninstalling_twice():
     ros.uninstall()
     import rospy
 
-    assert rospy.__name__ == "gazelle.ros.compat.rospy"
+    assert rospy.__name__ == "gazelle_ros.compat.rospy"
     ros.uninstall()
     with pytest.raises(ImportError):
         importlib.import_module("rospy.core")
@@ -79,7 +79,7 @@ def test_a_module_is_the_same_by_each_of_its_names():
 
         assert rospy.core is sys.modules["rospy.core"]
         assert rospy.exceptions.ROSException is rospy.ROSException
-        assert rospy.__spec__.name == "gazelle.ros.compat.rospy"
+        assert rospy.__spec__.name == "gazelle_ros.compat.rospy"
 
 
 def test_star_brings_the_classes_of_a_package():

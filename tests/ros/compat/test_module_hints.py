@@ -5,12 +5,12 @@ import sys
 
 import pytest
 
-import gazelle.ros as ros
-from gazelle.errors import RosError
-from gazelle.ros.compat.finder import own_modules, substitutes
-from gazelle.ros.compat.module_hints import ADVICE, PIP, module_hint
-from gazelle.ros.compat.script import run_script
-from gazelle.ros.messages import load_message
+import gazelle_ros as ros
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.compat.finder import own_modules, substitutes
+from gazelle_ros.compat.module_hints import ADVICE, PIP, module_hint
+from gazelle_ros.compat.script import run_script
+from gazelle_ros.messages import load_message
 
 
 @pytest.fixture

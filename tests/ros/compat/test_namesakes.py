@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import yaml
 
-import gazelle.ros as ros
-from gazelle.ros.builtin import xacro as xacro_program
-from gazelle.ros.builtin.registry import stand_in
+import gazelle_ros as ros
+from gazelle_ros.builtin import xacro as xacro_program
+from gazelle_ros.builtin.registry import stand_in
 
 ROBOT = (
     '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">'
@@ -111,7 +111,7 @@ def test_the_program_expands_tags_without_prefix_and_says_so_once(robot, capsys,
 )
 def test_every_command_finds_the_package_and_not_its_own_folder(robot, words):
     done = subprocess.run(
-        [sys.executable, "-m", "gazelle", *words, str(robot)],
+        [sys.executable, "-m", "gazelle_ros", *words, str(robot)],
         capture_output=True,
         text=True,
         check=False,

@@ -6,8 +6,8 @@ import types
 import pytest
 from ros.graph import until
 
-from gazelle.ros.messages import load_message
-from gazelle.ros.time import Time
+from gazelle_ros.messages import load_message
+from gazelle_ros.time import Time
 
 
 def stamped(seconds):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gazelle.ros.compat.python2 import advice_text, explain
+from gazelle_ros.compat.python2 import advice_text, explain
 
 
 def error_of(source):

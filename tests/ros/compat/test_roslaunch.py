@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from ros.graph import until
 
-from gazelle.ros.launch.packages import Packages
-from gazelle.ros.messages import search
+from gazelle_ros.launch.packages import Packages
+from gazelle_ros.messages import search
 
 SLEEPER = """#!/usr/bin/env python3
 import rospy, sys
@@ -241,7 +241,7 @@ def node_of_ended_script(master, tmp_path, number):
     """Start the script, send it a signal once its node runs; the node's process."""
     script = tmp_path / "script.py"
     script.write_text(SCRIPT)
-    command = "import sys; from gazelle.cli.main import main; sys.exit(main())"
+    command = "import sys; from gazelle_ros.cli.main import main; sys.exit(main())"
     with subprocess.Popen(
         [sys.executable, "-c", command, "exec", str(script)],
         env={**os.environ, "ROS_MASTER_URI": master.uri},

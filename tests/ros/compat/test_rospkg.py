@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-import gazelle.ros as ros
-from gazelle.ros.messages import search
+import gazelle_ros as ros
+from gazelle_ros.messages import search
 
 MANIFEST = """<package format="2"><name>{name}</name><version>1.2.3</version>
 <description>A robot</description><license>BSD</license><author>Ann</author>

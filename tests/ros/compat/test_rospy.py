@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from ports import free_port
 
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 
 def until(condition, seconds=60.0):

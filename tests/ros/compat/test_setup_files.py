@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
-import gazelle.ros as ros
-from gazelle.ros.compat.setup_files import python_code
+import gazelle_ros as ros
+from gazelle_ros.compat.setup_files import python_code
 
 HEAD = (
     "from distutils.core import setup\n"
@@ -169,7 +169,7 @@ def test_a_script_that_it_names_runs_by_package_and_name(workspace, script):
     write_module(folder / script, "#!/usr/bin/env python\nimport led\nprint(led.VALUE)\n")
     name = script.rpartition("/")[2]
     done = subprocess.run(
-        [sys.executable, "-m", "gazelle", "exec", "led_driver", name],
+        [sys.executable, "-m", "gazelle_ros", "exec", "led_driver", name],
         capture_output=True,
         text=True,
         check=False,

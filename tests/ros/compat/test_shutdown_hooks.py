@@ -70,7 +70,7 @@ def script(tmp_path):
 
 def test_a_hook_may_sleep_and_publish(master, script):
     env = os.environ | {"ROS_MASTER_URI": master.uri}
-    assert lines([sys.executable, "-m", "gazelle", "exec"], env, script) == SAID
+    assert lines([sys.executable, "-m", "gazelle_ros", "exec"], env, script) == SAID
 
 
 @pytest.mark.ros
@@ -80,7 +80,7 @@ def test_a_hook_of_the_real_rospy_says_the_same(master, script):
 
 
 def test_a_signal_while_the_script_waits_for_the_end_does_not_hang(node):
-    from gazelle.ros.compat.rospy.state import process
+    from gazelle_ros.compat.rospy.state import process
 
     process.catch_signals()
     # As when the signal comes while `spin` holds the lock of the event it waits for.

@@ -8,7 +8,7 @@ import threading
 import pytest
 from graph import until
 
-from gazelle.ros.messages import load_message
+from gazelle_ros.messages import load_message
 
 
 @pytest.fixture

@@ -93,7 +93,7 @@ def nowhere():
 
 @pytest.fixture(scope="module")
 def ours(script, nowhere):
-    command = [sys.executable, "-m", "gazelle.cli.main", "exec", str(script)]
+    command = [sys.executable, "-m", "gazelle_ros.cli.main", "exec", str(script)]
     return found(command, os.environ | {"ROS_MASTER_URI": nowhere})
 
 

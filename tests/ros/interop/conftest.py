@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 from ros import real
 
-from gazelle.ros import Master, MasterProxy, Node
-from gazelle.ros.errors import ApiError
+from gazelle_ros import Master, MasterProxy, Node
+from gazelle_ros.errors import ApiError
 
 SOURCE = Path(__file__).parent / "peer.cpp"
 

@@ -10,8 +10,8 @@ import pytest
 from ros import real
 from ros.graph import Flag, FlagResponse, Text, Word, until
 
-from gazelle.ros import Node, Time, load_message
-from gazelle.ros.errors import ServiceFailedError
+from gazelle_ros import Node, Time, load_message
+from gazelle_ros.errors import ServiceFailedError
 
 # A C++ program is compiled for them.
 pytestmark = [pytest.mark.ros, pytest.mark.long, real.needs_ros, pytest.mark.timeout(300)]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from gazelle.ros.launch import Packages, load_launch
-from gazelle.ros.messages import search
+from gazelle_ros.launch import Packages, load_launch
+from gazelle_ros.messages import search
 
 
 @pytest.fixture

@@ -16,11 +16,11 @@ import pytest
 from ports import free_port
 from ros.graph import until
 
-from gazelle.ros import Master, MasterProxy
-from gazelle.ros.errors import RosError
-from gazelle.ros.launch import LaunchPlan, Packages
-from gazelle.ros.launch.runner import Launch, Options
-from gazelle.ros.tool_names import process_name
+from gazelle_ros import Master, MasterProxy
+from gazelle_ros.errors import RosError
+from gazelle_ros.launch import LaunchPlan, Packages
+from gazelle_ros.launch.runner import Launch, Options
+from gazelle_ros.tool_names import process_name
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="processes are looked up in /proc")
 
@@ -32,7 +32,7 @@ class Family:
 
     def __init__(self, arguments, uri, home):
         env = os.environ | {"ROS_MASTER_URI": uri, "ROS_HOME": str(home)}
-        command = [sys.executable, "-m", "gazelle.cli.main", *map(str, arguments)]
+        command = [sys.executable, "-m", "gazelle_ros.cli.main", *map(str, arguments)]
         self.out = home / "out"
         with self.out.open("w") as out:
             self.process = subprocess.Popen(command, env=env, stdout=out, stderr=out)

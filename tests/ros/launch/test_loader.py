@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.ros.launch import (
+from gazelle_ros.launch import (
     LaunchError,
     MissingArgumentError,
     MissingPackageError,
@@ -17,8 +17,8 @@ from gazelle.ros.launch import (
     load_launch,
     load_launch_text,
 )
-from gazelle.ros.launch.document import read_document
-from gazelle.ros.launch.loader import declared_arguments
+from gazelle_ros.launch.document import read_document
+from gazelle_ros.launch.loader import declared_arguments
 
 NODE = '<node pkg="robot" type="t" name="{}"/>'
 

@@ -6,11 +6,11 @@ import sys
 
 import pytest
 
-from gazelle.errors import RosError
-from gazelle.ros.builtin import registry
-from gazelle.ros.launch import LaunchError, MissingPackageError, Packages
-from gazelle.ros.launch.finding import find_launch_file, require_name
-from gazelle.ros.launch.programs import Program, Skipped, command_line, program_of
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.builtin import registry
+from gazelle_ros.launch import LaunchError, MissingPackageError, Packages
+from gazelle_ros.launch.finding import find_launch_file, require_name
+from gazelle_ros.launch.programs import Program, Skipped, command_line, program_of
 
 
 def test_scripts_are_found_and_run_as_gazelle_exec_does(script):
@@ -147,7 +147,7 @@ def test_every_built_in_node_can_be_loaded():
 )
 def test_xacro_is_built_in(words):
     found = command_line([*words, "f.xacro"], Packages({}))
-    assert found[:3] == [sys.executable, "-m", "gazelle.ros.builtin.start"]
+    assert found[:3] == [sys.executable, "-m", "gazelle_ros.builtin.start"]
     assert found[3:5] == ["xacro", "xacro"]
     assert found[-1] == "f.xacro"
 

@@ -4,11 +4,11 @@ import warnings
 
 import pytest
 
-from gazelle.errors import FormatWarning
-from gazelle.ros.launch.document import parse_document
-from gazelle.ros.launch.errors import LaunchError
-from gazelle.ros.launch.loader import load_launch
-from gazelle.ros.launch.values import load_yaml, load_yaml_documents
+from gazelle_ros.base.errors import FormatWarning
+from gazelle_ros.launch.document import parse_document
+from gazelle_ros.launch.errors import LaunchError
+from gazelle_ros.launch.loader import load_launch
+from gazelle_ros.launch.values import load_yaml, load_yaml_documents
 
 BLANKS = ("\u00a0", "\u2009", "\u3000", "\u202f")
 MESSAGE = "no-break space or another unusual blank, which was taken as a space"

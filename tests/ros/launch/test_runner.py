@@ -14,13 +14,13 @@ import pytest
 from ports import free_port
 from ros.graph import until
 
-from gazelle.ros import Master
-from gazelle.ros.errors import MasterUnreachableError
-from gazelle.ros.launch import LaunchError, Packages
-from gazelle.ros.launch.process import StopTimeouts
-from gazelle.ros.launch.runner import Launch, Options
-from gazelle.ros.master.proxy import MasterProxy
-from gazelle.ros.xmlrpc.client import BlockingClient
+from gazelle_ros import Master
+from gazelle_ros.errors import MasterUnreachableError
+from gazelle_ros.launch import LaunchError, Packages
+from gazelle_ros.launch.process import StopTimeouts
+from gazelle_ros.launch.runner import Launch, Options
+from gazelle_ros.master.proxy import MasterProxy
+from gazelle_ros.xmlrpc.client import BlockingClient
 
 SLEEP = "#!/bin/sh\nexec sleep 100\n"
 PATIENCE = StopTimeouts(60.0, 10.0)
@@ -336,7 +336,7 @@ def test_the_command_ends_cleanly_on_ctrl_c(workspace, script, tmp_path):
     file.write_text(f"<launch>{node('sleep.sh')}</launch>")
     uri = f"http://127.0.0.1:{free_port()}/"
     process = subprocess.Popen(
-        [sys.executable, "-m", "gazelle.cli.main", "launch", str(file)],
+        [sys.executable, "-m", "gazelle_ros.cli.main", "launch", str(file)],
         env=os.environ | {"ROS_MASTER_URI": uri},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -371,7 +371,7 @@ def test_no_node_is_left_however_the_command_ends(workspace, script, tmp_path, m
     file = tmp_path / "f.launch"
     file.write_text(f"<launch>{node('sleep.sh')}</launch>")
     with subprocess.Popen(
-        [sys.executable, "-m", "gazelle.cli.main", "launch", str(file)],
+        [sys.executable, "-m", "gazelle_ros.cli.main", "launch", str(file)],
         env=os.environ | {"ROS_MASTER_URI": master.uri},
         stdout=subprocess.PIPE,
         text=True,

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.ros.launch.errors import (
+from gazelle_ros.launch.errors import (
     MissingArgumentError,
     MissingPackageError,
     SubstitutionError,
 )
-from gazelle.ros.launch.packages import Packages
-from gazelle.ros.launch.substitution import Substitution
+from gazelle_ros.launch.packages import Packages
+from gazelle_ros.launch.substitution import Substitution
 
 
 def words(arguments=None, file="/a/b/c.launch", environment=None):

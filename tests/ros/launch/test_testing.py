@@ -9,7 +9,11 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-COMMAND = [sys.executable, "-c", "import sys; from gazelle.cli.main import main; sys.exit(main())"]
+COMMAND = [
+    sys.executable,
+    "-c",
+    "import sys; from gazelle_ros.cli.main import main; sys.exit(main())",
+]
 CASES = """#!/usr/bin/env python3
 import sys, unittest, rospy, rostest, time
 from std_msgs.msg import String

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.ros.launch.errors import LaunchError
-from gazelle.ros.launch.values import automatic, convert, load_yaml, load_yaml_documents, truth
+from gazelle_ros.launch.errors import LaunchError
+from gazelle_ros.launch.values import automatic, convert, load_yaml, load_yaml_documents, truth
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from ros.real import PYTHON, needs_ros
 
-from gazelle.ros.launch import LaunchError, Packages, ParameterCommand, TestPlan, load_launch
+from gazelle_ros.launch import LaunchError, Packages, ParameterCommand, TestPlan, load_launch
 
 pytestmark = [pytest.mark.ros, needs_ros]
 

@@ -9,7 +9,7 @@ from typing import Any
 import message_samples
 import pytest
 
-from gazelle.ros.messages import Message, load_message, register
+from gazelle_ros.messages import Message, load_message, register
 
 _CONSTANT = re.compile(r"\w+ +\w+ *= *[^=]")
 _DEBIAN = "/usr/lib/python3/dist-packages"

@@ -7,9 +7,9 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from gazelle.ros.messages import Message
-from gazelle.ros.messages.spec import FLOATS, INTEGER_BITS, OCTETS, UNSIGNED, Field
-from gazelle.ros.time import Duration, Time
+from gazelle_ros.messages import Message
+from gazelle_ros.messages.spec import FLOATS, INTEGER_BITS, OCTETS, UNSIGNED, Field
+from gazelle_ros.time import Duration, Time
 
 INNER = """
 float64 x

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from message_samples import dumps, random_message
 
-from gazelle.ros.messages import (
+from gazelle_ros.messages import (
     Message,
     class_from_text,
     definitions,
@@ -19,7 +19,7 @@ from gazelle.ros.messages import (
     load_service,
     register,
 )
-from gazelle.ros.time import Duration, Time
+from gazelle_ros.time import Duration, Time
 
 Point = load_message("geometry_msgs/Point")
 Pose = load_message("geometry_msgs/Pose")
@@ -188,7 +188,7 @@ def test_many_threads_may_use_a_new_class_at_once():
 @pytest.mark.long
 def test_importing_the_room_is_quick_and_brings_no_numpy():
     code = (
-        "import sys, time; t = time.process_time(); import gazelle.ros.messages; "
+        "import sys, time; t = time.process_time(); import gazelle_ros.messages; "
         "print(time.process_time() - t, 'numpy' in sys.modules, 'yaml' in sys.modules)"
     )
     runs = [

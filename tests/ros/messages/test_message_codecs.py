@@ -11,14 +11,14 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from message_samples import dumps, fields_of, messages, random_message
 
-from gazelle.ros.messages import (
+from gazelle_ros.messages import (
     DeserializationError,
     SerializationError,
     definitions,
     load_message,
     load_service,
 )
-from gazelle.ros.time import TVal
+from gazelle_ros.time import TVal
 
 TYPES = definitions()
 SERVICES = definitions("srv")
@@ -201,7 +201,7 @@ def test_impossible_lengths_are_refused_at_once(name, offset):
 
 
 def test_very_many_empty_elements_are_refused(all_kinds):
-    from gazelle.ros.messages import register
+    from gazelle_ros.messages import register
 
     register("sample_msgs", "Hollows", "Hollow[] hollows")
     made = load_message("sample_msgs/Hollows")

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from gazelle.errors import FormatWarning
-from gazelle.ros.messages import (
+from gazelle_ros.base.errors import FormatWarning
+from gazelle_ros.messages import (
     InvalidDefinitionError,
     UnknownTypeError,
     class_from_text,
@@ -19,9 +19,9 @@ from gazelle.ros.messages import (
     load_service,
     register,
 )
-from gazelle.ros.messages.parse import parse_message, parse_service
-from gazelle.ros.messages.search import find_packages
-from gazelle.ros.messages.spec import CONSTANT_TYPES, SCALARS
+from gazelle_ros.messages.parse import parse_message, parse_service
+from gazelle_ros.messages.search import find_packages
+from gazelle_ros.messages.spec import CONSTANT_TYPES, SCALARS
 
 MESSAGE_MD5 = {
     "actionlib_tutorials/FibonacciAction": "f59df5767bf7634684781c92598b2406",

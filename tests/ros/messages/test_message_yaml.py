@@ -6,8 +6,8 @@ import pytest
 import yaml as pyyaml
 from message_samples import random_message
 
-from gazelle.ros.messages import MessageException, load_message
-from gazelle.ros.messages.yaml import (
+from gazelle_ros.messages import MessageException, load_message
+from gazelle_ros.messages.yaml import (
     fill_message_args,
     from_dict,
     from_yaml,
@@ -16,7 +16,7 @@ from gazelle.ros.messages.yaml import (
     to_dict,
     to_yaml,
 )
-from gazelle.ros.time import Duration, Time
+from gazelle_ros.time import Duration, Time
 
 Twist = load_message("geometry_msgs/Twist")
 Header = load_message("std_msgs/Header")

@@ -1,4 +1,4 @@
-"""Messages as modules, `gazelle.ros.msgs`, and their stubs."""
+"""Messages as modules, `gazelle_ros.msgs`, and their stubs."""
 
 import subprocess
 import sys
@@ -6,11 +6,11 @@ import sys
 import message_stubs
 import pytest
 
-import gazelle.ros.msgs
-from gazelle.ros import load_message, load_service
-from gazelle.ros.messages import register
-from gazelle.ros.messages.library import bundled, bundled_packages
-from gazelle.ros.msgs import geometry_msgs, std_msgs, std_srvs
+import gazelle_ros.msgs
+from gazelle_ros import load_message, load_service
+from gazelle_ros.messages import register
+from gazelle_ros.messages.library import bundled, bundled_packages
+from gazelle_ros.msgs import geometry_msgs, std_msgs, std_srvs
 
 
 def test_classes_are_those_of_load_message():
@@ -20,8 +20,8 @@ def test_classes_are_those_of_load_message():
 
 
 def test_import_lines_of_scripts_work_with_the_prefix():
-    from gazelle.ros.msgs.geometry_msgs.msg import Pose, PoseStamped
-    from gazelle.ros.msgs.std_srvs.srv import Trigger, TriggerResponse
+    from gazelle_ros.msgs.geometry_msgs.msg import Pose, PoseStamped
+    from gazelle_ros.msgs.std_srvs.srv import Trigger, TriggerResponse
 
     assert PoseStamped().pose == Pose()
     assert Trigger._response_class is TriggerResponse
@@ -29,7 +29,7 @@ def test_import_lines_of_scripts_work_with_the_prefix():
 
 def test_foreign_names_are_left_alone():
     code = (
-        "import sys; from gazelle.ros.msgs import std_msgs; std_msgs.msg.String();"
+        "import sys; from gazelle_ros.msgs import std_msgs; std_msgs.msg.String();"
         "assert 'std_msgs' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
@@ -40,7 +40,7 @@ def test_packages_on_the_path_can_be_imported(tmp_path, monkeypatch):
     (tmp_path / "my_msgs" / "package.xml").write_text("<package><name>my_msgs</name></package>")
     (tmp_path / "my_msgs" / "msg" / "Ping.msg").write_text("int32 count\n")
     monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
-    from gazelle.ros.msgs import my_msgs
+    from gazelle_ros.msgs import my_msgs
 
     assert my_msgs.msg.Ping(count=3).count == 3
 
@@ -49,7 +49,7 @@ def test_modules_follow_new_definitions():
     register("freshly_msgs", "Part", "int32 a")
     register("freshly_msgs", "Whole", "Part part")
     register("freshly_msgs", "Ask", "Part part\n---\n")
-    from gazelle.ros.msgs import freshly_msgs
+    from gazelle_ros.msgs import freshly_msgs
 
     assert freshly_msgs.msg.Whole().part == freshly_msgs.msg.Part(a=0)
     old = freshly_msgs.srv.AskRequest
@@ -64,8 +64,8 @@ def test_modules_follow_new_definitions():
 
 def test_importing_a_package_reads_no_definitions():
     code = (
-        "from gazelle.ros.messages.library import bundled;"
-        "from gazelle.ros.msgs import geometry_msgs, std_srvs;"
+        "from gazelle_ros.messages.library import bundled;"
+        "from gazelle_ros.msgs import geometry_msgs, std_srvs;"
         "assert bundled.cache_info().currsize == 0; geometry_msgs.msg.Twist();"
         "assert bundled.cache_info().currsize == 1"
     )
@@ -82,7 +82,7 @@ def test_importing_a_package_reads_no_definitions():
 )
 def test_unknown_modules_are_not_found(name, hint):
     with pytest.raises(ModuleNotFoundError, match=hint):
-        __import__(f"gazelle.ros.msgs.{name}")
+        __import__(f"gazelle_ros.msgs.{name}")
 
 
 def test_unknown_classes_are_no_attributes():
@@ -93,7 +93,7 @@ def test_unknown_classes_are_no_attributes():
 
 
 def test_names_complete():
-    assert {"geometry_msgs", "std_srvs"} <= set(dir(gazelle.ros.msgs))
+    assert {"geometry_msgs", "std_srvs"} <= set(dir(gazelle_ros.msgs))
     assert {"Header", "String"} <= set(dir(std_msgs.msg))
 
 
@@ -115,8 +115,8 @@ def test_every_bundled_message_has_a_stub():
 
 
 SCRIPT = """
-from gazelle.ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
-from gazelle.ros.msgs.std_srvs.srv import Trigger
+from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
+from gazelle_ros.msgs.std_srvs.srv import Trigger
 
 twist = geometry_msgs.msg.Twist()
 twist.linear.x = 0.5
@@ -138,7 +138,7 @@ def test_type_checkers_see_fields(tmp_path):
     lines = [line.partition(": ")[2] for line in output.splitlines() if "script.py" in line]
     assert [line for line in lines if "defined in" not in line] == [
         'note: Revealed type is "float"',
-        'note: Revealed type is "gazelle.ros.msgs.geometry_msgs.msg.Point"',
+        'note: Revealed type is "gazelle_ros.msgs.geometry_msgs.msg.Point"',
         'note: Revealed type is "int"',
         'note: Revealed type is "bool"',
         'error: "Vector3" has no attribute "w"  [attr-defined]',

@@ -8,12 +8,12 @@ import time
 import pytest
 from ros.graph import until
 
-from gazelle.errors import RosError
-from gazelle.ros.builtin.registry import main_of
-from gazelle.ros.messages import load_message
-from gazelle.ros.robot import JointStatePublisher, RobotStatePublisher, read_joints
-from gazelle.ros.tf.rotations import rotate
-from gazelle.ros.time import Time
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.builtin.registry import main_of
+from gazelle_ros.messages import load_message
+from gazelle_ros.robot import JointStatePublisher, RobotStatePublisher, read_joints
+from gazelle_ros.tf.rotations import rotate
+from gazelle_ros.time import Time
 
 ROBOT = """
 <robot name="r">
@@ -139,5 +139,5 @@ def test_launch_files_find_both_nodes():
 
 def test_a_publisher_of_states_starts_without_arrays():
     """It reads a description by itself: the readers of files take a third of a second to import."""
-    code = "import gazelle.ros.builtin.robot, sys; sys.exit('numpy' in sys.modules)"
+    code = "import gazelle_ros.builtin.robot, sys; sys.exit('numpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -7,10 +7,10 @@ import json
 import pytest
 from websockets.sync.client import connect
 
-from gazelle.ros import Master, Node
-from gazelle.ros.rosbridge.rosapi import RosApi
-from gazelle.ros.rosbridge.server import BridgeServer
-from gazelle.ros.rosbridge.settings import settings_from
+from gazelle_ros import Master, Node
+from gazelle_ros.rosbridge.rosapi import RosApi
+from gazelle_ros.rosbridge.server import BridgeServer
+from gazelle_ros.rosbridge.settings import settings_from
 
 PATIENCE_S = 60
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.ros.rosbridge.client_queue import ClientQueue, DeliverySettings, TopicQueue
+from gazelle_ros.rosbridge.client_queue import ClientQueue, DeliverySettings, TopicQueue
 
 
 class Sized(str):

@@ -11,7 +11,7 @@ import pytest
 import roslibpy
 from ros.graph import until
 
-from gazelle.ros import load_message, load_service
+from gazelle_ros import load_message, load_service
 
 JAVASCRIPT = """
 import * as roslib from 'roslib';

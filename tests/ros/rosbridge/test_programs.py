@@ -13,7 +13,7 @@ from ports import free_port
 from ros.graph import until
 from ros.rosbridge.conftest import JsonClient
 
-from gazelle.ros.master.proxy import MasterProxy
+from gazelle_ros.master.proxy import MasterProxy
 
 # Arguments and nodes as rosbridge_server's file of that name has them, in a file of one's own.
 LAUNCH = """<launch>
@@ -33,7 +33,7 @@ def start(tmp_path):
     made = []
 
     def run(*words, **env):
-        command = [sys.executable, "-m", "gazelle", *map(str, words)]
+        command = [sys.executable, "-m", "gazelle_ros", *map(str, words)]
         process = subprocess.Popen(
             command, env=os.environ | env, cwd=tmp_path, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, text=True,
@@ -73,28 +73,6 @@ def test_the_launch_file_runs(start, tmp_path):
     assert "topics_glob" in client.ask("subscribe", topic="/rosout")["msg"]
     client.socket.close()
     master.close()
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("world", ["empty", "fleet"])
-def test_gazelle_run_with_rosbridge(start, graph, world):
-    process = start("run", world, "--ros", "--rosbridge", 0, ROS_MASTER_URI=graph.uri)
-    lines = iter(process.stdout.readline, "")
-    found = next(filter(None, (re.search(r"ws://127\.0\.0\.1:(\d+)", line) for line in lines)))
-    client = JsonClient(int(found.group(1)))
-    client.say("subscribe", topic="/clock")
-    assert client.hear()["topic"] == "/clock"
-    client.socket.close()
-    process.send_signal(signal.SIGINT)
-    process.communicate(timeout=60)
-    assert process.returncode == 130
-
-
-def test_rosbridge_needs_a_graph(start):
-    process = start("run", "empty", "--rosbridge")
-    said, _ = process.communicate(timeout=60)
-    assert process.returncode == 2
-    assert "add --ros" in said
 
 
 def test_gazelle_bridge(start, graph):

@@ -6,9 +6,9 @@ import json
 
 import pytest
 
-from gazelle.ros import Node, load_message, load_service
-from gazelle.ros.rosbridge.rosapi import RosApi
-from gazelle.ros.rosbridge.settings import settings_from
+from gazelle_ros import Node, load_message, load_service
+from gazelle_ros.rosbridge.rosapi import RosApi
+from gazelle_ros.rosbridge.settings import settings_from
 
 ACTION = ("cancel", "feedback", "goal", "result", "status")
 
@@ -123,7 +123,7 @@ def test_patterns_hide_the_rest(graph, robot):
     with Node("other_api", master_uri=graph.uri) as node:
         api = RosApi.__new__(RosApi)  # a second one on the same graph would take the names
         api._node, api._settings, api._servers = node, settings, []
-        from gazelle.ros.tools.graph import GraphInspector
+        from gazelle_ros.tools.graph import GraphInspector
 
         api._graph = GraphInspector("x", graph.uri, "/")
         with api:

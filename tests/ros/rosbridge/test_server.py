@@ -13,12 +13,12 @@ from ros.graph import until
 from ros.rosbridge.conftest import JsonClient
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from gazelle.errors import RosError
-from gazelle.ros import Node, load_message, load_service
-from gazelle.ros.errors import ServiceError
-from gazelle.ros.rosbridge.fragments import text_of_png
-from gazelle.ros.rosbridge.server import BridgeServer
-from gazelle.ros.rosbridge.settings import read_settings, settings_from
+from gazelle_ros import Node, load_message, load_service
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.errors import ServiceError
+from gazelle_ros.rosbridge.fragments import text_of_png
+from gazelle_ros.rosbridge.server import BridgeServer
+from gazelle_ros.rosbridge.settings import read_settings, settings_from
 
 STRING = load_message("std_msgs/String")
 SCAN = load_message("sensor_msgs/LaserScan")
@@ -133,7 +133,7 @@ def test_png_and_fragments_carry_the_same_text(robot, client, another):
 
 
 def test_fragments_and_pngs_of_a_client_are_put_together(robot, client):
-    from gazelle.ros.rosbridge.fragments import split_text, text_as_png
+    from gazelle_ros.rosbridge.fragments import split_text, text_as_png
 
     got = listen(robot, "/pieces")
     text = json.dumps({"op": "publish", "topic": "/pieces", "msg": {"data": "x" * 300}})
@@ -371,7 +371,7 @@ def test_a_slow_client_holds_nobody_up(robot, bridge, client):
     ],
 )
 def test_which_pages_may_connect(origin, host, allowed):
-    from gazelle.ros.rosbridge.origins import may_connect
+    from gazelle_ros.rosbridge.origins import may_connect
 
     settings = settings_from({"allowed_origins": ["https://*.example.org"]})
     assert may_connect(origin, host, settings) is allowed
@@ -387,7 +387,7 @@ def test_which_pages_may_connect(origin, host, allowed):
     ],
 )
 def test_a_page_without_an_origin_connects_only_if_that_is_allowed_by_name(given, allowed):
-    from gazelle.ros.rosbridge.origins import may_connect
+    from gazelle_ros.rosbridge.origins import may_connect
 
     assert may_connect("null", "localhost:9090", settings_from(given)) is allowed
 

@@ -13,12 +13,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gazelle.ros import load_message
-from gazelle.ros.messages import MessageException, register
-from gazelle.ros.rosbridge.cbor import cbor_values
-from gazelle.ros.rosbridge.fragments import FragmentBuffer, split_text, text_as_png, text_of_png
-from gazelle.ros.rosbridge.values import fill_message, json_values
-from gazelle.ros.time import Time
+from gazelle_ros import load_message
+from gazelle_ros.messages import MessageException, register
+from gazelle_ros.rosbridge.cbor import cbor_values
+from gazelle_ros.rosbridge.fragments import FragmentBuffer, split_text, text_as_png, text_of_png
+from gazelle_ros.rosbridge.values import fill_message, json_values
+from gazelle_ros.time import Time
 
 NOW = Time(5, 6)
 TYPES = {

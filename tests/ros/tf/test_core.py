@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.ros.tf import (
+from gazelle_ros.tf import (
     ConnectivityException,
     ExtrapolationException,
     FrameTree,
@@ -16,8 +16,8 @@ from gazelle.ros.tf import (
     LookupException,
     TransformException,
 )
-from gazelle.ros.tf.describe import as_dot, as_yaml
-from gazelle.ros.tf.rotations import conjugate, multiply, rotate, slerp
+from gazelle_ros.tf.describe import as_dot, as_yaml
+from gazelle_ros.tf.rotations import conjugate, multiply, rotate, slerp
 
 S = 1_000_000_000
 STILL = (0.0, 0.0, 0.0, 1.0)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from gazelle.ros import Master, Node
-from gazelle.ros.tf.naming import FramePrefixes, resolve_frame
+from gazelle_ros import Master, Node
+from gazelle_ros.tf.naming import FramePrefixes, resolve_frame
 
 
 @pytest.mark.parametrize(

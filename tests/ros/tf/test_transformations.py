@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gazelle.ros import transformations as tr
-from gazelle.ros.transformations.euler import AXES
+from gazelle_ros import transformations as tr
+from gazelle_ros.transformations.euler import AXES
 
 angle = st.floats(-3.1, 3.1)
 number = st.integers(-10_000, 10_000).map(lambda thousandths: thousandths / 1000)

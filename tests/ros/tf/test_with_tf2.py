@@ -5,7 +5,7 @@ import random
 import peers
 import pytest
 
-from gazelle.ros.tf import FrameTree, TransformException
+from gazelle_ros.tf import FrameTree, TransformException
 
 pytestmark = pytest.mark.ros
 

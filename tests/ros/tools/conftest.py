@@ -6,7 +6,7 @@ import io
 
 import pytest
 
-from gazelle.ros.tools.graph import GraphInspector
+from gazelle_ros.tools.graph import GraphInspector
 
 
 @pytest.fixture

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.ros import load_message
-from gazelle.ros.tools.errors import ToolError
-from gazelle.ros.tools.fields import parse_path, type_at, value_at
+from gazelle_ros import load_message
+from gazelle_ros.tools.errors import ToolError
+from gazelle_ros.tools.fields import parse_path, type_at, value_at
 
 SCAN = load_message("sensor_msgs/LaserScan")
 

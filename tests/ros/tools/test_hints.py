@@ -8,13 +8,13 @@ import threading
 import pytest
 from ros.graph import until
 
-from gazelle.ros import load_message, load_service
-from gazelle.ros.errors import ProtocolError, report
-from gazelle.ros.tools.errors import ToolError
-from gazelle.ros.tools.fields import texts_as_texts
-from gazelle.ros.tools.graph import GraphInspector
-from gazelle.ros.tools.listing import closest_topic, topic_type
-from gazelle.ros.tools.watching import wait_for_topic
+from gazelle_ros import load_message, load_service
+from gazelle_ros.errors import ProtocolError, report
+from gazelle_ros.tools.errors import ToolError
+from gazelle_ros.tools.fields import texts_as_texts
+from gazelle_ros.tools.graph import GraphInspector
+from gazelle_ros.tools.listing import closest_topic, topic_type
+from gazelle_ros.tools.watching import wait_for_topic
 
 ODOMETRY = load_message("nav_msgs/Odometry")
 

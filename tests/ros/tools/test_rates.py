@@ -7,8 +7,8 @@ import time
 import pytest
 from ros.graph import Background, until
 
-from gazelle.ros import load_message
-from gazelle.ros.tools.rates import RateMeter, SizeMeter, measure_rates
+from gazelle_ros import load_message
+from gazelle_ros.tools.rates import RateMeter, SizeMeter, measure_rates
 
 STRING = load_message("std_msgs/String")
 

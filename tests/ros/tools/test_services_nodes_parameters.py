@@ -7,9 +7,9 @@ import threading
 import pytest
 from ros.graph import until
 
-from gazelle.ros import load_message, load_service
-from gazelle.ros.tools import nodes, params, services
-from gazelle.ros.tools.errors import ToolError
+from gazelle_ros import load_message, load_service
+from gazelle_ros.tools import nodes, params, services
+from gazelle_ros.tools.errors import ToolError
 
 STRING = load_message("std_msgs/String")
 SETBOOL = load_service("std_srvs/SetBool")

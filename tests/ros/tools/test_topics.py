@@ -9,12 +9,12 @@ import time
 import pytest
 from ros.graph import Background, until
 
-from gazelle.ros import Time, load_message
-from gazelle.ros.tools import listing
-from gazelle.ros.tools.echoing import Echo, EchoOptions, echo, filter_of
-from gazelle.ros.tools.errors import ToolError
-from gazelle.ros.tools.fields import parse_path
-from gazelle.ros.tools.publishing import (
+from gazelle_ros import Time, load_message
+from gazelle_ros.tools import listing
+from gazelle_ros.tools.echoing import Echo, EchoOptions, echo, filter_of
+from gazelle_ros.tools.errors import ToolError
+from gazelle_ros.tools.fields import parse_path
+from gazelle_ros.tools.publishing import (
     MessagePublisher,
     documents,
     file_documents,

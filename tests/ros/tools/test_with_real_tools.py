@@ -9,7 +9,7 @@ import sys
 import pytest
 from ros.real import RealNode, environment, needs_ros, tool
 
-from gazelle.ros import Master
+from gazelle_ros import Master
 
 pytestmark = [pytest.mark.ros, needs_ros]
 
@@ -127,7 +127,7 @@ def uri():
 
 def ours(uri, *arguments):
     done = subprocess.run(
-        [sys.executable, "-m", "gazelle.cli.main", *arguments],
+        [sys.executable, "-m", "gazelle_ros.cli.main", *arguments],
         env=environment(uri),
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
@@ -164,7 +164,7 @@ def test_loading_and_dumping_are_told_the_same(uri, tmp_path):
 def test_what_we_publish_the_real_one_echoes(uri):
     command = ["topic", "pub", "-r", "20", "/out", "geometry_msgs/Point", "{x: 1, z: -2.5}"]
     process = subprocess.Popen(
-        [sys.executable, "-m", "gazelle.cli.main", *command],
+        [sys.executable, "-m", "gazelle_ros.cli.main", *command],
         env=environment(uri),
         stdout=subprocess.DEVNULL,
     )
@@ -178,7 +178,7 @@ def test_what_we_publish_the_real_one_echoes(uri):
 
 @pytest.mark.long
 def test_the_real_one_measures_our_rate_as_we_do(uri):
-    command = [sys.executable, "-m", "gazelle.cli.main", "topic"]
+    command = [sys.executable, "-m", "gazelle_ros.cli.main", "topic"]
     talker = subprocess.Popen(
         [*command, "pub", "-r", "50", "/beat", "std_msgs/Int32", "1"],
         env=environment(uri),

@@ -7,7 +7,7 @@ import xmlrpc.client
 
 import pytest
 
-from gazelle.ros import Master, Node
+from gazelle_ros import Master, Node
 
 CALL = xmlrpc.client.dumps(("/test", "/seen", 1), "setParam")
 

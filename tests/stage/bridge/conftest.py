@@ -7,9 +7,9 @@ import pytest
 from ros.graph import until
 from stage_samples import write
 
-from gazelle.ros import Master, Node, WallClock, load_message, load_service
 from gazelle.stage import StageSimulation
 from gazelle.stage.bridge import serve_stage
+from gazelle_ros import Master, Node, WallClock, load_message, load_service
 
 SCANNER = (
     "define scanner ranger ( sensor ( range [0.1 8] fov 180 samples 181 ) )\n"

@@ -6,9 +6,9 @@ import time
 import pytest
 
 from gazelle import RosError
-from gazelle.ros import Node, WallClock, load_message
-from gazelle.ros.messages import register
 from gazelle.stage.bridge import poses, serve_stage
+from gazelle_ros import Node, WallClock, load_message
+from gazelle_ros.messages import register
 
 ROBOT = 'robot ( name "r" pose [1 2 0 90] )\n'
 POSE, TWIST, EMPTY = "geometry_msgs/Pose", "geometry_msgs/Twist", "std_srvs/Empty"

@@ -11,8 +11,8 @@ import pytest
 from ports import free_port
 from stage_samples import write
 
-from gazelle.ros import Master, Node, WallClock, load_message
-from gazelle.ros.builtin import registry
+from gazelle_ros import Master, Node, WallClock, load_message
+from gazelle_ros.builtin import registry
 
 START = "import sys; from gazelle.stage.bridge.server import main; sys.exit(main(sys.argv[1:]))"
 TWO = 'position ( name "a" ) position ( name "b" pose [0 3 0 0] )\nspeedup 20\n'

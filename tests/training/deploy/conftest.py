@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 @pytest.fixture
 def master():
-    from gazelle.ros import Master
+    from gazelle_ros import Master
 
     with Master(port=0, rosout=False) as running:
         yield running

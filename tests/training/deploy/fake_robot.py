@@ -10,7 +10,7 @@ import sys
 import threading
 import time
 
-from gazelle.ros import Node, load_message, load_service
+from gazelle_ros import Node, load_message, load_service
 
 PATIENCE = 60.0
 

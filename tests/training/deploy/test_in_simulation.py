@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from fake_robot import Deployed, wait_for
 
-from gazelle.ros import Node
+from gazelle_ros import Node
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 

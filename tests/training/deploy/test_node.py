@@ -12,7 +12,7 @@ import time
 import pytest
 from fake_robot import Deployed, FakeRobot, wait_for
 
-from gazelle.ros import Master, load_message
+from gazelle_ros import Master, load_message
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 

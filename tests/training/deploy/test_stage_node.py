@@ -12,8 +12,8 @@ import pytest
 from fake_robot import wait_for
 
 from gazelle.clients import Gazebo
-from gazelle.ros import Node, WallClock, load_message
-from gazelle.ros.builtin import bundled
+from gazelle_ros import Node, WallClock, load_message
+from gazelle_ros.builtin import bundled
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 

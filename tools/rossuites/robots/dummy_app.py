@@ -19,7 +19,7 @@ from gazelle.control import (
     RobotHardware,
     register,
 )
-from gazelle.ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.builtin.arguments import parse_arguments, spin
 
 JOINTS = ("hiDOF_joint1", "hiDOF_joint2", "hiDOF_joint3")
 PACKAGE = "controller_manager_tests"

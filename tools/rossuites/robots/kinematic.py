@@ -11,9 +11,9 @@ import numpy as np
 
 from gazelle.bridges.control import HardwareLoop
 from gazelle.control import POSITION, VELOCITY, ControllerManager, RobotHardware
-from gazelle.ros import Node, load_message, load_service
-from gazelle.ros.builtin.arguments import parse_arguments
-from gazelle.ros.clock import SECOND, SimulatedClock
+from gazelle_ros import Node, load_message, load_service
+from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.clock import SECOND, SimulatedClock
 
 PERIOD_S = 0.01
 

@@ -9,7 +9,7 @@ import numpy as np
 from kinematic import PERIOD_S, run
 
 from gazelle.control import POSITION, VELOCITY, RobotHardware
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 JOINTS = ("joint1", "joint2")
 

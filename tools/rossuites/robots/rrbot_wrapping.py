@@ -6,7 +6,7 @@ import numpy as np
 from kinematic import PERIOD_S, run
 
 from gazelle.control import VELOCITY, RobotHardware
-from gazelle.ros import load_message
+from gazelle_ros import load_message
 
 JOINTS = ("joint1", "joint2")
 START = (np.pi - 0.1, 0.1 - np.pi)

@@ -17,7 +17,7 @@ import numpy as np
 from gazelle import Error
 from gazelle.clients import AGVFleet
 from gazelle.navigation import Limits
-from gazelle.ros import Node, net
+from gazelle_ros import Node, net
 
 COUNT, PER_ROW, APART = 72, 12, 3.0
 
@@ -94,10 +94,10 @@ def ring(turn: int) -> np.ndarray:
 def world(rate: float) -> Iterator[str]:
     """Run the bundled world on a graph of its own, in a thread; yields its master."""
     from gazelle import assets
-    from gazelle.ros import Master
     from gazelle.simulation import Simulation
     from gazelle.stage import stage_of
     from gazelle.stage.bridge import serve_stage
+    from gazelle_ros import Master
 
     with Master(port=0) as master, Simulation(assets.world("fleet"), "planar") as simulation:
         stalls: set[int] = set()

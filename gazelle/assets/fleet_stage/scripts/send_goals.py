@@ -9,9 +9,9 @@ import argparse
 import sys
 from typing import Any
 
-from gazelle.ros import Node
-from gazelle.ros.actions import GoalStatus, SimpleActionClient
-from gazelle.ros.msgs import move_base_msgs
+from gazelle_ros import Node
+from gazelle_ros.actions import GoalStatus, SimpleActionClient
+from gazelle_ros.msgs import move_base_msgs
 
 PLACES = [
     (-8.5, 2.0),

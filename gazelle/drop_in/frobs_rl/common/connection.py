@@ -11,9 +11,9 @@ from typing import ParamSpec
 from gazelle.clients.controllers import Controllers
 from gazelle.clients.gazebo import Gazebo
 from gazelle.errors import Error
-from gazelle.ros import Node
-from gazelle.ros.compat import rospy
-from gazelle.ros.compat.rospy.state import process
+from gazelle_ros import Node
+from gazelle_ros.compat import rospy
+from gazelle_ros.compat.rospy.state import process
 
 P = ParamSpec("P")
 _PATIENCE_S = 30.0

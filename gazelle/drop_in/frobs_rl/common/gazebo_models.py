@@ -12,9 +12,9 @@ from gazelle.clients.errors import ClientError
 from gazelle.description.pose import rpy_from_quaternion
 from gazelle.drop_in.frobs_rl.common.connection import gazebo, in_folder, log_error, node, reporting
 from gazelle.errors import Error
-from gazelle.ros import load_message
-from gazelle.ros.messages import Message
-from gazelle.text_files import read_text
+from gazelle_ros import load_message
+from gazelle_ros.base.text_files import read_text
+from gazelle_ros.messages import Message
 
 
 class SpawnReport(NamedTuple):

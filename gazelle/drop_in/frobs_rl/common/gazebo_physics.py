@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gazelle.drop_in.frobs_rl.common.connection import gazebo, reporting
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 
 @reporting

@@ -8,7 +8,7 @@ import subprocess
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
 from gazelle.drop_in.frobs_rl.common.connection import gazebo, reporting
-from gazelle.ros.tools.graph import GraphInspector
+from gazelle_ros.tools.graph import GraphInspector
 
 _STEP = "/gazelle/step"
 

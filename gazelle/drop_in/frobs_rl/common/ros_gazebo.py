@@ -44,7 +44,7 @@ from gazelle.drop_in.frobs_rl.common.gazebo_time import (
 )
 from gazelle.drop_in.shared import background
 from gazelle.errors import RosError
-from gazelle.ros.launch.packages import Packages
+from gazelle_ros.launch.packages import Packages
 
 __all__ = [
     "SpawnReport",

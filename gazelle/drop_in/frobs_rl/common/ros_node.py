@@ -6,8 +6,8 @@ import contextlib
 
 from gazelle.drop_in.frobs_rl.common.connection import reporting
 from gazelle.drop_in.shared import background
-from gazelle.ros.compat.rospy.state import process
-from gazelle.ros.errors import RosError
+from gazelle_ros.compat.rospy.state import process
+from gazelle_ros.errors import RosError
 
 
 @reporting

@@ -9,7 +9,7 @@ import gymnasium
 
 from gazelle.drop_in.frobs_rl.common import ros_controllers, ros_gazebo, ros_node, ros_spawn
 from gazelle.errors import TaskError
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 Result = tuple[Any, float, bool, bool, dict[str, Any]]
 

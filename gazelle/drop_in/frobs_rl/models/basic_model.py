@@ -15,8 +15,8 @@ from gazelle.drop_in.frobs_rl.models.library import stable_baselines3
 from gazelle.drop_in.frobs_rl.models.utils import check_env, get_action_noise, get_policy_kwargs
 from gazelle.drop_in.frobs_rl.wrappers.modern import modern
 from gazelle.errors import TaskError
-from gazelle.ros.compat import rospy
-from gazelle.writing import replacing
+from gazelle_ros.base.writing import replacing
+from gazelle_ros.compat import rospy
 
 
 class BasicModel:

@@ -11,7 +11,7 @@ from gazelle.drop_in.frobs_rl.common.connection import parameter
 from gazelle.drop_in.frobs_rl.models.library import stable_baselines3, torch
 from gazelle.drop_in.frobs_rl.wrappers.modern import modern
 from gazelle.errors import TaskError, did_you_mean
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 _ACTIVATIONS = {"relu": "ReLU", "tanh": "Tanh", "elu": "ELU", "selu": "SELU"}
 _EXTRACTORS = ("FlattenExtractor", "BaseFeaturesExtractor", "CombinedExtractor")

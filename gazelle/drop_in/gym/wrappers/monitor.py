@@ -11,7 +11,7 @@ from typing import Any
 
 from gazelle.drop_in.gym.core import Step, Wrapper
 from gazelle.drop_in.gym.error import Error
-from gazelle.writing import write_text
+from gazelle_ros.base.writing import write_text
 
 _PREFIX = "openaigym"
 

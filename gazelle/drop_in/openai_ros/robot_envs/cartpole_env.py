@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 
 from gazelle.drop_in.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
 from gazelle.errors import TaskError, did_you_mean
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import rosgraph_msgs, sensor_msgs, std_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import rosgraph_msgs, sensor_msgs, std_msgs
 
 _SPACE = "cartpole_v0"
 _CONTROL = ("velocity", "position", "effort")

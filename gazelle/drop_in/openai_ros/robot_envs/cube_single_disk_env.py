@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, ClassVar
 
 from gazelle.drop_in.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
-from gazelle.ros.msgs import std_msgs
+from gazelle_ros.msgs import std_msgs
 
 _SPACE = "moving_cube"
 _WHEEL = "inertia_wheel_roll_joint"

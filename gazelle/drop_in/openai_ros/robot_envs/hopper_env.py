@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from gazelle.drop_in.openai_ros.gazebo_connection import WORLD
 from gazelle.drop_in.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
-from gazelle.ros.msgs import std_msgs
+from gazelle_ros.msgs import std_msgs
 
 _SPACE = "monoped"
 _JOINTS = ("haa", "hfe", "kfe")

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 from gazelle.drop_in.openai_ros.gazebo_connection import WORLD
 from gazelle.drop_in.openai_ros.robot_envs.topic_robot_env import RobotTopic
 from gazelle.drop_in.openai_ros.robot_envs.wheeled_robot_env import WheeledRobotEnv
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 
 class HusarionEnv(WheeledRobotEnv):

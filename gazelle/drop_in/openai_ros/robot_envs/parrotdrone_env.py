@@ -7,8 +7,8 @@ from typing import Any, ClassVar
 
 from gazelle.drop_in.openai_ros.gazebo_connection import WORLD
 from gazelle.drop_in.openai_ros.robot_envs.topic_robot_env import RobotTopic, TopicRobotEnv
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import geometry_msgs, std_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import geometry_msgs, std_msgs
 
 _HOLD_S = 1.0
 """Time that a velocity acts before a step continues [s of simulated time]."""

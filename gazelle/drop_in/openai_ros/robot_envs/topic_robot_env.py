@@ -14,9 +14,9 @@ from gazelle.drop_in.openai_ros.openai_ros_common import ROSLauncher
 from gazelle.drop_in.openai_ros.robot_gazebo_env import RobotGazeboEnv
 from gazelle.drop_in.openai_ros.running import published
 from gazelle.errors import TaskError, did_you_mean
-from gazelle.ros import load_message
-from gazelle.ros.compat import rospy
-from gazelle.ros.messages import Message
+from gazelle_ros import load_message
+from gazelle_ros.compat import rospy
+from gazelle_ros.messages import Message
 
 PATIENCE_S = 60.0
 """Longest silence of a topic, or wait for a subscriber, before an error [s of wall time]."""

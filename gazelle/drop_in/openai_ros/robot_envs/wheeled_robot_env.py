@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gazelle.drop_in.openai_ros.robot_envs.topic_robot_env import TopicRobotEnv
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 _HOLD_S = 0.2
 """Time that a velocity acts before a step continues [s of simulated time]."""

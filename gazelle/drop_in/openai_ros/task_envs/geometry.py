@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
-from gazelle.ros.msgs import geometry_msgs
-from gazelle.ros.transformations import euler_from_quaternion
+from gazelle_ros.msgs import geometry_msgs
+from gazelle_ros.transformations import euler_from_quaternion
 
 
 def euler_of(orientation: geometry_msgs.msg.Quaternion) -> tuple[float, float, float]:

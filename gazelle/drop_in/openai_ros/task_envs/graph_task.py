@@ -8,7 +8,7 @@ from gazelle.array_types import Floats
 from gazelle.drop_in.gym.core import Env
 from gazelle.drop_in.gym.spaces import Discrete
 from gazelle.drop_in.openai_ros.task_envs.task_commons import begin_task
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 
 class GraphTask(Env):

@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 from gazelle.drop_in.openai_ros.task_envs.steering import SteeringTask
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import geometry_msgs
 
 
 class JoltTask(SteeringTask):

@@ -8,7 +8,7 @@ from gazelle.array_types import Bools, Floats
 from gazelle.drop_in.openai_ros.task_envs.geometry import coordinates, euler_of, one
 from gazelle.drop_in.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.envs.goal_rules import distance_to, is_at
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 
 class DesiredPoint(GraphTask):

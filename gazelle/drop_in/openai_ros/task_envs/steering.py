@@ -17,8 +17,8 @@ from gazelle.drop_in.openai_ros.task_envs.places import DesiredPoint
 from gazelle.envs.discrete_drive.rules import DriveRules, StepRewards
 from gazelle.envs.discrete_drive.scoring import ends_of, has_crashed, observed, reward_of
 from gazelle.envs.goal_rules import distance_to
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import sensor_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import sensor_msgs
 
 FORWARDS, TURN_LEFT, TURN_RIGHT = "FORWARDS", "TURN_LEFT", "TURN_RIGHT"
 

@@ -8,9 +8,9 @@ from typing import Any
 from gazelle.clients.descriptions import find_file
 from gazelle.drop_in.openai_ros.openai_ros_common import ROSLauncher
 from gazelle.drop_in.openai_ros.running import simulator_runs
-from gazelle.ros.compat import rospy
-from gazelle.ros.launch.values import load_yaml
-from gazelle.text_files import read_text
+from gazelle_ros.base.text_files import read_text
+from gazelle_ros.compat import rospy
+from gazelle_ros.launch.values import load_yaml
 
 _CONFIGURATION = "src/openai_ros/task_envs/{}/config"
 

@@ -6,7 +6,7 @@ import importlib
 
 from gazelle.drop_in.gym.envs.registration import register
 from gazelle.errors import did_you_mean
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 MODULES = {
     "MovingCubeOneDiskWalk-v0": ("moving_cube.one_disk_walk", "MovingCubeOneDiskWalkEnv"),

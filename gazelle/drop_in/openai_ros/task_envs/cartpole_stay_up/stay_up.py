@@ -12,7 +12,7 @@ from gazelle.drop_in.openai_ros.task_envs.geometry import one
 from gazelle.drop_in.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.cartpole.rules import has_fallen
-from gazelle.ros.compat import rospy
+from gazelle_ros.compat import rospy
 
 register_task("CartPoleStayUp-v0")
 

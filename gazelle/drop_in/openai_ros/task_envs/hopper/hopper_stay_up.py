@@ -13,8 +13,8 @@ from gazelle.drop_in.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.goal_rules import distance_to
 from gazelle.envs.hopper.rules import StandRules, has_height, is_upright, reward_of
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import geometry_msgs
 
 register_task("HopperStayUp-v0")
 

@@ -16,7 +16,7 @@ from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import HUSARION, DriveRules, StepRewards
 from gazelle.envs.discrete_drive.scoring import has_crashed
 from gazelle.envs.goal_rules import distance_to, is_at, is_inside
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 register_task("HusarionGetToPosTurtleBotPlayGround-v0")
 

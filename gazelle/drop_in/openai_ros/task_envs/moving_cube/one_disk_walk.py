@@ -14,7 +14,7 @@ from gazelle.drop_in.openai_ros.task_envs.graph_task import GraphTask
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.goal_rules import distance_to
 from gazelle.envs.moving_cube.rules import WalkRules, has_failed, reward_of, wheel_speeds
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 register_task("MovingCubeOneDiskWalk-v0")
 

@@ -13,7 +13,7 @@ from gazelle.drop_in.openai_ros.task_envs.places import DesiredPoint
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.goal_rules import is_inside
 from gazelle.envs.parrot_drone.rules import FlightRules, ends_of, has_flipped, reward_of
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 register_task("ParrotDroneGoto-v0")
 

@@ -10,8 +10,8 @@ from gazelle.drop_in.openai_ros.robot_envs.turtlebot2_env import TurtleBot2Env
 from gazelle.drop_in.openai_ros.task_envs.steering import SteeringTask
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import MAZE, DriveRules
-from gazelle.ros.compat import rospy
-from gazelle.ros.msgs import sensor_msgs
+from gazelle_ros.compat import rospy
+from gazelle_ros.msgs import sensor_msgs
 
 register_task("MyTurtleBot2Maze-v0", "TurtleBot2Maze-v0")
 

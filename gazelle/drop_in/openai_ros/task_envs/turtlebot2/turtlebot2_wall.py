@@ -8,7 +8,7 @@ from gazelle.drop_in.openai_ros.robot_envs.turtlebot2_env import TurtleBot2Env
 from gazelle.drop_in.openai_ros.task_envs.steering import SteeringTask
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import WALL, DriveRules, StepRewards
-from gazelle.ros.msgs import sensor_msgs
+from gazelle_ros.msgs import sensor_msgs
 
 register_task("MyTurtleBot2Wall-v0", "TurtleBot2Wall-v0")
 

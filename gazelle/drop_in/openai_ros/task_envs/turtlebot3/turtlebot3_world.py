@@ -8,7 +8,7 @@ from gazelle.drop_in.openai_ros.robot_envs.turtlebot3_env import TurtleBot3Env
 from gazelle.drop_in.openai_ros.task_envs.jolts import JoltTask
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.discrete_drive.rules import TURTLEBOT3_WORLD, DriveRules
-from gazelle.ros.msgs import sensor_msgs
+from gazelle_ros.msgs import sensor_msgs
 
 register_task("TurtleBot3World-v0")
 

@@ -12,7 +12,7 @@ from gazelle.drop_in.openai_ros.task_envs.geometry import coordinates, euler_of,
 from gazelle.drop_in.openai_ros.task_envs.places import DesiredPoint
 from gazelle.drop_in.openai_ros.task_envs.task_envs_list import register_task
 from gazelle.envs.wamv.rules import ChannelRules, outside, reached, reward_of
-from gazelle.ros.msgs import geometry_msgs
+from gazelle_ros.msgs import geometry_msgs
 
 register_task("WamvNavTwoSetsBuoys-v0")
 

@@ -1,9 +1,0 @@
-#!/usr/bin/env python3
-"""Expand a xacro file to standard output."""
-
-import sys
-
-from gazelle.ros.builtin.xacro import main
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -1,5 +1,0 @@
-"""Times, where genpy keeps them."""
-
-from gazelle.ros.time import Duration, Time, TVal
-
-__all__ = ["Duration", "TVal", "Time"]

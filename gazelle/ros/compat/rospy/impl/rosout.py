@@ -1,5 +1,0 @@
-"""The handler that logs to /rosout, where rospy keeps it."""
-
-from gazelle.ros.compat.rospy.logs import RosOutHandler
-
-__all__ = ["RosOutHandler"]

@@ -1,5 +1,0 @@
-"""A constant, where rospy keeps it."""
-
-from gazelle.ros.compat.rospy.topics import DEFAULT_BUFF_SIZE
-
-__all__ = ["DEFAULT_BUFF_SIZE"]

@@ -1,0 +1,24 @@
+"""Errors of bags."""
+
+from __future__ import annotations
+
+from gazelle_ros.base.errors import RosError
+
+
+class BagError(RosError):
+    """A bag cannot be read or written as asked."""
+
+
+class BagFormatError(BagError):
+    """A file is no bag, or a damaged one."""
+
+
+class BagUnindexedError(BagError):
+    """A bag has no index, as its recording was cut off."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__(
+            "the bag has no index; its recording was cut off",
+            file=path,
+            hint=f"gazelle bag reindex {path}",
+        )

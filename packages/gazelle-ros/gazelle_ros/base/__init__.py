@@ -1,0 +1,1 @@
+"""Leaf modules that import nothing but each other: errors, files, processes, signals."""

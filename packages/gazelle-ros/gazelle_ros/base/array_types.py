@@ -1,0 +1,8 @@
+"""Names for arrays by what they hold, for annotations; shapes are in the docstrings."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]

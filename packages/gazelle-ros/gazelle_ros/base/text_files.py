@@ -1,0 +1,48 @@
+"""Text files in UTF-8."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+
+from gazelle_ros.base.errors import FormatError
+
+
+def read_text(file: Path) -> str:
+    """Return the text of a file.
+
+    Raises:
+        FormatError: It is not in UTF-8; the error names the line.
+        OSError: It cannot be read.
+    """
+    try:
+        return file.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise FormatError(
+            f"this is no text in UTF-8: {error.reason} (byte {error.object[error.start]:#04x})",
+            file=str(file),
+            line=error.object.count(b"\n", 0, error.start) + 1,
+            hint="save it as UTF-8",
+        ) from None
+
+
+def read_rows(file: Path, *, whole: bool = False) -> tuple[list[str], list[dict[str, Any]]]:
+    """Return the columns and the rows of a ``.csv`` file.
+
+    Args:
+        file: The table.
+        whole: Leave out a last line that was cut short.
+
+    Raises:
+        FormatError: It is no table, or not in UTF-8; the error names the line.
+        OSError: It cannot be read.
+    """
+    lines = read_text(file).splitlines(keepends=True)
+    reader = csv.DictReader(line for line in lines if line.endswith("\n") or not whole)
+    try:
+        return [*(reader.fieldnames or ())], [*reader]
+    except csv.Error as error:  # such as a quote that is never closed
+        raise FormatError(
+            f"this is no table: {error}", file=str(file), line=reader.line_num
+        ) from None

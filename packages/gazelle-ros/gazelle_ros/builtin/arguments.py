@@ -1,0 +1,109 @@
+"""The command line of a node: its own arguments, remappings, special keys, private parameters."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from gazelle_ros import names
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.errors import MasterUnreachableError, NoMasterError
+from gazelle_ros.node import Node
+
+_MASTER_LOOK_S = 0.02
+_END_LOOK_S = 0.2
+_QUIET_S = 1.0
+"""A master that was started at the same time is there by then [s]."""
+
+
+@dataclass(slots=True)
+class NodeArguments:
+    """A node's command line, taken apart (http://wiki.ros.org/Remapping%20Arguments)."""
+
+    plain: list[str]
+    """Without remappings."""
+    options: dict[str, Any]
+    """Arguments of `Node`: ``name``, ``namespace``, ``remappings`` and so on."""
+    parameters: dict[str, str] = field(default_factory=dict)
+    """Private parameters, as YAML."""
+
+    def start(self, *, rosout: bool = True, **keywords: Any) -> Node:
+        """Start the node, as soon as there is a master, with its private parameters set.
+
+        Args:
+            rosout: Publish this process's warnings and log on ``/rosout``.
+            keywords: More of what `Node` takes.
+        """
+        from gazelle_ros.launch.values import load_yaml
+        from gazelle_ros.rosout_log import report_on_rosout
+
+        node = self._join(**keywords)
+        try:
+            if rosout:
+                report_on_rosout(node)
+            for name, text in self.parameters.items():
+                node.set_param(f"~{name}", load_yaml(text))
+        except BaseException:
+            node.close()  # so that a node that is ended while it begins is off the master, too
+            raise
+        return node
+
+    def _join(self, **keywords: Any) -> Node:
+        """Return the node; nodes of ROS wait for a master however long."""
+        begin = time.monotonic()
+        said = False
+        while True:
+            try:
+                return Node(**self.options, **keywords)
+            except NoMasterError:
+                raise
+            except MasterUnreachableError as error:
+                if not said and time.monotonic() - begin > _QUIET_S:
+                    said = True
+                    sys.stderr.write(f"[WARN] {error.message}; waiting for it\n")
+                time.sleep(_MASTER_LOOK_S)
+
+
+def parse_arguments(
+    arguments: Sequence[str], name: str, *, anonymous: bool = False
+) -> NodeArguments:
+    """Parse a command line.
+
+    Args:
+        arguments: Without the program.
+        name: The node's name if the command line has none.
+        anonymous: Make that name one that is unique.
+    """
+    plain, mappings = names.split_arguments(arguments)
+    special = {key: value for key, value in mappings.items() if key.startswith("__")}
+    options: dict[str, Any] = {
+        "name": special.get("__name") or (names.anonymous(name) if anonymous else name),
+        "namespace": special.get("__ns") or os.environ.get("ROS_NAMESPACE", "/"),
+        "remappings": {key: value for key, value in mappings.items() if not key.startswith("_")},
+    }
+    if "__master" in special:
+        options["master_uri"] = special["__master"]
+    host = special.get("__hostname") or special.get("__ip")
+    if host:
+        options["host"] = host
+    parameters = {
+        key[1:]: value
+        for key, value in mappings.items()
+        if key.startswith("_") and not key.startswith("__")
+    }
+    return NodeArguments(plain, options, parameters)
+
+
+def spin(node: Node) -> int:
+    """Wait until Ctrl-C, SIGTERM, or until the node is asked to end; returns 0."""
+    with stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        # It may have been asked to end while it began, before there was a hook.
+        while not node.closed and not stop.wait(_END_LOOK_S):
+            pass
+    node.close()
+    return 0

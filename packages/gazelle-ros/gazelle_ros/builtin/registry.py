@@ -1,0 +1,159 @@
+"""Registry of built-in packages and nodes, which other distributions can extend.
+
+Another distribution adds a package with an entry point of the group ``gazelle_ros.nodes``: its name is
+the package's, its value leads to a `BuiltinPackage`. It is loaded when the package is first asked for.
+"""
+
+from __future__ import annotations
+
+import functools
+import pkgutil
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gazelle_ros.base.entry_points import entry_points_of_others
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.path_texts import can_be_path
+from gazelle_ros.builtin import bundled
+from gazelle_ros.builtin.package import BuiltinPackage
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+GROUP = "gazelle_ros.nodes"
+
+Main = Callable[[Sequence[str]], int]
+"""Runs a node until it ends: takes its command line without the program, returns an exit code."""
+
+
+_SHARE = Path(__file__).parent / "share"
+_NO_SCREEN = "it is a window for people"
+
+_OWN = {
+    package.name: package
+    for package in (
+        BuiltinPackage("controller_manager", {
+            "controller_manager": "gazelle_ros.builtin.controllers.command:main",
+            "controller_group": "gazelle_ros.builtin.controllers.groups:main",
+            "spawner": "gazelle_ros.builtin.controllers.spawner:main",
+            "unspawner": "gazelle_ros.builtin.controllers.unspawner:main",
+        }),
+        BuiltinPackage("robot_state_publisher", {
+            "robot_state_publisher": "gazelle_ros.builtin.robot:state_main",
+            "state_publisher": "gazelle_ros.builtin.robot:state_main",
+        }),
+        BuiltinPackage("joint_state_publisher", {
+            "joint_state_publisher": "gazelle_ros.builtin.robot:joint_main",
+        }),
+        BuiltinPackage("rosapi", {"rosapi_node": "gazelle_ros.rosbridge.nodes:rosapi_main"}),
+        BuiltinPackage("rosbridge_server", dict.fromkeys(("rosbridge_websocket", "rosbridge_websocket.py"), "gazelle_ros.rosbridge.nodes:websocket_main"), folder=_SHARE / "rosbridge_server"),
+        BuiltinPackage("rosbag", {
+            "record": "gazelle_ros.builtin.bags:record",
+            "play": "gazelle_ros.builtin.bags:play",
+        }),
+        BuiltinPackage("rostest", {
+            name: f"gazelle_ros.builtin.rostest_nodes:{name}"
+            for name in ("hztest", "paramtest", "publishtest", "advertisetest")
+        }),
+        BuiltinPackage("rostopic", {"rostopic": "gazelle_ros.builtin.commands:topic"}),
+        BuiltinPackage("rosout", {"rosout": "gazelle_ros.builtin.rosout:main"}),
+        BuiltinPackage("rospack", {"rospack": "gazelle_ros.builtin.rospack:main"}),
+        BuiltinPackage("rosservice", {"rosservice": "gazelle_ros.builtin.commands:service"}),
+        BuiltinPackage("rosparam", {"rosparam": "gazelle_ros.builtin.commands:param"}),
+        BuiltinPackage("teleop_twist_keyboard", dict.fromkeys(("teleop_twist_keyboard", "teleop_twist_keyboard.py"), "gazelle_ros.builtin.teleop.twist:main")),
+        BuiltinPackage("turtlebot3_teleop", {
+            "turtlebot3_teleop_key": "gazelle_ros.builtin.teleop.turtlebot3:main",
+        }, folder=_SHARE / "turtlebot3_teleop"),
+        BuiltinPackage("tf", {
+            "static_transform_publisher": "gazelle_ros.builtin.static_transform:main_tf",
+            "tf_echo": "gazelle_ros.builtin.tf_tools:echo",
+            "tf_monitor": "gazelle_ros.builtin.tf_tools:monitor",
+            "view_frames": "gazelle_ros.builtin.tf_tools:frames",
+        }),
+        BuiltinPackage("tf2_ros", {
+            "static_transform_publisher": "gazelle_ros.builtin.static_transform:main_tf2",
+            "buffer_server": "gazelle_ros.builtin.buffer_server:main",
+        }),
+        BuiltinPackage("tf2_tools", {"view_frames.py": "gazelle_ros.builtin.tf_tools:frames"}),
+        BuiltinPackage("topic_tools", {
+            "relay": "gazelle_ros.builtin.topic_tools:relay",
+            "throttle": "gazelle_ros.builtin.topic_tools:throttle",
+            "drop": "gazelle_ros.builtin.topic_tools:drop",
+            "mux": "gazelle_ros.builtin.topic_tools:mux",
+        }),
+        BuiltinPackage("xacro", {
+            "xacro": "gazelle_ros.builtin.xacro:main",
+            "xacro.py": "gazelle_ros.builtin.xacro:main",
+        }, folder=_SHARE / "xacro"),
+        BuiltinPackage("rviz", skipped=_NO_SCREEN),
+    )
+}  # fmt: skip
+_WINDOWS = ("rqt", "rviz")
+
+_registered: dict[str, BuiltinPackage] = {}
+
+
+def register(package: BuiltinPackage) -> None:
+    """Add a package for this process, in place of one of the same name."""
+    _registered[package.name] = package
+
+
+def packages() -> list[str]:
+    """Return names of all built-in packages."""
+    return sorted({*_OWN, *bundled.folders(), *_registered, *entry_points_of_others(GROUP)})
+
+
+def package(name: str) -> BuiltinPackage | None:
+    """Return the built-in package of a name, or None.
+
+    Raises:
+        RosError: An entry point of that name does not lead to a package.
+    """
+    if name in _registered:
+        return _registered[name]
+    point = entry_points_of_others(GROUP).get(name)
+    if point is not None:
+        return _load(point)
+    if name in _OWN:
+        return _OWN[name]
+    if name in bundled.folders():
+        return bundled.package(name)
+    if name.startswith(_WINDOWS):
+        return BuiltinPackage(name, skipped=_NO_SCREEN)
+    return None
+
+
+def stand_in(name: str) -> Path | None:
+    """Return a folder with the manifest of a package whose nodes are built in, or None.
+
+    ``rospkg`` and ``$(find)`` find such packages by it, as they do where ROS is installed.
+    """
+    folder = _SHARE / name
+    plain = name not in {"", ".", ".."} and "/" not in name and can_be_path(name)
+    return folder if plain and (folder / "package.xml").is_file() else None
+
+
+def main_of(name: str, kind: str) -> Main:
+    """Return the function that runs a built-in node.
+
+    Raises:
+        RosError: There is no such node.
+    """
+    found = package(name)
+    target = found.nodes.get(kind) if found is not None else None
+    if target is None:
+        raise RosError(f"no built-in package '{name}' has a node '{kind}'")
+    main: Main = pkgutil.resolve_name(target)
+    return main
+
+
+@functools.cache
+def _load(point: EntryPoint) -> BuiltinPackage:
+    try:
+        found = point.load()
+    except Exception as error:
+        raise RosError(f"the built-in package '{point.name}' cannot be loaded: {error}") from error
+    if not isinstance(found, BuiltinPackage):
+        raise RosError(f"the entry point '{point.name}' of {GROUP} is no BuiltinPackage")
+    return found

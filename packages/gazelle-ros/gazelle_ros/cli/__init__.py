@@ -1,0 +1,1 @@
+"""The command line ``gazelle-ros``, whose commands are also those of ``gazelle``."""

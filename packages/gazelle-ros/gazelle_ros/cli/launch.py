@@ -1,0 +1,237 @@
+"""Run a roslaunch file: start its nodes, and end them with Ctrl-C.
+
+  gazelle launch turtlebot3_gazebo turtlebot3_world.launch model:=waffle
+  gazelle launch ./my.launch gui:=false
+  gazelle launch my.launch --ros-args
+  gazelle launch --test my_package my.test
+
+Packages are looked up on ROS_PACKAGE_PATH. Python nodes run as 'gazelle exec'
+runs them, so that 'import rospy' works with no ROS installed. A master is
+started if there is none.
+"""  # this is the text of --help
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gazelle_ros.base.argument_types import port_number, positive_float
+from gazelle_ros.base.errors import Error
+from gazelle_ros.base.writing import write_text
+
+if TYPE_CHECKING:
+    from gazelle_ros.launch import LaunchPlan, Packages
+
+_NO_EFFECT = ("--local", "--skip-log-check", "--disable-title", "-v")
+_NO_EFFECT_VALUES = (("-w", "--numworkers"), ("-t", "--timeout"), ("--master-logger-level",))
+_CHILD = (("-c", "--child"), ("-u", "--server_uri"))
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument(
+        "what",
+        nargs="*",
+        metavar="[PKG] FILE | arg:=value",
+        help="a launch file, '-' for standard input, or a package and a file in it",
+    )
+    shows = parser.add_argument_group("show instead of run")
+    shows.add_argument("--ros-args", action="store_true", help="the arguments that the file takes")
+    shows.add_argument("--files", action="store_true", help="the launch files that are read")
+    shows.add_argument("--nodes", action="store_true", help="the nodes")
+    shows.add_argument("--find-node", "--find", metavar="NODE", help="the launch file a node is in")
+    shows.add_argument("--args", metavar="NODE", help="the command line of a node")
+    shows.add_argument("--dump-params", action="store_true", help="the parameters, as YAML")
+    runs = parser.add_argument_group("run")
+    runs.add_argument("--screen", action="store_true", help="all nodes write to the screen")
+    runs.add_argument("--log", action="store_true", help="all nodes write to log files")
+    runs.add_argument("--required", action="store_true", help="end when any node ends")
+    runs.add_argument("--core", action="store_true", help="start master and rosout, as roscore")
+    runs.add_argument("--wait", action="store_true", help="wait for a master, start none")
+    runs.add_argument("-p", "--port", type=port_number, help="port of the master")
+    runs.add_argument(
+        "--nodes-survive",
+        action="store_true",
+        help="leave the nodes running if this is killed (kill -9), as roslaunch does",
+    )
+    runs.add_argument("--run_id", default="", metavar="ID", help="run_id of the session")
+    runs.add_argument("--pid", metavar="FILE", help="write the process number to a file")
+    runs.add_argument("--no-summary", action="store_true", help="do not show parameters and nodes")
+    runs.add_argument("--sigint-timeout", type=positive_float, default=15.0, metavar="S")
+    runs.add_argument("--sigterm-timeout", type=positive_float, default=2.0, metavar="S")
+    tests = parser.add_argument_group("test, as rostest does")
+    tests.add_argument("--test", action="store_true", help="run the tests of the files")
+    tests.add_argument("--text", action="store_true", help="tests write to the screen")
+    tests.add_argument("--results", metavar="DIR", help="write JUnit results below this folder")
+    tests.add_argument("--reuse-master", action="store_true", help="use the master that runs")
+    for option in _NO_EFFECT:
+        runs.add_argument(option, action="store_true", help=argparse.SUPPRESS)
+    for options in (*_NO_EFFECT_VALUES, *_CHILD):
+        dest = "child" if options in _CHILD else None
+        runs.add_argument(*options, dest=dest, help=argparse.SUPPRESS)
+    parser.set_defaults(parser=parser)
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; returns the exit code."""
+    from gazelle_ros.launch import Packages
+
+    if args.child is not None:
+        args.parser.error("nodes run on this machine only: there are no child launchers")
+    packages = Packages()
+    plan = _load(args, packages)
+    for notice in plan.notices:
+        sys.stderr.write(f"gazelle: warning: {notice}\n")
+    shown = _show(args, plan, packages)
+    if shown is not None:
+        sys.stdout.write(shown)
+        return 0
+    if args.pid:
+        write_text(args.pid, f"{os.getpid()}\n")
+    if args.test:
+        return _test(args, plan, packages)
+    return _launch(args, plan, packages)
+
+
+def _test(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> int:
+    from gazelle_ros.launch import testing
+
+    package, name = testing.report_name(Path(plan.files[0]))
+    folder = Path(args.results) if args.results else testing.results_folder()
+    report = testing.TestReport(f"{package}.{name}")
+    testing.run_tests(
+        plan,
+        report,
+        (folder / package).resolve(),
+        say=_say,
+        reuse_master=args.reuse_master,
+        text=args.text,
+        packages=packages,
+    )
+    report.write(folder / package / f"{name}.xml")
+    _say(report.summary())
+    _say(f"results are in {folder / package / name}.xml")
+    return 0 if report.passed else 1
+
+
+def _load(args: argparse.Namespace, packages: Packages) -> LaunchPlan:
+    from gazelle_ros.launch import LaunchPlan, load_launch, load_launch_text
+    from gazelle_ros.names import split_arguments
+
+    words, given = split_arguments(args.what)
+    if args.ros_args:
+        return _arguments_only(words, given, packages, args.parser)
+    if args.core and not words:
+        return LaunchPlan()
+    if words == ["-"]:
+        text = sys.stdin.buffer.read()
+        return load_launch_text(text, given, name="stdin", packages=packages)
+    return load_launch(_files(words, packages, args.parser), given, packages=packages)
+
+
+def _arguments_only(
+    words: list[str], given: dict[str, str], packages: Packages, parser: Any
+) -> LaunchPlan:
+    from gazelle_ros.launch.loader import declared_arguments
+
+    plan: LaunchPlan = declared_arguments(_files(words, packages, parser), given, packages=packages)
+    return plan
+
+
+def _files(words: list[str], packages: Packages, parser: Any) -> list[str]:
+    """Return the launch files: files, or a package and the name of a file in it."""
+    from gazelle_ros.launch.finding import find_launch_file, require_name
+
+    if not words:
+        parser.error("give a launch file, or a package and a launch file")
+    if len(words) == 2 and not Path(words[0]).is_file():
+        return [str(find_launch_file(words[0], words[1], packages))]
+    if len(words) == 1 and not Path(words[0]).is_file():
+        require_name(words[0], packages)
+    return words
+
+
+def _show(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> str | None:
+    """Return the text that is requested instead of a run; None if none is."""
+    from gazelle_ros import net
+    from gazelle_ros.launch import describing
+
+    if args.ros_args:
+        return describing.arguments(plan)
+    if args.files:
+        return "".join(f"{file}\n" for file in plan.files)
+    if args.nodes:
+        return "".join(f"{node.full_name}\n" for node in [*plan.nodes, *plan.tests])
+    if args.find_node:
+        return f"{describing.find_node(plan, args.find_node).place.file}\n"
+    if args.args:
+        node = describing.find_node(plan, args.args)
+        return " ".join(describing.command(node, packages, net.default_master_uri())) + "\n"
+    if args.dump_params:
+        return describing.parameters(plan, packages)
+    return None
+
+
+def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> int:
+    from dataclasses import replace
+
+    from gazelle_ros import net
+    from gazelle_ros.base.interrupts import stopping
+    from gazelle_ros.launch import describing
+    from gazelle_ros.launch.process import StopTimeouts
+    from gazelle_ros.launch.runner import Launch, Options
+
+    options = Options(
+        core=args.core,
+        core_survives=True,
+        nodes_survive=args.nodes_survive,
+        wait=args.wait,
+        screen=args.screen,
+        log=args.log,
+        run_id=args.run_id,
+        patience=StopTimeouts(args.sigint_timeout, args.sigterm_timeout),
+    )
+    if args.port is not None:
+        options.master_uri = net.uri_of(options.host, args.port)
+    if args.required:
+        plan.nodes = [replace(each, required=True, respawn=False) for each in plan.nodes]
+    if plan.tests:
+        _say(f"{len(plan.tests)} tests are not run; --test runs them")
+    launch = Launch(plan, options, say=_say, packages=packages)
+    if not args.no_summary:
+        sys.stdout.write(describing.summary(plan) + f"\nROS_MASTER_URI={launch.master_uri}\n\n")
+    with _same_terminal(), launch, stopping(launch.end) as request:
+        try:
+            launch.start()
+        except Error:
+            if not request.is_set():
+                raise
+        code = launch.spin()
+        _say("shutting down")
+    _say("done")
+    return code
+
+
+@contextlib.contextmanager
+def _same_terminal() -> Iterator[None]:
+    """Restore the terminal at the end, should a node that read keys be killed."""
+    if sys.stdin is None or not sys.stdin.isatty() or os.name != "posix":
+        yield
+        return
+    import termios
+
+    before = termios.tcgetattr(sys.stdin)
+    try:
+        yield
+    finally:
+        termios.tcsetattr(sys.stdin, termios.TCSANOW, before)
+
+
+def _say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()

@@ -1,0 +1,136 @@
+"""Read and set parameters, as rosparam does, on any ROS 1 graph.
+
+gazelle param list
+gazelle param set /use_sim_time true
+gazelle param load gains.yaml /arm
+gazelle param dump
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from gazelle_ros.base.text_files import read_text
+from gazelle_ros.base.writing import write_text
+from gazelle_ros.cli.tools import SubCommands
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    commands = SubCommands(parser)
+    commands.add("list", "names", _list).add_argument("space", nargs="?", metavar="/NAMESPACE")
+    get = commands.add("get", "value, as YAML", _get)
+    get.add_argument("name", metavar="/NAME")
+    get.add_argument("-p", dest="pretty", action="store_true", help="for people")
+    setting = commands.add("set", "set to a YAML value; a mapping is merged", _set)
+    setting.add_argument("name", metavar="/NAME")
+    setting.add_argument("value", nargs="?", metavar="YAML")
+    source = setting.add_mutually_exclusive_group()
+    source.add_argument("-t", "--textfile", metavar="FILE", help="to the text of a file")
+    source.add_argument("-b", "--binfile", metavar="FILE", help="to the bytes of a file")
+    load = commands.add("load", "set what a YAML file holds", _load)
+    load.add_argument("file", metavar="FILE", help="'-' for standard input")
+    load.add_argument("space", nargs="?", metavar="/NAMESPACE")
+    dump = commands.add("dump", "write as YAML", _dump)
+    dump.add_argument("file", nargs="?", metavar="FILE", help="default: standard output")
+    dump.add_argument("space", nargs="?", metavar="/NAMESPACE")
+    delete = commands.add("delete", "delete", _delete)
+    delete.add_argument("name", metavar="/NAME")
+    for each in (get, setting, load, dump, delete):
+        each.add_argument("-v", "--verbose", action="store_true", help="say what is done")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Run the command; returns the exit code."""
+    code: int = args.action(args)
+    return code
+
+
+def _graph() -> Any:
+    from gazelle_ros.tools.graph import GraphInspector
+
+    return GraphInspector("rosparam")
+
+
+def _list(args: argparse.Namespace) -> int:
+    from gazelle_ros.tools.params import list_parameters
+
+    with _graph() as graph:
+        sys.stdout.write("\n".join(list_parameters(graph, args.space)) + "\n")
+    return 0
+
+
+def _get(args: argparse.Namespace) -> int:
+    from gazelle_ros.tools.params import as_yaml, get_parameter, pretty
+
+    with _graph() as graph:
+        value = get_parameter(graph, args.name)
+        if args.verbose:
+            sys.stdout.write(f"getting parameter [{graph.resolve(args.name)}]\n")
+    sys.stdout.write(pretty(value) if args.pretty else as_yaml(value))
+    return 0
+
+
+def _set(args: argparse.Namespace) -> int:
+    from gazelle_ros.tools.params import set_from_text, set_parameter
+
+    given = [each for each in (args.value, args.textfile, args.binfile) if each is not None]
+    if len(given) != 1:
+        args.parser.error("give a value, --textfile or --binfile")
+    with _graph() as graph:
+        if args.textfile is not None:
+            text = read_text(Path(args.textfile))
+            done = set_parameter(graph, args.name, text)
+        elif args.binfile is not None:
+            done = set_parameter(graph, args.name, Path(args.binfile).read_bytes())
+        else:
+            done = set_from_text(graph, args.name, args.value)
+    _tell(args, done)
+    return 0
+
+
+def _load(args: argparse.Namespace) -> int:
+    from gazelle_ros.tools.params import load_parameters
+
+    with _graph() as graph:
+        done = load_parameters(graph, args.file, args.space)
+    if args.verbose:
+        sys.stdout.write(f"reading parameters from [{args.file}]\n")
+        sys.stdout.write("".join(f"{name}={value}\n" for name, value in done))
+    return 0
+
+
+def _tell(args: argparse.Namespace, done: list[tuple[str, Any]]) -> None:
+    if args.verbose:
+        for name, value in done:
+            sys.stdout.write(f"set parameter [{name}] to [{value}]\n")
+
+
+def _dump(args: argparse.Namespace) -> int:
+    from gazelle_ros.tools.params import dump_parameters, get_parameter, leaves
+
+    with _graph() as graph:
+        text = dump_parameters(graph, args.space)
+        if args.verbose:
+            space = graph.resolve(args.space or "/")
+            sys.stdout.write(f"dumping namespace [{space}] to file [{args.file or ''}]\n")
+            for name, value in leaves(get_parameter(graph, space), space):
+                sys.stdout.write(f"{name}={value}\n")
+    if args.file:
+        write_text(args.file, text)
+    else:
+        sys.stdout.write(text)
+    return 0
+
+
+def _delete(args: argparse.Namespace) -> int:
+    from gazelle_ros.tools.params import delete_parameter
+
+    with _graph() as graph:
+        delete_parameter(graph, args.name)
+        if args.verbose:
+            sys.stdout.write(f"deleted parameter [{graph.resolve(args.name)}]\n")
+    return 0

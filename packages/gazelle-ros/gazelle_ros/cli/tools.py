@@ -1,0 +1,45 @@
+"""Common parts of the commands of ROS 1 tools: sub-commands and questions."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from gazelle_ros.cli.parsing import Parser
+
+Action = Callable[[argparse.Namespace], int]
+
+
+class SubCommands:
+    """The sub-commands of a command.
+
+    Args:
+        parser: The command's parser.
+    """
+
+    def __init__(self, parser: argparse.ArgumentParser) -> None:
+        self._parsers: Any = parser.add_subparsers(
+            dest="sub_command", required=True, metavar="SUB-COMMAND", parser_class=Parser
+        )
+
+    def add(self, name: str, purpose: str, action: Action) -> argparse.ArgumentParser:
+        """Add a sub-command; returns its parser."""
+        made: argparse.ArgumentParser = self._parsers.add_parser(
+            name, help=purpose, description=purpose
+        )
+        made.set_defaults(action=action, parser=made)
+        return made
+
+
+def answer(question: str, choices: set[str]) -> str | None:
+    """Ask the user for one of the choices; return None at the end of standard input."""
+    sys.stdout.write(question)
+    sys.stdout.flush()
+    while line := sys.stdin.readline():
+        if line.strip() in choices:
+            return line.strip()
+        sys.stdout.write(f"please answer with one of: {', '.join(sorted(choices))}\n")
+        sys.stdout.flush()
+    return None

@@ -1,0 +1,71 @@
+"""Python modules of the packages on ROS_PACKAGE_PATH, as their ``setup.py`` files name them."""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+from importlib.machinery import ModuleSpec
+from pathlib import Path
+
+from gazelle_ros.compat.setup_files import PythonCode, python_code
+from gazelle_ros.messages.search import find_packages, package_path
+
+_SITES = {"site-packages", "dist-packages"}
+
+
+def named_spec(name: str) -> ModuleSpec | None:
+    """Return the spec of a module that a ``setup.py`` names, or None.
+
+    Args:
+        name: Its dotted name.
+    """
+    code = _all_code(package_path())
+    folder = code.packages.get(name)
+    if folder is not None:
+        return _package(name, folder)
+    file = code.modules.get(name)
+    if file is not None:
+        return importlib.util.spec_from_file_location(name, file)
+    parents = [at.parent for inner, at in code.packages.items() if inner.rpartition(".")[0] == name]
+    return _namespace(name, parents) if parents else None
+
+
+def usual_spec(name: str) -> ModuleSpec | None:
+    """Return the spec of the code of a package at ``src/NAME``, where no ``setup.py`` names it."""
+    folder = find_packages().get(name)
+    source = None if folder is None else folder / "src" / name
+    return _package(name, source) if source and (source / "__init__.py").is_file() else None
+
+
+def comes_after(found: ModuleSpec) -> bool:
+    """Return whether a module is one that packages of a workspace hide, as they are first on ROS's path."""
+    return found.origin is not None and not _SITES.isdisjoint(Path(found.origin).parts)
+
+
+def _package(name: str, folder: Path) -> ModuleSpec | None:
+    init = folder / "__init__.py"
+    if not init.is_file():
+        return _namespace(name, [folder])
+    return importlib.util.spec_from_file_location(
+        name, init, submodule_search_locations=[str(folder)]
+    )
+
+
+def _namespace(name: str, folders: list[Path]) -> ModuleSpec:
+    found = ModuleSpec(name, None, is_package=True)
+    found.submodule_search_locations = [str(folder) for folder in dict.fromkeys(folders)]
+    return found
+
+
+@functools.cache
+def _all_code(path: str) -> PythonCode:
+    """Return the code of all packages; the first package that names a module has it."""
+    packages: dict[str, Path] = {}
+    modules: dict[str, Path] = {}
+    for folder in find_packages(path).values():
+        code = python_code(folder)
+        for name, at in code.packages.items():
+            packages.setdefault(name, at)
+        for name, at in code.modules.items():
+            modules.setdefault(name, at)
+    return PythonCode(packages, modules)

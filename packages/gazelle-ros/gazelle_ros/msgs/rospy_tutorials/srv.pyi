@@ -1,0 +1,25 @@
+# Written by tools/message_stubs.py from the bundled definitions; not to be edited.
+from typing import ClassVar as _ClassVar
+from gazelle_ros.messages import Message as _Message
+from gazelle_ros.messages import ServiceDefinition as _ServiceDefinition
+
+class AddTwoIntsRequest(_Message):
+    a: int
+    b: int
+    def __init__(self, a: int | None = ..., b: int | None = ...) -> None: ...
+class AddTwoIntsResponse(_Message):
+    sum: int
+    def __init__(self, sum: int | None = ...) -> None: ...
+class AddTwoInts(_ServiceDefinition):
+    _request_class: _ClassVar[type[AddTwoIntsRequest]]
+    _response_class: _ClassVar[type[AddTwoIntsResponse]]
+class BadTwoIntsRequest(_Message):
+    a: int
+    b: int
+    def __init__(self, a: int | None = ..., b: int | None = ...) -> None: ...
+class BadTwoIntsResponse(_Message):
+    sum: int
+    def __init__(self, sum: int | None = ...) -> None: ...
+class BadTwoInts(_ServiceDefinition):
+    _request_class: _ClassVar[type[BadTwoIntsRequest]]
+    _response_class: _ClassVar[type[BadTwoIntsResponse]]
