@@ -50,7 +50,9 @@ class Suite:
         return sum(self.files.values())
 
 
-_MASTER, _CLIENTS, _BOTH = (frozenset({name}) for name in ("master", "clients", "both"))
+_MASTER, _CLIENTS, _BOTH, _ALONE = (
+    frozenset({name}) for name in ("master", "clients", "both", "alone")
+)
 _RAW = frozenset({"master"})  # speaks XML-RPC itself, so no client library is tested
 _LIBRARY = frozenset({"clients"})  # needs no master
 _ROSPY = {
@@ -78,9 +80,11 @@ def _rospy(files: dict[str, int]) -> dict[str, int]:
 SUITES = (
     Suite("rosmaster", "test_rosmaster", {"test/rosmaster.test": 15}, quick=_MASTER, uses=_RAW),
     Suite("paramserver", "test_rosmaster", {"test/paramserver.test": 7}, quick=_MASTER),
-    Suite("masterapi", "test_rosgraph", {"test/masterapi.test": 19}, quick=_MASTER | _BOTH),
-    Suite("rosparam", "test_rosparam", {"test/rosparam.test": 8}, quick=_MASTER),
-    Suite("rospy", "test_rospy", _rospy(_ROSPY), quick=_BOTH),
+    Suite(
+        "masterapi", "test_rosgraph", {"test/masterapi.test": 19}, quick=_MASTER | _BOTH | _ALONE
+    ),
+    Suite("rosparam", "test_rosparam", {"test/rosparam.test": 8}, quick=_MASTER | _ALONE),
+    Suite("rospy", "test_rospy", _rospy(_ROSPY), quick=_BOTH | _ALONE),
     Suite("rospy, slow", "test_rospy", _rospy(_ROSPY_SLOW)),
     Suite(
         "roslaunch",
@@ -129,9 +133,13 @@ SUITES = (
             "test/test_simple_action_server_deadlock_python.launch": 1,
         },
     ),
-    Suite("tf", "tf", {"test/testPython.py": 10}, quick=_CLIENTS, uses=_LIBRARY),
+    Suite("tf", "tf", {"test/testPython.py": 10}, quick=_CLIENTS | _ALONE, uses=_LIBRARY),
     Suite(
-        "tf_conversions", "tf_conversions", {"test/posemath.py": 2}, quick=_CLIENTS, uses=_LIBRARY
+        "tf_conversions",
+        "tf_conversions",
+        {"test/posemath.py": 2},
+        quick=_CLIENTS | _ALONE,
+        uses=_LIBRARY,
     ),
     Suite(
         "tf2_sensor_msgs",
@@ -144,7 +152,7 @@ SUITES = (
         "message_filters",
         "message_filters",
         {"test/test_approxsync.py": 1, "test/test_message_filters_cache.py": 2},
-        quick=_CLIENTS,
+        quick=_CLIENTS | _ALONE,
         uses=_LIBRARY,
     ),
 )

@@ -13,7 +13,7 @@ USED = "run-by-gazelle"
 """The file that lists the scripts which Gazelle ran."""
 
 _ROBOTS = Path(__file__).parent / "robots"
-GAZELLE = Path(sys.executable).parent / "gazelle"
+GAZELLE = Path(sys.executable).parent / "gazelle-ros"
 _TOOLS = {
     "rosbag": "bag",
     "rosnode": "node",
