@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from gazelle.argument_checks import checked
 from gazelle.builders.errors import BuildError, positive
 from gazelle.description import Geometry, Inertial, Pose
-from gazelle.formats.solids import UnitSolid, inertial_of, joined, solid_of
+from gazelle.formats.solids import inertial_of, solid_of
+from gazelle.geometry.solids import UnitSolid, joined
 
 
 @checked(BuildError)
@@ -25,7 +26,7 @@ def solid_inertial(parts: Sequence[tuple[Geometry, Pose]], mass: float) -> Inert
         FormatError: A mesh cannot be read.
     """
     positive(mass, "the mass")
-    whole = joined(_solid(shape).placed(pose) for shape, pose in parts)
+    whole = joined(_solid(shape).placed(pose.matrix()) for shape, pose in parts)
     if whole is None:
         raise BuildError("a body without shapes has no inertia")
     return inertial_of(whole.scaled(mass / whole.volume))

@@ -1,21 +1,12 @@
-"""Volume, centre and inertia of shapes filled with matter of even density.
-
-Closed forms of the simple ones; of meshes from signed tetrahedra (Tonon, "Explicit exact
-formulas for the 3-D tetrahedron inertia tensor", Journal of Mathematics and Statistics 1,
-2004).
-"""
+"""Bodies that described shapes enclose: their volume, centre and inertia."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle.array_types import Floats
 from gazelle.description import (
     Box,
     Capsule,
@@ -31,42 +22,13 @@ from gazelle.description import (
     Sphere,
 )
 from gazelle.formats.mesh import load_mesh
+from gazelle.geometry import solids
 from gazelle.geometry.patches import prism
 from gazelle.geometry.polygons import convex_polygons
+from gazelle.geometry.solids import UnitSolid
 
 WATER = 1000.0
 """The density that SDF takes where a file gives none [kg/m³]."""
-
-
-@dataclass(frozen=True, slots=True)
-class UnitSolid:
-    """A body of density 1 kg/m³.
-
-    Attributes:
-        volume: [m³]; of one that is scaled by a density, its mass [kg].
-        center: Centre of mass [m], shape (3,).
-        inertia: About the centre of mass [m⁵], shape (3, 3).
-    """
-
-    volume: float
-    center: Floats
-    inertia: Floats
-
-    def is_body(self) -> bool:
-        """Return whether it has a volume, and all its numbers are finite."""
-        finite = math.isfinite(self.volume) and bool(np.isfinite(self.inertia).all())
-        return finite and self.volume > 0.0
-
-    def placed(self, pose: Pose) -> UnitSolid:
-        """Return the same body in the frame that a pose is given in."""
-        turn = pose.matrix()[:3, :3]
-        center: Floats = turn @ self.center + np.asarray(pose.position)
-        inertia: Floats = turn @ self.inertia @ turn.T
-        return UnitSolid(self.volume, center, inertia)
-
-    def scaled(self, density: float) -> UnitSolid:
-        """Return the same body with its volume and inertia times a density [kg/m³]."""
-        return UnitSolid(self.volume * density, self.center, self.inertia * density)
 
 
 def solid_of(shape: Geometry) -> UnitSolid | None:
@@ -86,109 +48,34 @@ def solid_of(shape: Geometry) -> UnitSolid | None:
     return found if found is not None and found.is_body() else None
 
 
-def joined(solids: Iterable[UnitSolid]) -> UnitSolid | None:
-    """Return several bodies as one (parallel axis theorem); None if there is none."""
-    parts = list(solids)
-    volume = sum(part.volume for part in parts)
-    if volume <= 0.0:
-        return None
-    center = sum((part.volume * part.center for part in parts), np.zeros(3)) / volume
-    inertia = np.zeros((3, 3))
-    for part in parts:
-        away = part.center - center
-        inertia += part.inertia + part.volume * (away @ away * np.eye(3) - np.outer(away, away))
-    return UnitSolid(volume, center, inertia)
-
-
 def inertial_of(solid: UnitSolid) -> Inertial:
     """Return mass and inertia of a body whose volume is already its mass [kg]."""
     x, y, z = solid.center.tolist()
     return Inertial(solid.volume, Pose(x, y, z), Inertia.from_matrix(solid.inertia))
 
 
-def _even(volume: float, moments: tuple[float, float, float], z: float = 0.0) -> UnitSolid:
-    return UnitSolid(volume, np.array([0.0, 0.0, z]), np.diag(moments) * volume)
-
-
-def _box(shape: Box) -> UnitSolid:
-    x, y, z = shape.size
-    return _even(
-        x * y * z, ((y * y + z * z) / 12.0, (x * x + z * z) / 12.0, (x * x + y * y) / 12.0)
-    )
-
-
-def _sphere(shape: Sphere) -> UnitSolid:
-    moment = 0.4 * shape.radius**2
-    return _even(4.0 / 3.0 * math.pi * shape.radius**3, (moment, moment, moment))
-
-
-def _cylinder(shape: Cylinder) -> UnitSolid:
-    r, h = shape.radius, shape.length
-    across = r * r / 4.0 + h * h / 12.0
-    return _even(math.pi * r * r * h, (across, across, r * r / 2.0))
-
-
-def _capsule(shape: Capsule) -> UnitSolid:
-    """Return a cylinder and two half balls, whose centres lie 3/8 r beyond its ends."""
-    r, h = shape.radius, shape.length
-    tube, balls = math.pi * r * r * h, 4.0 / 3.0 * math.pi * r**3
-    across = tube * (r * r / 4.0 + h * h / 12.0)
-    across += balls * (0.4 * r * r + h * h / 4.0 + 3.0 / 8.0 * h * r)
-    along = tube * r * r / 2.0 + balls * 0.4 * r * r
-    return UnitSolid(tube + balls, np.zeros(3), np.diag((across, across, along)))
-
-
-def _ellipsoid(shape: Ellipsoid) -> UnitSolid:
-    a, b, c = shape.radii
-    moments = ((b * b + c * c) / 5.0, (a * a + c * c) / 5.0, (a * a + b * b) / 5.0)
-    return _even(4.0 / 3.0 * math.pi * a * b * c, moments)
-
-
-def _cone(shape: Cone) -> UnitSolid:
-    r, h = shape.radius, shape.length
-    across = 3.0 / 80.0 * (4.0 * r * r + h * h)
-    return _even(math.pi * r * r * h / 3.0, (across, across, 0.3 * r * r), z=-h / 4.0)
-
-
 def _mesh(shape: Mesh) -> UnitSolid | None:
     if shape.path is None:
         return None
     data = load_mesh(shape)
-    return solid_of_triangles(data.vertices, data.faces)
+    return solids.solid_of_triangles(data.vertices, data.faces)
 
 
 def _polyline(shape: Polyline) -> UnitSolid | None:
     parts = []
     for corners in convex_polygons(shape.outlines):
         rim = np.column_stack([corners, np.full(len(corners), shape.height)])
-        parts.append(solid_of_triangles(*prism(rim, np.array([0.0, 0.0, shape.height]))))
-    return joined(parts)
-
-
-def solid_of_triangles(vertices: Floats, faces: NDArray[np.int32]) -> UnitSolid:
-    """Return the body within closed triangles that look outwards, as signed tetrahedra."""
-    middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2.0
-    corners = (vertices - middle)[faces]
-    volumes = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
-    volume = float(volumes.sum())
-    if volume <= 0.0:
-        return UnitSolid(0.0, middle, np.zeros((3, 3)))
-    total = corners.sum(axis=1)
-    center = (volumes[:, None] * total).sum(axis=0) / 4.0 / volume
-    second = np.einsum("i,ij,ik->jk", volumes, total, total)
-    second = (second + np.einsum("i,icj,ick->jk", volumes, corners, corners)) / 20.0
-    second -= volume * np.outer(center, center)
-    inertia: Floats = np.trace(second) * np.eye(3) - second
-    return UnitSolid(volume, center + middle, inertia)
+        parts.append(solids.solid_of_triangles(*prism(rim, np.array([0.0, 0.0, shape.height]))))
+    return solids.joined(parts)
 
 
 _MAKERS: dict[type, Callable[[Any], UnitSolid | None]] = {
-    Box: _box,
-    Capsule: _capsule,
-    Cone: _cone,
-    Cylinder: _cylinder,
-    Ellipsoid: _ellipsoid,
+    Box: lambda shape: solids.box(shape.size),
+    Capsule: lambda shape: solids.capsule(shape.radius, shape.length),
+    Cone: lambda shape: solids.cone(shape.radius, shape.length),
+    Cylinder: lambda shape: solids.cylinder(shape.radius, shape.length),
+    Ellipsoid: lambda shape: solids.ellipsoid(shape.radii),
     Mesh: _mesh,
     Polyline: _polyline,
-    Sphere: _sphere,
+    Sphere: lambda shape: solids.ellipsoid((shape.radius,) * 3),
 }

@@ -23,7 +23,8 @@ from gazelle.errors import FormatError
 from gazelle.formats import values
 from gazelle.formats.limits import HEAVIEST
 from gazelle.formats.reading import Reading
-from gazelle.formats.solids import WATER, joined, solid_of
+from gazelle.formats.solids import WATER, solid_of
+from gazelle.geometry.solids import joined
 
 _WRONG = "the inertia is not positive definite"
 _HINT = "the diagonal must be positive and outweigh the products of inertia"
@@ -143,7 +144,7 @@ def _of_shapes(mass: float, collisions: Iterable[Collision]) -> Floats | None:
         except FormatError:  # a mesh that cannot be read is reported where it is needed
             continue
         if solid is not None:
-            parts.append(solid.placed(collision.pose))
+            parts.append(solid.placed(collision.pose.matrix()))
     whole = joined(parts)
     if whole is None or not whole.is_body():
         return None

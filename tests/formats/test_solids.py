@@ -10,7 +10,8 @@ from xml_samples import model
 from gazelle import FormatError, Pose
 from gazelle.description import Box, Capsule, Cone, Cylinder, Ellipsoid, Polyline, Sphere
 from gazelle.errors import FormatWarning
-from gazelle.formats.solids import joined, solid_of
+from gazelle.formats.solids import solid_of
+from gazelle.geometry.solids import joined
 
 
 def auto(collisions, inertial=""):
@@ -94,7 +95,9 @@ def inside(shape, points):
 
 def test_parts_join_into_the_whole():
     half = solid_of(Box((1.0, 2.0, 3.0)))
-    whole = joined([half.placed(Pose(x=0.5)), half.placed(Pose(x=-0.5, yaw=math.pi))])
+    whole = joined(
+        [half.placed(Pose(x=0.5).matrix()), half.placed(Pose(x=-0.5, yaw=math.pi).matrix())]
+    )
     np.testing.assert_allclose(whole.inertia, solid_of(Box((2.0, 2.0, 3.0))).inertia, atol=1e-12)
 
 

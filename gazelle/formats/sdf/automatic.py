@@ -10,7 +10,8 @@ from gazelle.description import Collision, Inertial, Parameters
 from gazelle.formats import values
 from gazelle.formats.reading import Reading
 from gazelle.formats.sdf.inertial import read_inertial
-from gazelle.formats.solids import WATER, UnitSolid, inertial_of, joined, solid_of
+from gazelle.formats.solids import WATER, inertial_of, solid_of
+from gazelle.geometry.solids import UnitSolid, joined
 
 
 def is_automatic(node: Parameters) -> bool:
@@ -35,7 +36,7 @@ def automatic_inertial(
     for child, collision in zip(link.find_all("collision"), collisions, strict=True):
         solid = solid_of(collision.geometry)
         if solid is not None:
-            parts.append(solid.placed(collision.pose).scaled(_density(child, usual)))
+            parts.append(solid.placed(collision.pose.matrix()).scaled(_density(child, usual)))
     with np.errstate(over="ignore", invalid="ignore"):
         whole = joined(parts)
     if whole is None or not whole.is_body():

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from gazelle.description import Inertia, Inertial, Pose
-from gazelle.formats.solids import UnitSolid, joined
 from gazelle.formats.urdf.tree import LumpedLink
 from gazelle.formats.urdf.upright import upright
+from gazelle.geometry.solids import UnitSolid, joined
 
 NO_MASS = 1e-6
 """A mass up to this [kg] is none, as it is to libsdformat."""
@@ -42,7 +42,7 @@ def combine(parts: Sequence[tuple[Pose, Inertial]], rotation: Pose) -> Inertial 
     """Return the sum of inertials at poses, in axes turned by ``rotation``; None without mass."""
     whole = joined(
         UnitSolid(inertial.mass, np.zeros(3), inertial.inertia.matrix()).placed(
-            pose * inertial.pose
+            (pose * inertial.pose).matrix()
         )
         for pose, inertial in parts
     )
