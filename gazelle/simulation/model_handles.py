@@ -1,10 +1,14 @@
-"""Handles of all links and joints of a model."""
+"""Handles of all links and joints of a model, and its frames and joints by their names."""
 
 from __future__ import annotations
 
-from gazelle.description import Model
+from collections.abc import Mapping
+
+from gazelle.description import Joint, Model, Pose
+from gazelle.errors import SimulationError, did_you_mean
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.links import LinkHandle
+from gazelle.simulation.mappings import Named
 from gazelle.simulation.running_state import RunningState
 
 
@@ -30,6 +34,37 @@ def joint_handles(simulation: RunningState, model: Model) -> dict[str, JointHand
         for joint in placed.model.joints
         if f"{placed.scope}::{joint.name}" in moving
     }
+
+
+def joint_description(model: Model, name: str) -> Joint:
+    """Return a joint's description in the file, of fixed ones too.
+
+    Raises:
+        SimulationError: There is no joint of that name.
+    """
+    found = {
+        name_within(placed.scope, model.name, joint.name): joint
+        for placed in model.walk()
+        for joint in placed.model.joints
+    }
+    return Named(f"joint in '{model.name}'", found, model.name)[name]
+
+
+def frame_of(model: Model, links: Mapping[str, LinkHandle], name: str) -> tuple[LinkHandle, Pose]:
+    """Return the link that a frame of a model moves with, and the frame's pose in it.
+
+    Raises:
+        SimulationError: There is no frame of that name.
+    """
+    name = name.removeprefix(f"{model.name}::")
+    for placed in model.walk():
+        for frame in placed.model.frames:
+            if frame.name == name and frame.attached_to in links:
+                return links[frame.attached_to], frame.pose
+    known = [*links, *(frame.name for frame in model.frames)]
+    raise SimulationError(
+        f"'{model.name}' has no link or frame '{name}'", hint=did_you_mean(name, known)
+    )
 
 
 def name_within(scope: str, top: str, name: str) -> str:

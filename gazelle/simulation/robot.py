@@ -13,15 +13,15 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.control import ControllerManager
 from gazelle.description import Joint, Model, Pose, Sensor
 from gazelle.engines import Motion, Placement, Wrench
-from gazelle.errors import SimulationError, did_you_mean
+from gazelle.errors import SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.sensors import SensorModel
+from gazelle.simulation import model_handles
 from gazelle.simulation.events import Events
 from gazelle.simulation.inputs import chosen, finite, motion, placement, size_of
 from gazelle.simulation.joints import JointHandle
 from gazelle.simulation.links import LinkHandle, orientation_of
 from gazelle.simulation.mappings import Named
-from gazelle.simulation.model_handles import joint_handles, link_handles, name_within
 from gazelle.simulation.parameters import WorldParameters
 from gazelle.simulation.physics import PhysicsProperties
 from gazelle.simulation.ports import Ports
@@ -149,11 +149,11 @@ class Robot(Ports):
         self.description = model
         self.managers: dict[str, ControllerManager] = {}
         self._row = simulation.engine.models[model.name]
-        self._links = link_handles(simulation, model)
+        self._links = model_handles.link_handles(simulation, model)
         own = f"in '{self.name}'"
         self.links: Mapping[str, LinkHandle] = Named(f"link {own}", self._links, self.name)
         self.joints: Mapping[str, JointHandle] = Named(
-            f"moving joint {own}", joint_handles(simulation, model), self.name
+            f"moving joint {own}", model_handles.joint_handles(simulation, model), self.name
         )
         self.sensors: Mapping[str, SensorUnit] = Named(
             f"sensor {own}", _sensor_units(self, model, sensors), self.name
@@ -351,12 +351,7 @@ class Robot(Ports):
         Raises:
             SimulationError: There is no joint of that name.
         """
-        found = {
-            name_within(placed.scope, self.name, joint.name): joint
-            for placed in self.description.walk()
-            for joint in placed.model.joints
-        }
-        return Named(f"joint in '{self.name}'", found, self.name)[name]
+        return model_handles.joint_description(self.description, name)
 
     def frame(self, name: str) -> tuple[LinkHandle, Pose]:
         """Return the link that a frame moves with, and the frame's pose in it.
@@ -368,15 +363,7 @@ class Robot(Ports):
         """
         if name in self.links:
             return self.links[name], Pose()
-        name = name.removeprefix(f"{self.name}::")
-        for placed in self.description.walk():
-            for frame in placed.model.frames:
-                if frame.name == name and frame.attached_to in self._links:
-                    return self._links[frame.attached_to], frame.pose
-        known = [*self._links, *(f.name for f in self.description.frames)]
-        raise SimulationError(
-            f"'{self.name}' has no link or frame '{name}'", hint=did_you_mean(name, known)
-        )
+        return model_handles.frame_of(self.description, self._links, name)
 
 
 class SensorUnit(SampledSensor):
