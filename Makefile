@@ -69,7 +69,7 @@ test-slow: $(ALL)
 ros-suites: $(ALL)
 	$(VENV)/bin/python tools/ros_suites.py $(if $(ROS_SOURCES),--sources $(ROS_SOURCES),--fetch)
 
-# ONLY names steps, such as ONLY="'recipe Kobuki*' 'slow tests'".
+# ONLY names steps, such as ONLY="'recipe Kobuki*' 'slow tests of ros'".
 release-check: $(ALL)
 	$(PIP) install --quiet --constraint constraints.txt --editable packages/gazelle-ros --editable '.[bench]'
 	$(VENV)/bin/python tools/release_check.py $(if $(ONLY),--only $(ONLY))

@@ -113,7 +113,7 @@ def test_all_trainings_tables_and_suites_are_steps(release):
         name.removeprefix("recipe ") for name in names if name.startswith("recipe ")
     } == trainings
     assert {"table physics", "table contacts", "table workers"} <= set(names)
-    assert {"slow tests", "ROS suites"} <= set(names)
+    assert {"slow tests of bridges", "slow tests of the whole", "ROS suites"} <= set(names)
 
 
 @pytest.mark.parametrize(("reached", "short"), [((950, 940, 960), False), ((950, 100, 960), False)])

@@ -10,7 +10,7 @@ import wrong_calls
 from wrong_calls import Findings
 from wrong_values import shown
 
-from gazelle import Simulation
+from gazelle import Simulation, control, engines, simulation
 from gazelle.description import Pose
 from gazelle.sensors import View, look_at
 
@@ -23,6 +23,13 @@ OWN = {
     "WorldParameters": {"reseed", "restore"},
 }
 ENDING = {"close", "pause", "unpause"}
+
+
+@pytest.fixture(autouse=True)
+def registries(monkeypatch):
+    """Forget what is registered under wrong names at the end of each test."""
+    for module in (control.registry, engines.registry, simulation.registry):
+        monkeypatch.setattr(module, "_registered", dict(module._registered))
 
 
 def world():

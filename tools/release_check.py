@@ -1,9 +1,9 @@
 """Measure everything that Gazelle publishes, before a release, and write down what came of it.
 
 Steps are: each training of gazelle/training/claims.yaml with three seeds, each table of the docs,
-the slow tests, and ROS 1's own suites. Figures go to where they are published; the outcome of each
-step goes to docs/release-check.md, with the commit. It takes hours. A step that has passed at a
-commit is not repeated, so a run that was broken off goes on.
+the slow tests by folder, and ROS 1's own suites. Figures go to where they are published; the outcome
+of each step goes to docs/release-check.md, with the commit. It takes hours. A step that has passed
+at a commit is not repeated, so a run that was broken off goes on.
 
     python tools/release_check.py
     python tools/release_check.py --only 'recipe Kobuki*' 'table physics'
@@ -40,6 +40,7 @@ from gazelle.training.claims import (  # noqa: E402
 )
 
 REPORT = ROOT / "docs" / "release-check.md"
+_TWO_PROCESSES = ("-n", "2", "--dist", "loadfile")
 GAZELLE = (sys.executable, "-m", "gazelle.cli.main")
 
 
@@ -83,13 +84,29 @@ def steps(since: str | None = None) -> list[Step]:
             Step(f"table {table.name}", (*python, "tools/update_benchmarks.py", table.name))
             for table in tables()
         ),
-        Step(
-            "slow tests",
-            (*python, "tools/run_tests.py", "-q", "-n", "2", "--dist", "loadfile", "-m", "slow"),
-            environment={"GAZELLE_EXAMPLES": "fresh"},
+        *(
+            Step(
+                f"slow tests of {folder}",
+                (*python, "tools/run_tests.py", "-q", *_TWO_PROCESSES, "-m", "slow", *files),
+                lambda output: (True, last_line(output, "passed")),
+                {"GAZELLE_EXAMPLES": "fresh"},
+            )
+            for folder, files in slow_tests().items()
         ),
         Step("ROS suites", (*python, "tools/ros_suites.py", "--fetch", "--strict", "--tries", "2")),
     ]
+
+
+def slow_tests() -> dict[str, list[str]]:
+    """Return the files with slow tests, by the folder of tests that they are in."""
+    found: dict[str, list[str]] = {}
+    for path in sorted((ROOT / "tests").rglob("test_*.py")):
+        if "mark.slow" in path.read_text(encoding="utf-8"):
+            _, folder, *within = path.relative_to(ROOT).parts
+            found.setdefault(folder if within else "the whole", []).append(
+                str(path.relative_to(ROOT))
+            )
+    return found
 
 
 def recipe_step(train: str, since: str | None = None) -> Step:
@@ -139,9 +156,9 @@ def compared(old: Claim, new: Claim) -> str:
     return f"{new.engine} {rate} (before: {before}{short})"
 
 
-def last_line(output: str) -> str:
-    """Return the last line that is not empty."""
-    lines = [line.strip() for line in output.splitlines() if line.strip()]
+def last_line(output: str, word: str = "") -> str:
+    """Return the last line that is not empty and has a word."""
+    lines = [line.strip() for line in output.splitlines() if line.strip() and word in line]
     return lines[-1] if lines else ""
 
 

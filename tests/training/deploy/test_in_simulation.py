@@ -78,6 +78,7 @@ def test_it_does_not_drive_into_a_wall(master, world, tmp_path, straight_on):
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(3600)
 @pytest.mark.parametrize(("stage", "least"), [(1, 0.98), (2, 0.97)])
 def test_a_recipe_s_policy_reaches_a_hundred_goals(master, world, tmp_path, stage, least):
     from gazelle.training import train
@@ -91,7 +92,7 @@ def test_a_recipe_s_policy_reaches_a_hundred_goals(master, world, tmp_path, stag
     ]
     goals = tmp_path / "goals.txt"
     goals.write_text("".join(f"{x:.2f}, {y:.2f}\n" for x, y in free[:100]))
-    world(f"turtlebot3_stage_{stage}")
+    world(f"turtlebot3_stage_{stage}", rate="4")
     deployed = Deployed(tmp_path, master.uri, run.folder, "--arm", "--goals", goals)
     out, err = deployed.process.communicate(timeout=3600)
     assert outcomes(out).count("reached") >= 100 * least, out + err
