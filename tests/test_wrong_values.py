@@ -27,7 +27,7 @@ ENDING = {"close", "pause", "unpause"}
 
 @pytest.fixture(autouse=True)
 def registries(monkeypatch):
-    """Forget what is registered under wrong names at the end of each test."""
+    """Remove what is registered under wrong names at the end of each test."""
     for module in (control.registry, engines.registry, simulation.registry):
         monkeypatch.setattr(module, "_registered", dict(module._registered))
 

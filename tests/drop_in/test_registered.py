@@ -9,34 +9,37 @@ from pathlib import Path
 import pytest
 
 import gazelle.drop_in
+import gazelle_ros.drop_in
 from gazelle_ros.base import entry_points
 from gazelle_ros.base.entry_points import entry_points_of
 from gazelle_ros.compat import finder
 
-HOME = Path(gazelle.drop_in.__file__).parent
+HOMES = [Path(package.__file__).parent for package in (gazelle.drop_in, gazelle_ros.drop_in)]
 PRIVATE = {"moveit_client", "shared"}
 """Parts that several of them use; no script imports these."""
 
 
-def listed():
-    """Return entry points in pyproject.toml, by name."""
-    project = HOME.parents[1] / "pyproject.toml"
+def listed(home):
+    """Return entry points in the pyproject.toml of a package of such modules, by name."""
+    project = home.parents[1] / "pyproject.toml"
     if not project.exists():
         pytest.skip("there is no pyproject.toml: this is an installed package")
     groups = tomllib.loads(project.read_text(encoding="utf-8"))["project"]["entry-points"]
     return groups[finder.GROUP]
 
 
-def test_each_is_listed_and_is_there():
-    names = {path.stem for path in HOME.glob("*.py")} | {
-        p.parent.name for p in HOME.glob("*/__init__.py")
+@pytest.mark.parametrize("home", HOMES)
+def test_each_is_listed_and_is_there(home):
+    names = {path.stem for path in home.glob("*.py")} | {
+        p.parent.name for p in home.glob("*/__init__.py")
     }
     names -= {"__init__", *PRIVATE}
-    assert listed() == {name: f"gazelle.drop_in.{name}" for name in names}
+    assert listed(home) == {name: f"{home.parent.name}.drop_in.{name}" for name in names}
 
 
-def test_the_installation_has_them():
-    assert listed().items() <= finder.substitutes().items()
+@pytest.mark.parametrize("home", HOMES)
+def test_the_installation_has_them(home):
+    assert listed(home).items() <= finder.substitutes().items()
 
 
 @pytest.mark.parametrize(
@@ -56,7 +59,7 @@ def test_a_checkout_needs_no_new_installation(tmp_path, monkeypatch, project, ex
     (info / "entry_points.txt").write_text("[a.group]\nnew = recorded\n")
     if project is not None:
         (tmp_path / "pyproject.toml").write_text(project)
-    monkeypatch.setattr(entry_points, "_PROJECT", tmp_path / "pyproject.toml")
+    monkeypatch.setattr(entry_points, "_PROJECTS", [tmp_path / "pyproject.toml"])
     monkeypatch.setattr(sys, "path", [str(tmp_path)])
     entry_points_of.cache_clear()
     try:

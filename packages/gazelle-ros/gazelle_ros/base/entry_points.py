@@ -2,7 +2,7 @@
 
 Gazelle's own modules are imported by name where imports may go that way (`tests/test_imports.py`). Those of
 packages above the one that looks for them, as `gazelle.drop_in` and `gazelle.stage`, are found by
-entry points. In a checkout its `pyproject.toml` lists them, as an installation's record may be older.
+entry points. In a checkout each `pyproject.toml` lists them, as an installation's record may be older.
 """
 
 from __future__ import annotations
@@ -16,8 +16,9 @@ from gazelle_ros.base.errors import Error
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-_OWN = "gazelle"
-_PROJECT = Path(__file__).parents[1] / "pyproject.toml"
+_OWN = ("gazelle", "gazelle-ros")
+_PROJECTS = [folder / "pyproject.toml" for folder in Path(__file__).parents[2:5:2]]
+"""Those of ``packages/gazelle-ros`` and of the checkout around it."""
 
 
 @functools.cache
@@ -53,17 +54,33 @@ def load(point: EntryPoint, what: str, error: type[Error]) -> Any:
 
 
 def _own(group: str) -> dict[str, EntryPoint]:
-    """Return entry points of Gazelle's own distribution, or of its checkout if there is one."""
-    if not _PROJECT.is_file():
-        return _installed(group, own=True)
+    """Return entry points of Gazelle's own distributions, or of their checkout if there is one."""
+    found = _installed(group, own=True)
+    for project in filter(None, map(_project, _PROJECTS)):
+        found = {name: each for name, each in found.items() if _owner(each) != project["name"]}
+        found |= _listed(project, group)
+    return found
+
+
+def _project(file: Path) -> dict[str, Any] | None:
+    """Return the project that a file describes; None unless it is one of Gazelle's."""
+    if not file.is_file():
+        return None
     import tomllib
+
+    project: dict[str, Any] = tomllib.loads(file.read_text(encoding="utf-8")).get("project", {})
+    return project if project.get("name") in _OWN else None
+
+
+def _listed(project: dict[str, Any], group: str) -> dict[str, EntryPoint]:
     from importlib.metadata import EntryPoint
 
-    project = tomllib.loads(_PROJECT.read_text(encoding="utf-8")).get("project", {})
-    if project.get("name") != _OWN:
-        return _installed(group, own=True)
     listed = project.get("entry-points", {}).get(group, {})
     return {name: EntryPoint(name, value, group) for name, value in listed.items()}
+
+
+def _owner(point: EntryPoint) -> str | None:
+    return None if point.dist is None else point.dist.name
 
 
 def _installed(group: str, *, own: bool) -> dict[str, EntryPoint]:
@@ -73,6 +90,6 @@ def _installed(group: str, *, own: bool) -> dict[str, EntryPoint]:
     found: dict[str, EntryPoint] = {}
     for distribution in distributions():
         for point in distribution.entry_points.select(group=group):
-            if (point.dist is not None and point.dist.name == _OWN) == own:
+            if (_owner(point) in _OWN) == own:
                 found.setdefault(point.name, point)
     return found

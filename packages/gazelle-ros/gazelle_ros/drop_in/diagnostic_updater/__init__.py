@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from gazelle.drop_in.diagnostic_updater.status import (
+from gazelle_ros.drop_in.diagnostic_updater.status import (
     ERROR,
     OK,
     WARN,
@@ -10,7 +10,7 @@ from gazelle.drop_in.diagnostic_updater.status import (
     DiagnosticStatus,
     DiagnosticStatusWrapper,
 )
-from gazelle.drop_in.diagnostic_updater.topics import (
+from gazelle_ros.drop_in.diagnostic_updater.topics import (
     DiagnosedPublisher,
     FrequencyStatus,
     FrequencyStatusParam,
@@ -20,7 +20,7 @@ from gazelle.drop_in.diagnostic_updater.topics import (
     TimeStampStatusParam,
     TopicDiagnostic,
 )
-from gazelle.drop_in.diagnostic_updater.updater import (
+from gazelle_ros.drop_in.diagnostic_updater.updater import (
     CompositeDiagnosticTask,
     DiagnosticTask,
     DiagnosticTaskVector,

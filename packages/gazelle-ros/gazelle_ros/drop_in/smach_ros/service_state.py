@@ -5,9 +5,9 @@ from __future__ import annotations
 import copy
 from typing import Any
 
-from gazelle.drop_in.smach import State
-from gazelle.drop_in.smach_ros.callbacks import UserCallback, filled, taken_apart
 from gazelle_ros.compat import rospy
+from gazelle_ros.drop_in.smach import State
+from gazelle_ros.drop_in.smach_ros.callbacks import UserCallback, filled, taken_apart
 
 
 class ServiceState(State):

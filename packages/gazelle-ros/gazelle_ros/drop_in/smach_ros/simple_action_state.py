@@ -6,10 +6,10 @@ import copy
 import threading
 from typing import Any
 
-from gazelle.drop_in.smach import InvalidStateError, State
-from gazelle.drop_in.smach_ros.callbacks import UserCallback, filled, taken_apart
 from gazelle_ros.compat import rospy
 from gazelle_ros.compat.actionlib import GoalStatus, SimpleActionClient
+from gazelle_ros.drop_in.smach import InvalidStateError, State
+from gazelle_ros.drop_in.smach_ros.callbacks import UserCallback, filled, taken_apart
 from gazelle_ros.messages import Message
 
 _SERVER_S = 60.0

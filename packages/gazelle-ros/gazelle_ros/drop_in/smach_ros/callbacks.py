@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.drop_in.smach import InvalidStateError, Remapper, State
-from gazelle.drop_in.smach.state import add_interface
+from gazelle_ros.drop_in.smach import InvalidStateError, Remapper, State
+from gazelle_ros.drop_in.smach.state import add_interface
 from gazelle_ros.messages import Message
 
 

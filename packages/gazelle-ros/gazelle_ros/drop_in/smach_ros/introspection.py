@@ -6,8 +6,8 @@ import base64
 import pickle
 import threading
 
-from gazelle.drop_in.smach import Container, UserData
 from gazelle_ros.compat import rospy
+from gazelle_ros.drop_in.smach import Container, UserData
 from gazelle_ros.messages import load_message
 from gazelle_ros.msgs import smach_msgs, std_msgs
 

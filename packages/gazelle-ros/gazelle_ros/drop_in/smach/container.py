@@ -7,15 +7,15 @@ import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Self
 
-from gazelle.drop_in.smach.exceptions import (
+from gazelle_ros.drop_in.smach.exceptions import (
     InvalidConstructionError,
     InvalidStateError,
     InvalidUserCodeError,
     SmachError,
 )
-from gazelle.drop_in.smach.log import logerr, logwarn
-from gazelle.drop_in.smach.state import State
-from gazelle.drop_in.smach.user_data import Remapper, UserData
+from gazelle_ros.drop_in.smach.log import logerr, logwarn
+from gazelle_ros.drop_in.smach.state import State
+from gazelle_ros.drop_in.smach.user_data import Remapper, UserData
 
 Edge = tuple[str, str, str | None]
 """An outcome, the state that has it, and the state or outcome of the container that it leads to."""

@@ -7,13 +7,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.drop_in.diagnostic_updater.status import (
+from gazelle_ros.compat import rospy
+from gazelle_ros.drop_in.diagnostic_updater.status import (
     ERROR,
     OK,
     DiagnosticArray,
     DiagnosticStatusWrapper,
 )
-from gazelle_ros.compat import rospy
 
 _LOOK_S = 0.25  # between two looks at ~diagnostic_period
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from gazelle.drop_in.smach import State
-from gazelle.drop_in.smach.state import add_interface
 from gazelle_ros.compat import rospy
+from gazelle_ros.drop_in.smach import State
+from gazelle_ros.drop_in.smach.state import add_interface
 
 _POLL_S = 0.05
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from gazelle.drop_in.smach.container import Container, Edge
-from gazelle.drop_in.smach.log import is_shutdown, loginfo
-from gazelle.drop_in.smach.state import State
+from gazelle_ros.drop_in.smach.container import Container, Edge
+from gazelle_ros.drop_in.smach.log import is_shutdown, loginfo
+from gazelle_ros.drop_in.smach.state import State
 
 _Items = Iterable[Any] | Callable[[], Iterable[Any]]
 

@@ -6,10 +6,10 @@ import threading
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from gazelle.drop_in.smach.container import Container, Edge
-from gazelle.drop_in.smach.exceptions import InvalidStateError, InvalidTransitionError
-from gazelle.drop_in.smach.log import is_shutdown, logerr, loginfo, logwarn
-from gazelle.drop_in.smach.state import State
+from gazelle_ros.drop_in.smach.container import Container, Edge
+from gazelle_ros.drop_in.smach.exceptions import InvalidStateError, InvalidTransitionError
+from gazelle_ros.drop_in.smach.log import is_shutdown, logerr, loginfo, logwarn
+from gazelle_ros.drop_in.smach.state import State
 
 _Outcomes = dict[str, str | None]
 _LOOK_S = 0.1

@@ -6,8 +6,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from gazelle.drop_in.interactive_markers.interactive_marker_server import InteractiveMarkerFeedback
 from gazelle_ros.compat import rospy
+from gazelle_ros.drop_in.interactive_markers.interactive_marker_server import (
+    InteractiveMarkerFeedback,
+)
 from gazelle_ros.msgs import visualization_msgs
 
 MenuEntry = visualization_msgs.msg.MenuEntry

@@ -1,5 +1,5 @@
 """The parts of ``urllib``."""
 
-from gazelle.drop_in.six.moves.urllib import error, parse, request
+from gazelle_ros.drop_in.six.moves.urllib import error, parse, request
 
 __all__ = ["error", "parse", "request"]

@@ -7,9 +7,9 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Any
 
-from gazelle.drop_in.diagnostic_updater.status import ERROR, OK, WARN, DiagnosticStatusWrapper
-from gazelle.drop_in.diagnostic_updater.updater import CompositeDiagnosticTask, DiagnosticTask
 from gazelle_ros.compat import rospy
+from gazelle_ros.drop_in.diagnostic_updater.status import ERROR, OK, WARN, DiagnosticStatusWrapper
+from gazelle_ros.drop_in.diagnostic_updater.updater import CompositeDiagnosticTask, DiagnosticTask
 
 
 @dataclass

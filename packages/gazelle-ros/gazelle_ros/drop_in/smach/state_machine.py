@@ -7,11 +7,15 @@ from collections.abc import Iterable, Mapping
 from collections.abc import Sequence as Several
 from typing import Any
 
-from gazelle.drop_in.smach.container import Container, Edge
-from gazelle.drop_in.smach.exceptions import InvalidStateError, InvalidTransitionError, SmachError
-from gazelle.drop_in.smach.log import is_shutdown, logerr, loginfo, logwarn
-from gazelle.drop_in.smach.state import State
-from gazelle.drop_in.smach.user_data import UserData
+from gazelle_ros.drop_in.smach.container import Container, Edge
+from gazelle_ros.drop_in.smach.exceptions import (
+    InvalidStateError,
+    InvalidTransitionError,
+    SmachError,
+)
+from gazelle_ros.drop_in.smach.log import is_shutdown, logerr, loginfo, logwarn
+from gazelle_ros.drop_in.smach.state import State
+from gazelle_ros.drop_in.smach.user_data import UserData
 
 
 class StateMachine(Container):

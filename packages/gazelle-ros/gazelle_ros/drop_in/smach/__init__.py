@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from gazelle.drop_in.smach.concurrence import Concurrence
-from gazelle.drop_in.smach.container import Container
-from gazelle.drop_in.smach.exceptions import (
+from gazelle_ros.drop_in.smach.concurrence import Concurrence
+from gazelle_ros.drop_in.smach.container import Container
+from gazelle_ros.drop_in.smach.exceptions import (
     InvalidConstructionError,
     InvalidStateError,
     InvalidTransitionError,
     InvalidUserCodeError,
     SmachError,
 )
-from gazelle.drop_in.smach.iterator import Iterator
-from gazelle.drop_in.smach.log import (
+from gazelle_ros.drop_in.smach.iterator import Iterator
+from gazelle_ros.drop_in.smach.log import (
     is_shutdown,
     logdebug,
     logerr,
@@ -21,17 +21,17 @@ from gazelle.drop_in.smach.log import (
     set_loggers,
     set_shutdown_check,
 )
-from gazelle.drop_in.smach.state import (
+from gazelle_ros.drop_in.smach.state import (
     CBInterface,
     CBState,
     State,
     cb_interface,
     has_smach_interface,
 )
-from gazelle.drop_in.smach.state_machine import Sequence, StateMachine
-from gazelle.drop_in.smach.user_data import Remapper, UserData
+from gazelle_ros.drop_in.smach.state_machine import Sequence, StateMachine
+from gazelle_ros.drop_in.smach.user_data import Remapper, UserData
 
-_HERE = "gazelle.drop_in.smach"
+_HERE = "gazelle_ros.drop_in.smach"
 PLACES = {"sequence": f"{_HERE}.state_machine", "util": f"{_HERE}.state"}
 """From a module's name in smach to the one that has what it had."""
 

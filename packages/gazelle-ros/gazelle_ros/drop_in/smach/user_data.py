@@ -6,8 +6,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Mapping
 from typing import Any
 
-from gazelle.drop_in.smach.exceptions import InvalidUserCodeError
-from gazelle.drop_in.smach.log import logerr
+from gazelle_ros.drop_in.smach.exceptions import InvalidUserCodeError
+from gazelle_ros.drop_in.smach.log import logerr
 
 
 class ItemsAsAttributes(ABC):

@@ -8,7 +8,7 @@ import threading
 import pytest
 
 import gazelle_ros as ros
-from gazelle.drop_in import smach
+from gazelle_ros.drop_in import smach
 
 WAIT_S = 60.0
 
