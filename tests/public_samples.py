@@ -8,6 +8,7 @@ import functools
 import importlib
 import inspect
 import re
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,7 @@ import wrong_calls
 import gazelle
 import gazelle.builders
 import gazelle_ros as ros
-from gazelle import Simulation, planning
+from gazelle import Simulation, clients, planning
 from gazelle.control import EFFORT, JointCommandInterface, JointStateInterface
 from gazelle.description import Box, OccupancyMap, Pose
 from gazelle.engines.tracer import make_tracer
@@ -156,6 +157,18 @@ class Samples:
         master = self.stack.enter_context(ros.Master(port=0))
         return self.stack.enter_context(ros.Node("sweeper", master_uri=master.uri))
 
+    @functools.cached_property
+    def gazebo(self) -> Any:
+        """A client of a world that is served, with a burger."""
+        sim = self.stack.enter_context(Simulation("turtlebot3_stage_1", threads=1))
+        sim.spawn("turtlebot3_burger", name="r1", namespace="/")
+        door = self.stack.enter_context(gazelle.serve_ros(sim, self.node.master_uri))
+        thread = threading.Thread(target=door.run)
+        thread.start()
+        self.stack.callback(thread.join)
+        self.stack.callback(door.stop)
+        return self.stack.enter_context(clients.Gazebo(self.node))
+
     @property
     def burger(self) -> Any:
         """A robot with wheels and a lidar."""
@@ -184,6 +197,9 @@ def policy() -> Actor:
 TABLE: dict[str, Callable[[Samples], Any]] = {
     "Simulation": lambda s: s.simulation,
     "Node": lambda s: s.node,
+    "Gazebo": lambda s: s.gazebo,
+    "Controllers": lambda s: clients.Controllers(s.node, timeout=0.1),
+    "TrajectoryClient": lambda s: clients.TrajectoryClient(s.node, "a", timeout=0.1),
     "RobotHost": lambda s: s.simulation,
     "RunningState": lambda s: s.simulation,
     "PopulatedState": lambda s: s.simulation,
@@ -246,6 +262,7 @@ BY_NAME: dict[str, Callable[[Samples], Any]] = {
     "joint": lambda s: "wrist_flex_joint",
     "effector": lambda s: "gripper",
     "path": lambda s: "file",
+    "kind": lambda s: "ModelStates" if s.package == "clients" else "a",
 }
 BY_WORD = {
     "Vector3": (0.0, 0.0, 1.0),
@@ -256,6 +273,7 @@ BY_WORD = {
     "tuple[int, int]": (4, 4),
     "ArrayLike": 1.0,
     "Sequence": [],
+    "Names": ["a"],
     "Mapping": {},
     "Path": Path("file"),
     "str": "a",

@@ -17,6 +17,8 @@ from wrong_values import shown
 
 SEARCHED = {"list_runs"}
 """They search whole folders, which takes long of ``/``."""
+OF_THE_MACHINE = {"SimulatorProcess"}
+"""They start programs on the graph of this machine, which may be in use."""
 NOT_LOADED = {"GoToGoal"}
 """Plugins, whose methods a simulation calls after ``load``."""
 
@@ -27,7 +29,7 @@ def sweep(package: str, only: str = "") -> Findings:
     with wrong_calls.limits():
         good = public_samples.Samples(package)
         for name, call in public_samples.public(package):
-            if only and name != only:
+            if (only and name != only) or name in OF_THE_MACHINE:
                 continue
             said = inspect.getdoc(call) or ""
             attempts = () if inspect.isabstract(call) else wrong_calls.calls(call, good)
@@ -59,11 +61,19 @@ HOOKS = {
 """Methods of tasks and sensors that their owners call with what they checked."""
 
 
+WAITING = {
+    *("go_to", "go_to_joints", "move_c", "move_l", "move_ofsc"),
+    *("wait", "wait_for", "wait_for_model"),
+}
+"""Methods of clients that wait for what no graph of a sweep has."""
+
+
 def _of_owners(handle: Any, name: str) -> bool:
     member = inspect.getattr_static(type(handle), name)
     home = getattr(getattr(member, "__func__", member), "__module__", None)
     inherited = home is not None and not home.startswith("gazelle")
-    return inherited or name in {"close", "restore"} or name in HOOKS
+    waits = name in WAITING and (home or "").startswith("gazelle.clients")
+    return inherited or name in {"close", "restore"} or name in HOOKS or waits
 
 
 if __name__ == "__main__":

@@ -121,6 +121,7 @@ def test_a_simulation_refuses_wrong_values(engine):
 
 PACKAGES = {
     "builders": 3000,
+    "clients": 1500,
     "control": 1300,
     "description": 4500,
     "engines": 400,

@@ -81,7 +81,7 @@ class AGVFleet(Closeable):
         """
         end = time.monotonic() + timeout
         while not (self._source.known and all(p.num_connections for p in self._publishers)):
-            if time.monotonic() > end:
+            if not time.monotonic() <= end:  # NaN ends it, too
                 raise self._absent(timeout)
             time.sleep(0.01)
         return self
@@ -208,6 +208,7 @@ def _list_of(names: Sequence[str]) -> str:
     return ", ".join(name or "the AGV" for name in names[:_MOST_NAMES]) + more
 
 
+@checked(ClientError, after=True)
 class AGV(Closeable):
     """One AGV; its moves return the simulated time they took [s]. Many may run in threads.
 

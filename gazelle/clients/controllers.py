@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
 from gazelle.clients.refusals import why_not_loaded, why_not_switched, why_not_unloaded
@@ -20,6 +21,7 @@ _BEST_EFFORT, _STRICT = 1, 2
 _LOOK_S = 0.05
 
 
+@checked(ClientError, after=True)
 class Controllers(Closeable):
     """Loads, starts and stops controllers; their parameters must be on the parameter server.
 
@@ -70,7 +72,7 @@ class Controllers(Closeable):
             missing = [name for name in wanted if found.get(name) != state]
             if not missing:
                 return
-            if time.monotonic() > deadline:
+            if not time.monotonic() <= deadline:  # NaN ends it, too
                 name = missing[0]
                 raise ClientError(
                     f"'{name}' is {found.get(name, 'not loaded')}, and not {state}, after "

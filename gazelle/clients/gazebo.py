@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Unpack
 
+from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
 from gazelle.clients.descriptions import find_file, read_urdf
 from gazelle.clients.errors import ClientError
@@ -32,6 +33,7 @@ _TAKEN = "SpawnModel: Failure - entity already exists."
 _GONE = "DeleteModel: model does not exist"
 
 
+@checked(ClientError, after=True)
 class Gazebo(PhysicsCalls, Closeable):
     """Calls the services of ``gazebo_ros``; also a context manager.
 
@@ -332,7 +334,7 @@ class Gazebo(PhysicsCalls, Closeable):
         """
         deadline = time.monotonic() + timeout
         while name not in self.models:
-            if time.monotonic() > deadline:
+            if not time.monotonic() <= deadline:  # NaN ends it, too
                 raise ClientError(f"the model '{name}' is not there after {timeout:g} s")
             time.sleep(0.05)
 

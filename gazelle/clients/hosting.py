@@ -11,6 +11,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from gazelle.argument_checks import checked
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
 from gazelle_ros import net
@@ -23,6 +24,7 @@ _POLL_S = 0.05
 _END_S = 10.0
 
 
+@checked(ClientError, after=True)
 class SimulatorProcess(Closeable):
     """A Gazelle on a ROS 1 graph; also a context manager.
 
@@ -104,7 +106,7 @@ class SimulatorProcess(Closeable):
             try:
                 return _client(uri)
             except RosError:
-                if time.monotonic() > deadline:
+                if not time.monotonic() <= deadline:  # NaN ends it, too
                     raise ClientError(f"the simulator is not there after {timeout:g} s") from None
                 time.sleep(_POLL_S)
 

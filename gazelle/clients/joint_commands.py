@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
 from gazelle_ros import Node
@@ -18,6 +19,7 @@ Progress = Callable[[Mapping[str, float]], object]
 """Called with how far each joint has still to go [rad or m]."""
 
 
+@checked(ClientError, after=True)
 class JointCommander(Closeable):
     """Sends commands to one controller, and watches its joints.
 
@@ -62,7 +64,7 @@ class JointCommander(Closeable):
         """
         deadline = time.monotonic() + timeout
         while not self._publisher.num_connections:
-            if time.monotonic() > deadline:
+            if not time.monotonic() <= deadline:  # NaN ends it, too
                 raise ClientError(
                     f"nobody listens to {self.topic} after {timeout:g} s",
                     hint="is the controller loaded?",
@@ -121,7 +123,7 @@ class JointCommander(Closeable):
                 progress(left)
             if heard and set(left) == set(wanted) and max(map(abs, left.values())) <= tolerance:
                 return there
-            if time.monotonic() > deadline:
+            if not time.monotonic() <= deadline:  # NaN ends it, too
                 raise ClientError(self._not_there(left, wanted, timeout))
 
     def close(self) -> None:

@@ -6,6 +6,7 @@ import math
 import threading
 from typing import Self
 
+from gazelle.argument_checks import checked
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, read_state, twist_message
 from gazelle_ros import Node
@@ -16,6 +17,7 @@ _ZERO = (0.0, 0.0, 0.0)
 _UNKNOWN = (math.nan, math.nan, math.nan)
 
 
+@checked(ClientError, after=True)
 class Driver(Closeable):
     """Commands one base and knows its pose; also a context manager, which stops it at the end.
 

@@ -70,7 +70,7 @@ class PerformanceWatch(Closeable):
             raise ClientError(
                 f"the rate must be above 0 and at most {_MOST_LOOKS:g} Hz, not {rate}"
             )
-        self._period = 1.0 / rate
+        self._period = min(1.0 / rate, threading.TIMEOUT_MAX)
         self._simulated = 0.0
         self._end = threading.Event()
         self._subscriber = node.subscribe("/clock", rosgraph_msgs.msg.Clock, self._tick, 1)
@@ -122,6 +122,7 @@ class PerformanceWatch(Closeable):
 
         Raises:
             ClientError: The name ends with neither.
+            OSError: The file cannot be written.
         """
         file = Path(path)
         rows = [asdict(sample) for sample in self.samples]
@@ -143,6 +144,7 @@ class PerformanceWatch(Closeable):
 
         Raises:
             MissingExtraError: Matplotlib is not installed.
+            OSError: The file cannot be written.
         """
         try:
             from matplotlib.backends.backend_agg import FigureCanvasAgg

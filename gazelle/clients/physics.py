@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import Vector, three
@@ -30,6 +31,7 @@ class PhysicsSettings:
     ode: Any
 
 
+@checked(ClientError, after=True)
 class PhysicsCalls:
     """Calls of a client of Gazebo that concern its physics."""
 

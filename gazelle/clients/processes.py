@@ -207,7 +207,7 @@ class _Running:
 
 def _launch_text(attributes: Mapping[str, str], remaps: Mapping[str, str]) -> str:
     inside = "".join(
-        f"<remap from={quoteattr(old)} to={quoteattr(new)}/>" for old, new in remaps.items()
+        f"<remap from={quoteattr(old)} to={quoteattr(_text(new))}/>" for old, new in remaps.items()
     )
     node = " ".join(f"{key}={quoteattr(value)}" for key, value in attributes.items())
     return f"<launch><node {node}>{inside}</node></launch>"

@@ -6,13 +6,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Unpack
 
+from gazelle.argument_checks import checked
 from gazelle.clients.controllers import Controllers
 from gazelle.clients.descriptions import load_parameters, load_urdf
+from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
 from gazelle.clients.poses import ModelPlace
 from gazelle.clients.processes import Processes
 
 
+@checked(ClientError, after=True)
 def spawn_robot(
     gazebo: Gazebo,
     processes: Processes,

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Iterator, Mapping
 from typing import Self
 
+from gazelle.argument_checks import checked
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import ModelState, read_state
 from gazelle.errors import did_you_mean
@@ -13,7 +14,10 @@ from gazelle_ros import Node
 from gazelle_ros.base.closing import Closeable
 from gazelle_ros.msgs import gazebo_msgs
 
+_KINDS = ("ModelStates", "LinkStates")
 
+
+@checked(ClientError, after=True)
 class LiveStates(Mapping[str, ModelState], Closeable):
     """States by name, as the last message has them.
 
@@ -21,9 +25,14 @@ class LiveStates(Mapping[str, ModelState], Closeable):
         node: Listens.
         topic: ``model_states`` or ``link_states``.
         kind: ``ModelStates`` or ``LinkStates``.
+
+    Raises:
+        ClientError: There is no such kind.
     """
 
     def __init__(self, node: Node, topic: str, kind: str) -> None:
+        if kind not in _KINDS:
+            raise ClientError(f"no states are '{kind}'", hint=did_you_mean(kind, _KINDS))
         self._topic = topic
         self._last: gazebo_msgs.msg.ModelStates | gazebo_msgs.msg.LinkStates | None = None
         self._rows: dict[str, int] = {}

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+from gazelle.argument_checks import checked
 from gazelle.clients.errors import ClientError
 from gazelle_ros import Duration, Node, load_message
 from gazelle_ros.actions import ActionClient, ClientGoalHandle, CommState, TerminalState
@@ -67,6 +68,7 @@ class TrajectoryOutcome:
         return self.status == "SUCCEEDED"
 
 
+@checked(ClientError, after=True)
 class TrajectoryRun:
     """A trajectory that is under way; `TrajectoryClient.start` makes it."""
 
@@ -120,6 +122,7 @@ class TrajectoryRun:
             self._tell(self.progress)
 
 
+@checked(ClientError, after=True)
 class TrajectoryClient(Closeable):
     """Commands a ``JointTrajectoryController`` by its action.
 
@@ -237,7 +240,7 @@ class TrajectoryClient(Closeable):
         """
         deadline = time.monotonic() + self._timeout
         while not self._client.connected:
-            if time.monotonic() > deadline:
+            if not time.monotonic() <= deadline:  # NaN ends it, too
                 raise ClientError(
                     f"{self.action} does not answer within {self._timeout:g} s",
                     hint="is the controller loaded, and of a type that follows trajectories?",

@@ -1,13 +1,14 @@
 """The client of Gazebo's services."""
 
 import contextlib
+import math
 
 import pytest
 from flaky_service import FlakyService
 from ros.graph import until
 
 from gazelle import assets
-from gazelle.clients import ClientError, Gazebo
+from gazelle.clients import ClientError, Driver, Gazebo, LiveStates, PerformanceWatch
 from gazelle_ros import Master
 
 BALL = """<sdf version="1.6"><model name="ball"><link name="core"><inertial><mass>2</mass></inertial>
@@ -138,6 +139,30 @@ def test_who_is_not_there_is_said_clearly():
         pytest.raises(ClientError, match="does not answer within"),
     ):
         gazebo.pause()
+
+
+def test_values_that_cannot_be_are_clear_errors(graph):
+    gazebo, node = graph.gazebo, graph.gazebo.node
+    driver = Driver(node, "nobody")
+    for call in (
+        lambda: gazebo.apply_wrench("r1::base_footprint", force=math.nan),
+        lambda: gazebo.apply_effort("\ud800", 1.0),
+        lambda: gazebo.delete("\ud800"),
+        lambda: setattr(gazebo, "real_time_factor", 10**400),
+        lambda: gazebo.wait_for_model("nobody", math.nan),
+        lambda: gazebo.wait_for_model("nobody", 10**400),
+        lambda: driver.wait(math.inf),
+        lambda: driver.wait(1e308),
+        lambda: LiveStates(node, "model_states", "no such"),
+    ):
+        with pytest.raises(ClientError):
+            call()
+    driver.close()
+
+
+@pytest.mark.filterwarnings("error::pytest.PytestUnhandledThreadExceptionWarning")
+def test_one_look_in_a_long_time(graph):
+    PerformanceWatch(graph.gazebo.node, rate=1e-320).close()
 
 
 def test_waiting_for_a_model_ends(graph):
