@@ -9,9 +9,10 @@ from collections.abc import Iterator
 import numpy as np
 from PIL import Image
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Picture
 from gazelle.description.pose import Vector3
-from gazelle.errors import EngineError
+from gazelle.errors import EngineError, Error
 from gazelle.rendering import LiveScene, PinholeLens
 from gazelle.rotations import conjugate, rotate
 from gazelle.sensors import look_at
@@ -28,6 +29,7 @@ _NEAR = 0.4  # what is met so near to a model's middle belongs to it [m]
 _BEHIND = np.array([-1.6, -1.0, 1.1])  # from where a model is followed [m]
 
 
+@checked(Error)
 class SceneCamera:
     """Draws what is seen of a simulation from somewhere, by the rasteriser.
 

@@ -213,3 +213,10 @@ def test_every_environment_draws_itself_with_record_video(tmp_path):
             assert first.dtype == np.uint8
             assert first.ndim == 3
             assert len(np.unique(first.reshape(-1, 3), axis=0)) > 3, name
+
+
+@pytest.mark.parametrize("place", [(np.nan, 0.0, 0.0), (10**400, 0, 0), (1.0, 2.0), (), 1.0])
+@pytest.mark.parametrize("which", ["eye", "target"])
+def test_places_that_cannot_be(which, place):
+    with Simulation("empty", threads=1) as sim, pytest.raises(Error, match=which):
+        SceneCamera(sim, **{which: place})
