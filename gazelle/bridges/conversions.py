@@ -10,6 +10,7 @@ import numpy as np
 
 from gazelle.bridges import message_kinds
 from gazelle.control.measurements import JointStates, Odometry, Transforms, TruePose, WrenchValue
+from gazelle.description import Pose
 from gazelle.engines import Motion, Placement
 from gazelle.errors import RosError
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs, tf2_msgs
@@ -118,6 +119,18 @@ def quaternion(message: geometry_msgs.msg.Quaternion) -> tuple[float, float, flo
     with np.errstate(invalid="ignore"):  # infinite ones are refused where they are used
         x, y, z, w = (values / length).tolist()
     return (x, y, z, w)
+
+
+def pose_of_message(message: geometry_msgs.msg.Pose) -> Pose:
+    """Convert a ``geometry_msgs/Pose``."""
+    return Pose.from_quaternion(point(message.position), quaternion(message.orientation))
+
+
+def pose_message(pose: Pose) -> geometry_msgs.msg.Pose:
+    """Return a ``geometry_msgs/Pose``."""
+    message = geometry_msgs.msg.Pose()
+    set_pose(message, pose.position, pose.quaternion)
+    return message
 
 
 def set_header(

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from gazelle.array_types import Floats
-from gazelle.bridges.conversions import point, quaternion
-from gazelle.bridges.moveit.frames import PlanningFrames, pose_of_message
+from gazelle.bridges.conversions import point, pose_of_message, quaternion
+from gazelle.bridges.moveit.frames import PlanningFrames
 from gazelle.description import Box, Cylinder, Pose, Sphere
 from gazelle.planning import (
     ConstraintSet,

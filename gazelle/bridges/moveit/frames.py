@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from gazelle.array_types import Floats
-from gazelle.bridges.conversions import point, quaternion, set_pose
+from gazelle.bridges.conversions import pose_message, pose_of_message
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanningScene, PlanOutcome
@@ -62,18 +62,6 @@ class PlanningFrames:
     def pose(self, stamped: geometry_msgs.msg.PoseStamped, state: Floats) -> Pose:
         """Return a ``geometry_msgs/PoseStamped`` in the planning frame; see ``find``."""
         return self.find(stamped.header.frame_id, state) * pose_of_message(stamped.pose)
-
-
-def pose_of_message(message: geometry_msgs.msg.Pose) -> Pose:
-    """Convert a ``geometry_msgs/Pose``."""
-    return Pose.from_quaternion(point(message.position), quaternion(message.orientation))
-
-
-def pose_message(pose: Pose) -> geometry_msgs.msg.Pose:
-    """Return a ``geometry_msgs/Pose``."""
-    message = geometry_msgs.msg.Pose()
-    set_pose(message, pose.position, pose.quaternion)
-    return message
 
 
 def stamped_message(pose: Pose, frame: str, now: int) -> geometry_msgs.msg.PoseStamped:

@@ -8,8 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from gazelle.bridges.conversions import set_point
-from gazelle.bridges.moveit.frames import pose_message, pose_of_message
+from gazelle.bridges.conversions import pose_message, pose_of_message, set_point
 from gazelle.description import Box, Cone, Cylinder, Plane, Pose, Sphere
 from gazelle.engines.collision import Shape
 from gazelle.errors import PlanningError

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.bridges.moveit.frames import pose_message, pose_of_message
+from gazelle.bridges.conversions import pose_message, pose_of_message
 from gazelle.description import Pose
 from gazelle.formats import Octree
 from gazelle.planning import OCTOMAP, PlanningScene, SceneObject, octree_object

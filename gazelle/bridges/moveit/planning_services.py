@@ -7,7 +7,7 @@ from contextlib import AbstractContextManager, nullcontext
 from typing import Any
 
 from gazelle.array_types import Floats
-from gazelle.bridges.moveit.frames import pose_of_message
+from gazelle.bridges.conversions import pose_of_message
 from gazelle.bridges.moveit.plan_choice import shortest_plan, slowed
 from gazelle.bridges.moveit.planner_settings import PIPELINE, PlannerSettings
 from gazelle.bridges.moveit.planning_context import PlanningContext

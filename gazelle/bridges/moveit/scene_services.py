@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
-from gazelle.bridges.moveit.frames import pose_of_message
+from gazelle.bridges.conversions import pose_of_message
 from gazelle.bridges.moveit.held_objects import change_held, refuse_reserved
 from gazelle.bridges.moveit.object_messages import object_of_message, shapes_of_message
 from gazelle.bridges.moveit.octomap_messages import octomap_of_message

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from gazelle.array_types import Floats
+from gazelle.bridges.conversions import set_point, set_quaternion
+from gazelle.description import Pose
 from gazelle.navigation.following import Pose2
-from gazelle.rotations import from_yaw, rotate, yaw_of
+from gazelle.rotations import rotate, yaw_of
 from gazelle_ros.msgs import geometry_msgs, tf2_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import FrameTree, StampedTransform, TransformException, take_transforms
@@ -45,13 +47,16 @@ class GraphFrames:
         take_transforms(self.tree, message, authority="navigation", static=static)
 
     def send(self, parent: str, child: str, stamp: int, pose: Pose2) -> None:
+        """Publish the pose of a frame in the plane of its parent, from a time on [ns]."""
+        self.send_in_space(parent, child, stamp, Pose(x=pose[0], y=pose[1], yaw=pose[2]))
+
+    def send_in_space(self, parent: str, child: str, stamp: int, pose: Pose) -> None:
         """Publish the pose of a frame in its parent, from a time on [ns]."""
         message = self._stamped()
         message.header.frame_id, message.child_frame_id = parent, child
         message.header.stamp = Time(nsecs=stamp)
-        place, turn = message.transform.translation, message.transform.rotation
-        place.x, place.y = pose[0], pose[1]
-        turn.x, turn.y, turn.z, turn.w = from_yaw(np.array(pose[2])).tolist()
+        set_point(message.transform.translation, pose.position)
+        set_quaternion(message.transform.rotation, pose.quaternion)
         self._sender.publish(self._kind(transforms=[message]))
 
     def find(self, target: str, source: str, stamp: int = 0) -> StampedTransform | None:

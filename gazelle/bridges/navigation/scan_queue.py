@@ -1,4 +1,4 @@
-"""Scans in the order they came, each when its transform is known."""
+"""Scans and other stamped messages in the order they came, each when its transform is known."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from gazelle_ros.msgs import sensor_msgs
+from gazelle_ros.messages import Message
 from gazelle_ros.node import Node
 
 _LOOK_S = 0.2
@@ -25,17 +25,17 @@ class ScanQueue:
         kind: Of the messages.
     """
 
-    def __init__(self, node: Node, topic: str, kind: type[sensor_msgs.msg.LaserScan]) -> None:
+    def __init__(self, node: Node, topic: str, kind: type[Message]) -> None:
         self._node = node
-        self._waiting: deque[sensor_msgs.msg.LaserScan] = deque(maxlen=_KEPT)
+        self._waiting: deque[Any] = deque(maxlen=_KEPT)
         self._news = threading.Condition()
         self.seen = 0
-        """Number of scans received."""
+        """Number of messages received."""
         self.frame = ""
         """Of the last one."""
         node.subscribe(topic, kind, self._take, queue_size=_KEPT)
 
-    def _take(self, message: sensor_msgs.msg.LaserScan) -> None:
+    def _take(self, message: Any) -> None:
         with self._news:
             self.seen += 1
             self.frame = message.header.frame_id.strip("/")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from gazelle.array_types import Floats
-from gazelle.bridges.moveit.frames import pose_message
+from gazelle.bridges.conversions import pose_message
 from gazelle.description import Box, Cylinder, Mesh, Sphere
 from gazelle.description.geometry import Geometry
 from gazelle.kinematics import RobotModel

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from gazelle.bridges.moveit.frames import pose_message
+from gazelle.bridges.conversions import pose_message
 from gazelle.description import Pose
 from gazelle.drop_in.moveit_client.session import LOG
 from gazelle_ros.msgs import geometry_msgs, moveit_msgs, shape_msgs

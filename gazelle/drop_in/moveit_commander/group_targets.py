@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from gazelle.bridges.moveit.frames import pose_message, pose_of_message
+from gazelle.bridges.conversions import pose_message, pose_of_message
 from gazelle.description import Pose
 from gazelle.drop_in.moveit_client.pose_targets import TargetKind, pose_of_list, stamped
 from gazelle.drop_in.moveit_client.request_settings import here

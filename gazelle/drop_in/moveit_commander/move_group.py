@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from gazelle.bridges.moveit.frames import pose_message
+from gazelle.bridges.conversions import pose_message
 from gazelle.drop_in.moveit_client.pose_targets import pose_of_list, stamped
 from gazelle.drop_in.moveit_client.retiming import retimed
 from gazelle.drop_in.moveit_client.session import LOG, copied

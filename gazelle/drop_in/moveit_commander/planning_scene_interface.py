@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from gazelle.bridges.moveit.frames import pose_of_message
+from gazelle.bridges.conversions import pose_of_message
 from gazelle.bridges.moveit.object_messages import mesh_message
 from gazelle.bridges.moveit.scene_messages import ATTACHED, GEOMETRY, NAMES
 from gazelle.description import Mesh

@@ -8,8 +8,8 @@ import pytest
 from bridges.moveit.moveit_graph import message, moveit_graph
 from ros.graph import until
 
+from gazelle.bridges.conversions import pose_message
 from gazelle.bridges.moveit.controller_list import controllers_of
-from gazelle.bridges.moveit.frames import pose_message
 from gazelle.planning import PlanOutcome
 from gazelle_ros import load_message
 from gazelle_ros.actions import GoalStatus, SimpleActionClient, SimpleActionServer

@@ -8,9 +8,9 @@ import pytest
 from bridges.moveit.moveit_graph import message, moveit_graph, set_parameters
 from ros.graph import until
 
+from gazelle.bridges.conversions import pose_message
 from gazelle.bridges.moveit.capabilities import Capabilities
 from gazelle.bridges.moveit.description import margins_of_parameters, robot_of_parameters
-from gazelle.bridges.moveit.frames import pose_message
 from gazelle.bridges.moveit.plan_choice import shortest_plan, slowed
 from gazelle.description import Box, Pose
 from gazelle.errors import PlanningError, PlanningWarning

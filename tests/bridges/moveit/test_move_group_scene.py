@@ -7,7 +7,7 @@ import pytest
 from bridges.moveit.moveit_graph import message, moveit_graph
 from ros.graph import until
 
-from gazelle.bridges.moveit.frames import pose_message, pose_of_message
+from gazelle.bridges.conversions import pose_message, pose_of_message
 from gazelle.bridges.moveit.object_messages import object_message, object_of_message
 from gazelle.bridges.moveit.scene_messages import matrix_message, matrix_of_message
 from gazelle.description import Box, Cone, Cylinder, Plane, Pose, Sphere

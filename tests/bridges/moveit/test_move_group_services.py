@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from bridges.moveit.moveit_graph import message, moveit_graph
 
-from gazelle.bridges.moveit.frames import pose_message, pose_of_message, stamped_message
+from gazelle.bridges.conversions import pose_message, pose_of_message
+from gazelle.bridges.moveit.frames import stamped_message
 from gazelle.description import Box, Pose
 from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.kinematics import InverseKinematics

@@ -8,7 +8,7 @@ from bridges.moveit.moveit_graph import message, moveit_graph
 from bridges.moveit.test_move_group_scene import apply, box, shown, things, tip, valid
 from ros.graph import until
 
-from gazelle.bridges.moveit.frames import pose_message, pose_of_message
+from gazelle.bridges.conversions import pose_message, pose_of_message
 from gazelle.description import Pose
 from gazelle.planning import OCTOMAP
 from gazelle_ros import load_message, load_service

@@ -11,6 +11,14 @@ import sys
 import pytest
 from ros.rosbridge.conftest import JsonClient
 
+from gazelle_ros import Master
+
+
+@pytest.fixture
+def master():
+    with Master(port=0, rosout=False) as running:
+        yield running
+
 
 @pytest.fixture
 def start(tmp_path):
@@ -36,8 +44,8 @@ def start(tmp_path):
 
 @pytest.mark.long
 @pytest.mark.parametrize("world", ["empty", "fleet"])
-def test_gazelle_run_with_rosbridge(start, graph, world):
-    process = start("run", world, "--ros", "--rosbridge", 0, ROS_MASTER_URI=graph.uri)
+def test_gazelle_run_with_rosbridge(start, master, world):
+    process = start("run", world, "--ros", "--rosbridge", 0, ROS_MASTER_URI=master.uri)
     lines = iter(process.stdout.readline, "")
     found = next(filter(None, (re.search(r"ws://127\.0\.0\.1:(\d+)", line) for line in lines)))
     client = JsonClient(int(found.group(1)))
