@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import tempfile
+
 import public_handles
 import public_sweep
 import pytest
@@ -26,10 +28,14 @@ ENDING = {"close", "pause", "unpause"}
 
 
 @pytest.fixture(autouse=True)
-def registries(monkeypatch):
-    """Remove what is registered under wrong names at the end of each test."""
+def traces(monkeypatch, tmp_path):
+    """Remove at the end of each test what calls leave behind.
+
+    They register engines under wrong names, and record simulations that diverge.
+    """
     for module in (control.registry, engines.registry, simulation.registry):
         monkeypatch.setattr(module, "_registered", dict(module._registered))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
 
 
 def world():
