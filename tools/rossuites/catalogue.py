@@ -50,9 +50,7 @@ class Suite:
         return sum(self.files.values())
 
 
-_MASTER, _CLIENTS, _BOTH, _ALONE = (
-    frozenset({name}) for name in ("master", "clients", "both", "alone")
-)
+_MASTER, _CLIENTS, _ALONE = (frozenset({name}) for name in ("master", "clients", "alone"))
 _RAW = frozenset({"master"})  # speaks XML-RPC itself, so no client library is tested
 _LIBRARY = frozenset({"clients"})  # needs no master
 _ROSPY = {
@@ -80,11 +78,9 @@ def _rospy(files: dict[str, int]) -> dict[str, int]:
 SUITES = (
     Suite("rosmaster", "test_rosmaster", {"test/rosmaster.test": 15}, quick=_MASTER, uses=_RAW),
     Suite("paramserver", "test_rosmaster", {"test/paramserver.test": 7}, quick=_MASTER),
-    Suite(
-        "masterapi", "test_rosgraph", {"test/masterapi.test": 19}, quick=_MASTER | _BOTH | _ALONE
-    ),
+    Suite("masterapi", "test_rosgraph", {"test/masterapi.test": 19}, quick=_MASTER | _ALONE),
     Suite("rosparam", "test_rosparam", {"test/rosparam.test": 8}, quick=_MASTER | _ALONE),
-    Suite("rospy", "test_rospy", _rospy(_ROSPY), quick=_BOTH | _ALONE),
+    Suite("rospy", "test_rospy", _rospy(_ROSPY), quick=_ALONE),
     Suite("rospy, slow", "test_rospy", _rospy(_ROSPY_SLOW)),
     Suite(
         "roslaunch",
