@@ -193,16 +193,14 @@ class Publication:
             self.remote = (*self.remote, link)
         self._tell(link.peer, connected=True)
 
-    def attach(self, subscription: LocalReceiver) -> LocalLink:
-        """Link a subscription in the same process."""
-        link = LocalLink(self, subscription)
+    def attach(self, link: LocalLink) -> None:
+        """Send to a subscription in the same process, from the latched message on."""
         link.number = self.node.next_number()
         with self._lock:
             self.local = (*self.local, link)
             if self.latching and self._last is not None:
                 link.send(None, self._last[4:])
         self._tell(link.peer, connected=True)
-        return link
 
     def detach(self, link: LocalLink) -> None:
         """Undo `attach`."""

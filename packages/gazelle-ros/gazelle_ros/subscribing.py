@@ -73,6 +73,7 @@ class Subscription:
         self._loop: EventLoop = node.loop
         self._queue = SerialQueue(self._loop, self._deliver, f"callback of {topic}")
         self._drops = threading.Lock()
+        self._adding = threading.Lock()
         self.updated = False
         """True when the publishers were notified for the first time."""
         self._closed = False
@@ -114,7 +115,9 @@ class Subscription:
             text = f"{self.topic} carries {kind} ({theirs}), not {wanted} ({mine})"
             report(f"subscriber of {self.topic}", Md5MismatchError(text))
             return
-        self.local[uri] = publication.attach(self)
+        # Known before its first message comes: a subscriber added in that message's callback gets it, too.
+        link = self.local[uri] = LocalLink(publication, self)
+        publication.attach(link)
 
     def _detach(self, uri: str) -> None:
         link = self.local.pop(uri)
@@ -127,14 +130,14 @@ class Subscription:
 
     def add(self, subscriber: Subscriber, *, tcp_nodelay: bool) -> None:
         """Add a callback."""
-        self.subscribers = (*self.subscribers, subscriber)
         self.tcp_nodelay |= tcp_nodelay
+        with self._adding:
+            self.subscribers = (*self.subscribers, subscriber)
+            links: list[InboundLink | LocalLink] = [*self.links.values(), *self.local.values()]
+            latched = [(link, link.latched) for link in links if link.latched is not None]
         self._measure_queue()
-        links: list[InboundLink | LocalLink] = [*self.links.values(), *self.local.values()]
-        for link in links:
-            if link.latched is not None:
-                call = functools.partial(self._call, subscriber, link, link.latched)
-                self._loop.submit(call)
+        for link, message in latched:
+            self._loop.submit(functools.partial(self._call, subscriber, link, message))
 
     def remove(self, subscriber: Subscriber) -> None:
         """Remove a callback."""
@@ -262,9 +265,12 @@ class Subscription:
             message._connection_header = link.header
         if self._statistics is not None:
             self._statistics.take(self.topic, link, message, 0 if data is None else len(data))
+        subscribers = self.subscribers
         if link.latching:
-            link.latched = message  # for subscribers that are added later
-        for subscriber in self.subscribers:
+            with self._adding:  # either now or as the latched message, and not twice
+                link.latched = message
+                subscribers = self.subscribers
+        for subscriber in subscribers:
             self._call(subscriber, link, message)
 
     def _call(self, subscriber: Subscriber, link: Any, message: Any) -> None:

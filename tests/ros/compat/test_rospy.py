@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from ports import free_port
 
-from gazelle_ros import Master
+from gazelle_ros import Master, publishing
 
 
 def until(condition, seconds=60.0):
@@ -82,6 +82,26 @@ def test_a_latched_message_reaches_later_subscribers_of_the_same_node(node, msgs
     until(lambda: got)
     node.Subscriber("t", msgs.String, lambda m: got.append(2))
     until(lambda: 2 in got)
+
+
+def test_a_latched_message_is_not_missed_while_its_publisher_is_attached(node, msgs, monkeypatch):
+    added = threading.Event()
+    attach = publishing.Publication.attach
+
+    def slow(publication, link):
+        attach(publication, link)
+        assert added.wait(60.0)
+
+    monkeypatch.setattr(publishing.Publication, "attach", slow)
+    got = []
+    publisher = node.Publisher("t", msgs.String, queue_size=1, latch=True)
+    publisher.publish("x")
+    node.Subscriber("t", msgs.String, lambda m: got.append(1))
+    until(lambda: got)
+    node.Subscriber("t", msgs.String, lambda m: got.append(2))
+    added.set()
+    until(lambda: 2 in got)
+    assert got == [1, 2]
 
 
 def test_listeners_hear_of_subscribers(node, msgs):
