@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 if sys.argv[1] == "gazelle":
-    sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "packages" / "gazelle-ros"))
     import gazelle_ros
 
     gazelle_ros.install()

@@ -25,6 +25,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROLES = HERE / "_ros_roles.py"
+PACKAGE = HERE.parent / "packages" / "gazelle-ros"
 DEBIAN = "/usr/bin/python3"
 OURS, THEIRS = "gazelle", "rospy"
 Figures = dict[str, float]
@@ -136,14 +137,13 @@ def master(bench: Bench, who: str) -> Figures:
     """Measure the time until a master answers."""
     port = free_port()
     if who == OURS:
-        code = "import sys; from gazelle.cli.main import main; sys.exit(main())"
-        words = [bench.python, "-c", code, "master", "--port", str(port)]
+        words = [bench.python, "-m", "gazelle_ros", "master", "--port", str(port)]
     else:
         words = ["roscore", "-p", str(port)]
     env = {**bench.env, "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
     begin = time.perf_counter()
     quiet = subprocess.DEVNULL
-    process = subprocess.Popen(words, env=env, stdout=quiet, stderr=quiet, cwd=HERE.parent)
+    process = subprocess.Popen(words, env=env, stdout=quiet, stderr=quiet, cwd=PACKAGE)
     try:
         wait_for_master(port)
         return {"answers": 1e3 * (time.perf_counter() - begin)}
@@ -304,9 +304,8 @@ def running(python: str, args: argparse.Namespace) -> Iterator[Bench]:
             "ROS_HOME": home,
             "PYTHONWARNINGS": "ignore",
         }
-        code = "import sys; from gazelle.cli.main import main; sys.exit(main())"
-        words = [python, "-c", code, "master", "--port", str(port), "--no-rosout"]
-        core = subprocess.Popen(words, env=env, stdout=subprocess.DEVNULL, cwd=HERE.parent)
+        words = [python, "-m", "gazelle_ros", "master", "--port", str(port), "--no-rosout"]
+        core = subprocess.Popen(words, env=env, stdout=subprocess.DEVNULL, cwd=PACKAGE)
         try:
             wait_for_master(port)
             yield Bench(python, env, args.seconds, round(1500 * args.seconds) + 200)
