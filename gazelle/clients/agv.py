@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.clients.agv_poses import PoseSource, pose_source
+from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import twist_message
 from gazelle.errors import did_you_mean
@@ -79,9 +80,9 @@ class AGVFleet(Closeable):
         Raises:
             ClientError: That takes longer than ``timeout`` [s of wall time].
         """
-        end = time.monotonic() + timeout
+        end = deadline_after(timeout)
         while not (self._source.known and all(p.num_connections for p in self._publishers)):
-            if not time.monotonic() <= end:  # NaN ends it, too
+            if time.monotonic() > end:
                 raise self._absent(timeout)
             time.sleep(0.01)
         return self

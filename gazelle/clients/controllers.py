@@ -8,6 +8,7 @@ from typing import Any
 
 from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
+from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle.clients.refusals import why_not_loaded, why_not_switched, why_not_unloaded
 from gazelle.errors import did_you_mean
@@ -66,13 +67,13 @@ class Controllers(Closeable):
             ClientError: That takes longer than ``timeout`` [s of wall time].
         """
         wanted = _several(names)
-        deadline = time.monotonic() + timeout
+        deadline = deadline_after(timeout)
         while True:
             found = self.states()
             missing = [name for name in wanted if found.get(name) != state]
             if not missing:
                 return
-            if not time.monotonic() <= deadline:  # NaN ends it, too
+            if time.monotonic() > deadline:
                 name = missing[0]
                 raise ClientError(
                     f"'{name}' is {found.get(name, 'not loaded')}, and not {state}, after "

@@ -9,6 +9,7 @@ from typing import Unpack
 
 from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
+from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.descriptions import find_file, read_urdf
 from gazelle.clients.errors import ClientError
 from gazelle.clients.physics import PhysicsCalls, vector
@@ -332,9 +333,9 @@ class Gazebo(PhysicsCalls, Closeable):
         Raises:
             ClientError: It does not come within ``timeout`` [s of wall time].
         """
-        deadline = time.monotonic() + timeout
+        deadline = deadline_after(timeout)
         while name not in self.models:
-            if not time.monotonic() <= deadline:  # NaN ends it, too
+            if time.monotonic() > deadline:
                 raise ClientError(f"the model '{name}' is not there after {timeout:g} s")
             time.sleep(0.05)
 

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gazelle.argument_checks import checked
+from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
 from gazelle_ros import net
@@ -77,7 +78,7 @@ class SimulatorProcess(Closeable):
             stderr=self._said,
         )
         try:
-            self.gazebo = self._wait(uri, time.monotonic() + timeout, timeout)
+            self.gazebo = self._wait(uri, timeout)
         except BaseException:
             self._end()
             raise
@@ -97,7 +98,8 @@ class SimulatorProcess(Closeable):
         self.gazebo.close()
         self._end()
 
-    def _wait(self, uri: str, deadline: float, timeout: float) -> Gazebo:
+    def _wait(self, uri: str, timeout: float) -> Gazebo:
+        deadline = deadline_after(timeout)
         while True:
             if not self.running:
                 self._said.seek(0)
@@ -106,7 +108,7 @@ class SimulatorProcess(Closeable):
             try:
                 return _client(uri)
             except RosError:
-                if not time.monotonic() <= deadline:  # NaN ends it, too
+                if time.monotonic() > deadline:
                     raise ClientError(f"the simulator is not there after {timeout:g} s") from None
                 time.sleep(_POLL_S)
 

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gazelle.argument_checks import checked
+from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
 from gazelle_ros import Node
@@ -62,9 +63,9 @@ class JointCommander(Closeable):
         Raises:
             ClientError: That takes longer than ``timeout`` [s of wall time].
         """
-        deadline = time.monotonic() + timeout
+        deadline = deadline_after(timeout)
         while not self._publisher.num_connections:
-            if not time.monotonic() <= deadline:  # NaN ends it, too
+            if time.monotonic() > deadline:
                 raise ClientError(
                     f"nobody listens to {self.topic} after {timeout:g} s",
                     hint="is the controller loaded?",
@@ -111,7 +112,7 @@ class JointCommander(Closeable):
         Raises:
             ClientError: As ``send``, and when a joint does not come there in time.
         """
-        deadline = time.monotonic() + timeout
+        deadline = deadline_after(timeout)
         wanted = dict(zip(self.joints, self._in_order(targets), strict=True))
         self.send(wanted, timeout)
         while True:
@@ -123,7 +124,7 @@ class JointCommander(Closeable):
                 progress(left)
             if heard and set(left) == set(wanted) and max(map(abs, left.values())) <= tolerance:
                 return there
-            if not time.monotonic() <= deadline:  # NaN ends it, too
+            if time.monotonic() > deadline:
                 raise ClientError(self._not_there(left, wanted, timeout))
 
     def close(self) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from gazelle.argument_checks import checked
+from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle_ros import Duration, Node, load_message
 from gazelle_ros.actions import ActionClient, ClientGoalHandle, CommState, TerminalState
@@ -238,9 +239,9 @@ class TrajectoryClient(Closeable):
         Raises:
             ClientError: That takes too long.
         """
-        deadline = time.monotonic() + self._timeout
+        deadline = deadline_after(self._timeout)
         while not self._client.connected:
-            if not time.monotonic() <= deadline:  # NaN ends it, too
+            if time.monotonic() > deadline:
                 raise ClientError(
                     f"{self.action} does not answer within {self._timeout:g} s",
                     hint="is the controller loaded, and of a type that follows trajectories?",
