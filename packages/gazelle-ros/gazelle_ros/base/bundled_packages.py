@@ -86,11 +86,11 @@ def published_hint(path: str | os.PathLike[str]) -> str | None:
 def _place(path: Path, root: Path | None) -> tuple[Path, str] | None:
     """Return the package that a path without a file lies in, and the path in it."""
     plain = Path(os.path.normpath(path))
-    if not can_be_path(plain) or plain.exists():
+    if not can_be_path(plain):
         return None
     places = roots() if root is None else (root,)
     root = next((each for each in places if plain.is_relative_to(each)), None)
-    if root is None:
+    if root is None or plain.exists():
         return None
     name, *inner = plain.relative_to(root).parts
     package = root / name
