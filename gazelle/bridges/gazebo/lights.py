@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from gazelle.bridges.conversions import point, quaternion
+from gazelle.bridges.conversions import point, pose_of_message
 from gazelle.bridges.gazebo.answers import Answer, no, yes
 from gazelle.bridges.gazebo.context import GazeboContext
-from gazelle.description import Light, Pose
+from gazelle.description import Light
 from gazelle_ros.msgs import gazebo_msgs, std_msgs
 
 
@@ -51,7 +51,6 @@ class LightServices:
         light = self._find(request.light_name)
         if light is None:
             return no("setLightProperties: Requested light " + request.light_name + " not found!")
-        pose = request.pose
         self._simulation.set_light(
             request.light_name,
             cast_shadows=request.cast_shadows,
@@ -64,7 +63,7 @@ class LightServices:
                 quadratic=request.attenuation_quadratic,
             ),
             direction=point(request.direction),
-            pose=Pose.from_quaternion(point(pose.position), quaternion(pose.orientation)),
+            pose=pose_of_message(request.pose),
         )
         return yes("")
 

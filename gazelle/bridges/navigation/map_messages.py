@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gazelle.description import Pose
+from gazelle.bridges.conversions import pose_of_message
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import RosError
 from gazelle_ros.msgs import nav_msgs
@@ -39,6 +39,5 @@ def grid_of_message(message: nav_msgs.msg.OccupancyGrid) -> OccupancyMap:
             f"a map of {info.width} x {info.height} cells came with {data.size}",
             hint="whoever publishes it should send width * height cells",
         )
-    place, turn = info.origin.position, info.origin.orientation
-    origin = Pose.from_quaternion((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+    origin = pose_of_message(info.origin)
     return OccupancyMap(data.reshape(info.height, info.width), float(info.resolution), origin)
