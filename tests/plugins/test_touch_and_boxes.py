@@ -156,7 +156,7 @@ def test_compensated_joints_bear_the_weight():
         ("libKeysToCmdVelPlugin.so", "keys"),
         ("libFlashLightPlugin.so", "lights"),
         ("libMudPlugin.so", "mud"),
-        ("libPressurePlugin.so", "told"),
+        ("libPressurePlugin.so", "published"),
         ("libJointTrajectoryPlugin.so", "motion"),
         ("libVariableGearboxPlugin.so", "ratio"),
         ("libRubblePlugin.so", "left out"),
