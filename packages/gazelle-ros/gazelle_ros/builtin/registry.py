@@ -82,6 +82,10 @@ _OWN = {
             "drop": "gazelle_ros.builtin.topic_tools:drop",
             "mux": "gazelle_ros.builtin.topic_tools:mux",
         }),
+        BuiltinPackage("twist_mux", {
+            "twist_mux": "gazelle_ros.builtin.twist_mux:main",
+            "twist_marker": "gazelle_ros.builtin.twist_mux:marker",
+        }),
         BuiltinPackage("xacro", {
             "xacro": "gazelle_ros.builtin.xacro:main",
             "xacro.py": "gazelle_ros.builtin.xacro:main",

@@ -1,0 +1,243 @@
+"""Nodes of twist_mux: the velocity command of highest priority, and its marker (http://wiki.ros.org/twist_mux)."""
+
+from __future__ import annotations
+
+import logging
+import math
+import threading
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from gazelle_ros.base.errors import RosError, did_you_mean
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.msgs import diagnostic_msgs, geometry_msgs, std_msgs, visualization_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.time import Time
+
+SECOND = 1_000_000_000
+HIGHEST = 255
+"""Highest priority."""
+_DIAGNOSTICS_S = 1.0
+_KEYS = ("name", "topic", "timeout", "priority")
+_LOG = logging.getLogger(__name__)
+
+
+@dataclass(slots=True)
+class Source:
+    """A topic that is listened to, and its last message.
+
+    Attributes:
+        name: In diagnostics.
+        topic: As the parameter has it.
+        timeout: Age from which a message does not count [s]; 0 means at any age.
+        priority: 0 to 255.
+        stamp: Time of the last message [ns]; before the first one it is 0, so that a source with a
+            timeout begins expired.
+        locked: Value of the last message, of a lock.
+    """
+
+    name: str
+    topic: str
+    timeout: float
+    priority: int
+    stamp: int = 0
+    locked: bool = False
+
+    def expired(self, now: int) -> bool:
+        """Return whether the last message is too old at a time [ns]."""
+        return self.timeout > 0.0 and now - self.stamp > self.timeout * SECOND
+
+    def is_locked(self, now: int) -> bool:
+        """Return whether a lock holds: by its message, or because it is silent."""
+        return self.locked or self.expired(now)
+
+    def described(self, state: str) -> str:
+        """Return the text of diagnostics."""
+        return f" {state} (listening to {self.topic} @ {self.timeout:f}s with priority #{self.priority})"
+
+
+@dataclass(slots=True)
+class Priorities:
+    """Choice among velocity sources, by their priorities and locks.
+
+    Attributes:
+        velocities: Topics of velocity commands.
+        locks: Topics of locks. One that holds masks velocities of a lower priority.
+    """
+
+    velocities: Sequence[Source]
+    locks: Sequence[Source]
+
+    def of_locks(self, now: int) -> int:
+        """Return the highest priority of the locks that hold, or 0."""
+        return max((each.priority for each in self.locks if each.is_locked(now)), default=0)
+
+    def masked(self, source: Source, now: int) -> bool:
+        """Return whether commands of a source are dropped: it expired, or a lock holds it."""
+        return source.expired(now) or source.priority < self.of_locks(now)
+
+    def chosen(self, now: int) -> Source | None:
+        """Return the source whose commands pass, or None.
+
+        The first of those with the highest priority passes. One of priority 0 never does.
+        """
+        free = [each for each in self.velocities if not self.masked(each, now)]
+        best = max(free, key=lambda each: each.priority, default=None)
+        return best if best is not None and best.priority > 0 else None
+
+
+class TwistMux:
+    """Publisher of the velocity command of highest priority on ``cmd_vel_out``.
+
+    Args:
+        node: On the graph, with the parameters ``~topics`` and ``~locks``.
+
+    Raises:
+        RosError: A parameter is wrong.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._lock = threading.Lock()
+        self.priorities = Priorities(list(_sources(node, "topics")), list(_sources(node, "locks")))
+        if not self.priorities.velocities:
+            _LOG.warning("%s/topics is empty: no command will pass", node.name)
+        twist, flag = geometry_msgs.msg.Twist, std_msgs.msg.Bool
+        self._commands = node.advertise("cmd_vel_out", twist, queue_size=1)
+        self._diagnostics = node.advertise(
+            "/diagnostics", diagnostic_msgs.msg.DiagnosticArray, queue_size=1
+        )
+        for source in self.priorities.locks:
+            node.subscribe(source.topic, flag, self._lock_taker(source), queue_size=1)
+        for source in self.priorities.velocities:
+            node.subscribe(source.topic, twist, self._command_taker(source), queue_size=1)
+
+    def run(self, stop: threading.Event) -> None:
+        """Publish diagnostics until shutdown."""
+        while not self._node.closed and not stop.wait(_DIAGNOSTICS_S):
+            self._diagnostics.publish(self._report())
+
+    def _command_taker(self, source: Source) -> Callable[[geometry_msgs.msg.Twist], None]:
+        def take(message: geometry_msgs.msg.Twist) -> None:
+            with self._lock:
+                source.stamp = now = self._node.clock.now()
+                if self.priorities.chosen(now) is source:
+                    self._commands.publish(message)
+
+        return take
+
+    def _lock_taker(self, source: Source) -> Callable[[std_msgs.msg.Bool], None]:
+        def take(message: std_msgs.msg.Bool) -> None:
+            with self._lock:
+                source.stamp, source.locked = self._node.clock.now(), bool(message.data)
+
+        return take
+
+    def _report(self) -> diagnostic_msgs.msg.DiagnosticArray:
+        value = diagnostic_msgs.msg.KeyValue
+        now = self._node.clock.now()
+        with self._lock:
+            pairs = [
+                (f"velocity {each.name}", each.described("masked" if masked else "unmasked"))
+                for each in self.priorities.velocities
+                for masked in [self.priorities.masked(each, now)]
+            ]
+            pairs += [
+                (f"lock {each.name}", each.described("locked" if locked else "free"))
+                for each in self.priorities.locks
+                for locked in [each.is_locked(now)]
+            ]
+            pairs.append(("current priority", str(self.priorities.of_locks(now))))
+        status = diagnostic_msgs.msg.DiagnosticStatus(
+            name=f"{self._node.name.lstrip('/')}: Twist mux status",
+            message="ok",
+            hardware_id="none",
+            values=[value(key=key, value=text) for key, text in pairs],
+        )
+        report = diagnostic_msgs.msg.DiagnosticArray(status=[status])
+        report.header.stamp = Time(nsecs=now)
+        return report
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Pass on the command of highest priority until shutdown; returns the exit code."""
+    found = parse_arguments(arguments, "twist_mux")
+    with found.start() as node, stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        TwistMux(node).run(stop)
+    return 0
+
+
+def marker(arguments: Sequence[str]) -> int:
+    """Publish each ``twist`` as an arrow on ``marker`` until shutdown; returns the exit code."""
+    found = parse_arguments(arguments, "twist_marker")
+    with found.start() as node:
+        arrows = node.advertise("marker", visualization_msgs.msg.Marker, queue_size=1, latch=True)
+        node.subscribe(
+            "twist",
+            geometry_msgs.msg.Twist,
+            lambda twist: arrows.publish(arrow_of(twist)),
+            queue_size=1,
+        )
+        return spin(node)
+
+
+def arrow_of(twist: geometry_msgs.msg.Twist) -> visualization_msgs.msg.Marker:
+    """Return a green arrow 2 m above ``base_footprint``, as long as the command is fast.
+
+    It points sideways by the greater of the lateral speed [m/s] and the turn rate [rad/s].
+    """
+    made = visualization_msgs.msg.Marker(type=visualization_msgs.msg.Marker.ARROW)
+    made.header.frame_id = "base_footprint"
+    made.pose.position.z = 2.0
+    made.pose.orientation.w = 1.0
+    made.scale.x, made.scale.y = 0.05, 0.1  # diameters of shaft and head [m]
+    made.color.g = made.color.a = 1.0
+    sideways = max(twist.linear.y, twist.angular.z, key=abs)
+    point = geometry_msgs.msg.Point
+    made.points = [point(), point(x=twist.linear.x, y=sideways)]
+    return made
+
+
+def _sources(node: Node, parameter: str) -> Iterator[Source]:
+    """Yield the sources of a parameter.
+
+    Raises:
+        RosError: It is no list of them.
+    """
+    full = node.resolve(f"~{parameter}")
+    listed = node.get_param(full, [])
+    if not isinstance(listed, list):
+        raise RosError(f"{full} is a list of name, topic, timeout and priority, not {listed!r:.60}")
+    for number, each in enumerate(listed):
+        yield _source(f"{full}[{number}]", each)
+
+
+def _source(where: str, given: Any) -> Source:
+    if not isinstance(given, Mapping):
+        raise RosError(f"{where} has name, topic, timeout and priority; it is {given!r:.60}")
+    for key in given.keys() - set(_KEYS):
+        hint = did_you_mean(key, _KEYS)
+        _LOG.warning("%s has an unknown '%s'%s", where, key, f"; {hint}" if hint else "")
+    missing = [key for key in _KEYS if key not in given]
+    if missing:
+        raise RosError(f"{where} has no '{missing[0]}'")
+    name, topic = given["name"], given["topic"]
+    for key in ("name", "topic"):
+        if not (isinstance(given[key], str) and given[key]):
+            raise RosError(f"the {key} of {where} is a word, not {given[key]!r:.60}")
+    priority = _number(where, "priority", given["priority"])
+    timeout = _number(where, "timeout", given["timeout"])
+    clamped = round(min(max(priority, 0), HIGHEST))
+    if clamped != priority:
+        _LOG.warning("%s: priority %r is taken for %d", where, given["priority"], clamped)
+    return Source(name, topic, timeout, clamped)
+
+
+def _number(where: str, key: str, given: Any) -> float:
+    number = isinstance(given, int | float) and not isinstance(given, bool)
+    if not (number and math.isfinite(given)):
+        raise RosError(f"the {key} of {where} is a number, not {given!r:.60}")
+    return float(given)
