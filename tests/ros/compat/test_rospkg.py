@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import gazelle_ros as ros
+from gazelle_ros.builtin.rospack import main as rospack
 from gazelle_ros.messages import search
 
 MANIFEST = """<package format="2"><name>{name}</name><version>1.2.3</version>
@@ -29,11 +30,26 @@ def rospkg(tmp_path, monkeypatch):
 
 def test_packages_are_listed_and_found(rospkg, tmp_path):
     pack = rospkg.RosPack()
-    assert sorted(pack.list()) == ["arm", "finger", "hand"]
+    assert {"arm", "finger", "hand"} <= set(pack.list())
     assert pack.get_path("arm") == str(tmp_path / "src" / "arm")
     assert rospkg.RosPack.get_instance().get_path("hand") == pack.get_path("hand")
     assert rospkg.RosPack(ros_paths=[str(tmp_path / "none")]).list() == []
+    assert sorted(rospkg.RosPack(ros_paths=[str(tmp_path)]).list()) == ["arm", "finger", "hand"]
     assert rospkg.RosStack().list() == []
+
+
+def test_all_that_is_listed_is_found_and_rospack_lists_the_same(rospkg, capsys):
+    pack = rospkg.RosPack()
+    listed = pack.list()
+    assert {"arm", "std_msgs", "tf", "topic_tools", "twist_mux"} <= set(listed)
+    assert listed == sorted(listed)
+    assert rospack(["list-names"]) == 0
+    assert capsys.readouterr().out.split() == listed
+    assert rospack(["list"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines == [f"{name} {pack.get_path(name)}" for name in listed]
+    for name in listed:
+        assert pack.get_manifest(name).name == name
 
 
 def test_a_missing_package_is_named_with_the_places(rospkg, tmp_path):

@@ -138,6 +138,11 @@ def stand_in(name: str) -> Path | None:
     return folder if plain and (folder / "package.xml").is_file() else None
 
 
+def names_with_folders() -> set[str]:
+    """Return names of packages that may have a folder: all built-in ones, and stand-ins."""
+    return {*packages(), *(each.parent.name for each in _SHARE.glob("*/package.xml"))}
+
+
 def main_of(name: str, kind: str) -> Main:
     """Return the function that runs a built-in node.
 

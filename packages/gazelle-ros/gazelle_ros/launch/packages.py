@@ -49,6 +49,12 @@ class Packages:
             found = known.folder if known is not None else None
         return found or registry.stand_in(package)
 
+    def folders(self) -> dict[str, Path]:
+        """Return the folder of each package that has one, installed or built in, by name."""
+        found = {name: self.find(name) for name in registry.names_with_folders()}
+        built_in = {name: folder for name, folder in found.items() if folder is not None}
+        return dict(sorted((built_in | search.find_packages(self.path)).items()))
+
     def folder(self, package: str) -> Path:
         """Return the folder of a package, installed or built in.
 

@@ -28,7 +28,7 @@ def package_path() -> str:
 def find_packages(path: str | None = None) -> dict[str, Path]:
     """Find the folders of all packages by name; the first of a name wins.
 
-    Searched once for each path. Searched once for each path.
+    Searched once for each path.
 
     Args:
         path: Folders with `os.pathsep` between them; by default ROS_PACKAGE_PATH.

@@ -35,6 +35,7 @@ class RosPack:
     """
 
     def __init__(self, ros_paths: Iterable[str] | None = None) -> None:
+        self._built_in = ros_paths is None
         self.ros_paths = get_ros_paths() if ros_paths is None else list(ros_paths)
         self._packages = Packages({"ROS_PACKAGE_PATH": os.pathsep.join(self.ros_paths)})
 
@@ -44,7 +45,9 @@ class RosPack:
         return cls(ros_paths)
 
     def list(self) -> list[str]:
-        """Return names of all packages."""
+        """Return names of all packages in the folders; by default with those built in."""
+        if self._built_in:
+            return list(self._packages.folders())
         return list(search.find_packages(os.pathsep.join(self.ros_paths)))
 
     def get_path(self, name: str) -> str:
