@@ -3,6 +3,7 @@ A file that can be read is also built with the engine and its plugins.
 
   gazelle check my.world my_robot.urdf.xacro
   gazelle check --urdf my_robot.urdf my_robot.srdf my_controllers.yaml
+  gazelle check my_robot.launch model:=burger    # is every node there?
   gazelle check --json my.world > findings.json
 
 The exit code is 1 if there is any error; warnings alone leave it 0.
@@ -37,7 +38,10 @@ if TYPE_CHECKING:
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "files", nargs="+", metavar="FILE", help="a file, a model's folder, or a bundled name"
+        "files",
+        nargs="+",
+        metavar="FILE",
+        help="a file, a model's folder, or a bundled name; arg:=value for launch files",
     )
     parser.add_argument("--json", action="store_true", help="for tools: one JSON list")
     parser.add_argument("--urdf", metavar="FILE", help="the robot of an SRDF, or of controllers")
@@ -49,12 +53,25 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
-    judged = {file: _judge(file, args) for file in args.files}
+    from gazelle.cli.check_launch import check_launch, is_launch
+    from gazelle_ros.names import split_arguments
+
+    words, arguments = split_arguments(args.files)
+    if not words:
+        raise Error("there is no file to check", hint="arg:=value goes with a launch file")
+    lists: dict[str, list[str]] = {}
+    judged: dict[str, list[Problem]] = {}
+    for file in words:
+        if is_launch(file):
+            lists[file], judged[file] = check_launch(file, arguments)
+        else:
+            judged[file] = _judge(file, args)
     if args.json:
         rows = [{"path": file, **asdict(each)} for file, found in judged.items() for each in found]
         sys.stdout.write(json.dumps(rows, indent=2) + "\n")
     else:
         for file, found in judged.items():
+            sys.stdout.writelines(f"{line}\n" for line in lists.get(file, ()))
             _show(file, found)
     return 1 if any(each.severity == "error" for found in judged.values() for each in found) else 0
 

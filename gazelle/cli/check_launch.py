@@ -1,0 +1,73 @@
+"""Check of a launch file: each node that it starts, and whether its program is there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gazelle.errors import Error
+from gazelle.formats import Problem
+
+if TYPE_CHECKING:
+    from gazelle_ros.launch.packages import Packages
+    from gazelle_ros.launch.plan import NodePlan
+
+_SUFFIXES = (".launch", ".launch.xml", ".test")
+
+
+def is_launch(file: str) -> bool:
+    """Return whether a file is a launch file, by its name."""
+    return file.endswith(_SUFFIXES) and Path(file).is_file()
+
+
+def check_launch(file: str, arguments: Mapping[str, str]) -> tuple[list[str], list[Problem]]:
+    """Read a launch file, and look for the program of each node.
+
+    Args:
+        file: Launch file.
+        arguments: Values of its ``<arg>`` elements.
+
+    Returns:
+        A line for each program, and the problems: an error for each node without one, and a
+        warning for each that is left out on purpose.
+    """
+    from gazelle_ros.launch import Packages, load_launch
+
+    packages = Packages()
+    try:
+        plan = load_launch([file], dict(arguments), packages=packages)
+    except Error as error:
+        return [], [_problem(error)]
+    lines: list[str] = []
+    problems = [Problem("warning", notice) for notice in plan.notices]
+    nodes = [*plan.nodes, *plan.tests]
+    width = max((len(f"{each.package}/{each.type}") for each in nodes), default=0)
+    for node in nodes:
+        state, problem = _look_for(node, packages)
+        lines.append(f"  {f'{node.package}/{node.type}':<{width}}  {state}")
+        if problem is not None:
+            problems.append(problem)
+    return list(dict.fromkeys(lines)), problems
+
+
+def _look_for(node: NodePlan, packages: Packages) -> tuple[str, Problem | None]:
+    """Return where a node's program is, and what is wrong with it."""
+    from gazelle_ros.launch.programs import Skipped, find_program
+
+    try:
+        program = find_program(node, packages)
+    except Error as error:
+        return "missing", _problem(error)
+    if isinstance(program, Skipped):
+        return "left out", Problem(
+            "warning",
+            f"{node.full_name} is left out: {program.reason}",
+            node.place.file,
+            node.place.line,
+        )
+    return "built in" if program.folder is None else str(program.folder), None
+
+
+def _problem(error: Error) -> Problem:
+    return Problem("error", error.message, error.file, error.line, error.element, error.hint)
