@@ -9,7 +9,7 @@ from ros.graph import until
 
 from gazelle_ros import load_message
 from gazelle_ros.base.errors import RosError
-from gazelle_ros.builtin.twist_mux import SECOND, Priorities, Source, TwistMux, arrow_of
+from gazelle_ros.builtin.twist_mux import SECOND, MuxInput, Priorities, TwistMux, arrow_of
 from gazelle_ros.msgs import geometry_msgs, std_msgs
 
 TWIST, FLAG = geometry_msgs.msg.Twist, std_msgs.msg.Bool
@@ -24,7 +24,7 @@ LOCKS = [
 
 
 def source(priority, timeout=0.5, **values):
-    return Source(f"of {priority}", "topic", timeout, priority, **values)
+    return MuxInput(f"of {priority}", "topic", timeout, priority, **values)
 
 
 def twist(x):

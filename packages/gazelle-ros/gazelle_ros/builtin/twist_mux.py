@@ -25,7 +25,7 @@ _LOG = logging.getLogger(__name__)
 
 
 @dataclass(slots=True)
-class Source:
+class MuxInput:
     """A topic that is listened to, and its last message.
 
     Attributes:
@@ -67,18 +67,18 @@ class Priorities:
         locks: Topics of locks. One that holds masks velocities of a lower priority.
     """
 
-    velocities: Sequence[Source]
-    locks: Sequence[Source]
+    velocities: Sequence[MuxInput]
+    locks: Sequence[MuxInput]
 
     def of_locks(self, now: int) -> int:
         """Return the highest priority of the locks that hold, or 0."""
         return max((each.priority for each in self.locks if each.is_locked(now)), default=0)
 
-    def masked(self, source: Source, now: int) -> bool:
+    def masked(self, source: MuxInput, now: int) -> bool:
         """Return whether commands of a source are dropped: it expired, or a lock holds it."""
         return source.expired(now) or source.priority < self.of_locks(now)
 
-    def chosen(self, now: int) -> Source | None:
+    def chosen(self, now: int) -> MuxInput | None:
         """Return the source whose commands pass, or None.
 
         The first of those with the highest priority passes. One of priority 0 never does.
@@ -119,7 +119,7 @@ class TwistMux:
         while not self._node.closed and not stop.wait(_DIAGNOSTICS_S):
             self._diagnostics.publish(self._report())
 
-    def _command_taker(self, source: Source) -> Callable[[geometry_msgs.msg.Twist], None]:
+    def _command_taker(self, source: MuxInput) -> Callable[[geometry_msgs.msg.Twist], None]:
         def take(message: geometry_msgs.msg.Twist) -> None:
             with self._lock:
                 source.stamp = now = self._node.clock.now()
@@ -128,7 +128,7 @@ class TwistMux:
 
         return take
 
-    def _lock_taker(self, source: Source) -> Callable[[std_msgs.msg.Bool], None]:
+    def _lock_taker(self, source: MuxInput) -> Callable[[std_msgs.msg.Bool], None]:
         def take(message: std_msgs.msg.Bool) -> None:
             with self._lock:
                 source.stamp, source.locked = self._node.clock.now(), bool(message.data)
@@ -201,7 +201,7 @@ def arrow_of(twist: geometry_msgs.msg.Twist) -> visualization_msgs.msg.Marker:
     return made
 
 
-def _sources(node: Node, parameter: str) -> Iterator[Source]:
+def _sources(node: Node, parameter: str) -> Iterator[MuxInput]:
     """Yield the sources of a parameter.
 
     Raises:
@@ -215,7 +215,7 @@ def _sources(node: Node, parameter: str) -> Iterator[Source]:
         yield _source(f"{full}[{number}]", each)
 
 
-def _source(where: str, given: Any) -> Source:
+def _source(where: str, given: Any) -> MuxInput:
     if not isinstance(given, Mapping):
         raise RosError(f"{where} has name, topic, timeout and priority; it is {given!r:.60}")
     for key in given.keys() - set(_KEYS):
@@ -233,7 +233,7 @@ def _source(where: str, given: Any) -> Source:
     clamped = round(min(max(priority, 0), HIGHEST))
     if clamped != priority:
         _LOG.warning("%s: priority %r is taken for %d", where, given["priority"], clamped)
-    return Source(name, topic, timeout, clamped)
+    return MuxInput(name, topic, timeout, clamped)
 
 
 def _number(where: str, key: str, given: Any) -> float:
