@@ -154,9 +154,7 @@ def _build(file: str, engine: str) -> list[Problem]:
         try:
             Simulation(file, engine).close()
         except Error as error:
-            found.append(
-                Problem("error", error.message, error.file, error.line, error.element, error.hint)
-            )
+            found.append(Problem.of(error))
     for warning in caught:
         # What the files hold was reported by `gazelle.formats.check` already.
         ours = issubclass(warning.category, GazelleWarning)

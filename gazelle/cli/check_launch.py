@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from gazelle_ros.launch.packages import Packages
     from gazelle_ros.launch.plan import NodePlan
 
-_SUFFIXES = (".launch", ".launch.xml", ".test")
-
 
 def is_launch(file: str) -> bool:
     """Return whether a file is a launch file, by its name."""
-    return file.endswith(_SUFFIXES) and Path(file).is_file()
+    from gazelle_ros.launch.finding import SUFFIXES
+
+    return file.endswith(SUFFIXES) and Path(file).is_file()
 
 
 def check_launch(file: str, arguments: Mapping[str, str]) -> tuple[list[str], list[Problem]]:
@@ -36,9 +36,9 @@ def check_launch(file: str, arguments: Mapping[str, str]) -> tuple[list[str], li
 
     packages = Packages()
     try:
-        plan = load_launch([file], dict(arguments), packages=packages)
+        plan = load_launch(file, arguments, packages=packages)
     except Error as error:
-        return [], [_problem(error)]
+        return [], [Problem.of(error)]
     lines: list[str] = []
     problems = [Problem("warning", notice) for notice in plan.notices]
     nodes = [*plan.nodes, *plan.tests]
@@ -58,7 +58,7 @@ def _look_for(node: NodePlan, packages: Packages) -> tuple[str, Problem | None]:
     try:
         program = find_program(node, packages)
     except Error as error:
-        return "missing", _problem(error)
+        return "missing", Problem.of(error)
     if isinstance(program, Skipped):
         return "left out", Problem(
             "warning",
@@ -67,7 +67,3 @@ def _look_for(node: NodePlan, packages: Packages) -> tuple[str, Problem | None]:
             node.place.line,
         )
     return "built in" if program.folder is None else str(program.folder), None
-
-
-def _problem(error: Error) -> Problem:
-    return Problem("error", error.message, error.file, error.line, error.element, error.hint)

@@ -79,8 +79,7 @@ def check_controllers(path: str | os.PathLike[str], robot: str | os.PathLike[str
     except yaml.YAMLError as error:
         return [Problem("error", f"this is no YAML: {error}", file)]
     except Error as error:
-        name = error.file or os.fspath(robot)
-        return [Problem("error", error.message, name, error.line, error.element, error.hint)]
+        return [Problem.of(error, os.fspath(robot))]
     return _Checker(file, model).check(root)
 
 

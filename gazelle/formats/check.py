@@ -46,6 +46,12 @@ class Problem:
     why: str | None = None
     rule: str | None = None
 
+    @classmethod
+    def of(cls, error: Error, file: str | None = None) -> Problem:
+        """Return an error as a finding; ``file`` names its file where it has none."""
+        name = error.file or file
+        return cls("error", error.message, name, error.line, error.element, error.hint)
+
 
 def check(
     path: PathLike,
@@ -72,10 +78,8 @@ def check(
         else:
             judged = [_problem_of(finding) for finding in lint(read_path(file, reading))]
     except Error as error:
-        name = error.file or (os.fspath(path) if isinstance(path, str | os.PathLike) else None)
-        problems.append(
-            Problem("error", error.message, name, error.line, error.element, error.hint)
-        )
+        name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
+        problems.append(Problem.of(error, name))
     problems += [_noted(note) for note in reading.notes if note.severity == "error"]
     problems += [
         _noted(Note(f"'{miss.uri}' is not found", miss.source, miss.looked))

@@ -29,8 +29,7 @@ from gazelle.navigation.localization.settings import LASER_MODELS
 from gazelle.navigation.planners.planar import between, composed
 from gazelle.real_numbers import finite
 from gazelle.simulation import Tunable
-from gazelle_ros.base.interrupts import stopping
-from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_srvs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform
@@ -42,11 +41,7 @@ _LOOK_S = 0.2
 
 def main(arguments: Sequence[str]) -> int:
     """Localise until shutdown; returns the exit code."""
-    found = parse_arguments(arguments, "amcl")
-    with found.start() as node, stopping() as stop:
-        node.on_shutdown.append(lambda _reason: stop.set())
-        AmclNode(node).run(stop)
-    return 0
+    return run_node(arguments, "amcl", AmclNode)
 
 
 class AmclNode:

@@ -19,8 +19,7 @@ from gazelle.navigation.costmap.values import LETHAL, NO_INFORMATION
 from gazelle.navigation.exploration import Explorer, ExploreSettings, Place
 from gazelle.navigation.frontiers import Frontier, find_frontiers
 from gazelle_ros.actions import GoalStatus, SimpleActionClient
-from gazelle_ros.base.interrupts import stopping
-from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.clock import Rate
 from gazelle_ros.msgs import geometry_msgs, map_msgs, move_base_msgs, nav_msgs, visualization_msgs
 from gazelle_ros.node import Node
@@ -33,11 +32,7 @@ _POINTS, _ADD, _DELETE_ALL = 8, 0, 3
 
 def main(arguments: Sequence[str]) -> int:
     """Explore until nothing is left, and run until shutdown; returns the exit code."""
-    found = parse_arguments(arguments, "explore")
-    with found.start() as node, stopping() as stop:
-        node.on_shutdown.append(lambda _reason: stop.set())
-        ExploreNode(node).run(stop)
-    return 0
+    return run_node(arguments, "explore", ExploreNode)
 
 
 class ExploreNode:

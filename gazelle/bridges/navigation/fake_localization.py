@@ -13,8 +13,7 @@ from gazelle.bridges.navigation.frames import GraphFrames, missing_links
 from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle.description import Pose
 from gazelle.navigation.costmap.parameters import value_of
-from gazelle_ros.base.interrupts import stopping
-from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.msgs import geometry_msgs, nav_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform
@@ -25,11 +24,7 @@ _LOG = logging.getLogger(__name__)
 
 def main(arguments: Sequence[str]) -> int:
     """Localise until shutdown; returns the exit code."""
-    found = parse_arguments(arguments, "fake_localization")
-    with found.start() as node, stopping() as stop:
-        node.on_shutdown.append(lambda _reason: stop.set())
-        FakeLocalizationNode(node).run(stop)
-    return 0
+    return run_node(arguments, "fake_localization", FakeLocalizationNode)
 
 
 class FakeLocalizationNode:

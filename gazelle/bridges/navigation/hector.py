@@ -16,8 +16,7 @@ from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.hector import HectorSettings, HectorSlam
 from gazelle.navigation.planners.planar import composed, inverse
 from gazelle.rotations import from_yaw, yaw_of
-from gazelle_ros.base.interrupts import stopping
-from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.msgs import geometry_msgs, sensor_msgs, std_msgs, std_srvs
 from gazelle_ros.node import Node
 from gazelle_ros.time import Time
@@ -25,11 +24,7 @@ from gazelle_ros.time import Time
 
 def main(arguments: Sequence[str]) -> int:
     """Run the mapping until shutdown; returns the exit code."""
-    found = parse_arguments(arguments, "hector_mapping")
-    with found.start() as node, stopping() as stop:
-        node.on_shutdown.append(lambda _reason: stop.set())
-        HectorNode(node).run(stop)
-    return 0
+    return run_node(arguments, "hector_mapping", HectorNode)
 
 
 class HectorNode(MappingNode):

@@ -13,19 +13,14 @@ from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.karto import KartoSettings, KartoSlam
-from gazelle_ros.base.interrupts import stopping
-from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node
 
 
 def main(arguments: Sequence[str]) -> int:
     """Run the mapping until shutdown; returns the exit code."""
-    found = parse_arguments(arguments, "slam_karto")
-    with found.start() as node, stopping() as stop:
-        node.on_shutdown.append(lambda _reason: stop.set())
-        KartoNode(node).run(stop)
-    return 0
+    return run_node(arguments, "slam_karto", KartoNode)
 
 
 class KartoNode(MappingNode):

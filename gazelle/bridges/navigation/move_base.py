@@ -24,8 +24,7 @@ from gazelle.navigation.move_base.state_machine import MoveStep
 from gazelle.navigation.planners.planar import composed
 from gazelle.navigation.planners.plugins import STOP, Velocity
 from gazelle_ros.actions import SimpleActionServer
-from gazelle_ros.base.interrupts import stopping
-from gazelle_ros.builtin.arguments import parse_arguments
+from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.clock import Rate
 from gazelle_ros.msgs import geometry_msgs, move_base_msgs, nav_msgs, std_srvs
 from gazelle_ros.node import Node
@@ -36,11 +35,7 @@ SECOND = 1_000_000_000
 
 def main(arguments: Sequence[str]) -> int:
     """Serve goals until shutdown; returns the exit code."""
-    found = parse_arguments(arguments, "move_base")
-    with found.start() as node, stopping() as stop:
-        node.on_shutdown.append(lambda _reason: stop.set())
-        MoveBaseNode(node).run(stop)
-    return 0
+    return run_node(arguments, "move_base", MoveBaseNode)
 
 
 class MoveBaseNode:

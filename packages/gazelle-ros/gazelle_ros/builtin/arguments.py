@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
+import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Protocol
 
 from gazelle_ros import names
 from gazelle_ros.base.interrupts import stopping
@@ -96,6 +97,28 @@ def parse_arguments(
         if key.startswith("_") and not key.startswith("__")
     }
     return NodeArguments(plain, options, parameters)
+
+
+class NodeWork(Protocol):
+    """Work of a node."""
+
+    def run(self, stop: threading.Event) -> None:
+        """Run until shutdown."""
+
+
+def run_node(arguments: Sequence[str], name: str, make: Callable[[Node], NodeWork]) -> int:
+    """Start a node, and do its work until Ctrl-C, SIGTERM, or until it is asked to end; returns 0.
+
+    Args:
+        arguments: Command line without the program.
+        name: The node's name if the command line has none.
+        make: Makes the work from the node.
+    """
+    found = parse_arguments(arguments, name)
+    with found.start() as node, stopping() as stop:
+        node.on_shutdown.append(lambda _reason: stop.set())
+        make(node).run(stop)
+    return 0
 
 
 def spin(node: Node) -> int:

@@ -10,13 +10,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle_ros.base.errors import RosError, did_you_mean
-from gazelle_ros.base.interrupts import stopping
-from gazelle_ros.builtin.arguments import parse_arguments, spin
+from gazelle_ros.builtin.arguments import parse_arguments, run_node, spin
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import diagnostic_msgs, geometry_msgs, std_msgs, visualization_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.time import Time
 
-SECOND = 1_000_000_000
 HIGHEST = 255
 """Highest priority."""
 _DIAGNOSTICS_S = 1.0
@@ -53,6 +52,10 @@ class MuxInput:
         """Return whether a lock holds: by its message, or because it is silent."""
         return self.locked or self.expired(now)
 
+    def is_masked(self, now: int, lock_priority: int) -> bool:
+        """Return whether commands are dropped: the last one is too old, or a lock is above."""
+        return self.expired(now) or self.priority < lock_priority
+
     def described(self, state: str) -> str:
         """Return the text of diagnostics."""
         return f" {state} (listening to {self.topic} @ {self.timeout:f}s with priority #{self.priority})"
@@ -74,16 +77,13 @@ class Priorities:
         """Return the highest priority of the locks that hold, or 0."""
         return max((each.priority for each in self.locks if each.is_locked(now)), default=0)
 
-    def masked(self, source: MuxInput, now: int) -> bool:
-        """Return whether commands of a source are dropped: it expired, or a lock holds it."""
-        return source.expired(now) or source.priority < self.of_locks(now)
-
     def chosen(self, now: int) -> MuxInput | None:
         """Return the source whose commands pass, or None.
 
         The first of those with the highest priority passes. One of priority 0 never does.
         """
-        free = [each for each in self.velocities if not self.masked(each, now)]
+        locked = self.of_locks(now)
+        free = [each for each in self.velocities if not each.is_masked(now, locked)]
         best = max(free, key=lambda each: each.priority, default=None)
         return best if best is not None and best.priority > 0 else None
 
@@ -139,17 +139,19 @@ class TwistMux:
         value = diagnostic_msgs.msg.KeyValue
         now = self._node.clock.now()
         with self._lock:
+            priority = self.priorities.of_locks(now)
             pairs = [
-                (f"velocity {each.name}", each.described("masked" if masked else "unmasked"))
+                (
+                    f"velocity {each.name}",
+                    each.described("masked" if each.is_masked(now, priority) else "unmasked"),
+                )
                 for each in self.priorities.velocities
-                for masked in [self.priorities.masked(each, now)]
             ]
             pairs += [
-                (f"lock {each.name}", each.described("locked" if locked else "free"))
+                (f"lock {each.name}", each.described("locked" if each.is_locked(now) else "free"))
                 for each in self.priorities.locks
-                for locked in [each.is_locked(now)]
             ]
-            pairs.append(("current priority", str(self.priorities.of_locks(now))))
+            pairs.append(("current priority", str(priority)))
         status = diagnostic_msgs.msg.DiagnosticStatus(
             name=f"{self._node.name.lstrip('/')}: Twist mux status",
             message="ok",
@@ -163,11 +165,7 @@ class TwistMux:
 
 def main(arguments: Sequence[str]) -> int:
     """Pass on the command of highest priority until shutdown; returns the exit code."""
-    found = parse_arguments(arguments, "twist_mux")
-    with found.start() as node, stopping() as stop:
-        node.on_shutdown.append(lambda _reason: stop.set())
-        TwistMux(node).run(stop)
-    return 0
+    return run_node(arguments, "twist_mux", TwistMux)
 
 
 def marker(arguments: Sequence[str]) -> int:

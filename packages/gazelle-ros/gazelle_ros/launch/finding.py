@@ -9,7 +9,8 @@ from gazelle_ros.base.errors import did_you_mean
 from gazelle_ros.launch.errors import LaunchError
 from gazelle_ros.launch.packages import Packages
 
-_SUFFIXES = (".launch", ".launch.xml", ".test")
+SUFFIXES = (".launch", ".launch.xml", ".test")
+"""Ends of names of launch files."""
 
 
 def find_launch_file(package: str, name: str, packages: Packages) -> Path:
@@ -58,6 +59,6 @@ def _files(folder: Path, name: str | None = None) -> dict[str, list[Path]]:
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(each for each in folders if not each.startswith("."))
         for file in files:
-            if file == name or file.endswith(_SUFFIXES):
+            if file == name or file.endswith(SUFFIXES):
                 known.setdefault(file, []).append(Path(place, file))
     return known
