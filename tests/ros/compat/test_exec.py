@@ -91,6 +91,14 @@ def test_a_missing_script_is_one_line(execute):
     assert "cannot read the script" in process.stderr
 
 
+def test_python_before_a_script_is_passed_over(tmp_path):
+    script = tmp_path / "words.py"
+    script.write_text("import sys; print(sys.argv[1:])")
+    command = [*COMMAND, "exec", "python3", str(script), "a", "b:=c"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("['a', 'b:=c']\n", "")
+
+
 def test_sleep_can_mean_simulated_time(execute, make_node):
     from gazelle_ros.messages import load_message
     from gazelle_ros.time import Time

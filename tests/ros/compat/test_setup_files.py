@@ -33,6 +33,21 @@ LAYOUTS = {
         "setup(**generate_distutils_setup(packages=NAMES, package_dir={'': ROOT}))",
         "lib/led",
     ),
+    "constants as keys": (
+        HEAD + "N = 'led'\nKEY = 'packages'\nd = generate_distutils_setup(package_dir={N: 'lib'})\n"
+        "d[KEY] = [N, N + '.sub']\nsetup(**d)",
+        "lib",
+    ),
+    "formatted": (
+        HEAD + "R = 'lib'\nd = generate_distutils_setup(packages=['led'], "
+        "package_dir={'led': f'{R}/py'})\nsetup(**d)",
+        "lib/py",
+    ),
+    "updated": (
+        HEAD + "d = generate_distutils_setup()\nd.update(packages=['led'])\n"
+        "d.update({'package_dir': {'': 'lib'}})\nsetup(**d)",
+        "lib/led",
+    ),
     "found": (
         ("from setuptools import setup, find_packages\n"
         "setup(packages=find_packages('lib', exclude=['tests*']), package_dir={'': 'lib'})"),

@@ -69,7 +69,7 @@ def run_named(
     """Run a script, or a program of a package as ``rosrun PACKAGE PROGRAM`` does.
 
     Args:
-        word: A script's path, or a package.
+        word: A script's path, or a package. ``python3`` before a script is passed over.
         arguments: What follows it on the command line; after a package, the program first.
         sim_sleep: See `run_script`.
         debug: See `run_script`.
@@ -82,8 +82,10 @@ def run_named(
     """
     from gazelle_ros.builtin import registry
     from gazelle_ros.launch.packages import Packages, is_python
-    from gazelle_ros.launch.programs import Skipped, program_of
+    from gazelle_ros.launch.programs import PYTHON, Skipped, program_of
 
+    if PYTHON.fullmatch(word) and arguments and Path(arguments[0]).is_file():
+        word, *arguments = arguments
     packages = Packages()
     known = packages.find(word) or registry.package(word)
     if Path(word).is_file() or (known is None and (not arguments or _is_path(word))):

@@ -105,10 +105,10 @@ class _SetupReader:
         match target:
             case ast.Name(id=name):
                 self._names[name] = value
-            case ast.Subscript(value=ast.Name(id=name), slice=ast.Constant(value=key)):
-                known = self._names.get(name)
-                if isinstance(known, dict):
-                    known[key] = value
+            case ast.Subscript(value=ast.Name(id=name), slice=key):
+                known, place = self._names.get(name), self.value(key)
+                if isinstance(known, dict) and isinstance(place, str):
+                    known[place] = value
 
     def value(self, node: ast.expr) -> Any:
         """Return the value of an expression, or ``_UNKNOWN``."""
@@ -123,12 +123,21 @@ class _SetupReader:
                 return self._pairs(keys, values)
             case ast.BinOp(left=left, op=ast.Add(), right=right):
                 return _sum(self.value(left), self.value(right))
-            case ast.Subscript(value=inner, slice=ast.Constant(value=key)):
-                known = self.value(inner)
-                return known.get(key, _UNKNOWN) if isinstance(known, dict) else _UNKNOWN
+            case ast.JoinedStr(values=parts):
+                return self._text(parts)
+            case ast.Subscript(value=inner, slice=key):
+                known, place = self.value(inner), self.value(key)
+                found = isinstance(known, dict) and isinstance(place, str)
+                return known.get(place, _UNKNOWN) if found else _UNKNOWN
             case ast.Call():
                 return self._call(node)
         return _UNKNOWN
+
+    def _text(self, parts: list[ast.expr]) -> Any:
+        """Return the text of an f-string that formats texts alone."""
+        plain = [each.value if isinstance(each, ast.FormattedValue) else each for each in parts]
+        texts = [self.value(each) for each in plain]
+        return "".join(texts) if all(isinstance(each, str) for each in texts) else _UNKNOWN
 
     def _items(self, items: list[ast.expr]) -> Any:
         found: list[Any] = []
@@ -144,8 +153,9 @@ class _SetupReader:
         for key, value in zip(keys, map(self.value, values), strict=True):
             if key is None:
                 found |= value if isinstance(value, dict) else {}
-            elif isinstance(key, ast.Constant):
-                found[key.value] = value
+                continue
+            name = self.value(key)
+            found[name if isinstance(name, str) else _UNKNOWN] = value
         return found
 
     def _call(self, node: ast.Call) -> Any:
@@ -164,11 +174,19 @@ class _SetupReader:
             return keywords
         if name == "dict":
             return keywords
+        if name == "update" and isinstance(node.func, ast.Attribute):
+            self._update(node.func.value, given, keywords)
         if name == "find_packages":
             return self._find_packages(given, keywords)
         if name == "join" and all(isinstance(each, str) for each in given):
             return os.path.join(*given) if given else _UNKNOWN  # noqa: PTH118  # text to text
         return given[0] if name in _COPIES and len(given) == 1 else _UNKNOWN
+
+    def _update(self, target: ast.expr, given: list[Any], keywords: dict[str, Any]) -> None:
+        known = self.value(target)
+        if isinstance(known, dict):
+            for each in (*given, keywords):
+                known |= each if isinstance(each, dict) else {}
 
     def _find_packages(self, given: list[Any], keywords: dict[str, Any]) -> Any:
         """Return what setuptools finds: folders with an ``__init__.py``, and those in them."""

@@ -25,7 +25,8 @@ _EXECUTE = (sys.executable, "-m", "gazelle_ros.cli.main", "exec")
 """Runs a script with ``import rospy`` and its like answered by Gazelle."""
 _BUILTIN = (sys.executable, "-m", "gazelle_ros.builtin.start")
 _TERMINAL = (sys.executable, "-m", "gazelle_ros.builtin.terminal")
-_PYTHON = re.compile(r"(?:.*/)?python[\d.]*")
+PYTHON = re.compile(r"(?:.*/)?python[\d.]*")
+"""Names of the interpreter, which Python scripts have anyway."""
 _XACRO = {"xacro", "xacro.py"}
 _COMMAND_SECONDS = 120.0
 
@@ -118,7 +119,7 @@ def prefixed_command(node: NodePlan, program: Program) -> list[str]:
         LaunchError: The prefix is not well quoted.
     """
     words = prefix_arguments(node)
-    if program.command[0] == sys.executable and len(words) == 1 and _PYTHON.fullmatch(words[0]):
+    if program.command[0] == sys.executable and len(words) == 1 and PYTHON.fullmatch(words[0]):
         words = []
     name = Path(words[0]).name if words else ""
     env = {**os.environ, **dict(node.environment)}
