@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from gazelle.real_numbers import finite, real
+from gazelle_ros.base.real_numbers import finite, real
 
 
 @pytest.mark.parametrize("value", [1, 1.5, np.float32(0.5), np.int64(-1), 10**30])

@@ -16,7 +16,6 @@ from gazelle.bridges import (  # noqa: F401  they teach kinds
 from gazelle.bridges.conversions import ConversionContext, decoder_of, service_of
 from gazelle.bridges.graph import Graph
 from gazelle.bridges.listening import HeardTopic
-from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.errors import RosError, SimulationError, SimulationWarning
 from gazelle.simulation import (
     FramePrefix,
@@ -31,6 +30,7 @@ from gazelle.simulation import (
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle_ros import load_message, load_service
 from gazelle_ros.msgs import geometry_msgs
+from gazelle_ros.reconfigure import ReconfigureServer
 from gazelle_ros.tf.naming import FramePrefixes
 
 _LOOK_S = 0.1

@@ -42,13 +42,20 @@ def check_launch(file: str, arguments: Mapping[str, str]) -> tuple[list[str], li
     lines: list[str] = []
     problems = [Problem("warning", notice) for notice in plan.notices]
     nodes = [*plan.nodes, *plan.tests]
-    width = max((len(f"{each.package}/{each.type}") for each in nodes), default=0)
+    width = max((len(_label(each)) for each in nodes), default=0)
     for node in nodes:
         state, problem = _look_for(node, packages)
-        lines.append(f"  {f'{node.package}/{node.type}':<{width}}  {state}")
+        lines.append(f"  {_label(node):<{width}}  {state}")
         if problem is not None:
             problems.append(problem)
     return list(dict.fromkeys(lines)), problems
+
+
+def _label(node: NodePlan) -> str:
+    """Return the program of a node and, of a nodelet, its class."""
+    words = node.arguments.split()
+    kind = words[1:2] if node.package == "nodelet" and words[:1] != ["unload"] else []
+    return " ".join([f"{node.package}/{node.type}", *kind])
 
 
 def _look_for(node: NodePlan, packages: Packages) -> tuple[str, Problem | None]:

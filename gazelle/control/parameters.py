@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from gazelle.errors import ControlError, did_you_mean
-from gazelle.real_numbers import real
+from gazelle_ros.base.real_numbers import real
 
 
 class UnknownParameterError(ControlError, KeyError):

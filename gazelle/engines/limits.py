@@ -11,8 +11,8 @@ import numpy as np
 from gazelle.description import World
 from gazelle.errors import EngineError
 from gazelle.kinematics.tree import FARTHEST
-from gazelle.real_numbers import finite
 from gazelle_ros.base.characters import can_be_written
+from gazelle_ros.base.real_numbers import finite
 
 # Clocks count whole nanoseconds, and a step of weeks is a mistake [s].
 SHORTEST_STEP, LONGEST_STEP = 1e-9, 1e6

@@ -13,7 +13,7 @@ from gazelle.engines import engine_names
 from gazelle.engines.limits import SHORTEST_STEP
 from gazelle.envs.limits import MAX_LIDAR_SAMPLES, MAX_STEPS
 from gazelle.errors import TaskError, did_you_mean
-from gazelle.real_numbers import real
+from gazelle_ros.base.real_numbers import real
 
 RENDER_MODES = ("rgb_array",)
 SPLITS = ("published", "training", "held-out")

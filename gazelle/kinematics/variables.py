@@ -10,7 +10,7 @@ from typing import Any
 from gazelle.argument_checks import checked
 from gazelle.description import Joint
 from gazelle.errors import PlanningError, did_you_mean
-from gazelle.real_numbers import real
+from gazelle_ros.base.real_numbers import real
 
 _PARAMETERS = (
     "has_position_limits",

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gazelle.errors import Error
-from gazelle.navigation.costmap.parameters import Values, fields_of
 from gazelle.navigation.frontiers import Frontier
+from gazelle_ros.base.parameter_values import Values, fields_of
 
 _SAME_CELLS = 5
 """Goals that are nearer than this to one that was given up are given up, too."""

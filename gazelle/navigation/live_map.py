@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.navigation.costmap.parameters import Values, value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.localization import PlanarScan
 from gazelle.navigation.mapping import GmappingSettings, GridSlam
+from gazelle_ros.base.parameter_values import Values, value_of
 
 _USUAL = {
     "linearUpdate": 0.3, "angularUpdate": 0.2, "temporalUpdate": 0.5, "minimumScore": 50.0, "particles": 8,

@@ -17,9 +17,9 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.navigation.costmap.parameters import Values, fields_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.refuges import RefugeMap, RobotDisc
+from gazelle_ros.base.parameter_values import Values, fields_of
 
 _PERIOD: Final = 0.5
 """Between two looks at all robots [s]."""

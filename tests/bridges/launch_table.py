@@ -66,8 +66,6 @@ QUICK = [
         "base_link>caster_front_link base_link>cliff_sensor_front_link "
         "base_link>cliff_sensor_left_link base_link>cliff_sensor_right_link base_link>gyro_link "
         "base_link>wheel_left_link base_link>wheel_right_link",
-        missing=("there is no package 'nodelet'",),
-        left_out=1,
     ),
 ]
 

@@ -78,3 +78,21 @@ def test_arguments_without_a_file_are_an_error(cli):
     code, _, error = cli("check", "model:=burger")
     assert code == 1
     assert "there is no file to check" in error
+
+
+@pytest.mark.parametrize("command", ["load {} manager", "standalone {}"])
+def test_a_nodelet_is_looked_for_by_its_class(cli, tmp_path, command):
+    file = tmp_path / "nodelets.launch"
+    nodes = [
+        f'<node pkg="nodelet" type="nodelet" name="{name}" args="{command.format(kind)}"/>'
+        for name, kind in (
+            ("mux", "yocs_cmd_vel_mux/CmdVelMuxNodelet"),
+            ("other", "yocs_cmd_vel_mux/CmdVelMux"),
+        )
+    ]
+    file.write_text("\n".join(["<launch>", *nodes, "</launch>"]))
+    code, out, _ = cli("check", str(file))
+    assert code == 1
+    assert "nodelet/nodelet yocs_cmd_vel_mux/CmdVelMuxNodelet  built in" in out
+    assert "nodelets.launch:3: there is no nodelet 'yocs_cmd_vel_mux/CmdVelMux'" in out
+    assert "did you mean 'yocs_cmd_vel_mux/CmdVelMuxNodelet'?" in out

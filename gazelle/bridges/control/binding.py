@@ -16,7 +16,6 @@ from gazelle.bridges.control.services import LOG, ManagerServices
 from gazelle.bridges.conversions import ConversionContext, service_of
 from gazelle.bridges.graph import TimedGraph
 from gazelle.bridges.listening import HeardTopic
-from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.control import (
     ActionPort,
     CommandPort,
@@ -30,6 +29,7 @@ from gazelle.control.values import TrajectoryAnswer, TrajectoryQuery
 from gazelle.errors import ControlError, ControlWarning, RosError
 from gazelle_ros import load_message, load_service
 from gazelle_ros.errors import ServiceError
+from gazelle_ros.reconfigure import ReconfigureServer
 
 
 class ManagerBinding:

@@ -7,8 +7,8 @@ from typing import Any
 
 from gazelle.bridges.gazebo.context import GazeboContext
 from gazelle.bridges.gazebo.world import WorldServices
-from gazelle.bridges.reconfigure import ReconfigureServer
 from gazelle.simulation import Tunable, Tuning
+from gazelle_ros.reconfigure import ReconfigureServer
 
 _PHYSICS = (
     Tunable("time_step", 0.001, 0.0, 10.0, "Time between two steps of the physics [s]"),

@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.formats import load_model_string, load_srdf_string
 from gazelle.kinematics import JointBounds, RobotModel
-from gazelle.real_numbers import real
+from gazelle_ros.base.real_numbers import real
 from gazelle_ros.node import Node
 
 DESCRIPTION = "robot_description"

@@ -9,7 +9,7 @@ from typing import Any
 from gazelle.errors import PlanningError, PlanningWarning
 from gazelle.planning.planner_names import BOUND, planner_of
 from gazelle.planning.state_validity import LONGEST_SEGMENT
-from gazelle.real_numbers import real
+from gazelle_ros.base.real_numbers import real
 from gazelle_ros.node import Node
 
 PIPELINE = "ompl"

@@ -14,11 +14,11 @@ from gazelle.array_types import Bytes
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames
 from gazelle.bridges.navigation.messages import stamped
-from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.costmap.values import LETHAL, NO_INFORMATION
 from gazelle.navigation.exploration import Explorer, ExploreSettings, Place
 from gazelle.navigation.frontiers import Frontier, find_frontiers
 from gazelle_ros.actions import GoalStatus, SimpleActionClient
+from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.clock import Rate
 from gazelle_ros.msgs import geometry_msgs, map_msgs, move_base_msgs, nav_msgs, visualization_msgs

@@ -12,7 +12,7 @@ from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, missing_links
 from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle.description import Pose
-from gazelle.navigation.costmap.parameters import value_of
+from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.msgs import geometry_msgs, nav_msgs
 from gazelle_ros.node import Node

@@ -11,11 +11,11 @@ from gazelle.array_types import Floats
 from gazelle.bridges.navigation.frames import flat
 from gazelle.bridges.navigation.mapping_node import MappingNode
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.hector import HectorSettings, HectorSlam
 from gazelle.navigation.planners.planar import composed, inverse
 from gazelle.rotations import from_yaw, yaw_of
+from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.msgs import geometry_msgs, sensor_msgs, std_msgs, std_srvs
 from gazelle_ros.node import Node

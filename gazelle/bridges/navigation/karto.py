@@ -10,9 +10,9 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.bridges.navigation.mapping_node import MappingNode
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping.karto import KartoSettings, KartoSlam
+from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.msgs import sensor_msgs
 from gazelle_ros.node import Node

@@ -16,8 +16,8 @@ from gazelle.bridges.navigation.map_messages import grid_message
 from gazelle.bridges.navigation.messages import beam_angles, is_upside_down
 from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle.description.occupancy import OccupancyMap
-from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2
+from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.msgs import nav_msgs, sensor_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform

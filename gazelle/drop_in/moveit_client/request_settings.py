@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from gazelle.bridges.moveit.description import DESCRIPTION, find_parameter
 from gazelle.drop_in.moveit_client.session import LOG
-from gazelle.real_numbers import real
 from gazelle_ros import names
+from gazelle_ros.base.real_numbers import real
 from gazelle_ros.msgs import moveit_msgs
 from gazelle_ros.node import Node
 

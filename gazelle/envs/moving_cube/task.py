@@ -18,9 +18,9 @@ from gazelle.envs.moving_cube.rules import WalkRules, has_failed, reward_of, whe
 from gazelle.envs.options import DynamicsSettings
 from gazelle.envs.simulation_task import SimulationTask, StepOutcome, simulation_of
 from gazelle.errors import TaskError
-from gazelle.real_numbers import finite
 from gazelle.rotations import roll_pitch_yaw
 from gazelle.sensors import View, look_at
+from gazelle_ros.base.real_numbers import finite
 
 CONTROL_PERIOD = 0.04  # [s]; openai_ros waits until the wheel has its speed, some hundredths
 FIRST_SPEED = 10.0  # of the wheel when an episode begins [rad/s]

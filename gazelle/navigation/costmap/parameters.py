@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 from gazelle.errors import Error, SimulationWarning, did_you_mean
@@ -14,9 +14,7 @@ from gazelle.navigation.costmap.inflation_layer import InflationLayer
 from gazelle.navigation.costmap.obstacle_layer import ObservationSource, ObstacleLayer
 from gazelle.navigation.costmap.static_layer import StaticLayer
 from gazelle.navigation.costmap.voxel_layer import VoxelLayer
-from gazelle.real_numbers import real
-
-Values = Mapping[str, Any]
+from gazelle_ros.base.parameter_values import Values, value_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,36 +65,6 @@ class CostmapSetup:
     sensors: tuple[SensorTopic, ...]
     always_full: bool
     padding: float
-
-
-def value_of(values: Values, name: str, default: Any) -> Any:
-    """Return a parameter, of the kind of its default.
-
-    Raises:
-        Error: It is of another kind.
-    """
-    found = values.get(name, default)
-    kind = type(default)
-    number = real(found)
-    if kind is float and number is not None:
-        return number
-    if kind is int and isinstance(found, float) and found.is_integer():
-        return int(found)
-    if isinstance(found, kind) and not (kind is int and isinstance(found, bool)):
-        return found
-    raise Error(f"the parameter '{name}' is a {kind.__name__}, not {found!r:.60}")
-
-
-def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:
-    """Return the parameters that a dataclass of settings has, each of the kind of its default.
-
-    Raises:
-        Error: One is of another kind.
-    """
-    usual = kind()
-    return {
-        each.name: value_of(values, each.name, getattr(usual, each.name)) for each in fields(kind)
-    }
 
 
 def costmap_of(values: Values, *, name: str = "costmap", frame: str = "map") -> CostmapSetup:

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 
 from gazelle.errors import Error, did_you_mean
-from gazelle.navigation.costmap.parameters import Values, fields_of
 from gazelle.navigation.localization.odometry_models import check_model
+from gazelle_ros.base.parameter_values import Values, fields_of
 
 LASER_MODELS = ("likelihood_field", "beam", "likelihood_field_prob")
 

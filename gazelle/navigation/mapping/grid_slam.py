@@ -13,11 +13,11 @@ from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import Error
-from gazelle.navigation.costmap.parameters import Values, fields_of
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.mapping.scan_matching import ScanMatcher
 from gazelle.navigation.mapping.tiled_maps import SIDE, TiledMaps
 from gazelle.navigation.planners.planar import between, composed, inverse
+from gazelle_ros.base.parameter_values import Values, fields_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,12 +16,12 @@ from gazelle.array_types import Floats
 from gazelle.description import Pose
 from gazelle.description.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 from gazelle.errors import Error
-from gazelle.navigation.costmap.parameters import Values, fields_of
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.mapping.pose_graph import PoseEdge, optimized
 from gazelle.navigation.mapping.scan_matching import ScanMatcher
 from gazelle.navigation.mapping.tiled_maps import SIDE, TiledMaps
 from gazelle.navigation.planners.planar import between, composed, inverse
+from gazelle_ros.base.parameter_values import Values, fields_of
 
 _SIGMA, _TURN, _HALVINGS = 0.05, 0.05, 5
 _LEAST_VISITS, _LEAST_SHARE = 2, 0.1

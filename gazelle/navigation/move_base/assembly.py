@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gazelle.navigation.costmap import CostmapSetup, costmap_of
-from gazelle.navigation.costmap.parameters import Values, value_of
 from gazelle.navigation.move_base.recovery import make_recovery
 from gazelle.navigation.move_base.settings import MoveBaseSettings, recoveries_of
 from gazelle.navigation.move_base.state_machine import MoveBase
 from gazelle.navigation.planners.plugins import global_planner, local_planner
+from gazelle_ros.base.parameter_values import Values, value_of
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle.errors import Error
-from gazelle.navigation.costmap.parameters import Values, fields_of
+from gazelle_ros.base.parameter_values import Values, fields_of
 
 DEFAULT_RECOVERY = (
     {"name": "conservative_reset", "type": "clear_costmap_recovery/ClearCostmapRecovery"},

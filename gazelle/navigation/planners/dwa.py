@@ -10,7 +10,6 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.navigation.costmap import Costmap
-from gazelle.navigation.costmap.parameters import fields_of
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.planners.following_plan import PlanFollower
 from gazelle.navigation.planners.oscillation import OscillationGuard
@@ -18,6 +17,7 @@ from gazelle.navigation.planners.plugins import Values, Velocity
 from gazelle.navigation.planners.rollout import NO_MOTION, TrajectoryRollout, steps_of
 from gazelle.navigation.planners.stop_rotate import StopRotate, VelocityLimits
 from gazelle.navigation.planners.wavefront import grid_distances
+from gazelle_ros.base.parameter_values import fields_of
 
 _ROUNDING = 1e-4
 """By how much a velocity may be below its least, as in the original."""

@@ -8,11 +8,11 @@ import numpy as np
 
 from gazelle.array_types import Floats, Floats32
 from gazelle.navigation.costmap import Costmap
-from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.costmap.values import NO_INFORMATION
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.navfn import PotentialPlanner, heading_along, turned
 from gazelle.navigation.planners.plugins import Values
+from gazelle_ros.base.parameter_values import value_of
 
 _SIDES = {4: math.pi, 5: math.pi / 2.0, 6: -math.pi / 2.0}
 """Modes in which the robot goes backward, or with its left or right side ahead."""

@@ -9,11 +9,11 @@ import numpy as np
 
 from gazelle.array_types import Floats, Floats32
 from gazelle.navigation.costmap import Costmap
-from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.costmap.values import INSCRIBED, NO_INFORMATION
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.plugins import GlobalPlannerPlugin, Values
 from gazelle.navigation.planners.potential import NOT_REACHED, PotentialField
+from gazelle_ros.base.parameter_values import value_of
 
 _NEUTRAL: Final = 50.0
 _FACTOR: Final = 0.8

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from gazelle.array_types import Floats
-from gazelle.navigation.costmap.parameters import value_of
 from gazelle.navigation.following import Pose2, wrapped
 from gazelle.navigation.planners.plugins import STOP, Values, Velocity
+from gazelle_ros.base.parameter_values import value_of
 
 _OLD_NAMES = {
     "max_vel_trans": "max_trans_vel",

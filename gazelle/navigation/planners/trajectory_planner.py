@@ -10,7 +10,6 @@ import numpy as np
 
 from gazelle.array_types import Floats
 from gazelle.navigation.costmap import Costmap
-from gazelle.navigation.costmap.parameters import fields_of
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.planners.dwa import driven, spread
 from gazelle.navigation.planners.following_plan import PlanFollower
@@ -18,6 +17,7 @@ from gazelle.navigation.planners.plugins import Values, Velocity
 from gazelle.navigation.planners.rollout import TrajectoryRollout, steps_of
 from gazelle.navigation.planners.stop_rotate import StopRotate, VelocityLimits
 from gazelle.navigation.planners.wavefront import grid_distances
+from gazelle_ros.base.parameter_values import fields_of
 
 
 @dataclass(frozen=True, slots=True)

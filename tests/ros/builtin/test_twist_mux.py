@@ -9,7 +9,8 @@ from ros.graph import until
 
 from gazelle_ros import load_message
 from gazelle_ros.base.errors import RosError
-from gazelle_ros.builtin.twist_mux import MuxInput, Priorities, TwistMux, arrow_of
+from gazelle_ros.builtin.mux_inputs import MuxInput
+from gazelle_ros.builtin.twist_mux import Priorities, TwistMux, arrow_of
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import geometry_msgs, std_msgs
 

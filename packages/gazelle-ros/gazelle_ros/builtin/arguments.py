@@ -106,6 +106,23 @@ class NodeWork(Protocol):
         """Run until shutdown."""
 
 
+class CallbackWork:
+    """Work that callbacks do.
+
+    Args:
+        node: On the graph.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self.node = node
+
+    def run(self, stop: threading.Event) -> None:
+        """Wait until shutdown."""
+        # The node may have been asked to end while it began, before there was a hook.
+        while not self.node.closed and not stop.wait(_END_LOOK_S):
+            pass
+
+
 def run_node(arguments: Sequence[str], name: str, make: Callable[[Node], NodeWork]) -> int:
     """Start a node, and do its work until Ctrl-C, SIGTERM, or until it is asked to end; returns 0.
 
@@ -125,8 +142,6 @@ def spin(node: Node) -> int:
     """Wait until Ctrl-C, SIGTERM, or until the node is asked to end; returns 0."""
     with stopping() as stop:
         node.on_shutdown.append(lambda _reason: stop.set())
-        # It may have been asked to end while it began, before there was a hook.
-        while not node.closed and not stop.wait(_END_LOOK_S):
-            pass
+        CallbackWork(node).run(stop)
     node.close()
     return 0

@@ -6,6 +6,7 @@ Programs of theirs that Gazelle runs itself stand in the manifest, one a line::
       <gazelle>
         <node type="gzserver" main="module:function"/>
         <node type="gazebo" main="module:function" process="gzserver"/>
+        <nodelet class="Filter" make="module:function"/>
       </gazelle>
     </export>
 
@@ -40,6 +41,10 @@ def package(name: str) -> BuiltinPackage | None:
     return BuiltinPackage(
         name,
         {node.attrib["type"]: node.attrib["main"] for node in nodes},
+        {
+            each.attrib["class"]: each.attrib["make"]
+            for each in manifest.findall("export/gazelle/nodelet")
+        },
         folder,
         process_names={
             node.attrib["type"]: node.attrib["process"]

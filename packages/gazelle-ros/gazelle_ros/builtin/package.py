@@ -14,6 +14,8 @@ class BuiltinPackage:
     name: str
     nodes: Mapping[str, str] = field(default_factory=dict)
     """From the type of a node to ``module:function``, a `Main`."""
+    nodelets: Mapping[str, str] = field(default_factory=dict)
+    """From the class of a nodelet, without the package, to ``module:function``, which makes a `NodeWork`."""
     folder: Path | None = None
     """Result of ``$(find PACKAGE)``, if it has files."""
     skipped: str | None = None

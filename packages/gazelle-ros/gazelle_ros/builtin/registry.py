@@ -13,13 +13,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle_ros.base.entry_points import entry_points_of_others
-from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.errors import RosError, did_you_mean
 from gazelle_ros.base.path_texts import can_be_path
 from gazelle_ros.builtin import bundled
 from gazelle_ros.builtin.package import BuiltinPackage
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
+
+    from gazelle_ros.builtin.arguments import NodeWork
+    from gazelle_ros.node import Node
 
 GROUP = "gazelle_ros.nodes"
 
@@ -29,6 +32,7 @@ Main = Callable[[Sequence[str]], int]
 
 _SHARE = Path(__file__).parent / "share"
 _NO_SCREEN = "it is a window for people"
+_CMD_VEL_MUX = {"CmdVelMuxNodelet": "gazelle_ros.builtin.cmd_vel_mux:CmdVelMux"}
 
 _OWN = {
     package.name: package
@@ -43,9 +47,11 @@ _OWN = {
             "robot_state_publisher": "gazelle_ros.builtin.robot:state_main",
             "state_publisher": "gazelle_ros.builtin.robot:state_main",
         }),
+        BuiltinPackage("cmd_vel_mux", {"cmd_vel_mux": "gazelle_ros.builtin.cmd_vel_mux:main"}, _CMD_VEL_MUX),
         BuiltinPackage("joint_state_publisher", {
             "joint_state_publisher": "gazelle_ros.builtin.robot:joint_main",
         }),
+        BuiltinPackage("nodelet", {"nodelet": "gazelle_ros.builtin.nodelets.command:main"}),
         BuiltinPackage("rosapi", {"rosapi_node": "gazelle_ros.rosbridge.nodes:rosapi_main"}),
         BuiltinPackage("rosbridge_server", dict.fromkeys(("rosbridge_websocket", "rosbridge_websocket.py"), "gazelle_ros.rosbridge.nodes:websocket_main"), folder=_SHARE / "rosbridge_server"),
         BuiltinPackage("rosbag", {
@@ -90,6 +96,7 @@ _OWN = {
             "xacro": "gazelle_ros.builtin.xacro:main",
             "xacro.py": "gazelle_ros.builtin.xacro:main",
         }, folder=_SHARE / "xacro"),
+        BuiltinPackage("yocs_cmd_vel_mux", nodelets=_CMD_VEL_MUX),
         BuiltinPackage("rviz", skipped=_NO_SCREEN),
     )
 }  # fmt: skip
@@ -155,6 +162,37 @@ def main_of(name: str, kind: str) -> Main:
         raise RosError(f"no built-in package '{name}' has a node '{kind}'")
     main: Main = pkgutil.resolve_name(target)
     return main
+
+
+def nodelet(kind: str) -> Callable[[Node], NodeWork]:
+    """Return the function that makes a built-in nodelet.
+
+    Args:
+        kind: Name of its class, such as ``depthimage_to_laserscan/DepthImageToLaserScanNodelet``.
+
+    Raises:
+        RosError: There is no such nodelet.
+    """
+    home, _, name = kind.partition("/")
+    found = package(home)
+    target = found.nodelets.get(name) if found is not None else None
+    if target is None:
+        raise RosError(
+            f"there is no nodelet '{kind}'",
+            hint=f"{did_you_mean(kind, nodelets())} Nodelets written in C++ are not run",
+        )
+    made: Callable[[Node], NodeWork] = pkgutil.resolve_name(target)
+    return made
+
+
+def nodelets() -> list[str]:
+    """Return names of the classes of all built-in nodelets."""
+    return [
+        f"{found.name}/{name}"
+        for found in map(package, packages())
+        if found is not None
+        for name in sorted(found.nodelets)
+    ]
 
 
 @functools.cache

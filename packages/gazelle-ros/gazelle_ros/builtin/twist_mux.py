@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import logging
-import math
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from gazelle_ros.base.errors import RosError, did_you_mean
+from gazelle_ros.base.errors import RosError
 from gazelle_ros.builtin.arguments import parse_arguments, run_node, spin
-from gazelle_ros.clock import SECOND
+from gazelle_ros.builtin.mux_inputs import MuxInput, mux_input
 from gazelle_ros.msgs import diagnostic_msgs, geometry_msgs, std_msgs, visualization_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.time import Time
@@ -19,46 +17,7 @@ from gazelle_ros.time import Time
 HIGHEST = 255
 """Highest priority."""
 _DIAGNOSTICS_S = 1.0
-_KEYS = ("name", "topic", "timeout", "priority")
-_LOG = logging.getLogger(__name__)
-
-
-@dataclass(slots=True)
-class MuxInput:
-    """A topic that is listened to, and its last message.
-
-    Attributes:
-        name: In diagnostics.
-        topic: As the parameter has it.
-        timeout: Age from which a message does not count [s]; 0 means at any age.
-        priority: 0 to 255.
-        stamp: Time of the last message [ns]; before the first one it is 0, so that a source with a
-            timeout begins expired.
-        locked: Value of the last message, of a lock.
-    """
-
-    name: str
-    topic: str
-    timeout: float
-    priority: int
-    stamp: int = 0
-    locked: bool = False
-
-    def expired(self, now: int) -> bool:
-        """Return whether the last message is too old at a time [ns]."""
-        return self.timeout > 0.0 and now - self.stamp > self.timeout * SECOND
-
-    def is_locked(self, now: int) -> bool:
-        """Return whether a lock holds: by its message, or because it is silent."""
-        return self.locked or self.expired(now)
-
-    def is_masked(self, now: int, lock_priority: int) -> bool:
-        """Return whether commands are dropped: the last one is too old, or a lock is above."""
-        return self.expired(now) or self.priority < lock_priority
-
-    def described(self, state: str) -> str:
-        """Return the text of diagnostics."""
-        return f" {state} (listening to {self.topic} @ {self.timeout:f}s with priority #{self.priority})"
+_LOG = logging.getLogger("gazelle.ros.twist_mux")
 
 
 @dataclass(slots=True)
@@ -210,32 +169,4 @@ def _sources(node: Node, parameter: str) -> Iterator[MuxInput]:
     if not isinstance(listed, list):
         raise RosError(f"{full} is a list of name, topic, timeout and priority, not {listed!r:.60}")
     for number, each in enumerate(listed):
-        yield _source(f"{full}[{number}]", each)
-
-
-def _source(where: str, given: Any) -> MuxInput:
-    if not isinstance(given, Mapping):
-        raise RosError(f"{where} has name, topic, timeout and priority; it is {given!r:.60}")
-    for key in given.keys() - set(_KEYS):
-        hint = did_you_mean(key, _KEYS)
-        _LOG.warning("%s has an unknown '%s'%s", where, key, f"; {hint}" if hint else "")
-    missing = [key for key in _KEYS if key not in given]
-    if missing:
-        raise RosError(f"{where} has no '{missing[0]}'")
-    name, topic = given["name"], given["topic"]
-    for key in ("name", "topic"):
-        if not (isinstance(given[key], str) and given[key]):
-            raise RosError(f"the {key} of {where} is a word, not {given[key]!r:.60}")
-    priority = _number(where, "priority", given["priority"])
-    timeout = _number(where, "timeout", given["timeout"])
-    clamped = round(min(max(priority, 0), HIGHEST))
-    if clamped != priority:
-        _LOG.warning("%s: priority %r is taken for %d", where, given["priority"], clamped)
-    return MuxInput(name, topic, timeout, clamped)
-
-
-def _number(where: str, key: str, given: Any) -> float:
-    number = isinstance(given, int | float) and not isinstance(given, bool)
-    if not (number and math.isfinite(given)):
-        raise RosError(f"the {key} of {where} is a number, not {given!r:.60}")
-    return float(given)
+        yield mux_input(f"{full}[{number}]", each, highest=HIGHEST)

@@ -56,9 +56,22 @@ def find_program(node: NodePlan, packages: Packages) -> Program | Skipped:
         LaunchError: There is none; it names the place in the launch file.
     """
     try:
-        return program_of(node.package, node.type, packages)
+        found = program_of(node.package, node.type, packages)
+        if found == Program((*_BUILTIN, "nodelet", "nodelet"), None):
+            _check_nodelet(_split(node.arguments, node))
     except Error as error:
         raise LaunchError(error.message, source=node.place, hint=error.hint) from None
+    return found
+
+
+def _check_nodelet(words: Sequence[str]) -> None:
+    """Check that a nodelet is built in.
+
+    Raises:
+        RosError: It is not.
+    """
+    if len(words) > 1 and words[0] in {"load", "standalone"}:
+        registry.nodelet(words[1])
 
 
 def program_of(package: str, kind: str, packages: Packages) -> Program | Skipped:

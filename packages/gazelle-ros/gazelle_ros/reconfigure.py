@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from gazelle_ros import Node
 from gazelle_ros.msgs import dynamic_reconfigure
+from gazelle_ros.node import Node
 
 _LISTS = {bool: "bools", int: "ints", str: "strs", float: "doubles"}
 _MESSAGES = {

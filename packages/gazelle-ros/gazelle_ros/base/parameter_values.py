@@ -1,0 +1,42 @@
+"""Values of ROS parameters, checked against the kinds of their defaults."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any
+
+from gazelle_ros.base.errors import Error
+from gazelle_ros.base.real_numbers import real
+
+Values = Mapping[str, Any]
+
+
+def value_of(values: Values, name: str, default: Any) -> Any:
+    """Return a parameter, of the kind of its default.
+
+    Raises:
+        Error: It is of another kind.
+    """
+    found = values.get(name, default)
+    kind = type(default)
+    number = real(found)
+    if kind is float and number is not None:
+        return number
+    if kind is int and isinstance(found, float) and found.is_integer():
+        return int(found)
+    if isinstance(found, kind) and not (kind is int and isinstance(found, bool)):
+        return found
+    raise Error(f"the parameter '{name}' is a {kind.__name__}, not {found!r:.60}")
+
+
+def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:
+    """Return the parameters that a dataclass of settings has, each of the kind of its default.
+
+    Raises:
+        Error: One is of another kind.
+    """
+    usual = kind()
+    return {
+        each.name: value_of(values, each.name, getattr(usual, each.name)) for each in fields(kind)
+    }

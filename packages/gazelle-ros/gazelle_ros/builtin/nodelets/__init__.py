@@ -1,0 +1,1 @@
+"""The program ``nodelet``: several built-in nodes in one process."""

@@ -1,0 +1,153 @@
+"""The command line of ``nodelet``: manager, load, unload and standalone."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Sequence
+
+from gazelle_ros.base.errors import RosError, did_you_mean
+from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.builtin.arguments import NodeArguments, parse_arguments, run_node
+from gazelle_ros.builtin.nodelets.manager import NodeletManager
+from gazelle_ros.builtin.registry import nodelet
+from gazelle_ros.errors import (
+    NodeClosedError,
+    RosTimeoutError,
+    ServiceError,
+    ServiceNotFoundError,
+    UnreachableError,
+)
+from gazelle_ros.msgs import nodelet as messages
+from gazelle_ros.node import Node
+from gazelle_ros.services import find_service
+
+USAGE = """nodelet load pkg/Class MANAGER    run a nodelet in a manager, until this program ends
+nodelet unload NAME MANAGER       end a nodelet of a manager
+nodelet standalone pkg/Class      run a nodelet alone
+nodelet manager                   run a manager"""
+_WORDS = {"manager": 1, "standalone": 2, "unload": 3, "load": 3}
+_FIRST_WAIT_S = 10.0
+_PROBE_S = 0.5
+_ANSWER_S = 5.0
+_LOG = logging.getLogger("gazelle.ros.nodelet")
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Run a manager or a nodelet until shutdown; returns the exit code."""
+    words = parse_arguments(arguments, "nodelet").plain
+    command = words[0] if words else ""
+    if command not in _WORDS:
+        raise RosError(f"nodelet has no command '{command}'", hint=did_you_mean(command, _WORDS))
+    if len(words) < _WORDS[command]:
+        raise RosError("there are too few arguments", hint=USAGE)
+    if command == "manager":
+        return run_node(arguments, "manager", NodeletManager)
+    if command == "standalone":
+        return run_node(arguments, default_name(words[1]), nodelet(words[1]))
+    if command == "unload":
+        return _unload(parse_arguments(arguments, "nodelet_unloader"))
+    nodelet(words[1])  # a wrong class is reported at once, whether the manager is there or not
+    return _load(parse_arguments(arguments, default_name(words[1])))
+
+
+def default_name(kind: str) -> str:
+    """Return the name of a node that has none on its command line."""
+    return kind.replace("/", "_")
+
+
+def _load(found: NodeArguments) -> int:
+    _, kind, manager, *rest = found.plain
+    with found.start() as node, stopping() as stop:
+        loader = _NodeletLoader(node, manager)
+
+        def end(_reason: str) -> None:
+            loader.unload()  # now, as the node is closed after this
+            stop.set()
+
+        node.on_shutdown.append(end)
+        if not _wait_for_manager(node, manager, stop):
+            return 0
+        loader.load(kind, [each for each in rest if each != "--no-bond"])
+        while not node.closed and not stop.wait(_PROBE_S):
+            if not _is_there(node, manager):
+                _LOG.warning("the nodelet manager %s is gone, and %s with it", manager, node.name)
+                return 0
+        loader.unload()
+    return 0
+
+
+class _NodeletLoader:
+    """Client of a manager for one nodelet, which is called as the node."""
+
+    def __init__(self, node: Node, manager: str) -> None:
+        self._node, self._manager = node, manager
+        self._lock = threading.Lock()
+        self._loaded = False
+
+    def load(self, kind: str, arguments: list[str]) -> None:
+        request = messages.srv.NodeletLoadRequest(
+            name=self._node.name,
+            type=kind,
+            remap_source_args=list(self._node.remappings),
+            remap_target_args=list(self._node.remappings.values()),
+            my_argv=arguments,
+        )
+        with self._lock:
+            client = self._node.client(f"{self._manager}/load_nodelet", messages.srv.NodeletLoad)
+            self._loaded = bool(client.call(request).success)
+        if not self._loaded:
+            raise RosError(f"{self._manager} did not load {kind}; its output says why")
+
+    def unload(self) -> None:
+        """Unload the nodelet, unless that was done."""
+        with self._lock:
+            if self._loaded and not self._node.closed:
+                _ask_to_unload(self._node, self._manager, self._node.name)
+            self._loaded = False
+
+
+def _wait_for_manager(node: Node, manager: str, stop: threading.Event) -> bool:
+    """Wait until a manager is there; False if the process is to end first."""
+    waited = 0.0
+    while not stop.is_set() and not node.closed:
+        try:
+            node.wait_for_service(f"{manager}/load_nodelet", _PROBE_S)
+        except RosTimeoutError:
+            waited += _PROBE_S
+            if waited % _FIRST_WAIT_S == 0.0:
+                _LOG.warning("waiting for the nodelet manager %s for %d s", manager, waited)
+        except NodeClosedError:
+            return False
+        else:
+            return True
+    return False
+
+
+def _is_there(node: Node, manager: str) -> bool:
+    service = node.resolve(f"{manager}/unload_nodelet")
+    try:
+        find_service(node, service)  # fails at once where the manager has ended in order
+        node.wait_for_service(service, _ANSWER_S)
+    except (ServiceNotFoundError, RosTimeoutError):
+        return False
+    except UnreachableError:
+        return True  # no master now says nothing of the manager
+    except NodeClosedError:
+        return True  # the loader itself ends
+    return True
+
+
+def _unload(found: NodeArguments) -> int:
+    _, name, manager, *_ = found.plain
+    with found.start() as node:
+        return 0 if _ask_to_unload(node, manager, name) else 1
+
+
+def _ask_to_unload(node: Node, manager: str, name: str) -> bool:
+    client = node.client(f"{manager}/unload_nodelet", messages.srv.NodeletUnload)
+    try:
+        return bool(client.call(messages.srv.NodeletUnloadRequest(name=name), _ANSWER_S).success)
+    except (ServiceError, UnreachableError, RosTimeoutError) as error:
+        _LOG.warning("%s is not unloaded from %s: %s", name, manager, error)
+        return False

@@ -1,0 +1,163 @@
+"""The program ``nodelet``: built-in nodes that a manager runs in its process."""
+
+from __future__ import annotations
+
+import signal
+
+import pytest
+from ros.graph import Background, until
+
+from gazelle_ros import load_message, load_service
+from gazelle_ros.base.errors import RosError
+from gazelle_ros.builtin import registry
+from gazelle_ros.builtin.arguments import CallbackWork
+from gazelle_ros.builtin.nodelets.command import main
+from gazelle_ros.builtin.nodelets.manager import NodeletManager
+from gazelle_ros.builtin.package import BuiltinPackage
+from gazelle_ros.tools.graph import GraphInspector
+from gazelle_ros.tools.nodes import kill
+
+STRING = load_message("std_msgs/String")
+
+
+class Repeating(CallbackWork):
+    """A nodelet that repeats ``in`` on ``out``, with a prefix."""
+
+    def __init__(self, node):
+        super().__init__(node)
+        prefix = node.get_param("~prefix", "")
+        if prefix == "wrong":
+            raise RosError("the prefix is wrong")
+        self.out = node.advertise("~out", STRING)
+        node.subscribe(
+            "in", STRING, lambda message: self.out.publish(STRING(data=prefix + message.data))
+        )
+
+
+class Failing(CallbackWork):
+    """A nodelet that ends by an error."""
+
+    def run(self, stop):
+        raise ValueError("it broke")
+
+
+@pytest.fixture(autouse=True)
+def nodelets(monkeypatch):
+    monkeypatch.setattr(registry, "_registered", {})
+    classes = {"Repeating": f"{__name__}:Repeating", "Failing": f"{__name__}:Failing"}
+    registry.register(BuiltinPackage("testing", nodelets=classes))
+
+
+@pytest.fixture
+def manager(make_node):
+    made = NodeletManager(make_node("manager"))
+    running = Background(made.run)
+    yield made
+    running.end()
+
+
+@pytest.fixture
+def call(make_node):
+    """Return a function that calls a service of the manager, and returns the answer."""
+    node = make_node("caller")
+
+    def run(name, /, **fields):
+        kind = load_service(f"nodelet/Nodelet{name.split('_')[0].title()}")
+        client = node.client(f"/manager/{name}", kind)
+        return client.call(kind._request_class(**fields))
+
+    return run
+
+
+def test_a_nodelet_has_names_parameters_and_remappings_of_its_own(manager, call, make_node, listen):
+    node = make_node("setter")
+    node.set_param("/here/one/prefix", "1 ")
+    remappings = {"remap_source_args": ["/here/in"], "remap_target_args": ["/text"]}
+    assert call("load_nodelet", name="/here/one", type="testing/Repeating", **remappings).success
+    assert call("load_nodelet", name="/two", type="testing/Repeating").success
+    assert call("list").nodelets == ["/here/one", "/two"]
+    got = {name: listen(f"/{name}/out", STRING) for name in ("here/one", "two")}
+    senders = [node.advertise(topic, STRING) for topic in ("/text", "/in")]
+    until(lambda: all(each.num_connections for each in senders))
+    until(lambda: all(each.num_connections for each in _outputs(manager)))
+    for each, text in zip(senders, ("a", "b"), strict=True):
+        each.publish(STRING(data=text))
+    until(lambda: all(got.values()))
+    assert [got["here/one"][0].data, got["two"][0].data] == ["1 a", "b"]
+    assert call("unload_nodelet", name="/two").success
+    assert call("list").nodelets == ["/here/one"]
+    assert not call("unload_nodelet", name="/two").success
+
+
+def _outputs(manager):
+    return [each._work.out for each in manager._loaded.values()]
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "words"),
+    [
+        ("/one", "testing/Repeating", "there is a nodelet /one already"),
+        ("/two", "testing/Repeatign", "did you mean 'testing/Repeating'"),
+        ("/two", "nowhere/Thing", "there is no nodelet 'nowhere/Thing'"),
+        ("/wrong", "testing/Repeating", "the prefix is wrong"),
+    ],
+)
+def test_what_cannot_be_loaded_is_named_and_leaves_nothing(
+    manager, call, make_node, caplog, name, kind, words
+):
+    make_node("setter").set_param("/wrong/prefix", "wrong")
+    assert call("load_nodelet", name="/one", type="testing/Repeating").success
+    assert not call("load_nodelet", name=name, type=kind).success
+    assert words in caplog.text
+    assert call("list").nodelets == ["/one"]
+
+
+def test_a_failing_nodelet_leaves_the_others_running(manager, call, caplog):
+    assert call("load_nodelet", name="/broken", type="testing/Failing").success
+    until(lambda: "it broke" in caplog.text)
+    assert call("load_nodelet", name="/one", type="testing/Repeating").success
+    assert call("list").nodelets == ["/broken", "/one"]
+
+
+def test_the_loader_waits_unloads_at_its_end_and_ends_with_the_manager(
+    make_node, master, monkeypatch
+):
+    monkeypatch.setenv("ROS_MASTER_URI", master.uri)
+    loader = Background(
+        lambda _stop: main(["load", "testing/Repeating", "manager", "__name:=one", "in:=text"])
+    )
+    node = make_node("manager")
+    made = NodeletManager(node)
+    until(lambda: made.loaded == ["/one"])
+    assert made._loaded["/one"]._node.resolve("in") == "/text"
+    with GraphInspector("rosnode", master_uri=master.uri) as graph:
+        assert kill(graph, ["/one"]) == []
+    loader.end(stop=False)
+    assert made.loaded == []
+    loader = Background(lambda _stop: main(["load", "testing/Repeating", "manager"]))
+    until(lambda: made.loaded == ["/testing_Repeating"])
+    made.unload("/testing_Repeating")
+    node.close()
+    loader.end(stop=False)
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        ([], "no command ''"),
+        (["manger"], "did you mean 'manager'"),
+        (["load", "testing/Repeating"], "too few arguments"),
+        (["load", "testing/Repeatin", "manager"], "did you mean 'testing/Repeating'"),
+        (["standalone", "testing/Nothing"], "no nodelet 'testing/Nothing'"),
+    ],
+)
+def test_a_wrong_command_line_is_an_error(words, text):
+    with pytest.raises(RosError, match=text):
+        main(words)
+
+
+def test_a_started_manager_is_killed_like_any_node(start, make_node):
+    process = start("nodelet", "nodelet", "manager", "__name:=mine")
+    make_node("waiter").wait_for_service("/mine/load_nodelet", 60)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(60) == 0
