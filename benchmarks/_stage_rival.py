@@ -22,7 +22,7 @@ from gazelle.stage import FleetController, StageSimulation, register_controller
 from gazelle.stage.layout import layout_of
 
 ABSENT = """
-Stage not found: its figures here are those of docs/benchmarks.md, measured once on a machine of
+Stage not found: its figures here are those of docs/explanation/benchmarks.md, measured once on a machine of
 this kind. With a program 'stage' on PATH, or --stage PATH, it runs beside Gazelle, in turns."""
 
 # Robots, side of the office [m], and seconds that Stage simulates without and with a sensor.

@@ -43,7 +43,7 @@ def test_each_table_has_a_benchmark_that_prints_it(update):
 
 def test_each_block_of_figures_stands_behind_its_command(update):
     """A block that looks like a benchmark's and has no mark is never measured again."""
-    text = (ROOT / "docs" / "benchmarks.md").read_text()
+    text = (ROOT / "docs" / "explanation" / "benchmarks.md").read_text()
     heads = re.findall(r"(?m)^```text\n20\d\d-", text)
     assert len(heads) == sum(table.page.name == "benchmarks.md" for table in update.tables())
 

@@ -73,7 +73,7 @@ def test_our_names_beside_those_of_other_tools_exist():
     from gazelle.simulation.physics import _NAMES as PHYSICS
     from gazelle.simulation.physics import PhysicsProperties
 
-    text = (ROOT / "docs" / "names.md").read_text()
+    text = (ROOT / "docs" / "reference" / "names.md").read_text()
     owners = {
         "gazebo": clients.Gazebo,
         "controllers": clients.Controllers,

@@ -2,7 +2,7 @@
 
 Steps are: each training of gazelle/training/claims.yaml with three seeds, each table of the docs,
 the slow tests by folder, and ROS 1's own suites. Figures go to where they are published; the outcome
-of each step goes to docs/release-check.md, with the commit. It takes hours. A step that has passed
+of each step goes to docs/explanation/release-check.md, with the commit. It takes hours. A step that has passed
 at a commit is not repeated, so a run that was broken off goes on.
 
     python tools/release_check.py
@@ -39,7 +39,7 @@ from gazelle.training.claims import (  # noqa: E402
     read_claims,
 )
 
-REPORT = ROOT / "docs" / "release-check.md"
+REPORT = ROOT / "docs" / "explanation" / "release-check.md"
 _TWO_PROCESSES = ("-n", "2", "--dist", "loadfile")
 GAZELLE = (sys.executable, "-m", "gazelle.cli.main")
 

@@ -1,4 +1,4 @@
-"""Print the table of docs/stage.md that compares Gazelle with Stage 4.3 itself, scene by scene.
+"""Print the table of docs/reference/stage.md that compares Gazelle with Stage 4.3 itself, scene by scene.
 
 Needs Stage: a program 'stage' on PATH, or given as the argument, and g++ for stage_probe.cc.
 """

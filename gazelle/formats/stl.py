@@ -1,6 +1,6 @@
 """STL files, binary and text.
 
-Not by trimesh: ``docs/decisions/009-own-stl-and-obj.md``.
+Not by trimesh: ``docs/explanation/decisions/009-own-stl-and-obj.md``.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Wavefront OBJ files: positions and faces; materials are for who draws them (`wavefront_looks`).
 
-Not by trimesh: ``docs/decisions/009-own-stl-and-obj.md``.
+Not by trimesh: ``docs/explanation/decisions/009-own-stl-and-obj.md``.
 """
 
 from __future__ import annotations

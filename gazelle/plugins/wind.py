@@ -1,7 +1,7 @@
 """Wind that acts: what ``libWindPlugin.so`` of Gazebo classic does.
 
 The engine itself pushes links with ``<enable_wind>`` by the world's ``<wind>`` (see
-docs/physics.md), as hard as this plugin's ``<force_approximation_scaling_factor>`` says. What
+docs/explanation/physics.md), as hard as this plugin's ``<force_approximation_scaling_factor>`` says. What
 is left for the plugin is to say what of its settings is not simulated.
 """
 

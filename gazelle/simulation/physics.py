@@ -41,7 +41,7 @@ _NAMES = (*_OF_WORLD, *_OF_PROFILE, *_OF_SOLVER)
 
 # What the engine has no use for: it is kept and reported. Joints have no error to reduce, and
 # contacts the stiffness that their surfaces ask for, whatever ODE's solver would make of them;
-# docs/physics.md says more.
+# docs/explanation/physics.md says more.
 _WITHOUT_EFFECT = ("sor", "precon_iterations", "max_contacts", "erp", "cfm")
 
 _FRICTION_MODELS = ("pyramid_model", "box_model", "cone_model")
@@ -273,7 +273,7 @@ class PhysicsProperties:
 
     @property
     def integrator(self) -> str | None:
-        """``euler``, as ODE, or ``rk4``; None means ``euler``. See docs/physics.md."""
+        """``euler``, as ODE, or ``rk4``; None means ``euler``. See docs/explanation/physics.md."""
         return self.profile.integrator
 
     @integrator.setter
@@ -286,7 +286,7 @@ class PhysicsProperties:
 
         None leaves it to ``friction_model``, or else to the engine: exact where something
         is free. Friction is the same cone or pyramid as with ``friction_model``, which this
-        goes before. See docs/physics.md.
+        goes before. See docs/explanation/physics.md.
         """
         return self.profile.contacts
 

@@ -44,7 +44,7 @@ __all__ = [
 
 # Starts, headings, goals and phases of obstacles from all over the free space: what is learnt
 # from the published ones alone does not hold elsewhere. What a policy is paid for, logarithms of
-# ranges and the dear collision are each worth points, see docs/benchmarks.md.
+# ranges and the dear collision are each worth points, see docs/explanation/benchmarks.md.
 _NAVIGATION = Recipe(
     steps=1_000_000,
     num_envs=512,

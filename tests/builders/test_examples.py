@@ -44,12 +44,12 @@ def test_equip_a_robot(tmp_path, seed):
 
 def test_the_page_about_builders_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    page = (EXAMPLES.parent / "docs" / "builders.md").read_text(encoding="utf-8")
+    page = (EXAMPLES.parent / "docs" / "how-to" / "builders.md").read_text(encoding="utf-8")
     blocks = [block.split("```")[0] for block in page.split("```python\n")[1:]]
     assert len(blocks) == 2
     names = {}
     for block in blocks:
-        exec(compile(block, "docs/builders.md", "exec"), names)
+        exec(compile(block, "docs/how-to/builders.md", "exec"), names)
     assert check("lab.world") == []
     names["sim"].close()
 
@@ -57,7 +57,7 @@ def test_the_page_about_builders_runs(tmp_path, monkeypatch):
 def test_the_page_about_builders_names_everything():
     import gazelle.builders
 
-    page = (EXAMPLES.parent / "docs" / "builders.md").read_text(encoding="utf-8")
+    page = (EXAMPLES.parent / "docs" / "how-to" / "builders.md").read_text(encoding="utf-8")
     inner = {"BuildError", "Opening", "Paint", "PALETTE", "PRESETS", "Place", "Planet", "Terrain",
              "Zone", "along", "material", "physics", "planet", "plan_places", "plan_size",
              "solid_inertial"}  # fmt: skip

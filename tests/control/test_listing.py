@@ -7,7 +7,7 @@ from pathlib import Path
 from gazelle.cli.main import main
 from gazelle.control import registry, types
 
-PAGE = Path(__file__).parents[2] / "docs" / "control.md"
+PAGE = Path(__file__).parents[2] / "docs" / "reference" / "control.md"
 
 
 def own_types():

@@ -1,4 +1,4 @@
-"""docs/plugins.md names every plugin, its tags and their defaults, as the code has them."""
+"""docs/reference/plugins.md names every plugin, its tags and their defaults, as the code has them."""
 
 import ast
 import importlib
@@ -10,7 +10,7 @@ import pytest
 
 from gazelle.plugins.table import TABLE
 
-PAGE = Path(__file__).parents[2] / "docs" / "plugins.md"
+PAGE = Path(__file__).parents[2] / "docs" / "reference" / "plugins.md"
 READING = {"get", "require", "numbers"}
 SIMULATED = [row for row in TABLE if row.code.startswith("gazelle.plugins.")]
 

@@ -48,7 +48,7 @@ class TurtleBot3CameraWorldEnv(SettingsEnv):
 
     ## Options
 
-    Those that every task takes; see docs/gymnasium.md. The physics step is 10 ms in the plane, and in
+    Those that every task takes; see docs/reference/gymnasium.md. The physics step is 10 ms in the plane, and in
     MuJoCo that of the world's file, 1 ms.
 
     ## Versions

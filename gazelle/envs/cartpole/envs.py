@@ -51,7 +51,7 @@ class CartPoleStayUpEnv(SettingsEnv):
 
     ## Options
 
-    Those that every task takes; see docs/gymnasium.md.
+    Those that every task takes; see docs/reference/gymnasium.md.
 
     ## Versions
 

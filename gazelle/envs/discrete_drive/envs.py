@@ -75,7 +75,7 @@ class TurtleBot2MazeEnv(DriveEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md) and ``starts``.
+    Those that every task takes (docs/reference/gymnasium.md) and ``starts``.
 
     ## Versions
 
@@ -136,7 +136,7 @@ class TurtleBot2WallEnv(DriveEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md), ``starts``, ``goal``, another place (x, y) [m], and ``course``.
+    Those that every task takes (docs/reference/gymnasium.md), ``starts``, ``goal``, another place (x, y) [m], and ``course``.
 
     ## Versions
 
@@ -185,7 +185,7 @@ class TurtleBot3WorldEnv(DriveEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md) and ``starts``.
+    Those that every task takes (docs/reference/gymnasium.md) and ``starts``.
 
     ## Versions
 
@@ -247,7 +247,7 @@ class HusarionEnv(DriveEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md), ``starts``, and ``goal``, another place (x, y) [m], which
+    Those that every task takes (docs/reference/gymnasium.md), ``starts``, and ``goal``, another place (x, y) [m], which
     counts as it is seen, rounded to 0.1.
 
     ## Versions
@@ -305,7 +305,7 @@ class SummitXLRoomEnv(DriveEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md), ``starts``, and ``goal``, another place (x, y) [m].
+    Those that every task takes (docs/reference/gymnasium.md), ``starts``, and ``goal``, another place (x, y) [m].
 
     ## Versions
 

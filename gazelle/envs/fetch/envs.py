@@ -101,7 +101,7 @@ class FetchEnv(TaskGoalEnv):
 
     ## Options
 
-    ``reward_type``, and those that every task takes; see docs/gymnasium.md.
+    ``reward_type``, and those that every task takes; see docs/reference/gymnasium.md.
 
     ## Versions
 

@@ -61,7 +61,7 @@ class HopperStayUpEnv(SettingsEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md); it needs an engine in space.
+    Those that every task takes (docs/reference/gymnasium.md); it needs an engine in space.
 
     ## Versions
 

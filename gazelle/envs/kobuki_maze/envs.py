@@ -63,7 +63,7 @@ class KobukiMazeEnv(SettingsEnv):
 
     ## Options
 
-    Those that every task takes, see docs/gymnasium.md.
+    Those that every task takes, see docs/reference/gymnasium.md.
 
     ## Versions
 

@@ -63,7 +63,7 @@ class MovingCubeEnv(SettingsEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md), ``n_actions``, ``failure_reward`` and ``shows_hold``:
+    Those that every task takes (docs/reference/gymnasium.md), ``n_actions``, ``failure_reward`` and ``shows_hold``:
     with the last a seventh entry counts the steps in which the command stayed the same, 0 to 25. While the
     cube rests, nothing else that is observed changes, so that a policy without a memory cannot wait.
 

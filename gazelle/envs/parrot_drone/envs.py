@@ -15,7 +15,7 @@ class ParrotDroneGotoEnv(SettingsEnv):
 
     The task ``ParrotDroneGoto-v0`` of openai_ros with its observation, actions, reward and ends, in simulated
     time. Id: ``gazelle/ParrotDroneGoto-v0``. The drone has mass, inertia, controllers with their noise, and
-    the sonar of SJTU's simulated AR.Drone (``libplugin_drone.so``, docs/plugins.md); its shape, the barriers,
+    the sonar of SJTU's simulated AR.Drone (``libplugin_drone.so``, docs/reference/plugins.md); its shape, the barriers,
     the stairs and the platform are Gazelle's own, and stand where the published world has such things.
 
     ## Observation
@@ -65,7 +65,7 @@ class ParrotDroneGotoEnv(SettingsEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md) and ``starts``; it needs an engine in space. The physics
+    Those that every task takes (docs/reference/gymnasium.md) and ``starts``; it needs an engine in space. The physics
     step is 4 ms. The published controller makes thrust alternate between too much and none, from step to
     step, by which a drone climbs 2 cm a second; with ``time_step=0.001``, as in Gazebo, half a centimetre.
 

@@ -79,7 +79,7 @@ class UR5ReachEnv(ReachEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md); it needs an engine in space. ``goals="held-out"`` draws goals from
+    Those that every task takes (docs/reference/gymnasium.md); it needs an engine in space. ``goals="held-out"`` draws goals from
     other places, which evaluations do; ``"training"`` ones are the published ones.
 
     ## Versions

@@ -16,7 +16,7 @@ class WamvBuoysEnv(SettingsEnv):
     The task ``WamvNavTwoSetsBuoys-v0`` of openai_ros with its observation, actions, reward and ends, in simulated
     time. Id: ``gazelle/WamvBuoys-v0``. The WAM-V has mass, inertia, resistance and propellers as published with
     VRX (180 kg, hulls of 4.9 m; ``libusv_gazebo_dynamics_plugin.so`` and ``libusv_gazebo_thrust_plugin.so``,
-    docs/plugins.md); its shape and the buoys are Gazelle's own. The water is still: the published one has
+    docs/reference/plugins.md); its shape and the buoys are Gazelle's own. The water is still: the published one has
     three waves, of 13 cm together.
 
     ## Observation
@@ -61,7 +61,7 @@ class WamvBuoysEnv(SettingsEnv):
 
     ## Options
 
-    Those that every task takes (docs/gymnasium.md) and ``starts``; it needs an engine in space.
+    Those that every task takes (docs/reference/gymnasium.md) and ``starts``; it needs an engine in space.
 
     ## Versions
 

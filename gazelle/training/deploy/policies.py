@@ -53,7 +53,7 @@ class Policy:
         if contract.action.kind != "velocity":
             raise TaskError(
                 "the policy's actions are no velocities, so there is nothing to send",
-                hint="give the task a contract; docs/deploy.md says how",
+                hint="give the task a contract; docs/how-to/deploy.md says how",
             )
         self.brain = brain
         self.contract = contract

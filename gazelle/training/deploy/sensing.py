@@ -92,7 +92,7 @@ class Observer:
                 raise TaskError(
                     f"the policy sees '{part.name}', of which its contract does not tell how a "
                     "robot measures it",
-                    hint="give the task a contract; docs/deploy.md says how",
+                    hint="give the task a contract; docs/how-to/deploy.md says how",
                 )
         self.contract = contract
         self.turned = turned

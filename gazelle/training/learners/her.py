@@ -2,7 +2,7 @@
 
 M. Andrychowicz et al., "Hindsight Experience Replay" (NIPS 2017, arXiv 1707.01495), with goals
 from the future of the same episode. Why this is not Stable-Baselines3's class is documented in
-docs/decisions/012-own-learners.md.
+docs/explanation/decisions/012-own-learners.md.
 """
 
 from __future__ import annotations

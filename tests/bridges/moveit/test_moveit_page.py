@@ -1,4 +1,4 @@
-"""The script of docs/moveit.md, as ``gazelle exec`` runs it."""
+"""The script of docs/reference/moveit.md, as ``gazelle exec`` runs it."""
 
 import os
 import re
@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from bridges.moveit.commander_graph import commander_graph
 
-PAGE = Path(__file__).parents[3] / "docs" / "moveit.md"
+PAGE = Path(__file__).parents[3] / "docs" / "reference" / "moveit.md"
 
 
 @pytest.mark.long

@@ -210,7 +210,7 @@ def wheel_on_an_axle(height, friction):
     ("height", "friction", "turns"), [(0.1, 1.0, 0.0), (0.10001, 1.0, 1.0), (0.1, 0.0, 1.0)]
 )
 def test_a_wheel_on_a_fixed_axle_turns_unless_it_touches_with_friction(height, friction, turns):
-    """As docs/physics.md says: friction lets a contact slide only as far as it parts."""
+    """As docs/explanation/physics.md says: friction lets a contact slide only as far as it parts."""
     with gazelle.Simulation(wheel_on_an_axle(height, friction), threads=1) as sim:
         joint = sim.robots["m"].joints["j"]
         joint.apply_effort(0.2)

@@ -1,6 +1,6 @@
 """The laws of a world as MuJoCo's options.
 
-What of SDF's solver terms has a counterpart is written down in ``docs/physics.md``.
+What of SDF's solver terms has a counterpart is written down in ``docs/explanation/physics.md``.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Laws of contacts and of tumbling that MuJoCo has no words for, within its step.
 
 MuJoCo calls ``apply`` when it knows the contacts, their velocities and the acceleration that
-each is to have, and before it solves for the forces. See ``docs/physics.md`` for the laws.
+each is to have, and before it solves for the forces. See ``docs/explanation/physics.md`` for the laws.
 """
 
 # mypy: disallow-untyped-decorators=False

@@ -32,7 +32,8 @@ from gazelle.errors import EngineError, EngineWarning
 
 if importlib.util.find_spec("mujoco_warp") is None:
     pytest.skip(
-        "MuJoCo Warp is not here (docs/scale.md has the two commands)", allow_module_level=True
+        "MuJoCo Warp is not here (docs/how-to/scale.md has the two commands)",
+        allow_module_level=True,
     )
 
 pytestmark = pytest.mark.filterwarnings("ignore:the engine 'mujoco-warp' finds no graphics card")

@@ -14,7 +14,8 @@ from gazelle.engines import make_engine
 
 if importlib.util.find_spec("mujoco_warp") is None:
     pytest.skip(
-        "MuJoCo Warp is not here (docs/scale.md has the two commands)", allow_module_level=True
+        "MuJoCo Warp is not here (docs/how-to/scale.md has the two commands)",
+        allow_module_level=True,
     )
 
 pytestmark = [
