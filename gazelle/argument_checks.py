@@ -20,7 +20,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.array_types import Worlds
+from gazelle.array_types import Indices, Worlds
 from gazelle.errors import Error
 from gazelle_ros.base.characters import can_be_written
 from gazelle_ros.base.path_texts import can_be_path
@@ -90,13 +90,28 @@ def world_indices(worlds: Any, nworld: int, error: type[Error]) -> Worlds:
     Raises:
         Error: There is no such world, or they are no ints; of the given class.
     """
+    return indices("worlds", worlds, nworld, error)
+
+
+def indices(what: str, given: Any, count: int, error: type[Error]) -> Indices:
+    """Return indices of things, shape (n,).
+
+    Args:
+        what: They are, for the message.
+        given: By a user.
+        count: There are so many.
+        error: Class of the error.
+
+    Raises:
+        Error: There is no such thing, or they are no ints; of the given class.
+    """
     rows: NDArray[Any] = np.zeros((0, 0))
     with contextlib.suppress(ValueError):  # of rows of different lengths
-        rows = np.asarray(worlds)
+        rows = np.asarray(given)
     if rows.ndim != 1 or (rows.size and rows.dtype.kind not in "iu"):
-        raise error(f"worlds must be ints, not {worlds!r:.60}")
-    if rows.size and not 0 <= rows.min() <= rows.max() < nworld:
-        raise error(f"worlds must be from 0 to {nworld - 1}, not {worlds!r:.60}")
+        raise error(f"{what} must be ints, not {given!r:.60}")
+    if rows.size and not 0 <= rows.min() <= rows.max() < count:
+        raise error(f"{what} must be from 0 to {count - 1}, not {given!r:.60}")
     return rows.astype(np.intp, copy=False)
 
 

@@ -22,7 +22,7 @@ import wrong_calls
 import gazelle
 import gazelle.builders
 import gazelle_ros as ros
-from gazelle import Simulation, clients, planning
+from gazelle import Simulation, clients, planning, stage
 from gazelle.control import EFFORT, JointCommandInterface, JointStateInterface
 from gazelle.description import Box, OccupancyMap, Pose
 from gazelle.engines.tracer import make_tracer
@@ -32,12 +32,25 @@ from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
 from gazelle.training import Actor
 
+STAGE = """
+define lidar ranger ( sensor ( range [0 5] fov 90 samples 9 ) )
+define eyes camera ( resolution [8 6] )
+define hand gripper ( size [.2 .3 .2] pose [.3 0 -.4 0] )
+define arm actuator ( type "linear" max_speed 1 model ( size [.1 .1 .1] ) )
+define skin bumper ( bcount 2 bpose[0] [.2 .1 .1 0] bpose[1] [.2 -.1 .1 0] blength .2 )
+define robot position
+( size [.4 .4 .4] lidar() eyes() hand() arm() skin() fiducial() blobfinder() )
+robot ( name "r" ctrl "wander" )
+robot ( name "s" pose [0 2 0 0] )
+model ( name "puck" size [.1 .1 1] pose [1 0 0 0] color "red" gripper_return 1 fiducial_return 7 )
+"""
+
 PACKAGES = {
     name: f"gazelle.{name}"
     for name in (
         *("builders", "clients", "control", "description", "engines", "envs", "formats"),
         *("kinematics", "navigation", "planning", "rendering", "sensors", "simulation"),
-        *("training", "viewer"),
+        *("stage", "training", "viewer"),
     )
 } | {"gazelle": "gazelle"}
 
@@ -169,6 +182,13 @@ class Samples:
         self.stack.callback(door.stop)
         return self.stack.enter_context(clients.Gazebo(self.node))
 
+    @functools.cached_property
+    def stage(self) -> stage.StageSimulation:
+        """Stage's devices on a robot and things around it, in two worlds."""
+        file = Path("devices.world")
+        file.write_text(STAGE)
+        return self.stack.enter_context(stage.StageSimulation(file, nworld=2, threads=1))
+
     @property
     def burger(self) -> Any:
         """A robot with wheels and a lidar."""
@@ -254,6 +274,20 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "MotionPlan": lambda s: s.group_plan.plan,
     "GroupPlan": lambda s: s.group_plan,
     "LaserScan": lambda s: None,
+    "StageSimulation": lambda s: s.stage,
+    "StageFleet": lambda s: s.stage.stage_fleet,
+    "StageBodies": lambda s: s.stage.stage_fleet,
+    "StageRobot": lambda s: s.stage.robot("r"),
+    "StageModel": lambda s: s.stage.robot("r").model,
+    "StageWorld": lambda s: s.stage.description,
+    "Ranger": lambda s: s.stage.robot("r").rangers[0],
+    "PlanarEngine": lambda s: s.stage.stage_fleet.engine,
+    "Clock": lambda s: s.stage.clock,
+    "Rider": lambda s: s.stage.robot("r").riders[0],
+    "Gripper": lambda s: s.stage.gripper("r"),
+    "Actuator": lambda s: s.stage.actuator("r"),
+    "MountedCamera": lambda s: stage.cameras_of(s.stage.robot("r"))[0],
+    "Maker": lambda s: lambda _simulation, _wanted: [],
     "Pose2": lambda s: (0.0, 0.0, 0.0),
 }
 BY_NAME: dict[str, Callable[[Samples], Any]] = {
@@ -262,6 +296,8 @@ BY_NAME: dict[str, Callable[[Samples], Any]] = {
     "joint": lambda s: "wrist_flex_joint",
     "effector": lambda s: "gripper",
     "path": lambda s: "file",
+    "command": lambda s: "open",
+    "name": lambda s: "r" if s.package == "stage" else "a",
     "kind": lambda s: "ModelStates" if s.package == "clients" else "a",
 }
 BY_WORD = {

@@ -140,6 +140,7 @@ PACKAGES = {
     "rendering": 500,
     "sensors": 3000,
     "simulation": 3500,
+    "stage": 1300,
     "training": 2300,
 }
 """With the calls that are made at least."""

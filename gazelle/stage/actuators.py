@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen
@@ -15,6 +16,7 @@ from gazelle.stage.robots import Rider, StageRobot
 from gazelle.stage.stage_bodies import StageBodies
 
 
+@checked(SimulationError)
 class Actuator:
     """An actuator of a robot, in all worlds.
 
@@ -42,7 +44,7 @@ class Actuator:
         """Set a speed [m/s or rad/s].
 
         Raises:
-            SimulationError: It is not finite.
+            SimulationError: It is not finite, or there is no such world.
         """
         self._want(speed, worlds, towards=False)
 
@@ -50,17 +52,18 @@ class Actuator:
         """Set a target position [m or rad], clipped to its range.
 
         Raises:
-            SimulationError: It is not finite.
+            SimulationError: It is not finite, or there is no such world.
         """
         low, high = self._device.range
         self._want(min(max(position, low), high), worlds, towards=True)
 
     def _want(self, goal: float, worlds: Worlds | None, *, towards: bool) -> None:
-        if not math.isfinite(goal):
-            raise SimulationError(f"an actuator cannot be told {goal}")
-        some = chosen(worlds, len(self._goal))
-        which = slice(None) if some is None else some
+        which = self._rows(worlds)
         self._goal[which], self._towards[which] = goal, towards
+
+    def _rows(self, worlds: Worlds | None) -> slice | Worlds:
+        some = chosen(worlds, len(self._goal))
+        return slice(None) if some is None else some
 
     def update(self, dt: float) -> None:
         """Move by a step of ``dt`` [s], and with the robot."""
@@ -103,7 +106,7 @@ class Actuator:
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Reset the actuator to its start."""
-        which = slice(None) if worlds is None else worlds
+        which = self._rows(worlds)
         self.position[which] = self._device.start
         self._goal[which], self._towards[which] = 0.0, False
         self.follow()

@@ -7,12 +7,13 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.argument_checks import checked, indices
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.planar import Fan, Fleet, Mount, PlanarEngine
 from gazelle.errors import SimulationError, did_you_mean
 from gazelle.native.system import System
 from gazelle.simulation.clock import Clock
-from gazelle.simulation.inputs import chosen, one_world
+from gazelle.simulation.inputs import chosen, finite, one_world, size_of
 from gazelle.simulation.state_lock import StateLock
 from gazelle.stage.description import StageModel, StageWorld, stage_world
 from gazelle.stage.devices import Devices
@@ -25,6 +26,7 @@ from gazelle.stage.scans import StageRangeNoise
 from gazelle.stage.senses import Senses
 
 
+@checked(SimulationError)
 class StageFleet(Senses):
     """Commands, poses, odometry and scans of all robots of Stage files: ``Simulation.extension(StageFleet)``.
 
@@ -329,14 +331,14 @@ class StageFleet(Senses):
         """Set the pose of a robot by its index.
 
         Raises:
-            SimulationError: A value is not finite.
+            SimulationError: There is no such robot, or a value is not finite.
         """
-        values = np.asarray(pose, np.float64)
-        if not np.isfinite(values).all():
-            name = self.robots[index].name
-            raise SimulationError(f"the pose of '{name}' is not finite: {values}")
-        self.refresh()
+        if not 0 <= index < len(self.robots):
+            raise SimulationError(f"there is no robot {index} of {len(self.robots)}")
         some = chosen(worlds, self.nworld)
+        count = size_of(some, self.nworld)
+        values = finite(f"the pose of '{self.robots[index].name}'", pose, 3, count)
+        self.refresh()
         self.engine.place_body(index, values, some)
         rows = slice(None) if some is None else some
         self._motion.before[rows, index] = self.poses[rows, index]
@@ -350,12 +352,12 @@ class StageFleet(Senses):
             poses: x, y [m] and heading [rad], shape (n, 3).
 
         Raises:
-            SimulationError: A value is not finite.
+            SimulationError: There is no such robot, or a value is not finite.
         """
-        values, count = np.asarray(poses, np.float64), len(self.robots)
-        if not np.isfinite(values).all():
-            raise SimulationError("the poses of robots are not finite")
-        worlds, robots = np.divmod(np.asarray(rows, np.intp), max(count, 1))
+        count = len(self.robots)
+        which = indices("rows", rows, self.nworld * count, SimulationError)
+        values = np.broadcast_to(finite("the poses", poses, 3, len(which)), (len(which), 3))
+        worlds, robots = np.divmod(which, max(count, 1))
         self.engine.place_bodies(worlds * self._fleet.nbody + robots, values)
         self._motion.before[worlds, robots] = self.poses[worlds, robots]
         for robot in np.unique(robots).tolist() if self._devices else ():
@@ -364,8 +366,9 @@ class StageFleet(Senses):
     def reset_positions(self, worlds: Worlds | None = None) -> None:
         """Reset all robots to their initial poses, at rest, their odometry at zero."""
         self.refresh()
-        self.engine.reset(worlds)
-        self.start_over(worlds)
+        some = chosen(worlds, self.nworld)
+        self.engine.reset(some)
+        self.start_over(some)
 
     def start_over(self, worlds: Worlds | None = None) -> None:
         """Reset odometry and devices, after the engine's reset."""

@@ -14,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Worlds
 from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, one_world
@@ -54,6 +55,7 @@ class GripperState:
     carried: str | None
 
 
+@checked(SimulationError)
 class Gripper:
     """A gripper of a robot, in all worlds.
 
@@ -96,8 +98,7 @@ class Gripper:
             raise SimulationError(
                 f"a gripper has no command '{command}'", hint=f"known are {', '.join(COMMANDS)}"
             )
-        some = chosen(worlds, len(self.paddles))
-        which = slice(None) if some is None else some
+        which = self._rows(worlds)
         moved = self._closing if command in {"open", "close"} else self._rising
         moved[which] = 1 if command in {"close", "up"} else -1
 
@@ -139,7 +140,7 @@ class Gripper:
 
     def reset(self, worlds: Worlds | None = None) -> None:
         """Reset the gripper to its start, without an object."""
-        which = slice(None) if worlds is None else worlds
+        which = self._rows(worlds)
         self.paddles[which] = float(self._device.paddles == "closed")
         self.lift[which] = float(self._device.lift == "up")
         self.carried[which], self._limit[which] = _NONE, 1.0
@@ -205,6 +206,10 @@ class Gripper:
             self._body(thing), (at.x, at.y, at.yaw), np.array([world]), height=model.pose.z
         )
         self.carried[world], self._limit[world] = _NONE, 1.0
+
+    def _rows(self, worlds: Worlds | None) -> slice | Worlds:
+        some = chosen(worlds, len(self.paddles))
+        return slice(None) if some is None else some
 
     def _body(self, thing: int) -> int:
         return len(self._simulation.robots) + thing

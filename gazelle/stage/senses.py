@@ -8,7 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Worlds
+from gazelle.errors import SimulationError
 from gazelle.simulation.inputs import chosen, one_world
 from gazelle.stage.actuators import Actuator
 from gazelle.stage.bumpers import find_bumps
@@ -27,6 +29,7 @@ from gazelle.stage.robots import StageRobot
 from gazelle.stage.stage_bodies import StageBodies
 
 
+@checked(SimulationError)
 class Senses(StageBodies):
     """The devices on robots: what they see and feel, and what moves on them.
 
@@ -121,11 +124,12 @@ class Senses(StageBodies):
             wanted: Names of robots, numbers of cameras on them, and worlds.
 
         Raises:
-            SimulationError: There is no such robot or camera.
+            SimulationError: There is no such robot, camera or world.
         """
-        self._cameras.draw(
-            (self.robot(name).index, camera, world) for name, camera, world in wanted
-        )
+        rows = list(wanted)
+        if not all(isinstance(row, tuple) and len(row) == 3 for row in rows):
+            raise SimulationError(f"pictures are of (robot, camera, world), not {rows!r:.60}")
+        self._cameras.draw((self.robot(r).index, camera, self._one(w)) for r, camera, w in rows)
 
     def pictures(
         self,

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gazelle.argument_checks import indices, world_indices
 from gazelle.array_types import Floats
 from gazelle.engines.limits import MAX_WORLDS, physics_step, whole_number
 from gazelle.engines.planar import columns as c
@@ -226,9 +227,15 @@ class Fleet:
             worlds: Which worlds; all if None.
 
         Raises:
-            EngineError: A number is not finite.
+            EngineError: A number is not finite, or there is no such body or world.
         """
-        rows = slice(body, None, self.nbody) if worlds is None else worlds * self.nbody + body
+        if not 0 <= body < self.nbody:
+            raise EngineError(f"there is no body {body}; bodies are 0 to {self.nbody - 1}")
+        rows = (
+            slice(body, None, self.nbody)
+            if worlds is None
+            else world_indices(worlds, self.nworld, EngineError) * self.nbody + body
+        )
         wanted = np.asarray(pose, np.float64)
         if not np.isfinite(wanted).all():
             raise EngineError("a pose must be finite")
@@ -246,11 +253,16 @@ class Fleet:
             pose: x, y [m] and heading [rad], shape (nworld, nbody, 3), or (n, 3).
             heights: Of their frames [m], shape (nworld, nbody), or (n,).
             which: The n bodies, counted through all worlds; all if None.
+
+        Raises:
+            EngineError: A number is not finite, or there is no such body.
         """
         flat = np.asarray(pose, np.float64).reshape(-1, 3)
         if not np.isfinite(flat).all():
             raise EngineError("a pose must be finite")
-        rows = slice(None) if which is None else which
+        rows = (
+            slice(None) if which is None else indices("bodies", which, len(self.rows), EngineError)
+        )
         self.rows[rows] = _rows_of(np.column_stack((flat, np.asarray(heights, np.float64).ravel())))
         self._relink(slice(None))
 
@@ -277,9 +289,14 @@ class Fleet:
         self._relink(here)
 
     def reset(self, worlds: NDArray[np.intp] | None = None) -> None:
-        """Reset worlds to their initial state: poses, rest, no commands."""
-        which = np.arange(self.nworld) if worlds is None else np.ascontiguousarray(worlds)
-        put_back(self.bodies, which, self._initial)
+        """Reset worlds to their initial state: poses, rest, no commands.
+
+        Raises:
+            EngineError: There is no such world.
+        """
+        chosen = np.arange(self.nworld) if worlds is None else worlds
+        which = world_indices(chosen, self.nworld, EngineError)
+        put_back(self.bodies, np.ascontiguousarray(which), self._initial)
         self.changes += 1
 
     def _relink(self, rows: slice | NDArray[np.intp]) -> None:

@@ -283,6 +283,28 @@ def test_memory_and_loading_stay_small():
     assert sum(array.nbytes for array in arrays) / 5000 < 1000
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda fleet: fleet.place(2, (0.0, 0.0, 0.0)),
+        lambda fleet: fleet.place(-1, (0.0, 0.0, 0.0)),
+        lambda fleet: fleet.place(0, (0.0, 0.0, 0.0), np.array([2])),
+        lambda fleet: fleet.put(np.zeros((1, 3)), [0.0], np.array([4])),
+        lambda fleet: fleet.put(np.zeros((1, 3)), [0.0], np.array([-1])),
+        lambda fleet: fleet.reset(np.array([-1])),
+        lambda fleet: fleet.reset(np.array([2**62])),
+        lambda fleet: fleet.reset(np.array([0.0])),
+    ],
+)
+def test_bodies_and_worlds_that_are_not_there_are_refused(change):
+    fleet = Fleet([Body((PlanarPart.box(0.3, 0.2),))] * 2, nworld=2, threads=1)
+    fleet.place(1, (1.0, 0.0, 0.0))
+    before = fleet.rows.copy()
+    with pytest.raises(EngineError, match=r"0 to|ints"):
+        change(fleet)
+    assert (fleet.rows == before).all()
+
+
 def test_numbers_that_are_none_do_no_harm():
     fleet = one(Drive("omni"), nworld=2)
     for bad in (math.nan, math.inf):
