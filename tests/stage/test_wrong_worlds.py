@@ -59,4 +59,5 @@ def test_poses_and_robots_that_cannot_be(start, call):
     before = sim.poses.copy(), sim.commands.copy()
     with pytest.raises(SimulationError):
         call(sim)
-    assert (sim.poses == before[0]).all() and (sim.commands == before[1]).all()
+    assert (sim.poses == before[0]).all()
+    assert (sim.commands == before[1]).all()
