@@ -1,7 +1,8 @@
-"""List the tasks that 'gazelle train' knows with their success rates; or show one
-with its recipe, commands, seeds and intervals.
+"""List the tasks that 'gazelle train' knows; or show one with its recipe,
+commands, success rates, seeds and intervals.
 
   gazelle tasks
+  gazelle tasks --long
   gazelle tasks TurtleBot3Stage4
 """  # noqa: D205  # this is the text of --help
 
@@ -9,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -17,9 +19,15 @@ from gazelle.cli import showing
 if TYPE_CHECKING:
     from gazelle.training import Claim, Task
 
-_HEAD = ("TASK", "ALGO", "ENGINE", "PLANAR", "MUJOCO", "CPU", "WALL")
-_ENGINES = ("planar", "mujoco")
+_HEAD = ("TASK", "SUCCESS", "DESCRIPTION")
 _LEGEND = """\
+SUCCESS: goals reached after 'gazelle train TASK', on starts and goals that were
+not trained on; - where no figure is published. 'gazelle tasks --long' lists
+algorithms, engines and times, 'gazelle tasks TASK' shows all about one task.
+"""
+_LONG_HEAD = ("TASK", "ALGO", "ENGINE", "PLANAR", "MUJOCO", "CPU", "WALL")
+_ENGINES = ("planar", "mujoco")
+_LONG_LEGEND = """\
 PLANAR, MUJOCO: goals reached after 'gazelle train TASK', on starts and goals
 that were not trained on, by 'gazelle eval RUN --engine ENGINE'. CPU: processor
 time of the training [s], which is the most that it takes where nothing else
@@ -34,6 +42,9 @@ _QUIET = 0.1  # processors that others kept busy at most, for a wall time to be 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("task", nargs="?", metavar="TASK", help="all about one of them")
+    parser.add_argument(
+        "--long", action="store_true", help="show figures and times instead of descriptions"
+    )
 
 
 def run(args: argparse.Namespace) -> int:
@@ -46,13 +57,37 @@ def run(args: argparse.Namespace) -> int:
         (task,) = [each for each in tasks if each.id == id_] or [_unlisted(id_)]
         sys.stdout.write(_details(task))
         return 0
+    sys.stdout.write(_figures_of(tasks) if args.long else _descriptions_of(tasks))
+    return 0
+
+
+def _descriptions_of(tasks: Sequence[Task]) -> str:
+    """Return the list of tasks with a sentence about each."""
+    from gazelle.training import describe_task
+
+    rows = [(_typed(task), _success(task), describe_task(task.id)) for task in tasks]
+    return f"{showing.table([_HEAD, *rows])}\n{_LEGEND}"
+
+
+def _figures_of(tasks: Sequence[Task]) -> str:
+    """Return the list of tasks with what their recipes reach and cost."""
     without = [(_typed(task), why) for task in tasks if (why := _why_not(task))]
     listed = [task for task in tasks if not _why_not(task)]
-    sys.stdout.write(showing.table([_HEAD, *map(_row, listed)]))
-    sys.stdout.write(f"\n{_LEGEND}")
+    text = f"{showing.table([_LONG_HEAD, *map(_row, listed)])}\n{_LONG_LEGEND}"
     if without:
-        sys.stdout.write("\n" + showing.table([("TASK", "WHY IT HAS NO FIGURE"), *without]))
-    return 0
+        text += "\n" + showing.table([("TASK", "WHY IT HAS NO FIGURE"), *without])
+    return text
+
+
+def _success(task: Task) -> str:
+    """Return the success rate of a task, in the engine that its recipe trains in."""
+    from gazelle.training import listed_recipe
+
+    rates = {claim.engine: claim.success for claim in _claims(task) if claim.success}
+    if not rates:
+        return "-"
+    engine = str(listed_recipe(task.id).training_options.get("engine"))
+    return percent(rates.get(engine, next(iter(rates.values()))).value)
 
 
 def _row(task: Task) -> tuple[str, ...]:
@@ -74,7 +109,7 @@ def _row(task: Task) -> tuple[str, ...]:
 
 def _details(task: Task) -> str:
     """Return the recipe, commands and figures of one task."""
-    from gazelle.training import listed_recipe, published_claims
+    from gazelle.training import describe_task, listed_recipe, published_claims
 
     recipe = listed_recipe(task.id)
     engine = recipe.training_options.get("engine")
@@ -90,7 +125,8 @@ def _details(task: Task) -> str:
     ]
     for train in published_claims().other_trainings(task.name) if _is_own(task) else ():
         rows += [("or", train), *_figures(published_claims().of_training(train))]
-    return f"{task.id}\n" + showing.table([("  " + name, text) for name, text in rows])
+    said = "".join(f"{line}\n" for line in textwrap.wrap(describe_task(task.id), 80))
+    return f"{task.id}\n{said}" + showing.table([("  " + name, text) for name, text in rows])
 
 
 def _figures(claims: Sequence[Claim]) -> list[tuple[str, str]]:

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from gazelle.training.session import TrainResult, resume, train
     from gazelle.training.statistics import SuccessRate, wilson_interval
     from gazelle.training.study import Study, StudyResult, conduct
-    from gazelle.training.tasks import Task, find_task, list_tasks, make_task
+    from gazelle.training.tasks import Task, describe_task, find_task, list_tasks, make_task
 
 _EXTRA = ("stable_baselines3", "tensorboard", "threadpoolctl", "torch", "tqdm")
 
@@ -72,6 +72,7 @@ _HOMES = {
     "Trial": "claims",
     "choose_progress": "progress",
     "conduct": "study",
+    "describe_task": "tasks",
     "evaluate": "evaluation",
     "export_policy": "policy_files",
     "find_task": "tasks",
@@ -117,6 +118,7 @@ __all__ = [
     "Trial",
     "choose_progress",
     "conduct",
+    "describe_task",
     "evaluate",
     "export_policy",
     "find_task",

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import importlib.util
+import inspect
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +20,7 @@ from gazelle.training.importing import load_all, load_entry_points
 from gazelle.training.recipes import task_name
 
 NAMESPACE = "gazelle"
+_SENTENCE_END = re.compile(r"(?<=\.)\s")
 
 _others: set[str] = set()
 """Ids that entry points registered."""
@@ -64,6 +67,23 @@ def find_task(name: str) -> str:
         if found is not None:
             return found
     raise TaskError(f"there is no task '{bare_id}'", hint=_hint(bare_id))
+
+
+def describe_task(task: str) -> str:
+    """Return a sentence about a task: of one from elsewhere, its environment's first sentence.
+
+    Args:
+        task: A registered id.
+    """
+    from gazelle.envs.descriptions import DESCRIPTIONS
+
+    spec = gym.registry[task]
+    if spec.namespace == NAMESPACE and spec.name in DESCRIPTIONS:
+        return DESCRIPTIONS[spec.name]
+    text = inspect.getdoc(entry_class(task, vector=False)) or ""
+    lines = [line for line in text.splitlines() if not line.startswith("#")]  # no headings
+    paragraph = "\n".join(lines).strip().partition("\n\n")[0]
+    return _SENTENCE_END.split(" ".join(paragraph.split()), maxsplit=1)[0]
 
 
 def with_continuous_actions(task: str) -> str:

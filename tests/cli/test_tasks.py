@@ -8,7 +8,16 @@ from dataclasses import replace
 import pytest
 
 from gazelle.cli.main import main
-from gazelle.training import Claim, Claims, Trial, find_task, list_tasks, published_claims
+from gazelle.envs.descriptions import DESCRIPTIONS
+from gazelle.training import (
+    Claim,
+    Claims,
+    Trial,
+    describe_task,
+    find_task,
+    list_tasks,
+    published_claims,
+)
 
 OWN = {task.name for task in list_tasks() if task.id.startswith("gazelle/")}
 WIDTH = 80
@@ -85,7 +94,7 @@ def test_seeds_intervals_commit_and_times_are_shown(claims, capsys):
 
 def test_a_figure_of_each_engine_stands_in_its_column(claims, capsys):
     claims(claim("KobukiMaze", 900, 910), claim("KobukiMaze", 800, 820, engine="mujoco"))
-    lines = {line.split()[0]: line for line in shown(capsys).splitlines() if line}
+    lines = {line.split()[0]: line for line in shown(capsys, "--long").splitlines() if line}
     assert re.split(r" {2,}", lines["KobukiMaze"])[1:] == [
         "ppo",
         "planar",
@@ -106,7 +115,9 @@ def test_wall_times_say_whether_something_ran_beside_them(claims, capsys):
         replace(claim("Husarion"), trials=unknown),
         claim("UR5Reach"),
     )
-    rows = {line.split()[0]: line.split()[-1] for line in shown(capsys).splitlines() if line}
+    rows = {
+        line.split()[0]: line.split()[-1] for line in shown(capsys, "--long").splitlines() if line
+    }
     walls = [rows[name] for name in ("KobukiEmpty", "KobukiMaze", "Husarion", "UR5Reach")]
     assert walls == ["31", "31*", "-", "-"]
     assert "31 s; of 2 processors, others kept 1.4 busy" in shown(capsys, "KobukiMaze")
@@ -115,15 +126,30 @@ def test_wall_times_say_whether_something_ran_beside_them(claims, capsys):
 
 def test_a_task_without_a_figure_is_listed_with_the_reason(claims, capsys):
     claims(claim("KobukiMaze", 900), HopperStayUp="cannot be done")
-    listed, _, without = shown(capsys).partition("WHY IT HAS NO FIGURE")
+    listed, _, without = shown(capsys, "--long").partition("WHY IT HAS NO FIGURE")
     assert "KobukiMaze" in listed
     assert re.search(r"^HopperStayUp +cannot be done$", without, re.MULTILINE)
     assert "HopperStayUp" not in listed
     assert "figure  cannot be done" in shown(capsys, "HopperStayUp")
 
 
-def test_the_list_of_tasks_names_each(capsys):
-    assert {line.split()[0] for line in shown(capsys).splitlines() if line} >= OWN
+@pytest.mark.parametrize("options", [(), ("--long",)])
+def test_the_list_of_tasks_names_each(options, capsys):
+    assert {line.split()[0] for line in shown(capsys, *options).splitlines() if line} >= OWN
+
+
+def test_each_task_is_listed_with_its_success_and_a_sentence(claims, capsys):
+    claims(claim("KobukiMaze", 900, 910), claim("KobukiMaze", 800, engine="mujoco"))
+    lines = {line.split()[0]: line for line in shown(capsys).splitlines() if line}
+    assert re.split(r" {2,}", lines["KobukiMaze"])[1:2] == ["90.5 %"]
+    assert re.split(r" {2,}", lines["HopperStayUp"])[1:2] == ["-"]
+    assert set(DESCRIPTIONS) == OWN
+    assert all(text.endswith(".") and len(text) <= WIDTH for text in DESCRIPTIONS.values())
+    assert f"\n{DESCRIPTIONS['KobukiMaze']}\n" in shown(capsys, "KobukiMaze")
+
+
+def test_a_task_from_elsewhere_is_described_by_the_first_sentence_of_its_environment():
+    assert describe_task("CartPole-v1").startswith("This environment corresponds to the version")
 
 
 def test_a_task_that_no_figure_is_known_of_says_so(capsys):
