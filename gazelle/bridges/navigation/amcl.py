@@ -16,8 +16,7 @@ from gazelle.bridges.navigation.diagnosis import NavigationWarning, StartDiagnos
 from gazelle.bridges.navigation.frames import GraphFrames, flat, missing_links
 from gazelle.bridges.navigation.map_messages import grid_of_message
 from gazelle.bridges.navigation.maps import MapListener, map_of_service
-from gazelle.bridges.navigation.messages import beam_angles, fill_pose, is_upside_down, pose_of
-from gazelle.bridges.navigation.scan_queue import ScanQueue
+from gazelle.bridges.navigation.messages import fill_pose, is_upside_down, pose_of
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.errors import Error
 from gazelle.navigation.following import Pose2
@@ -29,10 +28,12 @@ from gazelle.simulation import Tunable
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.base.real_numbers import finite
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.builtin.scans.points import beam_angles
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_srvs
 from gazelle_ros.node import Node
 from gazelle_ros.reconfigure import ReconfigureServer
 from gazelle_ros.tf import StampedTransform
+from gazelle_ros.tf.scan_queue import ScanQueue
 from gazelle_ros.time import Time
 
 SECOND = 1_000_000_000

@@ -10,13 +10,13 @@ from typing import Any
 from gazelle.bridges.conversions import pose_message, pose_of_message
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, missing_links
-from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle.description import Pose
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.msgs import geometry_msgs, nav_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform
+from gazelle_ros.tf.scan_queue import ScanQueue
 
 SECOND = 1_000_000_000
 _LOG = logging.getLogger(__name__)

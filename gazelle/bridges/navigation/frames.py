@@ -11,40 +11,23 @@ from gazelle.navigation.following import Pose2
 from gazelle.rotations import rotate, yaw_of
 from gazelle_ros.msgs import geometry_msgs, tf2_msgs
 from gazelle_ros.node import Node
-from gazelle_ros.tf import FrameTree, StampedTransform, TransformException, take_transforms
+from gazelle_ros.tf import FrameTree, StampedTransform, TransformException
+from gazelle_ros.tf.listening import FrameListener
 from gazelle_ros.time import Time
 
-_BACK_NS = 1_000_000_000
-"""A jump back that is longer than this begins time again [ns]."""
 
-
-class GraphFrames:
+class GraphFrames(FrameListener):
     """Listens to ``/tf`` and ``/tf_static``, and sends transforms of its own.
 
     Args:
         node: On the graph.
-
-    Attributes:
-        tree: All that is known.
     """
 
     def __init__(self, node: Node) -> None:
-        self._node = node
-        self.tree = FrameTree()
-        self._kind = tf2_msgs.msg.TFMessage
+        super().__init__(node)
         self._stamped = geometry_msgs.msg.TransformStamped
+        self._kind = tf2_msgs.msg.TFMessage
         self._sender = node.advertise("/tf", self._kind, queue_size=100)
-        self._latest = 0
-        node.subscribe("/tf", self._kind, lambda message: self._take(message, static=False))
-        node.subscribe("/tf_static", self._kind, lambda message: self._take(message, static=True))
-
-    def _take(self, message: tf2_msgs.msg.TFMessage, *, static: bool) -> None:
-        now = self._node.clock.now()
-        if now < self._latest - _BACK_NS:
-            self.tree.clear()
-            self._latest = now
-        self._latest = max(self._latest, now)
-        take_transforms(self.tree, message, authority="navigation", static=static)
 
     def send(self, parent: str, child: str, stamp: int, pose: Pose2) -> None:
         """Publish the pose of a frame in the plane of its parent, from a time on [ns]."""
@@ -59,24 +42,10 @@ class GraphFrames:
         set_quaternion(message.transform.rotation, pose.quaternion)
         self._sender.publish(self._kind(transforms=[message]))
 
-    def find(self, target: str, source: str, stamp: int = 0) -> StampedTransform | None:
-        """Return the transform between frames at a time [ns], or the newest; None if unknown."""
-        try:
-            return self.tree.lookup(target, source, stamp)
-        except TransformException:
-            return None
-
     def pose(self, target: str, source: str, stamp: int = 0) -> Pose2 | None:
         """Return the pose of a frame in another, projected to the plane; None if unknown."""
         found = self.find(target, source, stamp)
         return None if found is None else flat(found)
-
-    def latest(self, target: str, source: str) -> int:
-        """Return the newest time at which a transform is known [ns]; 0 if there is none."""
-        try:
-            return self.tree.latest_common_time(target, source)
-        except TransformException:
-            return 0
 
 
 def flat(transform: StampedTransform) -> Pose2:

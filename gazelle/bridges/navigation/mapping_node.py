@@ -13,14 +13,15 @@ from gazelle.array_types import Floats
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, flat, missing_links
 from gazelle.bridges.navigation.map_messages import grid_message
-from gazelle.bridges.navigation.messages import beam_angles, is_upside_down
-from gazelle.bridges.navigation.scan_queue import ScanQueue
+from gazelle.bridges.navigation.messages import is_upside_down
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.following import Pose2
 from gazelle_ros.base.parameter_values import value_of
+from gazelle_ros.builtin.scans.points import beam_angles
 from gazelle_ros.msgs import nav_msgs, sensor_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform
+from gazelle_ros.tf.scan_queue import ScanQueue
 
 SECOND = 1_000_000_000
 

@@ -9,6 +9,7 @@ import numpy as np
 from gazelle.array_types import Floats
 from gazelle.navigation.following import Pose2
 from gazelle.rotations import from_yaw, yaw_of
+from gazelle_ros.builtin.scans.points import cloud_points as points_of_cloud
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs
 from gazelle_ros.time import Time
 
@@ -90,20 +91,11 @@ def scan_points(message: sensor_msgs.msg.LaserScan, *, inf_is_valid: bool = Fals
 
 def cloud_points(message: sensor_msgs.msg.PointCloud | sensor_msgs.msg.PointCloud2) -> Floats:
     """Return the points of a ``sensor_msgs/PointCloud`` or ``PointCloud2``, shape (n, 3) [m]."""
-    if hasattr(message, "points"):
-        rows = [(each.x, each.y, each.z) for each in message.points]
-    else:
-        from gazelle_ros.compat.sensor_msgs.point_cloud2 import read_points
-
-        rows = list(read_points(message, ("x", "y", "z"), skip_nans=True))
+    if isinstance(message, sensor_msgs.msg.PointCloud2):
+        return points_of_cloud(message)
+    rows = [(each.x, each.y, each.z) for each in message.points]
     points = np.array(rows, np.float64).reshape(-1, 3)
     return points[np.isfinite(points).all(axis=1)]
-
-
-def beam_angles(message: sensor_msgs.msg.LaserScan) -> Floats:
-    """Return angles of a scan's beams in its frame [rad], shape (n,)."""
-    count = len(message.ranges)
-    return np.asarray(message.angle_min + message.angle_increment * np.arange(count), np.float64)
 
 
 def is_upside_down(rotation: tuple[float, float, float, float]) -> bool:

@@ -48,10 +48,20 @@ _OWN = {
             "state_publisher": "gazelle_ros.builtin.robot:state_main",
         }),
         BuiltinPackage("cmd_vel_mux", {"cmd_vel_mux": "gazelle_ros.builtin.cmd_vel_mux:main"}, _CMD_VEL_MUX),
+        BuiltinPackage("depthimage_to_laserscan", {
+            "depthimage_to_laserscan": "gazelle_ros.builtin.scans.depth_image:main",
+        }, {"DepthImageToLaserScanNodelet": "gazelle_ros.builtin.scans.depth_image:DepthImageToLaserScan"}),
         BuiltinPackage("joint_state_publisher", {
             "joint_state_publisher": "gazelle_ros.builtin.robot:joint_main",
         }),
         BuiltinPackage("nodelet", {"nodelet": "gazelle_ros.builtin.nodelets.command:main"}),
+        BuiltinPackage("pointcloud_to_laserscan", {
+            "pointcloud_to_laserscan_node": "gazelle_ros.builtin.scans.pointcloud:scan_main",
+            "laserscan_to_pointcloud_node": "gazelle_ros.builtin.scans.pointcloud:cloud_main",
+        }, {
+            "pointcloud_to_laserscan_nodelet": "gazelle_ros.builtin.scans.pointcloud:pointcloud_to_laserscan",
+            "laserscan_to_pointcloud_nodelet": "gazelle_ros.builtin.scans.pointcloud:laserscan_to_pointcloud",
+        }),
         BuiltinPackage("rosapi", {"rosapi_node": "gazelle_ros.rosbridge.nodes:rosapi_main"}),
         BuiltinPackage("rosbridge_server", dict.fromkeys(("rosbridge_websocket", "rosbridge_websocket.py"), "gazelle_ros.rosbridge.nodes:websocket_main"), folder=_SHARE / "rosbridge_server"),
         BuiltinPackage("rosbag", {

@@ -11,31 +11,28 @@ from gazelle_ros.messages import Message
 from gazelle_ros.node import Node
 
 _LOOK_S = 0.2
-_KEPT = 100
+KEPT = 100
+"""Messages kept, the newest ones."""
 
 T = TypeVar("T")
 
 
-class ScanQueue:
+class MessageQueue:
     """Keeps messages until they can be used, as a message filter of tf does.
 
-    Args:
-        node: On the graph.
-        topic: Of the messages.
-        kind: Of the messages.
+    Attributes:
+        seen: Number of messages received.
+        frame: Frame of the last one.
     """
 
-    def __init__(self, node: Node, topic: str, kind: type[Message]) -> None:
-        self._node = node
-        self._waiting: deque[Any] = deque(maxlen=_KEPT)
+    def __init__(self) -> None:
+        self._waiting: deque[Any] = deque(maxlen=KEPT)
         self._news = threading.Condition()
         self.seen = 0
-        """Number of messages received."""
         self.frame = ""
-        """Of the last one."""
-        node.subscribe(topic, kind, self._take, queue_size=_KEPT)
 
-    def _take(self, message: Any) -> None:
+    def add(self, message: Any) -> None:
+        """Add a message with a header."""
         with self._news:
             self.seen += 1
             self.frame = message.header.frame_id.strip("/")
@@ -75,3 +72,17 @@ class ScanQueue:
                     self._waiting.remove(message)
             if not done:
                 self._news.wait(0.01)
+
+
+class ScanQueue(MessageQueue):
+    """Queue of the messages of a topic.
+
+    Args:
+        node: On the graph.
+        topic: Of the messages.
+        kind: Of the messages.
+    """
+
+    def __init__(self, node: Node, topic: str, kind: type[Message]) -> None:
+        super().__init__()
+        node.subscribe(topic, kind, self.add, queue_size=KEPT)

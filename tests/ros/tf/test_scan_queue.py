@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gazelle.bridges.navigation.scan_queue import ScanQueue
 from gazelle_ros import Master, Node, load_message
+from gazelle_ros.tf.scan_queue import ScanQueue
 
 
 class Transforms:
@@ -46,7 +46,7 @@ def work(queue, transforms, used):
 @given(st.lists(st.integers(0, 9), max_size=20).map(sorted))
 def test_transforms_that_come_meanwhile_cost_no_scan(queue, arrivals):
     for stamp in range(10):
-        queue._take(scan(stamp))
+        queue.add(scan(stamp))
     transforms, used = Transforms(), []
     transforms.later = list(arrivals)
     while transforms.later and len(used) < 10:
@@ -59,7 +59,7 @@ def test_transforms_that_come_meanwhile_cost_no_scan(queue, arrivals):
 
 def test_scans_older_than_all_transforms_are_left_out(queue):
     for stamp in range(6):
-        queue._take(scan(stamp))
+        queue.add(scan(stamp))
     used = []
     work(queue, Transforms(3, 9), used)
     assert used == [(3, 3), (4, 4), (5, 5)]
@@ -68,7 +68,7 @@ def test_scans_older_than_all_transforms_are_left_out(queue):
 
 def test_what_waits_for_its_transform_stays(queue):
     for stamp in range(4):
-        queue._take(scan(stamp))
+        queue.add(scan(stamp))
     used = []
     work(queue, Transforms(0, 1), used)
     assert used == [(0, 0), (1, 1)]

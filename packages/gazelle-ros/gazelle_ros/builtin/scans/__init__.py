@@ -1,0 +1,1 @@
+"""Nodes that make laser scans of clouds and depth images, and that filter scans."""

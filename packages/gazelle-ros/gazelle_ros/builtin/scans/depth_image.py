@@ -1,0 +1,193 @@
+"""Depth images as laser scans (http://wiki.ros.org/depthimage_to_laserscan)."""
+
+from __future__ import annotations
+
+import logging
+import math
+import threading
+import time
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gazelle_ros import names
+from gazelle_ros.builtin.arguments import CallbackWork, run_node
+from gazelle_ros.builtin.on_demand import OnDemandPublisher
+from gazelle_ros.builtin.parameters import settings_of
+from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
+from gazelle_ros.compat.cv_bridge import CvBridge, CvBridgeError
+from gazelle_ros.msgs import sensor_msgs, std_msgs
+from gazelle_ros.node import Node
+from gazelle_ros.subscribing import Subscriber
+
+_UNITS = {"16UC1": 0.001, "32FC1": 1.0}
+"""Length of a unit of each encoding [m]."""
+_KEPT = 10
+_QUIET_S = 1.0
+_LOG = logging.getLogger("gazelle.ros.scans")
+
+
+@dataclass(frozen=True, slots=True)
+class DepthScanSettings:
+    """Parameters of ``depthimage_to_laserscan``, with its defaults.
+
+    Attributes:
+        scan_height: Rows of the image around the optical centre.
+        scan_time: What the scan says [s].
+        range_min: Nearer points are left out [m].
+        range_max: Farther points are left out [m].
+        output_frame_id: Frame of the scan: that of the camera with x forwards and z up.
+    """
+
+    scan_height: int = tunable(1, 1, 500, "Height of the laser band (in pixels).")
+    scan_time: float = tunable(0.033, 0.0, 1.0, "Time for the entire scan sweep.")
+    range_min: float = tunable(0.45, 0.0, 10.0, "Minimum reported range (in meters).")
+    range_max: float = tunable(10.0, 0.0, 10.0, "Maximum reported range (in meters).")
+    output_frame_id: str = tunable(
+        "camera_depth_frame", description="Output frame_id for the laserscan."
+    )
+
+
+class DepthImageToLaserScan(CallbackWork):
+    """Depth images of ``image`` as ``scan``, while that has subscribers.
+
+    The camera is described by ``camera_info`` in the namespace of the images.
+
+    Args:
+        node: On the graph.
+
+    Raises:
+        Error: A parameter is wrong.
+    """
+
+    def __init__(self, node: Node) -> None:
+        super().__init__(node)
+        self.settings = settings_of(
+            node, DepthScanSettings, others=("image_transport", "compressed_image_transport")
+        )
+        self._lock = threading.Lock()
+        self._images: deque[Any] = deque(maxlen=_KEPT)
+        self._cameras: deque[Any] = deque(maxlen=_KEPT)
+        self._warned = -math.inf
+        self._tuned = TunedSettings(node, self.settings, self._change)
+        self._output = OnDemandPublisher(node, "scan", sensor_msgs.msg.LaserScan, self._begin)
+
+    def _begin(self) -> list[Subscriber]:
+        image = self.node.resolve("image")
+        camera = names.namespace_of(image) + "camera_info"
+        kinds = sensor_msgs.msg
+        return [
+            self.node.subscribe(image, kinds.Image, self._take_image, _KEPT),
+            self.node.subscribe(camera, kinds.CameraInfo, self._take_camera, _KEPT),
+        ]
+
+    def _change(self, settings: DepthScanSettings) -> None:
+        self.settings = settings
+
+    def _take_image(self, image: sensor_msgs.msg.Image) -> None:
+        with self._lock:
+            camera = _partner(image, self._images, self._cameras)
+        if camera is not None:
+            self._convert(image, camera)
+
+    def _take_camera(self, camera: sensor_msgs.msg.CameraInfo) -> None:
+        with self._lock:
+            image = _partner(camera, self._cameras, self._images)
+        if image is not None:
+            self._convert(image, camera)
+
+    def _convert(self, image: sensor_msgs.msg.Image, camera: sensor_msgs.msg.CameraInfo) -> None:
+        try:
+            scan = scan_of_image(self.settings, image, camera)
+        except (ValueError, CvBridgeError) as error:
+            now = time.monotonic()
+            if now - self._warned > _QUIET_S:
+                self._warned = now
+                _LOG.warning("a depth image cannot be converted: %s", error)
+            return
+        self._output.publish(scan)
+
+
+def _partner(message: Any, own: deque[Any], others: deque[Any]) -> Any:
+    """Return the message of the same time among others; None, and keep this one, if there is none."""
+    stamp = message.header.stamp
+    found = next((each for each in others if each.header.stamp == stamp), None)
+    if found is None:
+        own.append(message)
+    else:
+        others.remove(found)
+    return found
+
+
+def scan_of_image(
+    settings: DepthScanSettings, image: sensor_msgs.msg.Image, camera: sensor_msgs.msg.CameraInfo
+) -> sensor_msgs.msg.LaserScan:
+    """Return the scan of a depth image: of each column the nearest valid point.
+
+    Beams are as many as columns, at equal angles; the first is that of the rightmost column.
+
+    Args:
+        settings: Rows and limits.
+        image: Depth along the optical axis, ``16UC1`` [mm] or ``32FC1`` [m]; rectified.
+        camera: Its projection.
+
+    Raises:
+        ValueError: The image is of another encoding or not as high as the rows wanted, or the
+            camera has no focal length.
+    """
+    unit = _UNITS.get(image.encoding)
+    if unit is None:
+        raise ValueError(f"the encoding is {image.encoding}; it should be one of {list(_UNITS)}")
+    focal, centre_x, centre_y = camera.P[0], camera.P[2], camera.P[6]
+    if not focal > 0.0:
+        raise ValueError("the camera_info has no focal length (P[0])")
+    half = settings.scan_height // 2
+    if half > centre_y or half > image.height - centre_y:
+        raise ValueError(f"a scan_height of {settings.scan_height} is too great for the image")
+    across = (np.arange(image.width) - centre_x) / focal  # of a point at a depth of one
+    angles = -np.arctan2(across, 1.0)
+    first, last = float(angles[-1]), float(angles[0])
+    step = (last - first) / max(image.width - 1, 1)
+    top = int(centre_y - half)
+    rows = CvBridge().imgmsg_to_cv2(image)[top : top + settings.scan_height].astype(np.float64)
+    if unit != 1.0:
+        rows = np.where(rows == 0.0, np.nan, rows * unit)
+    return sensor_msgs.msg.LaserScan(
+        header=std_msgs.msg.Header(
+            stamp=image.header.stamp, frame_id=settings.output_frame_id or image.header.frame_id
+        ),
+        angle_min=first,
+        angle_max=last,
+        angle_increment=step,
+        scan_time=settings.scan_time,
+        range_min=settings.range_min,
+        range_max=settings.range_max,
+        ranges=_ranges(settings, rows * np.hypot(across, 1.0), (angles - first) / (step or 1.0)),
+    )
+
+
+def _ranges(settings: DepthScanSettings, away: Any, place: Any) -> list[float]:
+    """Return the range of each beam [m]; NaN where nothing is known, infinity where nothing is.
+
+    Args:
+        settings: Limits.
+        away: Distance of each pixel [m], shape (rows, columns).
+        place: Angle of each column in beams after the first; shape (columns,).
+    """
+    beam = np.floor(place + 1e-6).astype(np.intp)  # the outermost column is that of the last beam
+    kept = (away >= settings.range_min) & (away <= settings.range_max)
+    ranges = np.full(len(beam), np.nan)
+    np.fmin.at(ranges, np.broadcast_to(beam, away.shape)[kept], away[kept])
+    free = np.zeros(len(beam), bool)
+    free[beam[(away == np.inf).any(axis=0)]] = True
+    ranges[np.isnan(ranges) & free] = np.inf
+    found: list[float] = ranges.tolist()
+    return found
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Convert depth images until shutdown; returns the exit code."""
+    return run_node(arguments, "depthimage_to_laserscan", DepthImageToLaserScan)
