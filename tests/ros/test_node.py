@@ -9,6 +9,7 @@ from ports import free_port
 from ros.graph import Flag, Text, Word, until
 
 from gazelle_ros import Master, Node
+from gazelle_ros.base.program import program_name
 from gazelle_ros.errors import MasterUnreachableError, ServiceFailedError
 from gazelle_ros.raw import RawMessage
 
@@ -134,7 +135,7 @@ def test_a_closed_node_leaves_nothing(master):
 
 
 def test_without_a_master_the_error_says_what_to_do():
-    with pytest.raises(MasterUnreachableError, match="gazelle master"):
+    with pytest.raises(MasterUnreachableError, match=f"{program_name()} master"):
         Node("lonely", master_uri="http://127.0.0.1:9/")
 
 

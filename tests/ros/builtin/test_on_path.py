@@ -37,7 +37,7 @@ def test_a_command_is_found_by_its_name_and_by_python(surroundings):
 
 @pytest.mark.long
 def test_commands_are_programs_of_packages_too(surroundings):
-    code, folder, _ = said("rospack find turtlebot3_description", surroundings)
+    code, folder, _ = said("rospack find topic_tools", surroundings)
     assert code == 0
     assert os.path.isdir(folder)  # noqa: PTH112  # a text that a program printed
     assert said("rospack find nowhere", surroundings)[0] == 1

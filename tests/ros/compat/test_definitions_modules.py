@@ -153,7 +153,7 @@ def test_messages_are_shown_as_rosmsg_does(words, capsys):
 
 def test_an_unknown_type_is_one_line(capsys):
     assert main(["srv", "show", "Nope"]) == 1
-    assert capsys.readouterr().err == "gazelle: error: Could not find srv 'Nope'\n"
+    assert capsys.readouterr().err == "gazelle-ros: error: Could not find srv 'Nope'\n"
 
 
 def test_a_master_is_started_and_stopped_as_an_object():

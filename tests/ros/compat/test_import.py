@@ -5,6 +5,7 @@ import sys
 import types
 
 import pytest
+from whole import needs_gazelle
 
 import gazelle_ros as ros
 from gazelle_ros.compat.finder import own_modules
@@ -169,6 +170,7 @@ def test_a_package_without_code_still_has_its_messages():
         assert importlib.import_module("openai_ros.msg").RLExperimentInfo
 
 
+@needs_gazelle
 @pytest.mark.parametrize("where", ["ROS_PACKAGE_PATH", "PYTHONPATH", None])
 def test_the_users_own_moveit_commander_comes_before_ours(where, tmp_path, monkeypatch):
     package = tmp_path / "deep" / "moveit_commander"

@@ -5,6 +5,7 @@ import os
 from pathlib import Path
 
 import pytest
+from whole import needs_gazelle
 
 import gazelle_ros as ros
 from gazelle_ros.builtin.rospack import main as rospack
@@ -172,9 +173,13 @@ def test_addresses_are_read(rosgraph, monkeypatch):
     "name",
     [
         "robot_state_publisher", "map_server", "tf", "tf2_ros", "controller_manager", "rospy",
-        "roscpp", "std_msgs", "sensor_msgs", "gazebo_msgs", "gazebo_ros", "gazebo_plugins", "xacro",
-        "joint_state_publisher", "actionlib", "rostopic", "roslaunch", "topic_tools", "stage_ros",
-        "effort_controllers", "joint_trajectory_controller", "turtlebot3_description",
+        "roscpp", "std_msgs", "sensor_msgs", "gazebo_msgs", "gazebo_plugins", "xacro",
+        "joint_state_publisher", "actionlib", "rostopic", "roslaunch", "topic_tools",
+        "effort_controllers", "joint_trajectory_controller",
+        *(
+            pytest.param(name, marks=needs_gazelle)
+            for name in ("gazebo_ros", "stage_ros", "turtlebot3_description")
+        ),
     ],
 )  # fmt: skip
 def test_what_is_built_in_has_a_folder_with_its_manifest(rospkg, name, monkeypatch, tmp_path):

@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 from ports import free_port
 from ros.graph import until
+from whole import needs_gazelle
 
 from gazelle_ros import Master, MasterProxy
 from gazelle_ros.errors import RosError
@@ -184,6 +185,7 @@ HELPER = "rosout roslaunch rosmaster gzserver robot_state_publisher gzclient"
 ROBOT = "<robot name='r'><link name='base'/></robot>".replace("<", "&lt;")
 
 
+@needs_gazelle
 @pytest.mark.skipif(shutil.which("killall") is None, reason="there is no killall")
 def test_a_helper_script_finds_all_by_their_names(start, tmp_path):
     """Among them names of more than the 15 letters that Linux keeps, and the simulator's."""

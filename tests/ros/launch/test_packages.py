@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 import pytest
+from whole import needs_gazelle
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.builtin import registry
@@ -90,7 +91,7 @@ def test_install_spaces_hold_programs_beside_the_package(tmp_path):
 @pytest.mark.parametrize(
     ("package", "kind"),
     [
-        ("map_server", "map_server"),
+        pytest.param("map_server", "map_server", marks=needs_gazelle),
         ("tf", "static_transform_publisher"),
         ("tf2_ros", "static_transform_publisher"),
         ("topic_tools", "throttle"),
@@ -110,15 +111,14 @@ def test_windows_are_left_out(package):
 
 
 def test_an_installed_package_comes_before_a_built_in_one(workspace):
-    folder = workspace / "map_server"
+    folder = workspace / "topic_tools"
     folder.mkdir()
-    (folder / "package.xml").write_text("<package><name>map_server</name></package>")
+    (folder / "package.xml").write_text("<package><name>topic_tools</name></package>")
     packages = Packages()
-    assert program_of("map_server", "map_server", packages).folder is None
-    (folder / "map_server").write_text("#!/bin/sh\n")
-    (folder / "map_server").chmod(0o755)
-    found = program_of("map_server", "map_server", packages)
-    assert found.command == (str(folder / "map_server"),)
+    assert program_of("topic_tools", "relay", packages).folder is None
+    (folder / "relay").write_text("#!/bin/sh\n")
+    (folder / "relay").chmod(0o755)
+    assert program_of("topic_tools", "relay", packages).command == (str(folder / "relay"),)
 
 
 def test_packages_can_be_added(monkeypatch, tmp_path):

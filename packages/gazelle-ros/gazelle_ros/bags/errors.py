@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.program import program_name
 
 
 class BagError(RosError):
@@ -20,5 +21,5 @@ class BagUnindexedError(BagError):
         super().__init__(
             "the bag has no index; its recording was cut off",
             file=path,
-            hint=f"gazelle bag reindex {path}",
+            hint=f"{program_name()} bag reindex {path}",
         )

@@ -17,6 +17,7 @@ from gazelle_ros.bags import records
 from gazelle_ros.bags.errors import BagError
 from gazelle_ros.bags.records import Connection
 from gazelle_ros.bags.writer import CHUNK_BYTES, BagWriter
+from gazelle_ros.base.program import program_name
 from gazelle_ros.errors import RosError, UnreachableError
 from gazelle_ros.master.proxy import value_of
 from gazelle_ros.msgs import std_msgs
@@ -345,7 +346,7 @@ class BagRecorder:
             with active.open("r+b") as stream:
                 output.writer.close_damaged(stream)
         except OSError:
-            self._kept = f"'gazelle bag reindex {active}' makes a bag of what was written"
+            self._kept = f"'{program_name()} bag reindex {active}' makes a bag of what was written"
             return False
         self._kept = "what was written until then is kept"
         return True

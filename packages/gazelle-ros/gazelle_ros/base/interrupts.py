@@ -22,6 +22,8 @@ from collections.abc import Callable, Iterator
 from types import FrameType
 from typing import Any, NoReturn
 
+from gazelle_ros.base.program import program_name
+
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _SAME_S = 0.5
 """Signals within this time are one request [s]."""
@@ -300,7 +302,7 @@ class _Listener:
         if self.receivers[-1:] != [None]:
             return
         with contextlib.suppress(OSError):
-            os.write(2, b"\ngazelle: interrupted\n")
+            os.write(2, f"\n{program_name()}: interrupted\n".encode())
         os._exit(128 + number)
 
     def _insist(self) -> None:

@@ -37,7 +37,7 @@ def run(args: argparse.Namespace) -> int:
     from gazelle_ros.compat.script import run_named, runs_tool
 
     if runs_tool(args.script, args.arguments):
-        from gazelle_ros.cli.main import main
+        from gazelle_ros.cli.main import inherited, main
 
-        return main([args.script, *args.arguments])
+        return main([args.script, *args.arguments], inherited())
     return run_named(args.script, args.arguments, sim_sleep=args.sim_sleep, debug=args.debug)

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle_ros.base.argument_types import port_number, positive_float
 from gazelle_ros.base.errors import Error
+from gazelle_ros.base.program import program_name
 from gazelle_ros.base.writing import write_text
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ def run(args: argparse.Namespace) -> int:
     packages = Packages()
     plan = _load(args, packages)
     for notice in plan.notices:
-        sys.stderr.write(f"gazelle: warning: {notice}\n")
+        sys.stderr.write(f"{program_name()}: warning: {notice}\n")
     shown = _show(args, plan, packages)
     if shown is not None:
         sys.stdout.write(shown)

@@ -12,12 +12,13 @@ import traceback
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TextIO
 
 from gazelle_ros import __version__
 from gazelle_ros.base.errors import Error, GazelleWarning, describe, did_you_mean
 from gazelle_ros.base.interrupts import end_process, exit_code, interruptible, requested
+from gazelle_ros.base.program import program_name, running
 from gazelle_ros.base.writing import naming
 from gazelle_ros.cli.commands import COMMANDS, Command
 from gazelle_ros.cli.parsing import Parser
@@ -67,6 +68,16 @@ def main(argv: Sequence[str] | None = None, program: CommandLine = ROS) -> int:
     Returns:
         0 done, 1 the work failed, 2 the command line was wrong, 130 Ctrl-C, 143 SIGTERM.
     """
+    with running(program.name):
+        return _main(argv, program)
+
+
+def inherited() -> CommandLine:
+    """Return the commands of ``gazelle-ros`` under the name of the program that the user started."""
+    return replace(ROS, name=program_name())
+
+
+def _main(argv: Sequence[str] | None, program: CommandLine) -> int:
     if argv is None and not _open_streams():
         _complain("the standard output is closed", "'>/dev/null' throws it away")
         return FAILED
@@ -163,7 +174,7 @@ def _run(
     except SystemExit as stop:
         return stop.code if isinstance(stop.code, int) else FAILED
     except KeyboardInterrupt as request:
-        sys.stderr.write("\ngazelle: interrupted\n")
+        sys.stderr.write(f"\n{program.name}: interrupted\n")
         return exit_code(request)
     except BrokenPipeError:
         # The reader of our output is gone, as in `gazelle tasks | head`.
@@ -228,7 +239,7 @@ def _is_out_of_memory(error: BaseException | None) -> bool:
 
 
 def _complain(message: str, hint: str | None) -> None:
-    sys.stderr.write(f"gazelle: error: {message}\n")
+    sys.stderr.write(f"{program_name()}: error: {message}\n")
     if hint:
         sys.stderr.write(f"  hint: {hint}\n")
 
@@ -254,10 +265,10 @@ def _show_warning(
     del line
     stream = file or sys.stderr
     if issubclass(category, GazelleWarning):
-        stream.write(f"gazelle: warning: {message}\n")
+        stream.write(f"{program_name()}: warning: {message}\n")
     else:
         stream.write(f"{filename}:{lineno}: {category.__name__}: {message}\n")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(program=inherited()))

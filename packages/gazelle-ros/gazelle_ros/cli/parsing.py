@@ -12,6 +12,7 @@ from typing import Any, NoReturn
 
 from gazelle_ros.base.argument_types import NumberParser, positive_int
 from gazelle_ros.base.errors import did_you_mean
+from gazelle_ros.base.program import program_name
 
 _WIDTH = 80
 
@@ -40,7 +41,7 @@ class Parser(NumberParser):
     def error(self, message: str) -> NoReturn:
         """Print what is wrong with the command line and exit with code 2."""
         hint = self._closest_option(message) or f"see {self.prog} --help"
-        sys.stderr.write(f"gazelle: error: {message}\n  hint: {hint}\n")
+        sys.stderr.write(f"{program_name()}: error: {message}\n  hint: {hint}\n")
         self.exit(2)
 
     def _closest_option(self, message: str) -> str | None:

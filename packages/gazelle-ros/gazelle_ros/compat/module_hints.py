@@ -5,6 +5,8 @@ One table for what pip brings under the same or another name, one for what is no
 
 from __future__ import annotations
 
+from gazelle_ros.base.program import program_name
+
 PIP = {
     "Cryptodome": "pycryptodomex",
     "PIL": "pillow",
@@ -119,7 +121,7 @@ ADVICE = {
     "moveit_python": _SOURCE.format("moveit_python"),
     "pcl": "it is C++: sensor_msgs.point_cloud2 and ros_numpy read clouds",
     "py_trees_ros": _SOURCE.format("py_trees_ros"),
-    "roswtf": "'gazelle node info' and 'gazelle topic info' say who speaks with whom",
+    "roswtf": "'{program} node info' and '{program} topic info' say who speaks with whom",
     "stage_ros": "stage_ros has no messages and services of its own: put the fork that has them on ROS_PACKAGE_PATH",
     "sound_play": _SOURCE.format("audio_common"),
 }
@@ -161,6 +163,6 @@ def _longest(name: str) -> str | None:
     """Return the advice about a name with dots, or about the longest part of it that has some."""
     while name:
         if name in ADVICE:
-            return ADVICE[name]
+            return ADVICE[name].format(program=program_name())
         name = name.rpartition(".")[0]
     return None

@@ -14,6 +14,7 @@ from pathlib import Path
 from gazelle_ros.base.bundled_packages import published
 from gazelle_ros.base.errors import did_you_mean
 from gazelle_ros.base.path_texts import can_be_path
+from gazelle_ros.base.program import program_name
 from gazelle_ros.builtin import registry
 from gazelle_ros.launch.errors import LaunchError, MissingPackageError
 from gazelle_ros.messages import search
@@ -167,7 +168,7 @@ class Packages:
         files = sorted(path.name for path in folder.glob("launch/*.launch")) if folder else []
         if not files:
             return "add the folder that the package is in to ROS_PACKAGE_PATH"
-        return f"it has launch files: gazelle launch {package} {' | '.join(files)}"
+        return f"it has launch files: {program_name()} launch {package} {' | '.join(files)}"
 
     def _spaces(self, package: str, folder: Path) -> Iterator[Path]:
         """Install and devel spaces that may hold a package, the nearest first."""

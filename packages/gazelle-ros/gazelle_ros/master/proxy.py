@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from gazelle_ros.base.program import program_name
 from gazelle_ros.errors import (
     ApiError,
     FaultError,
@@ -20,10 +21,15 @@ from gazelle_ros.xmlrpc.client import BlockingClient
 
 GREETING_S = 10.0
 """A master that does not say who it is within this time is none [s]."""
-TAKEN_HINT = (
-    "give the master another port, 'gazelle master --port 11312' or 'gazelle launch --port 11312', "
-    "and everything else ROS_MASTER_URI=http://localhost:11312"
-)
+
+
+def taken_hint() -> str:
+    """Return what to do where another program has the master's port."""
+    name = program_name()
+    return (
+        f"give the master another port, '{name} master --port 11312' or '{name} launch --port 11312', "
+        "and everything else ROS_MASTER_URI=http://localhost:11312"
+    )
 
 
 def value_of(method: str, triple: Any) -> Any:
@@ -77,7 +83,7 @@ class MasterProxy:
             kind = NoListeningMasterError if refused else MasterUnreachableError
             raise kind(
                 f"the ROS master at {self.uri} does not answer ({reason})",
-                hint="start one with 'gazelle master', or set ROS_MASTER_URI",
+                hint=f"start one with '{program_name()} master', or set ROS_MASTER_URI",
             ) from None
 
     def close(self) -> None:
@@ -189,4 +195,4 @@ class MasterProxy:
 
 def _no_master(uri: str, why: str) -> NoMasterError:
     """Return the error for a port that something else uses."""
-    return NoMasterError(f"what listens at {uri} is no ROS master ({why})", hint=TAKEN_HINT)
+    return NoMasterError(f"what listens at {uri} is no ROS master ({why})", hint=taken_hint())

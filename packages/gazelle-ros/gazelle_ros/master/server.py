@@ -15,7 +15,7 @@ from gazelle_ros.base.closing import Closeable
 from gazelle_ros.errors import RosError
 from gazelle_ros.limits import LIMITS, NetworkLimits
 from gazelle_ros.master.api import MasterApi
-from gazelle_ros.master.proxy import TAKEN_HINT, MasterProxy
+from gazelle_ros.master.proxy import MasterProxy, taken_hint
 from gazelle_ros.xmlrpc.async_client import AsyncClient
 from gazelle_ros.xmlrpc.server import XmlRpcServer
 
@@ -140,7 +140,7 @@ def _cannot_listen(error: OSError, host: str, port: int) -> RosError:
     try:
         process = there.get_pid()
     except (RosError, ValueError):
-        return RosError(text + "a program that is no ROS master has that port", hint=TAKEN_HINT)
+        return RosError(text + "a program that is no ROS master has that port", hint=taken_hint())
     finally:
         there.close()
     return RosError(

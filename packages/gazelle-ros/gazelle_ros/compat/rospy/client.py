@@ -13,6 +13,7 @@ from typing import Any
 
 from gazelle_ros import names as graph_names
 from gazelle_ros import time as values
+from gazelle_ros.base.program import program_name
 from gazelle_ros.compat.rospy import logs, names
 from gazelle_ros.compat.rospy.exceptions import (
     ROSException,
@@ -180,7 +181,7 @@ def _join(name: str, **options: Any) -> Node:
                 said = True
                 sys.stdout.write(
                     f"Unable to register with master node [{options['master_uri']}]: master may "
-                    "not be running yet. Will keep trying. ('gazelle master' starts one.)\n"
+                    f"not be running yet. Will keep trying. ('{program_name()} master' starts one.)\n"
                 )
                 sys.stdout.flush()
         time.sleep(_MASTER_POLL_S)

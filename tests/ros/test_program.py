@@ -1,0 +1,54 @@
+"""Messages and hints name the command that the user started."""
+
+from __future__ import annotations
+
+import importlib
+import os
+import subprocess
+import sys
+
+import pytest
+from whole import needs_gazelle
+
+from gazelle_ros.bags.errors import BagUnindexedError
+from gazelle_ros.base.program import program_name, running
+from gazelle_ros.compat.module_hints import module_hint
+from gazelle_ros.master.proxy import taken_hint
+
+PROGRAMS = [pytest.param("gazelle", marks=needs_gazelle), "gazelle-ros"]
+
+
+def main_of(name):
+    return importlib.import_module(f"{name.replace('-', '_')}.cli.main").main
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+@pytest.mark.parametrize("words", [["topc"], ["topic", "--nothing"], ["bag", "info", "/none.bag"]])
+def test_an_error_begins_with_the_program(name, words, capsys):
+    assert main_of(name)(words) != 0
+    assert capsys.readouterr().err.startswith(f"{name}: error: ")
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_programs_that_it_starts_name_it_too(name, tmp_path):
+    with running(name):
+        environment = dict(os.environ)
+    command = [sys.executable, "-m", "gazelle_ros.cli.main", "exec", str(tmp_path / "none.py")]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.stderr.startswith(f"{name}: error: ")
+
+
+def test_hints_name_it():
+    with running("gazelle-ros"):
+        hints = (BagUnindexedError("a.bag").hint, taken_hint(), module_hint("roswtf"))
+    for hint, words in zip(hints, ("bag reindex a.bag", "master --port", "node info"), strict=True):
+        assert f"gazelle-ros {words}" in hint
+
+
+def test_a_script_names_what_is_installed(monkeypatch):
+    monkeypatch.delenv("GAZELLE_PROGRAM", raising=False)
+    whole = importlib.util.find_spec("gazelle") is not None
+    assert program_name() == ("gazelle" if whole else "gazelle-ros")
+    with running("gazelle-ros"), running("gazelle"):
+        assert program_name() == "gazelle"
+    assert "GAZELLE_PROGRAM" not in os.environ
