@@ -58,7 +58,7 @@ class AckermannSteeringController(BaseController):
             )
         )
 
-    def measure_anew(self, rows: Worlds) -> None:
+    def remeasure(self, rows: Worlds) -> None:
         """Count from here."""
         self._turned[rows] = self._wheel.position[rows, 0]
 

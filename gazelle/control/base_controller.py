@@ -61,12 +61,12 @@ class BaseController(Controller):
         self.open_loop = parameters.flag("open_loop", default=False)
         self.period = 0.0
         odom = self.add_output("odom", Odometry, self._measure, queue_size=100)
-        self._told: list[StatePort[Any]] = [odom]
+        self._published: list[StatePort[Any]] = [odom]
         self._prompt: list[StatePort[Any]] = []
         self._frames_port = self.add_output(
             "tf", Transforms, self._frames, topic="/tf", queue_size=100
         )
-        self.tell_frames(told=parameters.flag("enable_odom_tf", default=True))
+        self.publish_frames(enabled=parameters.flag("enable_odom_tf", default=True))
         self._command_port = self.add_input("cmd_vel", BaseTwist, self._receive)
         if parameters.flag("publish_cmd", default=False):
             self.publish_always(
@@ -79,19 +79,19 @@ class BaseController(Controller):
 
     def publish_with_odometry(self, port: StatePort[Any]) -> None:
         """Publish something besides whenever the odometry is."""
-        self._told.append(port)
+        self._published.append(port)
 
     @property
     def framed(self) -> bool:
         """True if the frame of the odometry is published, too."""
-        return self._frames_port in self._told
+        return self._frames_port in self._published
 
-    def tell_frames(self, *, told: bool) -> None:
+    def publish_frames(self, *, enabled: bool) -> None:
         """Publish the frame of the odometry with it, or do not."""
-        if told and not self.framed:
-            self._told.append(self._frames_port)
-        elif self.framed and not told:
-            self._told.remove(self._frames_port)
+        if enabled and not self.framed:
+            self._published.append(self._frames_port)
+        elif self.framed and not enabled:
+            self._published.remove(self._frames_port)
 
     def publish_always(self, port: StatePort[Any]) -> None:
         """Publish something after every update."""
@@ -103,7 +103,7 @@ class BaseController(Controller):
         """Command the wheels to stand still in some worlds."""
         raise NotImplementedError
 
-    def measure_anew(self, rows: Worlds) -> None:
+    def remeasure(self, rows: Worlds) -> None:
         """Count from where the wheels are now in some worlds."""
 
     def command_speed(self, speed: float, rows: Worlds) -> None:
@@ -149,7 +149,7 @@ class BaseController(Controller):
         self._brake(rows)
         self.memory.wanted[rows] = 0.0
         self.memory.stamps[rows] = self.now_ns
-        self.measure_anew(rows)
+        self.remeasure(rows)
 
     def stopping(self, time: float) -> None:  # noqa: ARG002  at any time
         """Stop the base."""
@@ -162,7 +162,7 @@ class BaseController(Controller):
         if self.memory.lost.all():
             return
         if self.schedule.is_due(self.now_ns):
-            for port in self._told:
+            for port in self._published:
                 port.publish()
         for port in self._prompt:
             port.publish()
@@ -176,7 +176,7 @@ class BaseController(Controller):
         for port in self._prompt:
             if port.wanted:
                 return 0.0
-        for port in self._told:
+        for port in self._published:
             if port.wanted:
                 return self.schedule.next_ns
         return math.inf
@@ -186,7 +186,7 @@ class BaseController(Controller):
         self.period = period
         self.schedule.skip(self.now_ns, updates)
 
-    # -- telling -------------------------------------------------------------------------
+    # -- publishing ----------------------------------------------------------------------
 
     def _measure(self) -> Odometry:
         position, quaternion = self._place()

@@ -67,7 +67,7 @@ def check_controllers(path: str | os.PathLike[str], robot: str | os.PathLike[str
 
     Args:
         path: Of the file, as ``rosparam load`` takes it.
-        robot: URDF, xacro or SDF of the robot, whose transmissions say how joints are commanded.
+        robot: URDF, xacro or SDF of the robot, with transmissions for its joints.
     """
     file = os.fspath(path)
     try:
@@ -130,10 +130,10 @@ class _Checker:
                     rule="joint-transmission",
                 )
 
-    def _missing(self, node: yaml.ScalarNode, whose: str) -> Problem:
+    def _missing(self, node: yaml.ScalarNode, owner: str) -> Problem:
         return Problem(
             "error",
-            f"{whose} names the joint '{node.value}', which the robot does not have",
+            f"{owner} names the joint '{node.value}', which the robot does not have",
             self._file,
             _line(node),
             hint=did_you_mean(node.value, self._joints),

@@ -17,7 +17,7 @@ by a name that does not change: ``inputs`` (``CommandPort``: subscribe, hand eac
 ``send``), ``outputs`` (``StatePort``: listen with ``subscribe`` while the topic has subscribers),
 ``actions`` (``ActionPort``: give each goal to ``send`` and keep the ``Goal`` it returns; its states are
 actionlib's; ``Goal.subscribe`` reports changes and feedback, ``Goal.cancel`` takes a cancel request),
-``queries`` (``QueryPort``: a service, ``ask``; a ``ControlError`` is its failure) and ``tunings``
+``queries`` (``QueryPort``: a service, ``call``; a ``ControlError`` is its failure) and ``tunings``
 (``TuningPort``: a dynamic_reconfigure server). A port's ``topic`` is relative to the manager's
 namespace (``arm_controller/command``), or begins with a slash. Its ``kind`` is the class of the values:
 see ``values`` and ``measurements``, which say which message they stand for. All ports may be used from
@@ -306,5 +306,5 @@ class Controller:
 
 def law_of(controller: Controller) -> ControlLaw | None:
     """Return the native law of a controller; None where Python has to update it."""
-    whose = next(kind for kind in type(controller).__mro__ if {"law", "update"} & set(vars(kind)))
-    return controller.law() if "law" in vars(whose) else None
+    owner = next(kind for kind in type(controller).__mro__ if {"law", "update"} & set(vars(kind)))
+    return controller.law() if "law" in vars(owner) else None

@@ -58,7 +58,7 @@ class DiffDriveController(BaseController):
         self.drive_by(self._sides)
         if parameters.flag("publish_wheel_joint_controller_state", default=False):
             name = "wheel_joint_controller_state"
-            self.publish_always(self.add_output(name, TrajectoryState, self._tell, queue_size=100))
+            self.publish_always(self.add_output(name, TrajectoryState, self._state, queue_size=100))
         self.add_tuning("", _TUNABLES, self._tuned, self._tune)
 
     def _read_sizes(self, given: ControllerParameters, left: str, right: str) -> Floats:
@@ -92,9 +92,9 @@ class DiffDriveController(BaseController):
         self._multipliers = np.array([values[name] for name in names])
         self._effective[:] = self._size * self._multipliers
         self.schedule.set_rate(values["publish_rate"])
-        self.tell_frames(told=values["enable_odom_tf"])
+        self.publish_frames(enabled=values["enable_odom_tf"])
 
-    def measure_anew(self, rows: Worlds) -> None:
+    def remeasure(self, rows: Worlds) -> None:
         """Count from here."""
         self._turned[rows] = self._sides.measure()[rows]
 
@@ -102,7 +102,7 @@ class DiffDriveController(BaseController):
         """Stop the wheels."""
         self._wheels.set_command(0.0, None, rows)
 
-    def _tell(self) -> TrajectoryState:
+    def _state(self) -> TrajectoryState:
         position, velocity = self._wheels.position, self._wheels.velocity
         wanted = self._wheels.command()
         onward = position + wanted * self.period

@@ -55,7 +55,7 @@ class FourWheelSteeringController(BaseController):
         )
         self.add_input("cmd_four_wheel_steering", FourWheelCommand, self._receive_angles)
         self.publish_with_odometry(
-            self.add_output("odom_steer", FourWheelOdometry, self._tell, queue_size=100)
+            self.add_output("odom_steer", FourWheelOdometry, self._state, queue_size=100)
         )
 
     def _read_sizes(
@@ -112,7 +112,7 @@ class FourWheelSteeringController(BaseController):
         self._wheels.set_command(0.0, None, rows)
         self._steers.set_command(0.0, None, rows)
 
-    def _tell(self) -> FourWheelOdometry:
+    def _state(self) -> FourWheelOdometry:
         front, rear = self._measured.T
         speed = np.hypot(self.odometry.twist[:, 0], self.odometry.twist[:, 1])
         signed = np.copysign(speed, self.odometry.twist[:, 0])

@@ -72,7 +72,7 @@ class Goal(Generic[G]):
         return bool((self.states > GoalState.ACTIVE).all())
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait in wall time until another thread's steps bring the goal to its end.
+        """Wait in wall time until another thread's steps end the goal.
 
         Args:
             timeout: At most [s].
@@ -111,7 +111,7 @@ class Goal(Generic[G]):
     # -- for controllers -----------------------------------------------------------------
 
     @property
-    def heard(self) -> bool:
+    def has_feedback_callbacks(self) -> bool:
         """True if there are feedback callbacks."""
         return bool(self._feedback)
 
@@ -120,7 +120,7 @@ class Goal(Generic[G]):
         """True if there are feedback callbacks or listeners."""
         return bool(self._feedback or self._listeners)
 
-    def tell(self, value: Any) -> None:
+    def publish_feedback(self, value: Any) -> None:
         """Publish feedback."""
         for listener in tuple(self._feedback):
             listener(value)
@@ -128,7 +128,7 @@ class Goal(Generic[G]):
     def accept(self) -> None:
         """Mark the goal as active in all its worlds."""
         self.states[:] = GoalState.ACTIVE
-        self._tell_state()
+        self._publish_state()
 
     def end(
         self, state: GoalState, worlds: Worlds | None = None, result: Any = None, text: str = ""
@@ -150,11 +150,11 @@ class Goal(Generic[G]):
         for index in np.flatnonzero(here):
             self.results[index] = result
         self.text = text
-        self._tell_state()
+        self._publish_state()
         if self.done:
             self._ended.set()
 
-    def _tell_state(self) -> None:
+    def _publish_state(self) -> None:
         for listener in tuple(self._listeners):
             listener(self)
 

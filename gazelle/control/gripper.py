@@ -23,7 +23,7 @@ _NANOSECONDS = 1_000_000_000
 
 
 class GripperActionController(Controller):
-    """Brings one joint to a position, with a largest effort where it commands efforts.
+    """Moves one joint to a position, with a largest effort where it commands efforts.
 
     Attributes:
         action_name: Of its action.
@@ -43,8 +43,8 @@ class GripperActionController(Controller):
         self._pid: Pid | None = None
         if self.interfaces == (EFFORT,):
             pid = self._pid = Pid([PidGains.read(parameters.part(f"gains/{name}"))], self.nworld)
-            tell = pid_values
-            self.add_tuning(f"gains/{name}", PID_TUNABLES, lambda: tell(pid), pid_changer(pid))
+            read = pid_values
+            self.add_tuning(f"gains/{name}", PID_TUNABLES, lambda: read(pid), pid_changer(pid))
         self._take_goals(parameters, 0.0)
         self._law = GripperLaw(self._joint, self._position, self._max_effort, self._output)
         if self._pid is not None:
@@ -104,12 +104,12 @@ class GripperActionController(Controller):
     def _preempt(self, rows: Worlds, why: str) -> None:
         self._end(rows, GoalState.PREEMPTED, why)
 
-    def _end(self, rows: Worlds, state: GoalState, text: str = "", **told: bool) -> None:
+    def _end(self, rows: Worlds, state: GoalState, text: str = "", **flags: bool) -> None:
         """End the active goals in some worlds."""
         self._active[rows] = False
         for goal in tuple(self._goals):
             for world in np.intersect1d(goal.worlds, rows).tolist():
-                result = self._result(world, **told)
+                result = self._result(world, **flags)
                 goal.end(state, np.array([world]), result, text)
             if goal.done:
                 self._goals.remove(goal)
@@ -156,8 +156,8 @@ class GripperActionController(Controller):
             self._push(error, period)
         if self._goals and self._feedback_due.is_due(self.now_ns):
             for goal in self._goals:
-                if goal.heard:
-                    goal.tell(self._result(int(goal.worlds[0])))
+                if goal.has_feedback_callbacks:
+                    goal.publish_feedback(self._result(int(goal.worlds[0])))
 
     def law(self) -> ControlLaw | None:
         """Return the law that holds the joint; None where a subclass drives it in its own way."""

@@ -3,7 +3,7 @@
 They are those of ros_control's ``hardware_interface``, for many worlds at once.
 
 A kind of one's own is a subclass of ``HardwareInterface``, or an object of one of these classes under a
-name of one's own, registered by ``RobotHardware.register``; controllers ask for it by that name.
+name of one's own, registered by ``RobotHardware.register``; controllers request it by that name.
 """
 
 from __future__ import annotations

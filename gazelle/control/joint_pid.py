@@ -1,4 +1,4 @@
-"""Joints brought to positions and velocities by PID."""
+"""PID control of joint positions and velocities."""
 
 from __future__ import annotations
 
@@ -44,19 +44,19 @@ class PidControl(Controller):
         self._states: StatePort[JointControlState] | None = None
         self._statuses: list[StatePort[PidStatus]] = []
         for loop, (place, part) in enumerate(gains):
-            self._open_gains(loop, place, told=part.flag("publish_state", default=False))
+            self._open_gains(loop, place, published=part.flag("publish_state", default=False))
 
-    def _open_gains(self, loop: int, place: str, *, told: bool) -> None:
+    def _open_gains(self, loop: int, place: str, *, published: bool) -> None:
         self.add_tuning(
             place, PID_TUNABLES, lambda: pid_values(self._pid, loop), pid_changer(self._pid, loop)
         )
-        if told:
+        if published:
             port = self.add_output(f"{place}/state", PidStatus, lambda: self._status(loop))
             self._statuses.append(port)
 
     def open_state(self) -> None:
         """Open the state topic of a single joint."""
-        self._states = self.add_output("state", JointControlState, self._tell)
+        self._states = self.add_output("state", JointControlState, self._state)
 
     def take(self, values: ArrayLike, worlds: Worlds | None) -> None:
         """Set targets from the next update on."""
@@ -80,9 +80,9 @@ class PidControl(Controller):
 
     def wake_ns(self) -> float:
         """Return 0 while there are subscribers: update always."""
-        heard = any(port.wanted for port in self._statuses)
-        heard = heard or (self._states is not None and self._states.wanted)
-        return 0.0 if heard else math.inf
+        subscribed = any(port.wanted for port in self._statuses)
+        subscribed = subscribed or (self._states is not None and self._states.wanted)
+        return 0.0 if subscribed else math.inf
 
     def catch_up(self, updates: int, period: float) -> None:
         """Count."""
@@ -106,7 +106,7 @@ class PidControl(Controller):
         """Hold the joints at their reset positions."""
         self.begin(self.rows(worlds))
 
-    def _tell(self) -> JointControlState:
+    def _state(self) -> JointControlState:
         value, rate = self.measured()
         gains = self._pid.gains[0]
         return JointControlState(

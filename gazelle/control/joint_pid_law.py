@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
-"""Joints brought to positions or velocities by PID, in native code."""
+"""PID control of joint positions or velocities, in native code."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ class ControllerManager:
         hardware: The robot.
         namespace: Of the robot.
         parameters: As given. A bridge may set ``find_parameters`` instead.
-        find_parameters: Asked for the parameters of a controller that is loaded by its name alone;
+        find_parameters: Returns the parameters of a controller that is loaded by name alone;
             None for one that has none.
     """
 

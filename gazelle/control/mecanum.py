@@ -16,7 +16,7 @@ from gazelle.errors import ControlError
 
 _WHEELS = ("front_left", "back_left", "back_right", "front_right")
 
-# What forward, sideways and turning motion asks of each wheel, turning by the sum of half the track
+# The share of forward, sideways and turning motion in each wheel: turning by the sum of half the track
 # and half the wheel base; rollers stand as an X seen from above.
 _MIXING: Floats = np.array([[1, -1, -1], [1, 1, -1], [1, -1, 1], [1, 1, 1]], np.float64)
 
@@ -56,7 +56,7 @@ class MecanumDriveController(BaseController):
             )
         )
 
-    def measure_anew(self, rows: Worlds) -> None:
+    def remeasure(self, rows: Worlds) -> None:
         """Count from here."""
         self._turned[rows] = self._wheels.position[rows]
 

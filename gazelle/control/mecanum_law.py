@@ -23,7 +23,7 @@ class MecanumLaw(BaseLaw):
         wheels: Four.
         turned: How far they had turned [rad], shape (nworld, 4); used in place.
         radius: Of a wheel [m].
-        mixing: From a velocity of the base to those of the treads, shape (4, 3).
+        mixing: From a velocity of the base to those of the wheel contacts, shape (4, 3).
         inverse: Back, shape (3, 4).
         base: Arguments of ``BaseLaw``.
         open_loop: Likewise.
@@ -78,9 +78,9 @@ class MecanumLaw(BaseLaw):
         """Command the wheels."""
         i: cython.Py_ssize_t
         for i in range(4):
-            tread: cython.double = (
+            rim: cython.double = (
                 self.mixing[i, 0] * self.last[world, 0]
                 + self.mixing[i, 1] * self.last[world, 1]
                 + self.mixing[i, 2] * self.last[world, 2]
             )
-            self.command[world, self.columns[i]] = tread / self.radius
+            self.command[world, self.columns[i]] = rim / self.radius

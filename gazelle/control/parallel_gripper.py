@@ -53,9 +53,9 @@ class ParallelGripperController(GripperActionController):
         rows = goal.worlds
         self._position[rows] = np.clip(self._position[rows], 0.0, self._widest)
         # As on the robot: no effort, or more than it has, is all of it.
-        asked = np.abs(self._max_effort[rows])
-        fits = (asked > 0.0) & (asked <= self._strength)
-        self._max_effort[rows] = np.where(fits, asked, self._strength)
+        effort = np.abs(self._max_effort[rows])
+        fits = (effort > 0.0) & (effort <= self._strength)
+        self._max_effort[rows] = np.where(fits, effort, self._strength)
         self._set_point[rows] = np.clip(
             self._set_point[rows], self._opening()[rows] - 0.01, self._opening()[rows] + 0.01
         )

@@ -1,6 +1,6 @@
 """Ports of a controller, independent of the interface that uses them.
 
-A port carries plain dataclasses (see ``values`` and ``measurements``), knows of no wire and may be
+A port passes plain dataclasses (see ``values`` and ``measurements``), knows of no wire and may be
 used from any thread: what comes through it is done between two updates. ROS calls them a subscribed
 topic (``CommandPort``), a published one (``StatePort``), a service (``QueryPort``), an action
 (``ActionPort``, in ``goals``) and a dynamic_reconfigure server (``TuningPort``).
@@ -33,7 +33,7 @@ def rows_of(worlds: Worlds | None, nworld: int) -> Worlds:
 
 
 class Serializer(Protocol):
-    """Does work between two updates, whichever thread asks, and returns its result."""
+    """Does work between two updates, whichever thread calls, and returns its result."""
 
     def __call__(self, work: Callable[[], R], /) -> R:
         """Run the work."""
@@ -158,7 +158,7 @@ class QueryPort(Generic[Q, R]):
         self.topic, self.request, self.response = topic, request, response
         self._answer, self._call = answer, call
 
-    def ask(self, question: Q) -> R:
+    def call(self, question: Q) -> R:
         """Return the answer.
 
         Raises:
@@ -198,7 +198,7 @@ class TuningPort:
     Args:
         topic: Namespace of the dynamic_reconfigure server, as of a ``CommandPort``.
         tunables: What can be changed.
-        values: Tells what holds, by name.
+        values: Returns the current values, by name.
         change: Called with what is to hold, all of it.
         call: Does it between two updates.
     """

@@ -49,8 +49,8 @@ class SensorController(Controller):
     def wake_ns(self) -> float:
         """Return the next time to publish."""
         fresh = self._schedule.next_ns == 0.0
-        heard = fresh or any(port.wanted for port in self._ports)
-        return self._schedule.next_ns if heard else math.inf
+        needed = fresh or any(port.wanted for port in self._ports)
+        return self._schedule.next_ns if needed else math.inf
 
     def catch_up(self, updates: int, period: float) -> None:  # noqa: ARG002  its schedule knows
         """Advance the schedule past native updates: nothing had subscribers."""

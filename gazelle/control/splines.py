@@ -61,7 +61,7 @@ def evaluate(polynomials: Floats, time: Floats, inside: Bools) -> tuple[Floats, 
     Args:
         polynomials: From ``coefficients``, powers first, shape (6, ...).
         time: Since their start, within their duration [s], shape (...).
-        inside: Where that is the time asked for; elsewhere they stand still, shape (...).
+        inside: Where that is the requested time; elsewhere they stand still, shape (...).
     """
     c, t = polynomials, time
     position = c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))))

@@ -120,7 +120,7 @@ def planned(
 
     Args:
         loaded: All controllers by name.
-        start: Names that are asked for.
+        start: Requested names.
         stop: Likewise.
         strict: Whether a name that cannot be stopped or started is an error; else it is passed over.
 

@@ -81,7 +81,7 @@ class TrajectoryTable:
         self.goal: Ints64 = np.zeros((nworld, joints, 1), np.int64)
         self.followers: list[Callable[[Floats, Floats, Floats, Ints64], None]] = []
 
-    def tell(self) -> None:
+    def notify(self) -> None:
         """Send all segments to their followers."""
         self._kept = None
         for each in self.followers:
@@ -266,7 +266,7 @@ class TrajectoryTable:
         spare = int(np.argmax(np.isfinite(start).any(axis=(0, 1))))
         self.start, self.duration = start[:, :, spare:].copy(), duration[:, :, spare:].copy()
         self.polynomials, self.goal = polynomials[:, :, spare:].copy(), goal[:, :, spare:].copy()
-        self.tell()
+        self.notify()
 
     def _arrays(self) -> tuple[NDArray[np.generic], ...]:
         return (self.start, self.duration, self.polynomials, self.goal)
@@ -282,7 +282,7 @@ class TrajectoryTable:
         self.duration = np.array(state["duration"], np.float64)
         self.polynomials = np.array(state["polynomials"], np.float64)
         self.goal = np.array(state["goal"], np.int64)
-        self.tell()
+        self.notify()
 
 
 @dataclass(frozen=True, slots=True)

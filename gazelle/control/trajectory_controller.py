@@ -73,7 +73,7 @@ class JointTrajectoryController(Controller):
         self._open(parameters)
         self._table = TrajectoryTable(self.nworld, len(names), self._endless)
         self._table.followers.append(self._law.follow)
-        self._table.tell()
+        self._table.notify()
         self._goals: dict[int, Goal[TrajectoryGoal]] = {}
         self._numbers = 0
         self._followed = False  # whether there was an update since it started again
@@ -97,15 +97,15 @@ class JointTrajectoryController(Controller):
         forward = np.array([parameters.number(f"velocity_ff/{n}", 0.0) for n in self._names])
         self._law.push_by(self._pid.law, forward, self._joints.commands[fields[0]][0])
         for loop, name in enumerate(self._names):
-            tell, change = self._gains_of(loop), pid_changer(self._pid, loop)
-            self.add_tuning(f"gains/{name}", PID_TUNABLES, tell, change)
+            read, change = self._gains_of(loop), pid_changer(self._pid, loop)
+            self.add_tuning(f"gains/{name}", PID_TUNABLES, read, change)
 
     def _gains_of(self, loop: int) -> Any:
         pid = self._pid
         return lambda: {} if pid is None else pid_values(pid, loop)
 
     def _open(self, parameters: ControllerParameters) -> None:
-        self._state_port = self.add_output("state", TrajectoryState, self._tell)
+        self._state_port = self.add_output("state", TrajectoryState, self._state)
         self._state_due = PublishingSchedule(parameters.number("state_publish_rate", 50.0))
         self.add_input("command", JointTrajectory, self._receive)
         self.add_query("query_state", TrajectoryQuery, TrajectoryAnswer, self._answer)
@@ -159,14 +159,14 @@ class JointTrajectoryController(Controller):
         """Follow the trajectories."""
         self._law.act(self.now_ns, period)
         self._followed = True
-        heard = tuple(self._goals.values())
+        goals = tuple(self._goals.values())
         self._look_back()
         if self._state_due.is_due(self.now_ns):
             self._state_port.publish()
-        if heard and self._feedback_due.is_due(self.now_ns):
+        if goals and self._feedback_due.is_due(self.now_ns):
             for goal in tuple(self._goals.values()):
-                if goal.heard:
-                    goal.tell(self._tell())
+                if goal.has_feedback_callbacks:
+                    goal.publish_feedback(self._state())
 
     def law(self) -> ControlLaw:
         """Return the law applied to the joints."""
@@ -305,9 +305,9 @@ class JointTrajectoryController(Controller):
         else:
             self._table.hold(self._uptime, self._joints.position[rows], rows)
 
-    # -- telling -------------------------------------------------------------------------
+    # -- publishing -------------------------------------------------------------------------
 
-    def _tell(self) -> TrajectoryState:
+    def _state(self) -> TrajectoryState:
         wanted = self._wanted()
         position, velocity = self._joints.position, self._joints.velocity
         return TrajectoryState(

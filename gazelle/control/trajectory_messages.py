@@ -82,7 +82,7 @@ def check_points(given: JointTrajectory, width: int) -> None:
 
 
 def waypoints(
-    given: JointTrajectory, joints: Indices, begin: float, now: float, who: str
+    given: JointTrajectory, joints: Indices, begin: float, now: float, controller: str
 ) -> Waypoints:
     """Return the points that are still to come.
 
@@ -91,7 +91,7 @@ def waypoints(
         joints: From ``columns_of``.
         begin: When it begins on the controller's clock [s].
         now: Of the next update [s].
-        who: Name of the controller, for messages.
+        controller: Name of the controller, for messages.
 
     Raises:
         TrajectoryRefusedError: All points are over.
@@ -107,7 +107,7 @@ def waypoints(
     silent = gone == 1 and not given.stamp and given.points[0].time == 0.0
     if gone and not silent:
         text = (
-            f"controller '{who}': dropping first {gone} trajectory point(s) out of "
+            f"controller '{controller}': dropping first {gone} trajectory point(s) out of "
             f"{len(given.points)}, as they occur before the current time; first valid point will be "
             f"reached in {begin + left[0].time - now:.3f} s"
         )

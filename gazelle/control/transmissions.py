@@ -16,7 +16,7 @@ from gazelle.errors import ControlError
 
 
 class LinearTransmission:
-    """A transmission whose joints' velocities are a matrix times those of its actuators.
+    """A linear transmission: joint velocities are a matrix times those of its actuators.
 
     Args:
         velocity: From actuators to joints, shape (n, n).

@@ -345,7 +345,7 @@ class Group:
             raise PlanningError(f"the plan for '{plan.group.name}' is of another robot")
         start = dict(zip(names, plan.start.tolist(), strict=True))
         motion = JointMotion(plan.names, path.times, path.positions, start, tip)
-        self.robot.simulation.events.planned.tell(self.robot, self.world, motion)
+        self.robot.simulation.events.planned.emit(self.robot, self.world, motion)
 
     def with_options(self, **changes: object) -> None:
         """Set options, such as ``velocity=0.5``; see ``PlanOptions``."""

@@ -33,7 +33,7 @@ class TimedWrench:
         force: In the axes of the frame [N].
         torque: In the axes of the frame [N m].
         point: Where it acts, in the frame [m]; None for the centre of mass.
-        frame: Scoped name of the link whose frame it is given in; empty for the world.
+        frame: Scoped name of the link in whose axes it is expressed; empty for the world.
         follow: Whether it turns with that link, or keeps the direction that it began with.
         held: Force and torque about the centre of mass in the world frame, once it has begun.
     """
@@ -138,7 +138,7 @@ class Loads:
         """Apply a wrench to a link until the same name sets another; for plugins.
 
         Args:
-            name: Whose wrench it is; with ``model::`` in it if it ends with that model.
+            name: Owner of the wrench; with ``model::`` in it if it ends with that model.
             link: Scoped name.
             force: At the centre of mass, in the world frame [N], shape (nworld, 3).
             torque: In the world frame [N m], shape (nworld, 3).

@@ -72,30 +72,30 @@ class ControlLoop(ModelPlugin):
         self.manager.now_ns = self._clock.now_ns
         self.stopped: Bools = np.zeros(hardware.nworld, bool)
         self._released: Bools = np.zeros(hardware.nworld, bool)
-        self._told = self._restarts = False
+        self._stop_written = self._restarts = False
         self._period_ns: int | None = None
         self._updated_ns: int | None = None
         self._written_ns: int | None = None
-        self._carrying: tuple[ControlCycle, JointLaw, list[ControlLaw], int, int] | None = None
+        self._native_run: tuple[ControlCycle, JointLaw, list[ControlLaw], int, int] | None = None
         self._handed = self._resting = False
 
     def change_hardware(self, hardware: SimulatedHardware) -> None:
         """Control through other hardware; nothing is loaded yet."""
-        self._stir()
+        self._invalidate()
         for name in self.hardware.motors - hardware.motors:
             self._robot.joints[name].add_motor(0.0)
         self.hardware = self.manager.hardware = hardware
-        self._told = False
+        self._stop_written = False
 
     # -- what is done in steps --------------------------------------------------------------
 
     def _call(self, work: Callable[[], R], /) -> R:
         """Call a function between two steps that may change what is due."""
         with self._robot.simulation.lock:
-            self._stir()
+            self._invalidate()
             return work()
 
-    def _stir(self) -> None:
+    def _invalidate(self) -> None:
         """Return control from native code to Python."""
         if self._handed or self._resting:
             self._robot.simulation.loop.in_step.invalidate(self)
@@ -125,7 +125,7 @@ class ControlLoop(ModelPlugin):
 
     def set_period(self, seconds: float) -> None:
         """Set the period of the controllers; by default that of the physics."""
-        self._stir()
+        self._invalidate()
         self._period_ns = round(seconds * NANOSECONDS)
         if self._period_ns < self._clock.step_ns:
             text = (
@@ -136,22 +136,24 @@ class ControlLoop(ModelPlugin):
 
     def press(self, worlds: Worlds | None, *, on: bool) -> None:
         """Press or release the emergency stop."""
-        self._stir()
+        self._invalidate()
         rows = slice(None) if worlds is None else worlds
         before = self.stopped.copy()
         self.stopped[rows] = on
         self._released = (self._released | (before & ~self.stopped)) & ~self.stopped
-        self._tell_of_stops()
+        self._clear_stop_record()
 
-    def _tell_of_stops(self) -> None:
+    def _clear_stop_record(self) -> None:
         """Clear the hardware's record of the emergency stop."""
-        self._told, self._restarts = False, bool(self._released.any())
+        self._stop_written, self._restarts = False, bool(self._released.any())
 
     def _stop_emergency(self) -> None:
         """Report a change of the emergency stop to the hardware."""
-        if not self._told:
+        if not self._stop_written:
             self.hardware.stop_emergency(self.stopped)
-            self._told = type(self.hardware) is JointHardware  # another may want to know each time
+            self._stop_written = (
+                type(self.hardware) is JointHardware
+            )  # another is informed each time
 
     # -- steps -------------------------------------------------------------------------
 
@@ -162,7 +164,7 @@ class ControlLoop(ModelPlugin):
 
     def on_update(self, time: float) -> None:
         """Read, control, write."""
-        self._stir()
+        self._invalidate()
         now, step, period = self._clock.now_ns, self._clock.step_ns, self._control_ns
         self._stop_emergency()
         due = self._updated_ns is None or now - self._updated_ns >= period
@@ -179,7 +181,7 @@ class ControlLoop(ModelPlugin):
 
     def in_step(self) -> InStep | None:
         """Return all of ``on_update`` in native code, and until when that is good."""
-        self._stir()
+        self._invalidate()
         hardware = self.hardware
         if not isinstance(hardware, JointHardware) or self._restarts:
             return None
@@ -195,9 +197,9 @@ class ControlLoop(ModelPlugin):
             return None
         self._stop_emergency()
         wanted = (cycle, hardware.law, laws, self._control_ns, self._clock.step_ns)
-        if self._carrying != wanted:
+        if self._native_run != wanted:
             cycle.run(*wanted[1:])
-            self._carrying = wanted
+            self._native_run = wanted
         cycle.begin(_or_never(self._updated_ns), _or_never(self._written_ns))
         self._handed = True
         # Without controllers nothing reports when there is nothing left to do.
@@ -209,9 +211,9 @@ class ControlLoop(ModelPlugin):
         return self._clock.step_ns if self._period_ns is None else self._period_ns
 
     def _catch_up(self) -> None:
-        if self._carrying is None:
+        if self._native_run is None:
             return
-        cycle, _, _, period, step = self._carrying
+        cycle, _, _, period, step = self._native_run
         before, (now, written) = self._updated_ns, cycle.times()
         self._updated_ns = None if now < 0 else now
         self._written_ns = None if written < 0 else written
@@ -223,10 +225,10 @@ class ControlLoop(ModelPlugin):
 
     def reset(self, worlds: Worlds | None) -> None:
         """Reset these worlds: running controllers hold the robot where it is placed."""
-        self._stir()
+        self._invalidate()
         rows = slice(None) if worlds is None else worlds
         self.stopped[rows] = self._released[rows] = False
-        self._tell_of_stops()
+        self._clear_stop_record()
         self.hardware.reset(worlds)
         now, rewind = self._clock.now_ns, worlds is None
         if rewind:
@@ -249,11 +251,11 @@ class ControlLoop(ModelPlugin):
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
-        self._stir()
+        self._invalidate()
         times = [None if each < 0 else int(each) for each in state["times"]]
         self._updated_ns, self._written_ns = times
         self.stopped, self._released = (np.array(row, bool) for row in state["stop"])
-        self._tell_of_stops()
+        self._clear_stop_record()
         self.hardware.restore(_below("hardware/", state))
         self.manager.now_ns = int(state["now"])
         self.manager.restore(_below("controllers/", state))

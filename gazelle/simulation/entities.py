@@ -21,7 +21,7 @@ class EntityManager:
     """Makes, resets and ends what lives in a simulation; its methods are called by the owner.
 
     Args:
-        simulation: Whose.
+        simulation: The owner.
 
     Attributes:
         robots: All models by name.
@@ -51,7 +51,7 @@ class EntityManager:
         except Exception:
             self.delete(model.name)
             raise
-        self._simulation.events.spawned.tell(robot)
+        self._simulation.events.spawned.emit(robot)
         return robot
 
     def extension(self, kind: type[T]) -> T | None:
@@ -64,7 +64,7 @@ class EntityManager:
 
         Those that a kind of world runs without a plugin can wait until their handle is needed.
         All handles are made before the first plugin is started: plugins ask the engine for motors
-        and the like, which it compiles all together when it is next asked for what it has.
+        and the like, which it compiles all together at the next access.
         """
         self._start_kinds(models)
         made = []
@@ -129,7 +129,7 @@ class EntityManager:
         simulation.parameters.pose.forget(name)
         simulation.engine.delete(name)
         if gone is not None:
-            simulation.events.deleted.tell(gone)
+            simulation.events.deleted.emit(gone)
 
     def reset(self, worlds: Worlds | None, *, seed: int | None = None, time: bool = True) -> None:
         """Reset everything to its initial state; see ``Simulation.reset``."""
@@ -153,7 +153,7 @@ class EntityManager:
             entry.reset(worlds)
             if rewind and entry.schedule is not None:
                 entry.schedule.restart()
-        simulation.events.reset.tell(worlds, rewind)
+        simulation.events.reset.emit(worlds, rewind)
 
     def _reseed(self, seed: int, worlds: Worlds | None) -> None:
         if worlds is None:

@@ -17,7 +17,7 @@ class Event:
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
-    def tell(self, *arguments: object) -> None:
+    def emit(self, *arguments: object) -> None:
         """Call all listeners."""
         for listener in tuple(self._listeners):
             listener(*arguments)
@@ -36,7 +36,7 @@ class Events:
         rested: A run of steps is over; others may follow at once.
         planned: A motion was planned, or begins to make one, in any thread: called with the
             ``Robot``, the number of the world, and a ``JointMotion``. Planners of users report it too,
-            by ``simulation.events.planned.tell(robot, world, motion)``.
+            by ``simulation.events.planned.emit(robot, world, motion)``.
     """
 
     def __init__(self) -> None:

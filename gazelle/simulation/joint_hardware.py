@@ -81,7 +81,7 @@ class JointHardware(SimulatedHardware):
         self._loads = robot.simulation.loads
         described = [robot.joint_description(name) for name in names]
         for handle, joint in zip(self._handles, described, strict=True):
-            # The description is asked, not the engine: that would be compiled again for every robot.
+            # Read the description, not the engine: that would compile again for every robot.
             if len(joint.axes) != 1:
                 count = handle.axes
                 raise SimulationError(
@@ -190,7 +190,7 @@ class JointHardware(SimulatedHardware):
 
     # -- the loop ----------------------------------------------------------------------
 
-    def read(self, time: float, period: float) -> None:  # noqa: ARG002  it asks the engine
+    def read(self, time: float, period: float) -> None:  # noqa: ARG002  it reads the engine
         """Measure; joints that turn are followed round and round, and never jump."""
         self._look()
         self.law.read_all()

@@ -17,7 +17,7 @@ class JointMotion:
         times: Since its beginning [s], rising from 0, shape (m,).
         positions: [m or rad], shape (m, joints).
         start: Positions of other joints meanwhile [m or rad]; of those not named zero.
-        tip: Name of the link whose path matters, "" if unknown.
+        tip: Name of the link to follow, "" if unknown.
     """
 
     joints: tuple[str, ...]

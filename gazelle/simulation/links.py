@@ -19,7 +19,7 @@ from gazelle.simulation.running_state import RunningState
 from gazelle.simulation.state_lock import between_steps
 
 _CLOSE = 1e-3
-"""Tolerance within which a pose counts as the one that was asked for [m or rad]."""
+"""Tolerance within which a pose counts as the requested one [m or rad]."""
 
 
 class LinkHandle:
@@ -127,7 +127,7 @@ class LinkHandle:
             torque: [N m], shape (3,) or (n, 3).
             point: Where the force acts [m], in ``frame``, shape (3,) or (n, 3); the link's
                 centre of mass if None.
-            frame: The link in whose frame force, torque and point are given; the world if None.
+            frame: Frame of force, torque and point; the world if None.
             follow: Whether the wrench turns with ``frame``; if not, it keeps the direction and
                 the lever that it has when it begins, as Gazebo's do.
             start: When it begins, in simulated time [s]; now if None or past.

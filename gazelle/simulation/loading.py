@@ -1,4 +1,4 @@
-"""Bring a model to life: its handle, its sensors, the plugins that its file names."""
+"""Load a model: its handle, its sensors and the plugins of its file."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 class Named(Mapping[str, T]):
-    """A mapping whose misses say what there is.
+    """A mapping with helpful errors for missing keys.
 
     Args:
         kind: What the items are.
@@ -50,7 +50,7 @@ class Named(Mapping[str, T]):
 
 
 class MadeOnDemand(MutableMapping[str, T], Generic[T]):
-    """Items by name; some are made when they are first asked for.
+    """Items by name; some are made at first access.
 
     Args:
         make: Makes and returns an item that was put off, by its name.

@@ -16,7 +16,7 @@ FILE = "libgazelle_navigation.so"
 
 
 def navigation_of(robot: Robot) -> NavigationControl:
-    """Return a robot's navigation, which begins when it is first asked for.
+    """Return a robot's navigation, created at first access.
 
     Raises:
         SimulationError: The robot has no drive or no laser.

@@ -40,7 +40,7 @@ _OF_SOLVER = {
 _NAMES = (*_OF_WORLD, *_OF_PROFILE, *_OF_SOLVER)
 
 # What the engine has no use for: it is kept and reported. Joints have no error to reduce, and
-# contacts the stiffness that their surfaces ask for, whatever ODE's solver would make of them;
+# contacts the stiffness that their surfaces define, whatever ODE's solver would make of them;
 # docs/explanation/physics.md says more.
 _WITHOUT_EFFECT = ("sor", "precon_iterations", "max_contacts", "erp", "cfm")
 
@@ -126,7 +126,7 @@ class PhysicsProperties:
 
     @property
     def target_rate(self) -> float | None:
-        """Real-time factor that the file asks for; None means as fast as possible.
+        """Real-time factor of the file; None means as fast as possible.
 
         As in Gazebo classic it is the update rate times the time step, whatever
         ``real_time_factor`` says, and an update rate of 0 does not hold anything back. A door

@@ -30,7 +30,7 @@ class InStep:
         kernels: Updated in each step, in order; none while there is nothing to do.
         until_ns: When Python has to update the system [ns]; infinite for never.
         lasting: Whether this holds, and ``settle`` may wait, until something is done to the system
-            (``SystemsInStep.invalidate``). Else the system is asked again after some steps.
+            (``SystemsInStep.invalidate``). Else the system is queried again after some steps.
     """
 
     kernels: tuple[System, ...]

@@ -1,7 +1,7 @@
 """Named inputs and outputs of drives, sensors and controllers.
 
-A port carries plain values and knows of no door: a ROS bridge binds it to a topic, an
-environment reads it as arrays, Python reads it as values. What it carries is a plain
+A port passes plain values and is independent of transports: a ROS bridge binds it to a topic, an
+environment reads it as arrays, Python reads it as values. Its values are plain
 dataclass (see ``values``, ``gazelle.sensors``) or a bool, an int, a float or a str. An output
 costs nothing without subscribers.
 """
@@ -36,7 +36,7 @@ class TwistInput(StatePart):
 
     Args:
         nworld: Number of worlds.
-        topic: Topic name that the file asks for.
+        topic: Topic name from the file.
 
     Raises:
         EngineError: There cannot be so many worlds.
@@ -144,7 +144,7 @@ class Input(StatePart, Generic[T]):
     """A value that a plugin acts on when it comes.
 
     Args:
-        topic: Topic name that the file asks for.
+        topic: Topic name from the file.
         kind: Type of the values.
         receive: Gets a value and the worlds it is for; None means all.
         forget: Called at a reset with the worlds; to put back what a value changed.
@@ -187,7 +187,7 @@ class Service(StatePart, Generic[Q, R]):
     """A question that a plugin answers.
 
     Args:
-        topic: Name that the file asks for.
+        topic: Name from the file.
         request: Type of the question; None for an empty one.
         response: Type of the answer; None for an empty one.
         answer: Gets the question and the worlds it is for; None means all.
@@ -229,13 +229,13 @@ class Output(StatePart, Generic[T]):
     """A value that is published at a rate.
 
     Args:
-        topic: Topic name that the file asks for.
+        topic: Topic name from the file.
         kind: Type of the values.
         produce: Computes the value now.
-        frame: Frame of the values, for kinds that carry none themselves.
+        frame: Frame of the values, for kinds without one.
         queue_size: Of the topic.
-        latch: Whether who comes late gets the last value.
-        namespace: Whose frames they are; by the topic if None.
+        latch: Whether late subscribers get the last value.
+        namespace: Namespace of the frames; that of the topic if None.
         prefix: What goes before the names of its frames on a graph.
         event: Whether it publishes events, and nothing at other times.
     """

@@ -219,7 +219,7 @@ class Recorder(Closeable):
         count = args[0] if args else 1
         line["time"] += count * step_ns
         line["hash"] = state_hash(self._seen)
-        # Steps that were cut only to look who waits are one run of steps.
+        # Steps that were cut only to check for waiting threads are one run of steps.
         if not (self._pending and (past or self._simulation.loop.cut)):
             self._flush()
             self._steps = 0

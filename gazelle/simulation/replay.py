@@ -25,7 +25,7 @@ class Replay(Closeable):
 
     ``simulation`` is the run: look at its robots, read its sensors, render it. It has no
     plugins, since what they did is in the recording. Its sensors have the recorded seed, and
-    measure when asked.
+    measure on request.
 
     Args:
         path: The recording.

@@ -43,7 +43,7 @@ class RobotHost(RunningState, Protocol):
         physics: Time step, gravity, solver and the like.
         parameters: Masses, friction and the like of each world.
         ports: Of the plugins of the world.
-        events: Tell of what is spawned, deleted and reset.
+        events: Emitted on spawn, delete and reset.
         live_scene: What cameras see.
     """
 
@@ -176,7 +176,7 @@ class Robot(Ports):
     def add_manager(self, namespace: str, manager: ControllerManager) -> None:
         """Add one more controller manager, and report it to the bridges."""
         self.managers[namespace] = manager
-        self.simulation.events.managed.tell(self)
+        self.simulation.events.managed.emit(self)
 
     @property
     @between_steps

@@ -20,7 +20,7 @@ class RunningState(Protocol):
         lock: On all of the state.
         clock: Simulated time.
         seed: Decides all random numbers.
-        engine_name: As it was asked for.
+        engine_name: The requested one.
         controls_in_step: Whether controllers act within the engine's steps, where it can.
     """
 
@@ -52,7 +52,7 @@ class StepMaker(Protocol):
 
     Attributes:
         followers: Called after every step, before sensors measure.
-        in_step: The plugins whose work steps do.
+        in_step: The plugins that run within steps.
     """
 
     followers: list[Callable[[], None]]

@@ -22,7 +22,7 @@ T = TypeVar("T")
 class ScheduledPlugin:
     """A loaded plugin, what it is on, and when it is due; no schedule means never.
 
-    One that raises is detached with a warning: it is never asked again, and all else continues.
+    One that raises is detached with a warning: it is never called again, and all else continues.
     """
 
     plugin: BasePlugin
@@ -53,7 +53,7 @@ class ScheduledPlugin:
 
     def is_active(self, clock: Clock) -> bool:
         """Return whether an update has anything to do."""
-        return self._ask(lambda: self.plugin.active, f"at {clock.now:g} s") is True
+        return self._guarded(lambda: self.plugin.active, f"at {clock.now:g} s") is True
 
     def update(self, clock: Clock) -> None:
         """Update the plugin, if it is due and active."""
@@ -72,7 +72,7 @@ class ScheduledPlugin:
     @property
     def is_subscribed(self) -> bool:
         """True while anything that its system publishes has subscribers."""
-        return self._ask(self._has_subscribers, "when asked") is True
+        return self._guarded(self._has_subscribers, "when checking its subscribers") is True
 
     @property
     def needs_system(self) -> bool:
@@ -85,31 +85,31 @@ class ScheduledPlugin:
 
     def publish(self, system: PluginSystem[Any], measured: Any) -> None:
         """Publish what was measured for it."""
-        self._ask(lambda: system.publish(self.plugin, measured), "when publishing")
+        self._guarded(lambda: system.publish(self.plugin, measured), "when publishing")
 
     def measure(self, system: PluginSystem[Any]) -> None:
         """Measure for it alone, and publish that."""
-        self._ask(
+        self._guarded(
             lambda: system.publish(self.plugin, system.measure([self.plugin])[0]), "when publishing"
         )
 
     def reset(self, worlds: NDArray[np.intp] | None) -> None:
         """Reset the plugin."""
-        self._ask(lambda: self.plugin.reset(worlds), "at a reset")
+        self._guarded(lambda: self.plugin.reset(worlds), "at a reset")
 
     def reseed(self, seed: int, worlds: NDArray[np.intp] | None) -> None:
         """Set the seed of the plugin's random numbers."""
-        self._ask(lambda: self.plugin.reseed(seed, worlds), "at a reset with a seed")
+        self._guarded(lambda: self.plugin.reseed(seed, worlds), "at a reset with a seed")
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Return all mutable state of the plugin."""
-        return self._ask(self.plugin.state, "at a snapshot") or {}
+        return self._guarded(self.plugin.state, "at a snapshot") or {}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
-        self._ask(lambda: self.plugin.restore(state), "while restoring a snapshot")
+        self._guarded(lambda: self.plugin.restore(state), "while restoring a snapshot")
 
-    def _ask(self, work: Callable[[], T], when: str) -> T | None:
+    def _guarded(self, work: Callable[[], T], when: str) -> T | None:
         if self.detached:
             return None
         try:
@@ -127,6 +127,6 @@ def title(name: str, owner: str) -> str:
 def make_scheduled(
     plugin: BasePlugin, name: str, owner: str, lock: StateLock | None = None
 ) -> ScheduledPlugin:
-    """Return a plugin with the schedule it asks for, once it is loaded."""
+    """Return a plugin with its schedule, once it is loaded."""
     schedule = None if plugin.update_rate is None else Schedule(plugin.update_rate)
     return ScheduledPlugin(plugin, name, owner, schedule, lock)

@@ -16,7 +16,7 @@ from gazelle.simulation.scheduled_plugin import ScheduledPlugin, title
 class ScheduledSystem:
     """A system, the plugins that are its rows, and when it is due.
 
-    Where it fails with several rows, each row becomes a system of its own, so that it is seen whose
+    Where it fails with several rows, each row becomes a system of its own, to find the one at
     fault it is. A plugin that fails alone is detached.
 
     Args:
@@ -55,7 +55,7 @@ class ScheduledSystem:
         try:
             return self._system.in_step()
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
-            self._fail(error, "when asked for its kernel")
+            self._fail(error, "when getting its kernel")
             return None
 
     def settle(self) -> None:
@@ -116,7 +116,7 @@ class ScheduledSystem:
         try:
             if system.kernel is not None:
                 system.kernel.bring(0, self._nworld * system.kernel.rows, clock.now_ns)
-            elif not self._subscribed or system.active:  # else it was asked already
+            elif not self._subscribed or system.active:  # else it was queried already
                 system.update(clock.now)
         except Exception as error:  # noqa: BLE001  a plugin's fault is not the simulation's
             self._fail(error, f"at {clock.now:g} s")
@@ -135,12 +135,12 @@ class ScheduledSystem:
             entry.publish(self._system, value)
 
     def _publish_alone(self, entries: Sequence[ScheduledPlugin]) -> None:
-        """Measure for each row by itself, so that it is seen whose fault it is."""
+        """Measure for each row by itself, to find the one at fault."""
         for entry in entries:
             entry.measure(self._system)
 
     def _update_alone(self, clock: Clock) -> None:
-        """Update each row by itself, so that it is seen whose fault it is."""
+        """Update each row by itself, to find the one at fault."""
         for entry in self._entries:
             own = make_system([entry], self._nworld)
             if own is not None and own.is_active(clock):

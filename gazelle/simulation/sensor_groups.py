@@ -23,7 +23,7 @@ class GroupedUnit(Protocol):
         """Measures it."""
 
     @property
-    def heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if there are subscribers."""
 
     @property
@@ -39,15 +39,15 @@ class GroupedUnit(Protocol):
     def leave(self) -> None:
         """Leave the group and measure alone again."""
 
-    def tell(self) -> None:
-        """Call all who subscribed."""
+    def notify(self) -> None:
+        """Call all subscribers."""
 
 
 U = TypeVar("U", bound=GroupedUnit)
 
 
 class SensorGroup:
-    """Sensors whose readings are rows of one table, measured at once.
+    """Sensors with readings as rows of one table, measured at once.
 
     Where nobody has subscribed, a kernel measures them within the engine's steps, if their models
     have one; else Python measures them when they are due, and calls the subscribers. It takes the
@@ -73,22 +73,22 @@ class SensorGroup:
             unit.join(self, part)
         models = [unit.model for unit in units]
         self._measured: SensorSystem = models[0].system().make(models)
-        self._heard = [unit for unit in units if unit.heard]
+        self._subscribed = [unit for unit in units if unit.has_subscribers]
         self._interval = units[0].period
         self._values: NDArray[Any] = np.zeros(0)
         self._stamp = 0
-        self.kernel = self._measured.kernel if native and not self._heard else None
+        self.kernel = self._measured.kernel if native and not self._subscribed else None
         if self.kernel is not None:
             self.kernel.late, self.kernel.rate = True, self.schedule.rate
             self.kernel.due = self.schedule.due_ns
 
     def update(self, now_ns: int) -> None:
-        """Measure, and call all who subscribed."""
+        """Measure, and call all subscribers."""
         self._values, self._stamp = self._measured.measure_all(self._interval), now_ns
         self.count += 1
         self.schedule.done(now_ns)
-        for unit in self._heard:
-            unit.tell()
+        for unit in self._subscribed:
+            unit.notify()
 
     def follow(self) -> None:
         """Check whether the kernel has measured."""
@@ -134,4 +134,4 @@ def group_sensors(
 def _measured_with(unit: GroupedUnit) -> Hashable | None:
     """Return what is equal for sensors that are measured together; None for one by itself."""
     system = unit.system()
-    return None if system is None else (system, unit.heard and bool(unit.model.by_system))
+    return None if system is None else (system, unit.has_subscribers and bool(unit.model.by_system))

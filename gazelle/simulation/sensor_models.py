@@ -167,7 +167,7 @@ def _force_torque(mount: SensorMount) -> SensorModel:
     if joint is None:
         raise EngineError("it is on a link, not on a joint")
     if mount.static:
-        raise EngineError("its model never moves, so its joints carry nothing")
+        raise EngineError("its model never moves, so its joints bear no load")
     name = f"{scope}::{joint.name}"
     parent = "world" if joint.parent == "world" else f"{scope}::{joint.parent}"
     return ForceTorqueModel(

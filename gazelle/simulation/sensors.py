@@ -142,11 +142,11 @@ class SampledSensor:
         values = self._values = self.measure()
         self._stale, self._stamp = _NO_WORLDS, now_ns
         self.schedule.done(now_ns)
-        self.tell()
+        self.notify()
         return values
 
-    def tell(self: Self) -> None:
-        """Call all who subscribed."""
+    def notify(self: Self) -> None:
+        """Call all subscribers."""
         for listener in tuple(self._listeners):
             listener(self)
 
@@ -159,7 +159,7 @@ class SampledSensor:
     def reset(self, worlds: Worlds | None) -> None:
         """Discard drifts and readings; for all worlds, also earlier reads.
 
-        Readings of the other worlds stay as they are, so that they do not depend on who is reset.
+        Readings of the other worlds stay as they are, whichever worlds are reset.
         """
         self._catch_up()
         self._model.reset(worlds)
@@ -208,7 +208,7 @@ class SampledSensor:
         return None if system is None else (system, self.schedule.rate, self.schedule.due_ns)
 
     @property
-    def heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """True if there are subscribers."""
         return bool(self._listeners)
 
@@ -250,11 +250,11 @@ class SensorOutput(Output[Any]):
 
     Args:
         sensor: Measures, in all worlds.
-        topic: Topic name that the file asks for.
+        topic: Topic name from the file.
         kind: Type of its readings.
         frame: Frame of the readings.
         read: The reading from the sensor; its own kind of reading if None.
-        namespace: Whose frames they are; by the topic if None.
+        namespace: Namespace of the frames; that of the topic if None.
         prefix: What goes before the name of the frame on a graph.
     """
 
@@ -286,7 +286,7 @@ class SensorOutput(Output[Any]):
         """Call a function with every reading; returns what ends it."""
         end = super().subscribe(listener)
         if self._asleep is None:
-            self._asleep = self._sensor.subscribe(self._tell)
+            self._asleep = self._sensor.subscribe(self._on_reading)
 
         def finish() -> None:
             end()
@@ -296,8 +296,8 @@ class SensorOutput(Output[Any]):
 
         return finish
 
-    def _tell(self, _sensor: SampledSensor) -> None:
-        """Publish a new reading; a plugin that cannot read it is asked no more."""
+    def _on_reading(self, _sensor: SampledSensor) -> None:
+        """Publish a new reading; stops for good if the plugin cannot read it."""
         if self._failed or not self.wanted:
             return
         try:

@@ -98,7 +98,7 @@ class Tuning(StatePart):
         topic: Namespace that they are offered in.
         tunables: What can be changed.
         change: Called with the values that are to hold, all of them.
-        values: Tells those that hold, in the same order.
+        values: Returns the current ones, in the same order.
     """
 
     def __init__(

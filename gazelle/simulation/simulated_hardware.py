@@ -42,7 +42,7 @@ class HardwareSetup:
         namespace: Of the robot.
         joints: To be commanded.
         model: The robot as its URDF describes it.
-        parameters: Of the plugin that asks, as tags; None without one.
+        parameters: Of the plugin, as tags; None without one.
         transmissions: Between the joints and actuators that are known; none where they do not count.
     """
 

@@ -64,14 +64,14 @@ class Simulation(Closeable):
             ``reset`` the world with a warning and continue. The other worlds make their steps
             either way, and the steps that broke it are written down for ``Replay``.
         fault_dump: File for that; a temporary one if None.
-        namespace: Before names of topics that files ask for, as that of the node of a ``gzserver``.
+        namespace: Prefix of the topics in files, like the namespace of a ``gzserver`` node.
 
     Attributes:
         physics: Time step, gravity, solver and the like; settable in the middle of a run.
         parameters: Masses, friction and the like, which each world can have of its own.
         ports: Of the plugins of the world; those of models are on their ``Robot``.
         controls_in_step: Whether controllers act within the engine's steps, where it can.
-        events: Tell who must follow what is spawned, deleted and reset.
+        events: Emitted when models are spawned or deleted, and worlds reset.
         lock: On all of the state; hold it with ``with`` to do several things at one moment.
         entities, loop: Make and end models, and make the steps; for the thread that holds it.
 
@@ -169,7 +169,7 @@ class Simulation(Closeable):
             SimulationError: The simulation is closed, or ``count`` is no number of steps.
             DivergenceError: The state of some worlds became infinite; see ``on_fault``.
         """
-        self.loop.walk(inputs.steps(count), lambda: False)
+        self.loop.advance(inputs.steps(count), lambda: False)
 
     def run(self, seconds: float, *, rate: float | None = None) -> None:
         """Advance by simulated time, or until a pause.
@@ -185,7 +185,7 @@ class Simulation(Closeable):
         if self.paused:
             raise SimulationError("the simulation is paused", hint="call unpause(), or step()")
         pacing.run_paced(
-            lambda count: self.loop.walk(count, lambda: self.paused),
+            lambda count: self.loop.advance(count, lambda: self.paused),
             self.clock.steps_in(inputs.duration(seconds)),
             self.clock.step_ns / NANOSECONDS,
             rate,
@@ -382,7 +382,7 @@ class Simulation(Closeable):
         """Free the engine, between two steps if another thread steps; a second call does nothing.
 
         That thread, and all that wait for an answer, get a ``SimulationError``, and so does what
-        is asked for from now on.
+        is requested from now on.
         """
         if self.lock.closed:
             return

@@ -47,7 +47,7 @@ class StateLock(FairLock):
         raise SimulationError(self._reason)
 
     def close(self, reason: str) -> None:
-        """Close the lock: all who wait for it now or later get an error; the caller holds it.
+        """Close the lock: all threads that wait for it now or later get an error; the caller holds it.
 
         Args:
             reason: The text of the error that they get.
@@ -64,7 +64,7 @@ class StateLock(FairLock):
                 return
             try:
                 future.set_result(work())
-            except Exception as error:  # noqa: BLE001  who asked gets it, whatever it is
+            except Exception as error:  # noqa: BLE001  the caller gets it, whatever it is
                 future.set_exception(error)
             except BaseException:
                 future.set_exception(SimulationError("the simulation was interrupted"))

@@ -33,11 +33,11 @@ from gazelle.simulation.systems_in_step import SystemsInStep
 
 CLOSED = "the simulation is closed"
 
-# For how long the physics is stepped at once, at most, while others ask for something, and while
+# For how long the physics is stepped at once, at most, while other threads make requests, and while
 # there are none: what is done between pieces finds its memory cold, and slows the physics down [s].
 _PIECE, _LONG_PIECE = 0.003, 0.02
 
-# Who asked for something so lately asks again [s].
+# A thread that made a request this recently will make another [s].
 _LATELY = 1.0
 
 
@@ -45,11 +45,11 @@ class StepLoop:
     """Steps a simulation from one thing that is due to the next.
 
     The physics is never stepped for longer than some milliseconds at once, or for one step, so
-    that other threads get their answers soon; within 3 ms after a recent request. Results do
+    that other threads get their answers quickly: within 3 ms after a recent request. Results do
     not depend on where it is cut.
 
     Args:
-        simulation: Whose.
+        simulation: The owner.
         engine: Steps the physics.
         loads: Of the simulation.
         entities: Likewise.
@@ -81,7 +81,7 @@ class StepLoop:
         self.in_step = SystemsInStep()
         self._schedules: list[Schedule] = []
         self._most = 1
-        self._asked = -math.inf  # when others asked for something last, by the wall clock [s]
+        self._requested = -math.inf  # wall time of the last request [s]
         self.cut = False
         self.followers: list[Callable[[], None]] = []
         self._listeners: list[Callable[[], None]] = []
@@ -96,12 +96,12 @@ class StepLoop:
 
         return end
 
-    def walk(self, count: int, stop: Callable[[], bool]) -> None:
+    def advance(self, count: int, stop: Callable[[], bool]) -> None:
         """Advance by steps, and run queued requests between two of them.
 
         Args:
             count: How many.
-            stop: Asked between two steps whether that is enough.
+            stop: Called between two steps; True ends the run.
 
         Raises:
             SimulationError: The simulation is closed, or another thread closes it.
@@ -110,16 +110,16 @@ class StepLoop:
         lock = self._simulation.lock
         lock.acquire()
         try:
-            self._walk(count, stop)
+            self._run(count, stop)
         finally:
             self.cut = False
             if lock.is_mine():  # else a thread to which it was lent waits for this one
                 try:
-                    self._simulation.events.rested.tell()
+                    self._simulation.events.rested.emit()
                 finally:
                     lock.release()
 
-    def _walk(self, remaining: int, stop: Callable[[], bool]) -> None:
+    def _run(self, remaining: int, stop: Callable[[], bool]) -> None:
         lock = self._simulation.lock
         while True:
             if lock.closed:
@@ -143,7 +143,7 @@ class StepLoop:
             loads.update(clock.now_ns)
         if self.followers or self._listeners:
             most = 1
-        # Nothing is due within a single step: no plugin need be asked.
+        # Nothing is due within a single step: no plugin need be queried.
         steps = 1 if most == 1 else steps_to_next(plugins, plan.sensors, clock, most)
         if steps > 1:
             # What broke down starts over within a second, and what falls is looked for.
@@ -167,7 +167,7 @@ class StepLoop:
 
     def _update_plugins(self) -> Sequence[Scheduled]:
         """Run what is due from Python; returns what is not run by the engine."""
-        simulation, asked = self._simulation, set[int]()
+        simulation, updated = self._simulation, set[int]()
         while True:
             plan = self._renew()
             if plan.settled is not None:
@@ -176,23 +176,23 @@ class StepLoop:
                 return ()
             self._systems, self._schedules, plugins = with_kernels(plan.early)
             fresh = plugins
-            if asked:
-                fresh = [each for each in plugins if asked.isdisjoint(each.members())]
+            if updated:
+                fresh = [each for each in plugins if updated.isdisjoint(each.members())]
             update_plugins(fresh, simulation.clock)
             if plan.late:
-                late = self._not_in_step(asked)
-                fresh = [each for each in late if asked.isdisjoint(each.members())]
+                late = self._not_in_step(updated)
+                fresh = [each for each in late if updated.isdisjoint(each.members())]
                 update_plugins(fresh, simulation.clock)
                 plugins += late
             # One of them may have woken a sensor, added or removed others, or changed the engine.
             if simulation.lock.closed or self._is_settled():
                 return plugins
             for each in plugins:
-                asked.update(each.members())
+                updated.update(each.members())
 
     def _not_in_step(self, updated: set[int]) -> list[ScheduledSystem]:
         """Return those that may act in steps, and that Python updates now."""
-        return self.in_step.ask(self._simulation.clock.now_ns, self._holds(), updated)
+        return self.in_step.query(self._simulation.clock.now_ns, self._holds(), updated)
 
     def _holds(self) -> Hashable:
         """Return the cache key: engine revision, step size, applied loads."""
@@ -230,7 +230,7 @@ class StepLoop:
                 followed=bool(self.followers),
             )
             self.in_step.plan(self._plan.late)
-            # Asking who can be grouped may change the engine.
+            # Grouping may change the engine.
             self._planned = *now[:3], self._engine.revision
         return self._plan
 
@@ -271,7 +271,7 @@ class StepLoop:
         self._step(steps)
         # Less where other programs have the processor: they do not wait for the end of a piece.
         took = min(time.perf_counter() - begin, time.process_time() - worked)
-        longest = _PIECE if begin - self._asked < _LATELY else _LONG_PIECE
+        longest = _PIECE if begin - self._requested < _LATELY else _LONG_PIECE
         # A slow piece may be chance, a fast one may be rest: double at most, halve at least.
         if took * 2.0 < longest:
             self._most *= 2
@@ -283,9 +283,9 @@ class StepLoop:
     def _shorten(self) -> None:
         """Shorten pieces for a while because a request is waiting."""
         now = time.perf_counter()
-        if now - self._asked >= _LATELY:
+        if now - self._requested >= _LATELY:
             self._most = max(1, int(self._most * _PIECE / _LONG_PIECE))
-        self._asked = now
+        self._requested = now
 
     def _give_up(self, error: DivergenceError, wanted: int) -> int:
         """Start worlds over that broke down, as ``on_fault`` says, when the others are there.

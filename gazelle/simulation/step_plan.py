@@ -31,7 +31,7 @@ class StepPlan:
         sensors: What is measured from Python: those awake, groups in the place of their first.
         groups: Of sensors that systems measure.
         settled: The systems and schedules of all plugins where Python has a say in none; else None.
-        late: Plugins that steps may carry: they come after the others, carried or not.
+        late: Plugins that may run within steps: they come after the others in any case.
         early: The others.
     """
 
@@ -44,7 +44,7 @@ class StepPlan:
         followed: bool = False,
     ) -> None:
         awake = [unit for unit in sensors if unit.awake]
-        # Sensors first: asking for their kind may change the engine.
+        # Sensors first: grouping them may change the engine.
         self.sensors, self.groups = group_sensors(awake, native=not followed)
         due = [each for each in plugins if each.schedule is not None]
         self.plugins = make_systems(due, nworld)

@@ -1,4 +1,4 @@
-"""Systems that act within the physics' steps for some time, all asked at once, not at every step."""
+"""Systems that act within the physics' steps for some time, queried together."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from gazelle.simulation.base_plugin import BasePlugin
 from gazelle.simulation.plugin_system import InStep
 from gazelle.simulation.scheduled_systems import ScheduledSystem
 
-_ASK = -1.0
+_OUTDATED = -1.0
 
 
 class SystemsInStep:
     """Systems that may act within steps, in the order in which they act.
 
     An answer that lasts (``InStep``) is kept until its time has come, until it is invalidated, or until
-    what all answers depend on is another. So between two steps only those are asked that may have
+    the cache key changes. So between two steps only those are queried that may have
     changed, however many there are.
 
     Attributes:
@@ -35,43 +35,43 @@ class SystemsInStep:
         self.plan(())
 
     def plan(self, entries: Sequence[ScheduledSystem]) -> None:
-        """Plan these again, and ask all of them."""
+        """Plan these again, and query all of them."""
         self._entries = tuple(entries)
         self._places = {
             id(plugin): place for place, entry in enumerate(entries) for plugin in entry.plugins
         }
         self._found: list[InStep | None] = [None] * len(entries)
-        self._until = np.full(len(entries), _ASK)  # when each is asked again [ns]
-        self._ask_ns = _ASK
+        self._until = np.full(len(entries), _OUTDATED)  # when each is queried again [ns]
+        self._query_ns = _OUTDATED
         self._brief: list[ScheduledSystem] = []
         self._invalid = False  # whether an answer that was given does not hold any more
         self._count(changed=True)
 
     def invalidate(self, plugin: BasePlugin) -> None:
-        """Invalidate the answer of a plugin's system: it is asked again before the next step."""
+        """Invalidate the answer of a plugin's system: it is queried again before the next step."""
         place = self._places.get(id(plugin))
         if place is not None:
-            self._until[place] = self._ask_ns = _ASK
+            self._until[place] = self._query_ns = _OUTDATED
             self._invalid = self._invalid or self._found[place] is not None
 
     def is_current(self, holds: Hashable) -> bool:
         """Return whether the answers are those to what holds now, and none is invalidated."""
         return not self._entries or (self._holds == holds and not self._invalid)
 
-    def ask(
+    def query(
         self, now_ns: int, holds: Hashable, updated: AbstractSet[int] = frozenset()
     ) -> list[ScheduledSystem]:
         """Return the systems that Python updates now; ``kernels`` are of the others.
 
         Args:
             now_ns: Simulated time [ns].
-            holds: What all answers go by; where it is another than before all are asked.
+            holds: Cache key of all answers; a new one queries all of them.
             updated: Identities of plugins that Python updated at this time already.
         """
         if self._holds != holds:
-            self._until[:] = self._ask_ns = _ASK
+            self._until[:] = self._query_ns = _OUTDATED
             self._holds = holds
-        if now_ns < self._ask_ns:
+        if now_ns < self._query_ns:
             return []
         self._invalid = False
         changed, others = False, []
@@ -84,13 +84,13 @@ class SystemsInStep:
                 others.append(entry)
                 found = None
             self._found[place] = found
-            self._until[place] = found.until_ns if found and found.lasting else _ASK
+            self._until[place] = found.until_ns if found and found.lasting else _OUTDATED
             changed = changed or found != before
         self._count(changed=changed)
         return others
 
     def _count(self, *, changed: bool) -> None:
-        self._ask_ns = float(self._until.min(initial=math.inf))
+        self._query_ns = float(self._until.min(initial=math.inf))
         if not changed:
             return
         pairs = zip(self._entries, self._found, strict=True)

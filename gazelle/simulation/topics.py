@@ -1,4 +1,4 @@
-"""Names of topics: what a plugin's file asks for, in the namespace that it is in."""
+"""Names of topics: topics of a plugin's file in its namespace."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def namespace_of(robot: Spawned, parameters: Parameters, otherwise: str = "") ->
     slash in front is in the namespace of the simulation.
 
     Args:
-        robot: Whose plugin it is.
+        robot: Owner of the plugin.
         parameters: Of the plugin.
         otherwise: If neither says anything; many of Gazebo's plugins take the model's name.
     """

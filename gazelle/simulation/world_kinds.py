@@ -1,4 +1,4 @@
-"""Kinds of world files whose models run in a way of their own.
+"""Kinds of world files with a runner of their own.
 
 A description names its kind (``World.kind``, ``Model.kind``). What runs a kind is
 found by an entry point of the group ``gazelle.simulation.kinds``, named as the kind, when a
@@ -43,7 +43,7 @@ Start = Callable[[RobotHost], WorldKind | None]
 
 
 def find_world_kind(name: str) -> Start | None:
-    """Return what starts a kind; None for one whose models run as all others.
+    """Return the starter of a kind; None where models run as in any other world.
 
     Raises:
         SimulationError: It cannot be imported.

@@ -286,14 +286,14 @@ def test_the_state_and_any_moment_of_a_trajectory_can_be_asked_for():
     assert told[4].error.positions == pytest.approx(
         told[4].desired.positions - told[4].actual.positions
     )
-    answer = controller.queries["query_state"].ask(TrajectoryQuery(start + 1_510_000_000))
+    answer = controller.queries["query_state"].call(TrajectoryQuery(start + 1_510_000_000))
     assert answer.sample.positions[0] == pytest.approx([0.5, 0.75])
     assert answer.sample.velocities[0] == pytest.approx([-1.0, 0.5])
     with pytest.raises(ControlError, match="precedes"):
-        controller.queries["query_state"].ask(TrajectoryQuery(start - 10_000_000_000))
+        controller.queries["query_state"].call(TrajectoryQuery(start - 10_000_000_000))
     manager.stop("arm")
     with pytest.raises(ControlError, match="not running"):
-        controller.queries["query_state"].ask(TrajectoryQuery(start))
+        controller.queries["query_state"].call(TrajectoryQuery(start))
 
 
 def test_jumps_of_the_clock_do_not_move_a_trajectory():

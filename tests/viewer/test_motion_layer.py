@@ -85,13 +85,13 @@ def test_any_planner_may_tell_of_a_motion(arm):
     motion = JointMotion(("elbow",), np.array([0.0, 2.0]), np.array([[0.0], [1.0]]), {"pan": 0.5})
     with LiveView(arm.simulation) as view:
         planned = arm.simulation.events.planned
-        planned.tell(arm, 0, motion)
+        planned.emit(arm, 0, motion)
         ghost = pictured(view)
         assert ghost.motion is motion
         assert ghost.links == ("fore",)
         assert ghost.line[-1] == pytest.approx(planar(0.5, 1.0), abs=1e-9)
         other = JointMotion(("pan",), np.array([0.0]), np.array([[0.3]]), {})
-        planned.tell(arm, 0, other)
+        planned.emit(arm, 0, other)
         assert pictured(view).motion is other
         motion_layer(view).shown = False
         assert pictured(view) is None
@@ -107,7 +107,7 @@ def test_a_motion_that_cannot_be_shown_is_said_and_forgotten(arm, monkeypatch):
         said = []
         monkeypatch.setattr(type(view._context), "tell", lambda _, *words: said.append(words))
         motion = JointMotion(("tail",), np.array([0.0]), np.array([[0.3]]), {})
-        arm.simulation.events.planned.tell(arm, 0, motion)
+        arm.simulation.events.planned.emit(arm, 0, motion)
         assert pictured(view) is None
         view._picture()
         assert [title for title, _ in said] == ["A motion cannot be shown"]
@@ -133,7 +133,7 @@ def test_a_browser_sees_the_ghost_move_and_go(arm):
     with LiveView(simulation, worlds=1) as view, opened(view.url) as page:
         until(lambda: pixels(page).max() > 0)
         assert violet(pixels(page))[0] < 50
-        simulation.events.planned.tell(arm, 0, motion)
+        simulation.events.planned.emit(arm, 0, motion)
         places = []
 
         def moves():

@@ -137,7 +137,7 @@ class ControllerBinding:
             name = codec.service
 
             def answer(request: Any) -> Any:
-                return codec.answer(port.ask(codec.read(request)))
+                return codec.answer(port.call(codec.read(request)))
 
         def handle(request: Any) -> Any:
             try:
@@ -154,7 +154,7 @@ class ControllerBinding:
         """Return a handler that answers with joint positions at a time."""
 
         def answer(request: Any) -> dict[str, Any]:
-            found = port.ask(TrajectoryQuery(simulated(request.time, self._graph)))
+            found = port.call(TrajectoryQuery(simulated(request.time, self._graph)))
             sample, world = found.sample, self._graph.world
             fields = {
                 "position": sample.positions,

@@ -1,4 +1,4 @@
-"""Plain values that ports carry. Arrays have a leading axis over worlds."""
+"""Plain values of ports. Arrays have a leading axis over worlds."""
 
 from gazelle.control.measurements import (
     NO_VARIANCE,

@@ -47,7 +47,7 @@ class RangeValue:
 
 
 class SonarValue(RangeValue):
-    """The same, of a sensor whose frame is taken as it is written."""
+    """The same, with the frame name as written."""
 
     __slots__ = ()
 
@@ -72,7 +72,7 @@ class LaserPoints:
         points: [m], shape (nworld, rays, 3).
         intensities: Of the returns, shape (rays,).
         rings: Row of each ray, from the lowest, shape (rays,).
-        kept: Which are worth telling, shape (nworld, rays).
+        kept: Which are published, shape (nworld, rays).
     """
 
     stamp: int
@@ -83,7 +83,7 @@ class LaserPoints:
 
 
 class ChannelPoints(LaserPoints):
-    """The same, for those who want each property in a channel of its own."""
+    """The same, with each property in a channel of its own."""
 
     __slots__ = ()
 

@@ -217,8 +217,8 @@ def test_feedback_has_all_of_a_trajectorys_state(following):
         sample(3.0, accelerations=False),
         np.array([0.25]),
     )
-    until(lambda: arm.taken[0].heard, 30)
-    graph.manager.call(lambda: arm.taken[0].tell(value))
+    until(lambda: arm.taken[0].has_feedback_callbacks, 30)
+    graph.manager.call(lambda: arm.taken[0].publish_feedback(value))
     until(lambda: heard, 30)
     found = heard[0]
     assert found.header.stamp == Time(3, 0)
