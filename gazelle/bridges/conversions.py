@@ -14,6 +14,7 @@ from gazelle.description import Pose
 from gazelle.engines import Motion, Placement
 from gazelle.errors import RosError
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_msgs, tf2_msgs
+from gazelle_ros.tf import StampedTransform
 from gazelle_ros.tf.naming import resolve_frame
 from gazelle_ros.time import Time
 
@@ -124,6 +125,11 @@ def quaternion(message: geometry_msgs.msg.Quaternion) -> tuple[float, float, flo
 def pose_of_message(message: geometry_msgs.msg.Pose) -> Pose:
     """Convert a ``geometry_msgs/Pose``."""
     return Pose.from_quaternion(point(message.position), quaternion(message.orientation))
+
+
+def pose_of_transform(found: StampedTransform) -> Pose:
+    """Return a transform as the pose of its child."""
+    return Pose.from_quaternion(found.translation, found.rotation)
 
 
 def pose_message(pose: Pose) -> geometry_msgs.msg.Pose:

@@ -6,11 +6,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 from gazelle_ros import Node, Time
+from gazelle_ros.clock import SECOND
 
 if TYPE_CHECKING:
     from gazelle.simulation import Simulation
-
-_SECOND = 1_000_000_000
 
 
 class TimedGraph(Protocol):
@@ -69,7 +68,7 @@ class Graph:
 
     def seconds(self, time: Time) -> float:
         """Return a time of the graph as simulated time [s]."""
-        return self.own_ns(time) / _SECOND
+        return self.own_ns(time) / SECOND
 
     def own_ns(self, time: Time) -> int:
         """Return a time of the graph as simulated time [ns]."""

@@ -14,10 +14,9 @@ from gazelle.array_types import Floats
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
 from gazelle_ros import Node, load_service
+from gazelle_ros.clock import SECOND
 from gazelle_ros.errors import RosError
 from gazelle_ros.msgs import nav_msgs
-
-_SECOND = 1_000_000_000
 
 
 class PoseSource(ABC):
@@ -103,7 +102,7 @@ class ServicePoses(PoseSource):
     ) -> None:
         super().__init__(len(spaces), name)
         service = load_service(kind)
-        self._node, self._period = node, round(_SECOND / rate)
+        self._node, self._period = node, round(SECOND / rate)
         self._request = service._request_class()
         self._clients = [
             node.client(f"{space}/{name}", service, persistent=True) for space in spaces
@@ -122,7 +121,7 @@ class ServicePoses(PoseSource):
             poses = [(each.x, each.y, math.radians(each.angle)) for each in answers]
             with self._news:
                 self._poses[:] = poses
-                self._time = self._node.clock.now() / _SECOND
+                self._time = self._node.clock.now() / SECOND
                 self.count += 1
                 self._news.notify_all()
             self._node.clock.sleep(self._period, self._stop.is_set)

@@ -22,10 +22,10 @@ from gazelle.control.ports import StatePort
 from gazelle.control.publishing import PublishingSchedule
 from gazelle.control.speed_limiter import SpeedLimiter
 from gazelle.control.values import BaseTwist, StampedTwist
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import ControlError, ControlWarning
 from gazelle.rotations import from_yaw
 
-_NANOSECONDS = 1_000_000_000
 AXES = ("linear/x", "linear/y", "angular/z")
 _KEPT = ("wanted", "stamps", "last", "earlier")
 
@@ -56,7 +56,7 @@ class BaseController(Controller):
             self.memory,
             self.odometry.law,
             np.array([each.bounds for each in limiters]),
-            round(parameters.number("cmd_vel_timeout", 0.5) * _NANOSECONDS),
+            round(parameters.number("cmd_vel_timeout", 0.5) * NANOSECONDS),
         )
         self.open_loop = parameters.flag("open_loop", default=False)
         self.period = 0.0

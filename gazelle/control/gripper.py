@@ -18,8 +18,7 @@ from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid import PID_TUNABLES, Pid, PidGains, pid_changer, pid_values
 from gazelle.control.publishing import PublishingSchedule
 from gazelle.control.values import GripperGoal, GripperResult
-
-_NANOSECONDS = 1_000_000_000
+from gazelle.engines.limits import NANOSECONDS
 
 
 class GripperActionController(Controller):
@@ -55,7 +54,7 @@ class GripperActionController(Controller):
         self._tolerance = parameters.number("goal_tolerance", self.tolerance)
         self._strength = abs(parameters.number("max_effort", strength))
         self._slow = parameters.number("stall_velocity_threshold", 0.001)
-        self._patience_ns = round(parameters.number("stall_timeout", 1.0) * _NANOSECONDS)
+        self._patience_ns = round(parameters.number("stall_timeout", 1.0) * NANOSECONDS)
         rate = parameters.number("action_monitor_rate", 20.0)
         self._feedback_due = PublishingSchedule(rate)
         self.add_action(

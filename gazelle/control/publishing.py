@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-_NANOSECONDS = 1_000_000_000
+from gazelle.engines.limits import NANOSECONDS
 
 
 class PublishingSchedule:
@@ -27,7 +27,7 @@ class PublishingSchedule:
         self.rate = rate
         self._period_ns = 0
         if rate > 0.0:  # a nanosecond at least, and some thirty years at most
-            self._period_ns = max(1, round(min(_NANOSECONDS / rate, _NANOSECONDS**2)))
+            self._period_ns = max(1, round(min(NANOSECONDS / rate, NANOSECONDS**2)))
 
     def start(self, now_ns: int, *, at_once: bool = True) -> None:
         """Start at a time: it is due at the next update, or a period later."""

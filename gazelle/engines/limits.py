@@ -14,6 +14,9 @@ from gazelle.kinematics.tree import FARTHEST
 from gazelle_ros.base.characters import can_be_written
 from gazelle_ros.base.real_numbers import finite
 
+NANOSECONDS = 1_000_000_000
+"""Nanoseconds in a second."""
+
 # Clocks count whole nanoseconds, and a step of weeks is a mistake [s].
 SHORTEST_STEP, LONGEST_STEP = 1e-9, 1e6
 

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import SimulationError
 from gazelle.rotations import from_yaw, multiply
 from gazelle.simulation import ModelPlugin, Robot
-from gazelle.simulation.clock import NANOSECONDS
 from gazelle.streams import Stream
 
 # Gazebo's plugin: speed [m/s], when a target is reached, how far it stays away from models,

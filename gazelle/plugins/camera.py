@@ -14,12 +14,12 @@ import numpy as np
 
 from gazelle.array_types import Worlds
 from gazelle.description import Camera, Parameters
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.plugins.camera_settings import CameraSettings
 from gazelle.plugins.pixel_formats import encoding_of, pixels_of
 from gazelle.plugins.sensor_kinds import model_of
 from gazelle.sensors import CameraImage, CameraModel
 from gazelle.simulation import Input, SensorOutput, SensorPlugin, SensorUnit
-from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.sensors import SampledSensor
 from gazelle.simulation.values import (
     CameraInfoValue,

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.simulation import TwistInput
-from gazelle.simulation.clock import NANOSECONDS, Clock
+from gazelle.simulation.clock import Clock
 
 
 @dataclass(frozen=True, slots=True)

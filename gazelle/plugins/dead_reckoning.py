@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.plugins.odometry import OdometrySource
 from gazelle.rotations import from_yaw
 from gazelle.simulation import JointArray, JointHandle, Odometry
-from gazelle.simulation.clock import NANOSECONDS, Clock
+from gazelle.simulation.clock import Clock
 from gazelle.simulation.values import NO_VARIANCE, SixNumbers
 
 

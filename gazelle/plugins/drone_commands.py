@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.simulation import Clock, TwistInput
-from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.state_lock import between_steps
 from gazelle.streams import Stream
 

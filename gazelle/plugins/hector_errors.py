@@ -14,9 +14,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import FormatError
 from gazelle.simulation import Tunable, Tuning
-from gazelle.simulation.clock import NANOSECONDS
 from gazelle.streams import Stream
 
 _TAGS = {

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import SimulationError
 from gazelle.rotations import cross, rotate
 from gazelle.simulation import Input, ModelPlugin, Robot, absolute, namespace_of
-from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.values import DriveCommand, Number
 
 _IDLE = 0.01

@@ -16,9 +16,10 @@ from numpy.typing import ArrayLike
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines import Engine
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import SimulationError
 from gazelle.rotations import cross, rotate
-from gazelle.simulation.clock import NANOSECONDS, Clock
+from gazelle.simulation.clock import Clock
 from gazelle.simulation.inputs import LONGEST_RUN, number
 
 

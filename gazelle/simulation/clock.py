@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from gazelle.argument_checks import checked
-from gazelle.engines.limits import physics_step
+from gazelle.engines.limits import NANOSECONDS, physics_step
 from gazelle.errors import SimulationError
-
-NANOSECONDS = 1_000_000_000
 
 
 class Clock:

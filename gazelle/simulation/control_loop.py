@@ -17,8 +17,8 @@ from gazelle.control.control_law import ControlLaw
 from gazelle.control.joint_law import JointLaw
 from gazelle.control.limits import JointLimits
 from gazelle.description import Model
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import ControlWarning
-from gazelle.simulation.clock import NANOSECONDS
 from gazelle.simulation.joint_hardware import JointHardware
 from gazelle.simulation.plugin import ModelPlugin
 from gazelle.simulation.plugin_system import InStep, PluginSystem

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Worlds
 from gazelle.description import Sensor
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.sensors import GroupedModel, SensorModel
-from gazelle.simulation.clock import NANOSECONDS, Schedule
+from gazelle.simulation.clock import Schedule
 from gazelle.simulation.inputs import chosen, is_ascending, one_world
 from gazelle.simulation.plugin_errors import warn_of_fault
 from gazelle.simulation.ports import FramePrefix, Output

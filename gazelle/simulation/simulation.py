@@ -14,12 +14,13 @@ from gazelle import formats
 from gazelle.array_types import Worlds
 from gazelle.description import Model, Plugin, Pose, World
 from gazelle.engines import Engine, make_engine
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import SimulationError
 from gazelle.rendering import LiveScene
 from gazelle.sensors import View
 from gazelle.simulation import inputs, pacing, saving
 from gazelle.simulation.applied_wrenches import Loads
-from gazelle.simulation.clock import NANOSECONDS, Clock
+from gazelle.simulation.clock import Clock
 from gazelle.simulation.divergence import Fault, FaultLog
 from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.events import Events

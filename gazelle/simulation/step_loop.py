@@ -11,10 +11,11 @@ from collections.abc import Callable, Hashable, Sequence
 import numpy as np
 
 from gazelle.engines import DivergenceError, Engine
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
 from gazelle.simulation.applied_wrenches import Loads
-from gazelle.simulation.clock import NANOSECONDS, Schedule
+from gazelle.simulation.clock import Schedule
 from gazelle.simulation.divergence import FaultLog
 from gazelle.simulation.entities import EntityManager
 from gazelle.simulation.falling import FallWatch

@@ -16,10 +16,10 @@ from gazelle.errors import RosError, did_you_mean
 from gazelle.simulation import Simulation
 from gazelle.viewer.filming import FilmCamera
 from gazelle_ros.base.closing import Closeable
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import sensor_msgs
 
 IMAGES = ("sensor_msgs/Image", "sensor_msgs/CompressedImage")
-_NANOSECONDS = 1e9
 
 
 class FilmSource(Closeable):
@@ -240,7 +240,7 @@ _ENCODINGS: dict[str, tuple[str, int, list[int]]] = {
 
 def _stamp(read: Any) -> float:
     """Return the time at which a message was recorded [s]."""
-    seconds: float = read.timestamp.to_nsec() / _NANOSECONDS
+    seconds: float = read.timestamp.to_nsec() / SECOND
     return seconds
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from ros.graph import until
 
-from gazelle.bridges.conversions import pose_message, pose_of_message
-from gazelle.bridges.navigation.fake_localization import FakeLocalizationNode, of_transform
+from gazelle.bridges.conversions import pose_message, pose_of_message, pose_of_transform
+from gazelle.bridges.navigation.fake_localization import FakeLocalizationNode
 from gazelle.description import Pose
 from gazelle_ros import Master, Node, Time, load_message
 from gazelle_ros.clock import SimulatedClock
@@ -91,7 +91,7 @@ def test_the_true_pose_is_published_and_its_transform(start):
     tree = robot.fake.frames.tree
     until(lambda: tree.has("map"))
     stamp = robot.now + 500_000_000
-    found = of_transform(tree.lookup("map", "odom", stamp))
+    found = pose_of_transform(tree.lookup("map", "odom", stamp))
     assert (found * ODOMETRY).is_close(TRUTH)
 
 

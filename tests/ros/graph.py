@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+import signal
 import struct
+import subprocess
+import sys
 import threading
 import time
 from typing import ClassVar
@@ -130,3 +135,26 @@ class Background:
         assert not self.thread.is_alive()
         if self.error is not None:
             raise self.error
+
+
+@contextlib.contextmanager
+def started(arguments, folder):
+    """Yield a function that starts Python with these arguments and more, until the block ends."""
+    made = []
+
+    def run(*words, **env):
+        command = [sys.executable, *arguments, *map(str, words)]
+        process = subprocess.Popen(
+            command, env=os.environ | env, cwd=folder, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, text=True,
+        )  # fmt: skip
+        made.append(process)
+        return process
+
+    yield run
+    for process in made:
+        process.send_signal(signal.SIGINT)
+        try:
+            process.communicate(timeout=60)
+        finally:
+            process.kill()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from gazelle.array_types import Floats
-from gazelle.bridges.conversions import pose_message, pose_of_message
+from gazelle.bridges.conversions import pose_message, pose_of_message, pose_of_transform
 from gazelle.description import Pose
 from gazelle.errors import PlanningError
 from gazelle.planning import NoPlanError, PlanningScene, PlanOutcome
@@ -57,7 +57,7 @@ class PlanningFrames:
             raise NoPlanError(
                 f"the frame '{frame}' is not known: {error}", PlanOutcome.FRAME_TRANSFORM_FAILURE
             ) from None
-        return Pose.from_quaternion(found.translation, found.rotation)
+        return pose_of_transform(found)
 
     def pose(self, stamped: geometry_msgs.msg.PoseStamped, state: Floats) -> Pose:
         """Return a ``geometry_msgs/PoseStamped`` in the planning frame; see ``find``."""

@@ -29,6 +29,7 @@ from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.base.real_numbers import finite
 from gazelle_ros.builtin.arguments import run_node
 from gazelle_ros.builtin.scans.points import beam_angles
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import geometry_msgs, nav_msgs, sensor_msgs, std_srvs
 from gazelle_ros.node import Node
 from gazelle_ros.reconfigure import ReconfigureServer
@@ -36,7 +37,6 @@ from gazelle_ros.tf import StampedTransform
 from gazelle_ros.tf.scan_queue import ScanQueue
 from gazelle_ros.time import Time
 
-SECOND = 1_000_000_000
 _LOOK_S = 0.2
 
 

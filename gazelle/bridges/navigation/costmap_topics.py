@@ -17,6 +17,7 @@ from gazelle.navigation.costmap.footprint import footprint_of, placed
 from gazelle.navigation.costmap.parameters import SensorTopic
 from gazelle.navigation.costmap.values import Window, shown
 from gazelle.navigation.following import Pose2
+from gazelle_ros.clock import SECOND
 from gazelle_ros.messages import load_message
 from gazelle_ros.msgs import geometry_msgs, map_msgs, nav_msgs, sensor_msgs
 from gazelle_ros.node import Node
@@ -26,8 +27,7 @@ if TYPE_CHECKING:
     Cloud = sensor_msgs.msg.PointCloud | sensor_msgs.msg.PointCloud2
     Measurement = sensor_msgs.msg.LaserScan | Cloud
 
-_SECOND = 1_000_000_000
-_PATIENCE_NS = _SECOND
+_PATIENCE_NS = SECOND
 """Longest time that a sensor reading waits for its transform [ns]."""
 _MOST_WAITING = 50
 
@@ -114,13 +114,13 @@ class CostmapTopics:
         if now < self._updated_ns:
             self._updated_ns = self._published_ns = -(1 << 62)
         rate = self._setup.update_frequency
-        if rate > 0.0 and (now - self._updated_ns) * rate >= 0.99 * _SECOND:
+        if rate > 0.0 and (now - self._updated_ns) * rate >= 0.99 * SECOND:
             self._updated_ns = now
             self._see_map()
             self.costmap.update(self.pose)
             self._drawn = True
         rate = self._setup.publish_frequency
-        if rate > 0.0 and (now - self._published_ns) * rate >= 0.99 * _SECOND:
+        if rate > 0.0 and (now - self._published_ns) * rate >= 0.99 * SECOND:
             self._published_ns = now
             self._publish(now)
         return self._drawn
@@ -168,7 +168,7 @@ class CostmapTopics:
         layer = next(each for each in self.costmap.layers if each.name == sensor.layer)
         if isinstance(layer, ObstacleLayer):
             origin = np.array(eye.translation)
-            layer.observe(sensor.source, stamp / _SECOND, origin, applied(found, points))
+            layer.observe(sensor.source, stamp / SECOND, origin, applied(found, points))
         return True
 
     def _take_footprint(self, message: geometry_msgs.msg.Polygon) -> None:

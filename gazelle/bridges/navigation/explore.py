@@ -20,12 +20,11 @@ from gazelle.navigation.frontiers import Frontier, find_frontiers
 from gazelle_ros.actions import GoalStatus, SimpleActionClient
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
-from gazelle_ros.clock import Rate
+from gazelle_ros.clock import SECOND, Rate
 from gazelle_ros.msgs import geometry_msgs, map_msgs, move_base_msgs, nav_msgs, visualization_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.time import Time
 
-SECOND = 1_000_000_000
 _LOG = logging.getLogger(__name__)
 _POINTS, _ADD, _DELETE_ALL = 8, 0, 3
 

@@ -7,18 +7,18 @@ import threading
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from gazelle.bridges.conversions import pose_message, pose_of_message
+from gazelle.bridges.conversions import pose_message, pose_of_message, pose_of_transform
 from gazelle.bridges.navigation.diagnosis import StartDiagnosis
 from gazelle.bridges.navigation.frames import GraphFrames, missing_links
 from gazelle.description import Pose
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import geometry_msgs, nav_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform
 from gazelle_ros.tf.scan_queue import ScanQueue
 
-SECOND = 1_000_000_000
 _LOG = logging.getLogger(__name__)
 
 
@@ -83,7 +83,7 @@ class FakeLocalizationNode:
         with self._lock:
             base = self._offset * pose_of_message(truth.pose.pose)
         stamp = truth.header.stamp
-        whole_to_odom = base * of_transform(odometry).inverse()
+        whole_to_odom = base * pose_of_transform(odometry).inverse()
         self.frames.send_in_space(
             self._whole, self._odom, stamp.to_nsec() + self._ahead_ns, whole_to_odom
         )
@@ -108,10 +108,5 @@ class FakeLocalizationNode:
             _LOG.warning("initialpose is ignored: the robot is not on the map yet")
             return
         with self._lock:
-            change = pose_of_message(message.pose.pose) * of_transform(now).inverse()
+            change = pose_of_message(message.pose.pose) * pose_of_transform(now).inverse()
             self._offset = change * self._offset
-
-
-def of_transform(found: StampedTransform) -> Pose:
-    """Return a transform as the pose of its child."""
-    return Pose.from_quaternion(found.translation, found.rotation)

@@ -6,12 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from gazelle.array_types import Floats
-from gazelle.bridges.navigation.mapping_node import SECOND, MappingNode
+from gazelle.bridges.navigation.mapping_node import MappingNode
 from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.following import Pose2
 from gazelle.navigation.mapping import GmappingSettings, GridSlam
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.arguments import run_node
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
 

@@ -18,12 +18,11 @@ from gazelle.description.occupancy import OccupancyMap
 from gazelle.navigation.following import Pose2
 from gazelle_ros.base.parameter_values import value_of
 from gazelle_ros.builtin.scans.points import beam_angles
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import nav_msgs, sensor_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.tf import StampedTransform
 from gazelle_ros.tf.scan_queue import ScanQueue
-
-SECOND = 1_000_000_000
 
 
 class MappingNode(ABC):

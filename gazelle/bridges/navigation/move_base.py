@@ -25,12 +25,10 @@ from gazelle.navigation.planners.planar import composed
 from gazelle.navigation.planners.plugins import STOP, Velocity
 from gazelle_ros.actions import SimpleActionServer
 from gazelle_ros.builtin.arguments import run_node
-from gazelle_ros.clock import Rate
+from gazelle_ros.clock import SECOND, Rate
 from gazelle_ros.msgs import geometry_msgs, move_base_msgs, nav_msgs, std_srvs
 from gazelle_ros.node import Node
 from gazelle_ros.time import Time
-
-SECOND = 1_000_000_000
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.engines.engine import DivergenceError
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.engines.mujoco.divergence import divergence_report
 from gazelle.engines.mujoco.step_forces import ForcedSteps
 from gazelle.engines.mujoco.worlds import RunningWorlds
@@ -15,8 +16,6 @@ from gazelle.native.acting import AHEAD, BETWEEN, IN_STEP, OF_JOINTS
 from gazelle.native.joint_system import JointSystem
 from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
-
-_NANOSECONDS = 1_000_000_000
 
 
 class WorldSteps:
@@ -66,7 +65,7 @@ class WorldSteps:
             self._kept = held
             self._sort(systems)
         loop = self._loop
-        loop.step, loop.time = round(run.time_step * _NANOSECONDS), now_ns
+        loop.step, loop.time = round(run.time_step * NANOSECONDS), now_ns
         until = now_ns + count * loop.step
         if not self._within:
             loop.run_around(until, self._advance)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from gazelle.engines.limits import NANOSECONDS
 from gazelle.engines.planar.fleet import Fleet
 from gazelle.engines.planar.rolling import Joints, Rolling, Turning
 from gazelle.native.loop import SystemLoop
 from gazelle.native.system import System
 
-NANOSECONDS = 1_000_000_000
 _WORTH = 4  # times what is worth a thread: from so much work on other threads are woken for it
 
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import re
 import signal
-import subprocess
-import sys
 
 import pytest
+from ros.graph import started
 from ros.rosbridge.conftest import JsonClient
 
 from gazelle_ros import Master
@@ -22,24 +20,8 @@ def master():
 
 @pytest.fixture
 def start(tmp_path):
-    made = []
-
-    def run(*words, **env):
-        command = [sys.executable, "-m", "gazelle", *map(str, words)]
-        process = subprocess.Popen(
-            command, env=os.environ | env, cwd=tmp_path, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, text=True,
-        )  # fmt: skip
-        made.append(process)
-        return process
-
-    yield run
-    for process in made:
-        process.send_signal(signal.SIGINT)
-        try:
-            process.communicate(timeout=60)
-        finally:
-            process.kill()
+    with started(["-m", "gazelle"], tmp_path) as run:
+        yield run
 
 
 @pytest.mark.long

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import os
 import re
 import signal
-import subprocess
-import sys
 
 import pytest
 from ports import free_port
-from ros.graph import until
+from ros.graph import started, until
 from ros.rosbridge.conftest import JsonClient
 
 from gazelle_ros.master.proxy import MasterProxy
@@ -30,24 +27,8 @@ LAUNCH = """<launch>
 
 @pytest.fixture
 def start(tmp_path):
-    made = []
-
-    def run(*words, **env):
-        command = [sys.executable, "-m", "gazelle_ros", *map(str, words)]
-        process = subprocess.Popen(
-            command, env=os.environ | env, cwd=tmp_path, stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, text=True,
-        )  # fmt: skip
-        made.append(process)
-        return process
-
-    yield run
-    for process in made:
-        process.send_signal(signal.SIGINT)
-        try:
-            process.communicate(timeout=60)
-        finally:
-            process.kill()
+    with started(["-m", "gazelle_ros"], tmp_path) as run:
+        yield run
 
 
 @pytest.mark.long

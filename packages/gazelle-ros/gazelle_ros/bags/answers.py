@@ -8,7 +8,8 @@ from collections.abc import Collection
 from typing import Any, NamedTuple
 
 from gazelle_ros.bags.reader import BagFile, select
-from gazelle_ros.bags.records import SECOND, BagIndex, Connection
+from gazelle_ros.bags.records import BagIndex, Connection
+from gazelle_ros.clock import SECOND
 from gazelle_ros.time import Time
 
 

@@ -9,11 +9,12 @@ from typing import Any
 
 from gazelle_ros.bags.errors import BagError
 from gazelle_ros.bags.reader import BagReader, RawBagMessage, messages_of
-from gazelle_ros.bags.records import SECOND, Connection
+from gazelle_ros.bags.records import Connection
 from gazelle_ros.bags.scanning import BagScan, scan
 from gazelle_ros.bags.writer import BagWriter
 from gazelle_ros.base.errors import Error
 from gazelle_ros.base.writing import replacing
+from gazelle_ros.clock import SECOND
 from gazelle_ros.expressions import compiled
 from gazelle_ros.messages import load_message
 from gazelle_ros.time import Time

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gazelle_ros.bags.errors import BagFormatError
+from gazelle_ros.clock import SECOND
 
 MAGIC = b"#ROSBAG V2.0\n"
 MESSAGE, BAG_HEADER, INDEX, CHUNK, CHUNK_INFO, CONNECTION = 2, 3, 4, 5, 6, 7
@@ -15,7 +16,6 @@ HEADER_BYTES = 4104
 """Length of the padded bag header, which is written again when the bag is closed.
 
 Rosbag's own length: a program that appends with another length overwrites the first chunk."""
-SECOND = 1_000_000_000
 
 U32 = struct.Struct("<I")
 U64 = struct.Struct("<Q")

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import logging
-import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from gazelle_ros.base.errors import RosError, did_you_mean
+from gazelle_ros.base.real_numbers import finite
 from gazelle_ros.clock import SECOND
 
 _KEYS = ("name", "topic", "timeout", "priority")
@@ -86,7 +86,7 @@ def mux_input(where: str, given: Any, *, highest: int, ignored: Collection[str] 
 
 
 def _number(where: str, key: str, given: Any) -> float:
-    number = isinstance(given, int | float) and not isinstance(given, bool)
-    if not (number and math.isfinite(given)):
+    number = finite(given)
+    if number is None:
         raise RosError(f"the {key} of {where} is a number, not {given!r:.60}")
-    return float(given)
+    return number

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from gazelle_ros.clock import SECOND
 from gazelle_ros.compat.rospy.rostime import Time
 from gazelle_ros.msgs import geometry_msgs
 from gazelle_ros.tf.core import DEFAULT_CACHE_NS, FrameTree, StampedTransform
@@ -26,8 +27,6 @@ __all__ = [
     "TimeoutException",
     "TransformException",
 ]
-
-_SECOND = 1_000_000_000
 
 
 class BufferCore:
@@ -61,7 +60,7 @@ class BufferCore:
         self.tree.place(
             header.frame_id,
             transform.child_frame_id,
-            stamp.secs * _SECOND + stamp.nsecs,
+            stamp.secs * SECOND + stamp.nsecs,
             (place.x, place.y, place.z),
             (turn.x, turn.y, turn.z, turn.w),
             authority=authority,
