@@ -92,6 +92,28 @@ def test_an_interrupt_that_is_swallowed_comes_again():
 
 
 @pytest.mark.long
+def test_an_interrupt_in_a_destructor_comes_again_and_is_not_reported(monkeypatch):
+    reported = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda lost: reported.append(lost.exc_type))
+
+    class Frees:
+        def __del__(self):
+            send(signal.SIGTERM)
+
+    class Fails:
+        def __del__(self):
+            raise ValueError
+
+    with pytest.raises(Interrupted), interruptible():
+        Frees()  # as Python frees a lock of an import
+        Fails()
+        threading.Event().wait(60)
+    assert reported == [ValueError]
+    Fails()
+    assert reported == [ValueError, ValueError]
+
+
+@pytest.mark.long
 def test_tidying_up_is_not_interrupted_however_long_it_takes():
     tidied = []
 

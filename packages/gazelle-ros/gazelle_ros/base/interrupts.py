@@ -225,6 +225,8 @@ class _Listener:
             # Shells start background jobs with Ctrl-C ignored; nohup means what it says.
             if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
                 self._before[number] = signal.signal(number, self._on_signal)
+        self._report = sys.unraisablehook
+        sys.unraisablehook = self._on_unraisable
 
     def add(self, receiver: StopRequest | None) -> None:
         """Set the receiver of the next request; None raises."""
@@ -253,6 +255,13 @@ class _Listener:
             if signal.getsignal(number) == self._on_signal:
                 signal.signal(number, signal.SIG_DFL if before is None else before)
         signal.set_wakeup_fd(self._wakeup)
+        if sys.unraisablehook == self._on_unraisable:
+            sys.unraisablehook = self._report
+
+    def _on_unraisable(self, lost: sys.UnraisableHookArgs) -> None:
+        """Report an exception that a destructor or a weak reference swallowed; an interrupt comes again."""
+        if not isinstance(lost.exc_value, Interrupted):
+            self._report(lost)
 
     # On the main thread, anywhere: no locks ------------------------------------------------------
 
