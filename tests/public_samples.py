@@ -79,6 +79,7 @@ class Samples:
 
     def __init__(self, package: str = "") -> None:
         self.package = package
+        self.called = ""
         self.stack = contextlib.ExitStack()
         self._making: list[type] = []
 
@@ -190,6 +191,13 @@ class Samples:
         return self.stack.enter_context(stage.StageSimulation(file, nworld=2, threads=1))
 
     @property
+    def world(self) -> Any:
+        """The description of a world."""
+        if self.package == "stage":
+            return self.stage.simulation.world
+        return scenes.world(scenes.ground(), scenes.box())
+
+    @property
     def burger(self) -> Any:
         """A robot with wheels and a lidar."""
         return self.simulation.robots["burger"]
@@ -215,7 +223,7 @@ def policy() -> Actor:
 
 
 TABLE: dict[str, Callable[[Samples], Any]] = {
-    "Simulation": lambda s: s.simulation,
+    "Simulation": lambda s: s.stage.simulation if s.called in IN_THE_PLANE else s.simulation,
     "Node": lambda s: s.node,
     "Gazebo": lambda s: s.gazebo,
     "Controllers": lambda s: clients.Controllers(s.node, timeout=0.1),
@@ -241,9 +249,10 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "JointStateInterface": lambda s: JointStateInterface(["a"], 2),
     "Tracer": lambda s: make_tracer(s.simulation.world),
     "OccupancyMap": lambda s: OccupancyMap(np.zeros((2, 3), np.int8), 0.1),
+    "Picture": lambda s: np.zeros((4, 4, 3), np.uint8),
     "Bytes": lambda s: np.zeros(4, np.uint8),
     "UInts64": lambda s: np.zeros(2, np.uint64),
-    "World": lambda s: scenes.world(scenes.ground(), scenes.box()),
+    "World": lambda s: s.world,
     "Model": lambda s: scenes.box("new"),
     "RobotModel": lambda s: arms.arm("fetch"),
     "JointModelGroup": lambda s: arms.arm_group("fetch")[1],
@@ -290,12 +299,19 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Maker": lambda s: lambda _simulation, _wanted: [],
     "Pose2": lambda s: (0.0, 0.0, 0.0),
 }
+IN_THE_PLANE = {"TopView", "film_plan", "stage_of", "take_plan"}
+PATHS = {
+    **dict.fromkeys(("film", "film_plan", "write_film"), "film.gif"),
+    "load_stage": "devices.world",
+    **dict.fromkeys(("take_picture", "take_plan"), "picture.png"),
+}
+"""Of calls that take files of one kind only."""
 BY_NAME: dict[str, Callable[[Samples], Any]] = {
     "group": lambda s: "arm",
     "link": lambda s: "gripper_link" if s.package == "planning" else "burger::base_footprint",
     "joint": lambda s: "wrist_flex_joint",
     "effector": lambda s: "gripper",
-    "path": lambda s: "file",
+    "path": lambda s: PATHS.get(s.called, "file"),
     "command": lambda s: "open",
     "name": lambda s: "r" if s.package == "stage" else "a",
     "kind": lambda s: "ModelStates" if s.package == "clients" else "a",

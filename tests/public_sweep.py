@@ -6,8 +6,10 @@ what takes NaN for a number.
 
 from __future__ import annotations
 
+import functools
 import inspect
 import sys
+from collections.abc import Iterator
 from typing import Any
 
 import public_samples
@@ -15,8 +17,13 @@ import wrong_calls
 from wrong_calls import Findings
 from wrong_values import shown
 
-SEARCHED = {"list_runs"}
-"""They search whole folders, which takes long of ``/``."""
+USED_BY = {"LiveView": "close", "SceneCamera": "look", "TopView": "look"}
+"""Classes whose instances fail only when they are used, each with the method for that."""
+SMALL: dict[str, dict[str, Any]] = {
+    **{key: {"size": (8, 6)} for key in ("SceneCamera", "TopView", "take_picture", "take_plan")},
+    **{key: {"rate": 1.0} for key in ("film", "film_plan")},
+}
+"""Arguments with which calls take less time."""
 OF_THE_MACHINE = {"SimulatorProcess"}
 """They start programs on the graph of this machine, which may be in use."""
 NOT_LOADED = {"GoToGoal"}
@@ -31,19 +38,32 @@ def sweep(package: str, only: str = "") -> Findings:
         for name, call in public_samples.public(package):
             if (only and name != only) or name in OF_THE_MACHINE:
                 continue
+            good.called = name
             said = inspect.getdoc(call) or ""
-            attempts = () if inspect.isabstract(call) else wrong_calls.calls(call, good)
+            attempts = () if inspect.isabstract(call) else _calls(name, call, good)
             for parameter, value, positional, named in attempts:
-                if name in SEARCHED and value == "/":
-                    continue
                 what = f"{name}({parameter}={shown(value)})"
-                attempt = lambda c=call, p=positional, n=named: c(*p, **n)  # noqa: E731
+                attempt = functools.partial(_use, name, call, positional, named)
                 findings.attempt(what, attempt, said, value)
             made = good.instance(call) if isinstance(call, type) else None
             if made is not None and name not in NOT_LOADED:
                 wrong_calls.try_members(name, made, good, findings, _of_owners)
         good.stack.close()
     return findings
+
+
+def _calls(name: str, call: Any, good: Any) -> Iterator[tuple[str, Any, list[Any], dict[str, Any]]]:
+    return wrong_calls.calls(
+        functools.partial(call, **SMALL[name]) if name in SMALL else call, good
+    )
+
+
+def _use(name: str, call: Any, positional: list[Any], named: dict[str, Any]) -> Any:
+    """Make a call, and use what it makes."""
+    made = call(*positional, **SMALL.get(name, {}) | named)
+    if name in USED_BY:
+        getattr(made, USED_BY[name])()
+    return made
 
 
 HOOKS = {

@@ -142,6 +142,7 @@ PACKAGES = {
     "simulation": 3500,
     "stage": 1300,
     "training": 2300,
+    "viewer": 300,
 }
 """With the calls that are made at least."""
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from gazelle.argument_checks import checked
 from gazelle.errors import FormatError, TaskError
+from gazelle.training.limits import MAX_ENTRIES
 from gazelle.training.runs import Run
 from gazelle.training.tables import rows_until
 
@@ -48,7 +50,8 @@ def list_runs(folder: str | Path = "runs") -> list[RunSummary]:
     What is damaged or no run is left out.
 
     Raises:
-        FormatError: There is no such folder.
+        FormatError: There is no such folder, or it holds more than 200,000 files and folders
+            besides those in runs.
         TaskError: No folder can have this name.
     """
     root = Path(folder)
@@ -56,9 +59,27 @@ def list_runs(folder: str | Path = "runs") -> list[RunSummary]:
         raise FormatError(
             "there is no such folder", file=str(root), hint="'gazelle train TASK' makes runs"
         )
-    found = filter(os.path.isfile, root.rglob("config.json"))  # no links to what is gone
-    files = sorted(found, key=lambda file: file.stat().st_mtime)
-    return [summary for file in files if (summary := _summary(file.parent)) is not None]
+    found = sorted(_summaries(root), key=lambda pair: pair[0])
+    return [summary for _, summary in found]
+
+
+def _summaries(root: Path) -> Iterator[tuple[float, RunSummary]]:
+    """Yield the states of runs, each with the time of its configuration."""
+    seen = 0
+    for folder, folders, files in os.walk(root):
+        seen += len(folders) + len(files)
+        if seen > MAX_ENTRIES:
+            raise FormatError(
+                f"there are more than {MAX_ENTRIES:,} files and folders to look at for runs",
+                file=str(root),
+                hint="name the folder that the runs are in",
+            )
+        config = Path(folder, "config.json")
+        if config.name in files and config.is_file():  # no link to what is gone
+            summary = _summary(config.parent)
+            if summary is not None:
+                yield config.stat().st_mtime, summary
+                folders.clear()  # checkpoints
 
 
 def _summary(folder: Path) -> RunSummary | None:

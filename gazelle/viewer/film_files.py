@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from itertools import chain
 from pathlib import Path
@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Picture
 from gazelle.errors import Error, MissingExtraError, did_you_mean
+from gazelle.viewer.limits import MAX_GIF_PIXELS, MAX_PICTURES, check_picture, check_rate
 from gazelle_ros.base.writing import replacing
 
 if TYPE_CHECKING:
@@ -45,38 +47,63 @@ def write_picture(file: Path, picture: Picture) -> None:
     """Write a picture of shape (height, width, 3), as the suffix says.
 
     Raises:
+        Error: The format holds no picture of this size.
         OSError: It cannot be written.
     """
+    check_picture(picture, file)
     with replacing(file) as draft:
         Image.fromarray(picture).save(draft)
 
 
+@checked(Error)
 def write_film(path: str | Path, pictures: Iterable[Picture], rate: float) -> int:
     """Write pictures of one size as a film.
 
     Args:
         path: ``.gif``, or ``.mp4`` with the extra ``film``.
         pictures: One after another, each of shape (height, width, 3); drawn as they are written.
-        rate: Pictures a second.
+        rate: Pictures a second, from 0.01 to 1000.
 
     Returns:
         How many there were.
 
     Raises:
-        Error: The suffix is not a film's, the rate is not above zero, or there is no picture.
+        Error: The suffix is not a film's, the rate cannot be, there is no picture, they are too
+            many, or one cannot be in this film.
         MissingExtraError: MP4 is wanted, and what writes it is not installed.
     """
     file = writable(path, FILMS)
-    if not rate > 0.0:
-        raise Error(f"a film has more than zero pictures a second, not {rate:g}")
+    check_rate(rate)
     stream = iter(pictures)
     first = next(stream, None)
     if first is None:
         raise Error(f"there is no picture to make '{file.name}' of")
-    every = chain([first], stream)
+    every = _alike(file, chain([first], stream))
     write = _write_mp4 if file.suffix.lower() == ".mp4" else _write_gif
     with replacing(file) as draft:
         return write(draft, every, rate)
+
+
+def _alike(file: Path, pictures: Iterable[Picture]) -> Iterator[Picture]:
+    """Yield pictures as far as they are of one size and not too many."""
+    shape = None
+    for number, picture in enumerate(pictures):
+        check_picture(picture, file)
+        shape = shape or picture.shape
+        if picture.shape != shape:
+            raise Error(
+                f"pictures of a film have one size: picture {number} of '{file.name}' has "
+                f"{picture.shape[1]} x {picture.shape[0]} pixels, the first {shape[1]} x {shape[0]}"
+            )
+        if number >= MAX_PICTURES:
+            raise Error(f"'{file.name}' has more than the limit of {MAX_PICTURES:,} pictures")
+        if file.suffix.lower() == ".gif" and (number + 1) * shape[0] * shape[1] > MAX_GIF_PIXELS:
+            raise Error(
+                f"'{file.name}' has more than the limit of {MAX_GIF_PIXELS:,} pixels in {number} "
+                "pictures",
+                hint="write an .mp4, or take fewer or smaller pictures",
+            )
+        yield picture
 
 
 def _write_gif(file: Path, pictures: Iterable[Picture], rate: float) -> int:

@@ -6,10 +6,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Protocol
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Picture
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.viewer.film_files import FILMS, STILLS, writable, write_film, write_picture
+from gazelle.viewer.limits import check_rate, picture_count
 from gazelle.viewer.plan import TopView
 from gazelle.viewer.scene_camera import SceneCamera
 
@@ -21,6 +23,7 @@ class FilmCamera(Protocol):
         """Render the simulation now, shape (height, width, 3)."""
 
 
+@checked(Error)
 def film(
     simulation: Simulation,
     path: str | Path,
@@ -37,7 +40,7 @@ def film(
         path: ``.gif``, or ``.mp4`` with the extra ``film``.
         seconds: Simulated time.
         camera: Draws the pictures; by default a ``SceneCamera`` that sees everything.
-        rate: Pictures a second of film.
+        rate: Pictures a second of film, from 0.01 to 1000.
         speed: Simulated seconds a second of film.
 
     Returns:
@@ -48,13 +51,15 @@ def film(
         MissingExtraError: MP4 is wanted, and what writes it is not installed.
     """
     file = writable(path, FILMS)
-    if not (seconds > 0.0 and rate > 0.0 and speed > 0.0):
-        raise Error("a film needs seconds, a rate and a speed above zero")
+    if not (seconds > 0.0 and speed > 0.0):
+        raise Error("a film needs seconds and a speed above zero")
+    check_rate(rate)
+    count = picture_count(seconds, speed / rate)
     drawn = camera or SceneCamera(simulation)
-    count = max(1, round(seconds * rate / speed))
     return write_film(file, shots(simulation, drawn, count, seconds / count), rate)
 
 
+@checked(Error)
 def take_plan(
     simulation: Simulation,
     path: str | Path,
@@ -76,8 +81,8 @@ def take_plan(
         The picture, shape (height, width, 3).
 
     Raises:
-        Error: The simulation is not in the plane, the suffix is not a picture's, or there is no
-            such folder.
+        Error: The simulation is not in the plane, the suffix is not a picture's, there is no
+            such folder, or no such picture.
     """
     file = writable(path, STILLS)
     picture = TopView(simulation, world=world, size=size, scans=scans).look()
@@ -85,6 +90,7 @@ def take_plan(
     return picture
 
 
+@checked(Error)
 def film_plan(
     simulation: Simulation,
     path: str | Path,

@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.errors import Error, did_you_mean
+from gazelle.argument_checks import checked
+from gazelle.errors import Error
 from gazelle.sensors import View, look_at
 from gazelle.simulation import Simulation
-from gazelle.viewer.film_files import write_picture
-
-_SUFFIXES = (".png", ".jpg", ".jpeg", ".webp")
+from gazelle.viewer.film_files import STILLS, writable, write_picture
 
 
+@checked(Error)
 def take_picture(
     simulation: Simulation,
     path: str | Path,
@@ -38,13 +38,9 @@ def take_picture(
         The picture, shape (height, width, 3).
 
     Raises:
-        Error: The file's suffix is not a picture's.
+        Error: The file's suffix is not a picture's, there is no such folder, or no such picture.
     """
-    file = Path(path)
-    if file.suffix.lower() not in _SUFFIXES:
-        raise Error(
-            f"'{file.name}' is not a picture's name", hint=did_you_mean(file.suffix, _SUFFIXES)
-        )
+    file = writable(path, STILLS)
     picture = simulation.render(View(look_at(eye, target), *size), world)
     write_picture(file, picture)
     return picture

@@ -9,11 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
+from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Picture
 from gazelle.engines.planar import Fleet, PlanarEngine, PrimitiveTable, Scanner, footprint_of
 from gazelle.errors import Error
 from gazelle.simulation import Simulation
 from gazelle.simulation.inputs import one_world
+from gazelle.viewer.limits import check_size
 from gazelle.viewer.plan_scans import scanners_of
 
 Colour = tuple[int, int, int]
@@ -33,6 +35,7 @@ _FINER = 2  # drawn so many times larger, and made smaller: smooth edges
 _FEW = 8  # robots up to which what they see is filled
 
 
+@checked(Error)
 class TopView:
     """Draws a world of the planar engine from above; needs no screen.
 
@@ -45,7 +48,7 @@ class TopView:
         extent: Least x, least y, greatest x and greatest y that are shown [m]; all by default.
 
     Raises:
-        Error: The simulation is not in the plane, or there is no such world.
+        Error: The simulation is not in the plane, or there is no such world or picture.
     """
 
     def __init__(
@@ -62,8 +65,6 @@ class TopView:
         self._scans, self._trails = scans, trails
         fleet = fleet_of(simulation)
         self._world = one_world(world, fleet.nworld)
-        if min(size) < 1:
-            raise Error(f"a picture needs a size, not {size[0]} x {size[1]}")
         self._frame = PlanFrame(extent or extent_of(fleet, world), size)
         self._been: list[Floats] = []
         self._scanners: tuple[Fleet | None, list[Scanner]] = (None, [])
@@ -139,10 +140,11 @@ class PlanFrame:
         size: Width and height of the small picture [pixel].
 
     Raises:
-        Error: The extent has no size.
+        Error: The extent has no size, or there is no such picture.
     """
 
     def __init__(self, extent: tuple[float, float, float, float], size: tuple[int, int]) -> None:
+        check_size(size, _FINER)
         low, high = np.array(extent[:2]), np.array(extent[2:])
         if not (high > low).all():
             raise Error(f"a picture needs a part of the world with a size, not {extent}")

@@ -15,6 +15,7 @@ from gazelle.array_types import Picture
 from gazelle.errors import RosError, did_you_mean
 from gazelle.simulation import Simulation
 from gazelle.viewer.filming import FilmCamera
+from gazelle.viewer.limits import picture_count
 from gazelle_ros.base.closing import Closeable
 from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import sensor_msgs
@@ -177,7 +178,7 @@ class BagSource(FilmSource):
 def pictures_of(source: FilmSource, seconds: float | None, period: float) -> Iterator[Picture]:
     """Yield the first picture of a source, and one after each period [s], until an end time."""
     yield source.look()
-    count = None if seconds is None else max(1, round(seconds / period))
+    count = None if seconds is None else picture_count(seconds, period)
     number = 0
     while count is None or number < count:
         number += 1
@@ -193,11 +194,10 @@ def picture_of(message: sensor_msgs.msg.Image | sensor_msgs.msg.CompressedImage)
     Depths are grey, near ones dark.
 
     Raises:
-        RosError: Its encoding is not known.
+        RosError: Its encoding is not known, or its data are no such image.
     """
     if hasattr(message, "format"):
-        with Image.open(io.BytesIO(bytes(message.data))) as image:
-            return np.asarray(image.convert("RGB"), np.uint8)
+        return _decompressed(bytes(message.data))
     kind = _ENCODINGS.get(message.encoding)
     if kind is None:
         raise RosError(
@@ -205,13 +205,27 @@ def picture_of(message: sensor_msgs.msg.Image | sensor_msgs.msg.CompressedImage)
             hint=f"known are {', '.join(_ENCODINGS)}",
         )
     dtype, channels, order = kind
-    rows = np.frombuffer(bytes(message.data), np.uint8).reshape(message.height, message.step)
     width = message.width * channels * np.dtype(dtype).itemsize
+    if len(message.data) != message.height * message.step or not 0 < width <= message.step:
+        raise RosError(
+            f"an image of {message.width} x {message.height} pixels of encoding "
+            f"'{message.encoding}' and rows of {message.step} bytes cannot have "
+            f"{len(message.data)} bytes"
+        )
+    rows = np.frombuffer(bytes(message.data), np.uint8).reshape(message.height, message.step)
     values = np.ascontiguousarray(rows[:, :width]).view(
         np.dtype(dtype).newbyteorder(">" if message.is_bigendian else "<")
     )
     pixels = values.reshape(message.height, message.width, channels)[..., order]
     return _as_bytes(pixels)
+
+
+def _decompressed(data: bytes) -> Picture:
+    try:
+        with Image.open(io.BytesIO(data)) as image:
+            return np.asarray(image.convert("RGB"), np.uint8)
+    except (Image.DecompressionBombError, OSError, SyntaxError, ValueError) as error:
+        raise RosError(f"a compressed image cannot be read: {error}") from error
 
 
 def _as_bytes(pixels: Any) -> Picture:

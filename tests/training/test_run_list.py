@@ -4,7 +4,7 @@ import pytest
 
 from gazelle.cli.main import main
 from gazelle.errors import FormatError
-from gazelle.training import Recipe, Run, RunConfig, list_runs
+from gazelle.training import Recipe, Run, RunConfig, list_runs, run_list
 
 HEAD = "time/steps,time/seconds,episodes/return,episodes/success_rate\n"
 
@@ -54,6 +54,18 @@ def test_runs_below_are_found_and_others_left_out(tmp_path):
     damaged = make_run(tmp_path, "no number,1,1,1")
     assert damaged.folder.exists()
     assert [each.run for each in list_runs(tmp_path)] == [run]
+
+
+def test_a_folder_with_too_many_files_is_an_error(tmp_path, monkeypatch):
+    run = make_run(tmp_path, "1000,1.5,2.5,0.25")
+    for steps in range(1000, 9000, 1000):  # what is in a run does not count
+        run.add_checkpoint(steps, lambda folder: (folder / "policy.npz").write_bytes(b"x"))
+    monkeypatch.setattr(run_list, "MAX_ENTRIES", 8)
+    assert [each.run for each in list_runs(tmp_path)] == [run]
+    for number in range(8):
+        (tmp_path / str(number)).mkdir()
+    with pytest.raises(FormatError, match="more than 8 files and folders"):
+        list_runs(tmp_path)
 
 
 def test_a_missing_folder(tmp_path):
