@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
+from dataclasses import MISSING, Field, fields
 from typing import Any
 
 from gazelle_ros.base.errors import Error
@@ -36,7 +36,12 @@ def fields_of(kind: type[Any], values: Values) -> dict[str, Any]:
     Raises:
         Error: One is of another kind.
     """
-    usual = kind()
     return {
-        each.name: value_of(values, each.name, getattr(usual, each.name)) for each in fields(kind)
+        each.name: value_of(values, each.name, _default_of(each))
+        for each in fields(kind)
+        if each.init
     }
+
+
+def _default_of(each: Field[Any]) -> Any:
+    return each.default if each.default_factory is MISSING else each.default_factory()

@@ -54,6 +54,9 @@ _OWN = {
         BuiltinPackage("joint_state_publisher", {
             "joint_state_publisher": "gazelle_ros.builtin.robot:joint_main",
         }),
+        BuiltinPackage("laser_filters", {
+            "scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:main",
+        }, {"scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:ScanFilterChain"}),
         BuiltinPackage("nodelet", {"nodelet": "gazelle_ros.builtin.nodelets.command:main"}),
         BuiltinPackage("pointcloud_to_laserscan", {
             "pointcloud_to_laserscan_node": "gazelle_ros.builtin.scans.pointcloud:scan_main",

@@ -52,12 +52,13 @@ class TunedSetting:
 
 
 class TunedSettings(Generic[Settings]):
-    """A dataclass of settings and its dynamic_reconfigure server, in the node's private namespace.
+    """A dataclass of settings and its dynamic_reconfigure server.
 
     Args:
         node: On the graph.
         settings: What holds at first; its fields that are `tunable` can be changed.
         change: Called with the settings that are to hold; what it raises refuses them.
+        namespace: Of the server.
 
     Attributes:
         tunables: What can be changed, by name.
@@ -65,7 +66,11 @@ class TunedSettings(Generic[Settings]):
     """
 
     def __init__(
-        self, node: Node, settings: Settings, change: Callable[[Settings], object]
+        self,
+        node: Node,
+        settings: Settings,
+        change: Callable[[Settings], object],
+        namespace: str = "~",
     ) -> None:
         self.settings = settings
         self._change = change
@@ -75,7 +80,7 @@ class TunedSettings(Generic[Settings]):
             for each in fields(settings)  # type: ignore[arg-type]  # a dataclass
             if "tuned" in each.metadata
         }
-        ReconfigureServer(node, node.resolve("~"), self)
+        ReconfigureServer(node, node.resolve(namespace), self)
 
     @property
     def values(self) -> Values:

@@ -28,8 +28,9 @@ def cloud_points(cloud: sensor_msgs.msg.PointCloud2) -> Floats:
 
 def moved(transform: StampedTransform, points: Floats) -> Floats:
     """Return points, shape (n, 3), transformed to the target frame."""
-    turned: Floats = points @ np.array(matrix(transform.rotation)).T
-    return turned + np.array(transform.translation)
+    turned = points @ np.array(matrix(transform.rotation)).T
+    found: Floats = turned + np.array(transform.translation)
+    return found
 
 
 def beam_angles(scan: sensor_msgs.msg.LaserScan) -> Floats:
