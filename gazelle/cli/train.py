@@ -98,30 +98,33 @@ def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
     _check(args)
     sys.stderr.write(f"loading {args.task or args.resume or args.sweep} ...\n")
-    from gazelle.training import choose_progress, resume, task_recipe, train, with_values
-
     if args.sweep is not None:
         return _sweep(args)
-    if args.resume is not None:
-        result = resume(
-            args.resume,
-            steps=args.steps,
-            progress=watched(choose_progress(), args),
-            imports=args.imports,
-            trust=args.trust,
-            workers=args.workers,
-            ray=args.ray,
-        )
-        return report(result)
+    return report(_begin(args) if args.resume is None else _resume(args))
+
+
+def _begin(args: argparse.Namespace) -> TrainResult:
+    """Train from scratch."""
+    from gazelle.training import choose_progress, task_recipe, with_values
+
     options = environment_options(args)
     own = task_recipe(args.task, args.algo, imports=args.imports, options=options)
     recipe = with_values(own, dict(args.values))
-    result = train(
+    steps, copies = args.steps or recipe.steps, args.num_envs or recipe.num_envs
+    seed = args.seed or 0
+    engine = {**recipe.training_options, **options}.get("engine")
+    where = "" if engine is None else f", engine {engine}"
+    sys.stderr.write(
+        f"{recipe.algo}: {steps:,} control steps, {copies} copies, seed {seed}{where}\n"
+    )
+    from gazelle.training import train  # imports torch, which takes seconds
+
+    return train(
         args.task,
         recipe=recipe,
         steps=args.steps,
         num_envs=args.num_envs,
-        seed=args.seed or 0,
+        seed=seed,
         out=args.out or Path("runs"),
         checkpoint_every=args.checkpoint_every,
         callbacks=args.callback,
@@ -132,7 +135,26 @@ def run(args: argparse.Namespace) -> int:
         ray=args.ray,
         **options,
     )
-    return report(result)
+
+
+def _resume(args: argparse.Namespace) -> TrainResult:
+    """Resume a run."""
+    from gazelle.training import Run, choose_progress
+
+    config = Run.open(args.resume).config
+    steps = args.steps or config.recipe.steps
+    sys.stderr.write(f"{config.task}, {config.recipe.algo}: to {steps:,} control steps\n")
+    from gazelle.training import resume  # imports torch, which takes seconds
+
+    return resume(
+        args.resume,
+        steps=args.steps,
+        progress=watched(choose_progress(), args),
+        imports=args.imports,
+        trust=args.trust,
+        workers=args.workers,
+        ray=args.ray,
+    )
 
 
 def _sweep(args: argparse.Namespace) -> int:

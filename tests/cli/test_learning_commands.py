@@ -30,11 +30,25 @@ def run(tmp_path_factory):
 def test_train_says_what_it_did_and_what_to_type_next(cli, tmp_path):
     code, out, err = cli("train", "CartPole-v1", *SHORT, "--out", tmp_path, "--seed", 3)
     assert code == 0
-    assert err == "loading CartPole-v1 ...\n"
+    assert err == ("loading CartPole-v1 ...\nppo: 2,048 control steps, 8 copies, seed 3\n")
     (folder,) = tmp_path.iterdir()
     assert re.search(r"trained: 2,\d+ control steps, [\d,]+ a second\n +[\d.]+ s for .* RTF", out)
     assert f"next:    gazelle eval {folder}" in out
     assert json.loads((folder / "config.json").read_text())["seed"] == 3
+
+
+@pytest.mark.long
+def test_train_says_what_it_does_before_it_imports_torch(tmp_path):
+    code = (
+        "import sys; from gazelle.cli.main import main\n"
+        "sys.modules['torch'] = None\n"
+        "main(['train', 'TurtleBot3Stage1', '--seed', '3', '--out', sys.argv[1]])"
+    )
+    ran = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, check=False
+    )
+    assert ran.stderr.startswith("loading TurtleBot3Stage1 ...\nppo: 500,000 control steps, ")
+    assert "torch" in ran.stderr
 
 
 def test_eval_prints_rates(cli, run):
