@@ -59,7 +59,7 @@ def start_wanted_controllers(sim: Simulation, args: argparse.Namespace) -> None:
         return
     robot = _planned(sim)[0] if args.moveit else _last(sim)
     file = Path(args.controllers) if args.controllers is not None else _controllers_of(robot)
-    _start(robot, file)
+    _start(robot, file, verbose=args.verbose)
 
 
 @contextmanager
@@ -125,7 +125,7 @@ def _find(robot: Robot, uri: str) -> Path | None:
     return Resolver(file=Path(source.file) if source and source.file else None).find(uri)
 
 
-def _start(robot: Robot, file: Path) -> None:
+def _start(robot: Robot, file: Path, *, verbose: bool) -> None:
     """Load all controllers of a file; those whose joints others have by then do not run."""
     import yaml
 
@@ -142,12 +142,17 @@ def _start(robot: Robot, file: Path) -> None:
     }
     if not told:
         raise ControlError(f"{file} has no controllers", hint="names, each with type and joints")
+    idle: dict[str, str] = {}
     for name, parameters in told.items():
         robot.controllers.load(name, parameters)
         try:
             robot.controllers.start(name)
         except ControlError as error:
-            sys.stdout.write(f"controller '{name}' is loaded and does not run: {error.message}\n")
+            idle[name] = error.message
+    if verbose:
+        sys.stdout.writelines(f"'{name}' is not started: {why}\n" for name, why in idle.items())
+    elif idle:
+        sys.stdout.write(f"controllers not started (--verbose says why): {', '.join(idle)}\n")
 
 
 def _description(robot: Robot) -> str:

@@ -7,7 +7,7 @@ a model's folder, or a bundled name (see 'gazelle worlds').
   gazelle run my_robot.urdf.xacro
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger
   gazelle run turtlebot3_world --ros --spawn turtlebot3_burger@-2,-0.5
-  gazelle run fleet --wander --view
+  gazelle run fleet --view
   gazelle run pick_and_place --spawn fetch --ros --moveit
   gazelle run map.yaml --engine planar --spawn turtlebot3_burger --ros
 
@@ -36,13 +36,14 @@ from gazelle_ros.base.argument_types import positive_float
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
+    from gazelle.description import World
     from gazelle.simulation import Simulation
     from gazelle.stage import StageWorld
     from gazelle.stage.bridge import StageServer
 
 _STATUS_EVERY = 0.5
 _SLICE = 0.05
-_MANY = 20  # models beyond which their names are not listed
+_MANY = 20  # models beyond which their names are not listed, and that nobody drives by hand
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -99,6 +100,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[],
         help="also run a system plugin, one that no file names; may be given several times",
     )
+    parser.add_argument(
+        "--verbose", action="store_true", help="say of each controller why it is not started"
+    )
     parser.set_defaults(parser=parser)
 
 
@@ -117,12 +121,13 @@ def run(args: argparse.Namespace) -> int:
 
     sys.path[:0] = args.plugins
     world = formats.open_world(args.file, ground=args.ground)
-    if args.wander:
-        from gazelle.stage import with_wander
-
-        world = with_wander(world)
     stage = stage_world(world)
     _take_from_file(args, stage)
+    controller = "wander" if args.wander else "rounds" if _wants_rounds(world, args) else None
+    if controller is not None:
+        from gazelle.stage import with_wander
+
+        world = with_wander(world, controller)
     if args.ros:
         from gazelle.bridges import refuse_twin
 
@@ -134,10 +139,10 @@ def run(args: argparse.Namespace) -> int:
             sim.load_plugin(plugin)
         said = [spawn(sim, robot) for robot in args.spawn]
         start_wanted_controllers(sim, args)
-        sys.stdout.write(f"world '{sim.world.name}': {_listed(sim)}\n")
+        step = f"step {1000 * sim.engine.time_step:g} ms"
+        sys.stdout.write(f"world '{sim.world.name}' ({args.engine}, {step}): {_listed(sim)}\n")
         sys.stdout.writelines(f"{line}\n" for line in said if line)
         sys.stdout.write(_undriven(sim, args))
-        sys.stdout.write(f"step {1000 * sim.engine.time_step:g} ms, engine {args.engine}\n")
         sys.stdout.flush()
         with viewing(sim, args) as page:
             return _serve(sim, args, page) if args.ros else go(sim, args, page)
@@ -153,13 +158,23 @@ def _take_from_file(args: argparse.Namespace, stage: StageWorld | None) -> None:
         args.seconds = stage.quit_time
 
 
+def _wants_rounds(world: World, args: argparse.Namespace) -> bool:
+    """Return whether a page shows more robots of a Stage file than anyone drives by hand."""
+    if args.view is None or args.ros or args.engine != "planar" or world.kind != "stage":
+        return False
+    return len(world.models) > _MANY
+
+
 def _undriven(sim: Simulation, args: argparse.Namespace) -> str:
     """Return a line that says how to move the robots of a Stage file if nothing does, else ""."""
     from gazelle.stage import StageFleet
 
     fleet = sim.extension(StageFleet)
-    if fleet is None or args.ros or not fleet.robots or fleet.controllers:
+    if fleet is None or args.ros or not fleet.robots:
         return ""
+    if fleet.controllers:
+        rounds = not args.wander and _wants_rounds(sim.world, args)
+        return "the robots drive in a round; --wander lets them roam\n" if rounds else ""
     view = "" if args.view is None else ", or the page"
     return f"nothing drives the robots: --wander does, or --ros with cmd_vel{view}\n"
 

@@ -8,12 +8,10 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Worlds
 from gazelle.description import Model, World
 from gazelle.errors import SimulationError, SimulationWarning
 from gazelle.native.system import System
@@ -23,18 +21,11 @@ from gazelle.stage.fleet import StageFleet
 from gazelle.stage.fleet_controller import FleetController
 from gazelle.stage.format.models import known_controllers
 from gazelle.stage.robots import Ranger, StageRobot
-from gazelle.stage.wandering import Wandering
-from gazelle.streams import Stream
+from gazelle.stage.rounds import Rounds
+from gazelle.stage.wander import Wander
 
-CRUISE = 0.4  # [m/s]
-CREEP = 0.05  # [m/s]
-TURN = 0.5  # [rad/s]
-FRONT = 1.0  # distance ahead at which it turns away [m]
-STOP = 0.3  # distance at which it stands [m]
-PATIENCE = 10  # least updates that it turns for, and how many more it may
 FEW: Final = 8  # samples with which Stage's own does not run
 DEVIATION = 0.05  # of lasernoise [m]
-_SHARE = 64  # robots that are worth a thread
 
 
 Wanted = list[tuple[StageRobot, str]]
@@ -75,8 +66,12 @@ def make_controllers(simulation: StageFleet) -> list[FleetController]:
     return made
 
 
-def with_wander(world: World) -> World:
-    """Return the world of a Stage file with ``wander`` for each robot that no controller drives.
+def with_wander(world: World, controller: str = "wander") -> World:
+    """Return the world of a Stage file with a controller for each robot that has none.
+
+    Args:
+        world: The world.
+        controller: ``wander``, or ``rounds``: in a round through all starting places.
 
     Raises:
         SimulationError: It is of no Stage file.
@@ -86,92 +81,16 @@ def with_wander(world: World) -> World:
             f"only robots of Stage files wander, and '{world.name}' is none",
             hint="robots of other files drive by 'cmd_vel', from --ros or the page of --view",
         )
-    return replace(world, models=tuple(map(_wandering, world.models)))
+    return replace(world, models=tuple(_driven(model, controller) for model in world.models))
 
 
-def _wandering(model: Model) -> Model:
+def _driven(model: Model, controller: str) -> Model:
     stage = stage_model(model)
     if stage is None or stage.position is None:
         return model
     if any(placed.model.controllers for placed in stage.walk()):
         return model
-    return replace(model, content=replace(stage, controllers=(StageController("wander"),)))
-
-
-class Wander(FleetController):
-    """Goes ahead until something is near, then turns away from it for a while.
-
-    Args:
-        simulation: Runs.
-        robots: Those it drives, each with what it looks at; all of one scanner.
-        scanner: That.
-    """
-
-    def __init__(
-        self, simulation: StageFleet, robots: list[tuple[StageRobot, Ranger]], scanner: int
-    ) -> None:
-        self._simulation, self._scanner = simulation, scanner
-        self._own = np.array([robot.index for robot, _ in robots], np.int64)
-        self._places = np.array([ranger.places[0][1] for _, ranger in robots], np.int64)
-        self.rebind()
-        self._mood = np.zeros((len(self._bodies), 2), np.int64)
-        key = Stream(simulation.seed, f"wander/{scanner}", 1).keys[0]
-        self._seed = int(key >> np.uint64(1))
-
-    def rebind(self) -> None:
-        """Find the robots and what they see with among all."""
-        simulation = self._simulation
-        worlds = np.arange(simulation.nworld, dtype=np.int64)[:, None]
-        self._bodies = (worlds * simulation.fleet.nbody + self._own).ravel()
-        count = len(simulation.mounts[self._scanner])
-        self._sensors = (worlds * count + self._places).ravel()
-        self._made: tuple[Floats, Wandering] | None = None
-
-    def update(self) -> None:
-        """Update speed and turn of every robot by its scan."""
-        law, now = self._law(self._simulation.scan(self._scanner)), self._simulation.clock.now_ns
-        self._simulation.fleet.pool.share(
-            lambda first, last, _: law.choose(first, last, now), len(self._bodies), _SHARE
-        )
-
-    def systems(self) -> list[System] | None:
-        """Return its systems; see `FleetController.systems`."""
-        looking = self._simulation.scan_system(self._scanner)
-        return None if looking is None else [looking[0], self._law(looking[1])]
-
-    def reset(self, worlds: Worlds | None = None) -> None:
-        """Stop turning."""
-        rows = slice(None) if worlds is None else worlds
-        self._mood.reshape(self._simulation.nworld, -1, 2)[rows] = 0
-
-    def state(self) -> dict[str, NDArray[np.generic]]:
-        """Return the remaining turning times."""
-        return {"mood": self._mood.copy()}
-
-    def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
-        """Restore what ``state`` returned."""
-        self._mood[:] = state["mood"]
-
-    def _law(self, ranges: Floats) -> Wandering:
-        """Return the law for these ranges; kept while they are written to the same place."""
-        if self._made is None or self._made[0] is not ranges:
-            law = Wandering(
-                self._simulation.fleet.command.reshape(-1, 3),
-                ranges.reshape(-1, ranges.shape[-1]),
-                self._sensors,
-                self._bodies,
-                self._mood,
-                nworld=self._simulation.nworld,
-                seed=self._seed,
-                cruise=CRUISE,
-                creep=CREEP,
-                turn=TURN,
-                front=FRONT,
-                stop=STOP,
-                patience=PATIENCE,
-            )
-            self._made = ranges, law
-        return self._made[1]
+    return replace(model, content=replace(stage, controllers=(StageController(controller),)))
 
 
 class LaserNoise(FleetController):
@@ -207,7 +126,9 @@ def _number(text: str, default: float) -> float:
         return default
 
 
-def _make_wander(simulation: StageFleet, wanted: Wanted) -> list[FleetController]:
+def _make_wander(
+    kind: type[Wander], simulation: StageFleet, wanted: Wanted
+) -> list[FleetController]:
     groups: dict[int, list[tuple[StageRobot, Ranger]]] = {}
     blind = []
     for robot, _ in wanted:
@@ -218,11 +139,11 @@ def _make_wander(simulation: StageFleet, wanted: Wanted) -> list[FleetController
             groups.setdefault(ranger.places[0][0], []).append((robot, ranger))
     if blind:
         warnings.warn(
-            f"'wander' needs a ranger; these have none and stand: {', '.join(blind[:5])}",
+            f"'{kind.__name__.lower()}' needs a ranger; these have none and stand: {', '.join(blind[:5])}",
             SimulationWarning,
             stacklevel=2,
         )
-    return [Wander(simulation, robots, scanner) for scanner, robots in groups.items()]
+    return [kind(simulation, robots, scanner) for scanner, robots in groups.items()]
 
 
 def _looked_at(robot: StageRobot) -> Ranger | None:
@@ -236,4 +157,8 @@ def _make_noise(simulation: StageFleet, wanted: Wanted) -> list[FleetController]
     return [LaserNoise(simulation, wanted)]
 
 
-_makers: dict[str, Maker] = {"wander": _make_wander, "lasernoise": _make_noise}
+_makers: dict[str, Maker] = {
+    "rounds": partial(_make_wander, Rounds),
+    "lasernoise": _make_noise,
+    "wander": partial(_make_wander, Wander),
+}

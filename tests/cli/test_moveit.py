@@ -33,8 +33,10 @@ def test_controllers_of_a_file_run_as_far_as_joints_are_free(cli, tmp_path):
     arguments = ("--for", "0.05", "--rate", "max", "--controllers")
     code, out, _ = cli("run", "rrbot", *arguments, file)
     assert code == 0
-    assert "'other' is loaded and does not run" in out
-    assert "'one' is loaded" not in out
+    assert "controllers not started (--verbose says why): other\n" in out
+    out = cli("run", "rrbot", "--verbose", *arguments, file)[1]
+    assert "'other' is not started: could not switch controllers" in out
+    assert "'one' is not" not in out
     file.write_text("gains: {p: 1.0}\n")
     code, _, err = cli("run", "rrbot", *arguments, file)
     assert code == 1

@@ -205,8 +205,7 @@ def test_run_of_a_stage_file_goes_in_the_plane(cli, tmp_path):
     file.write_text(STAGE, encoding="utf-8")
     code, out, err = cli("run", file, "--for", 2, "--rate", "max")
     assert code == 0, err
-    assert "world 'yard': ground_plane, wall, a, b" in out
-    assert "step 100 ms, engine planar" in out
+    assert "world 'yard' (planar, step 100 ms): ground_plane, wall, a, b" in out
     assert "simulated 2.00 s" in err
 
 

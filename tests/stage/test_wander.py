@@ -8,7 +8,7 @@ from gazelle import formats
 from gazelle.errors import SimulationError
 from gazelle.simulation import Simulation
 from gazelle.stage import StageSimulation, stage_of, with_wander
-from gazelle.stage.controllers import Wander
+from gazelle.stage.wander import Wander
 from gazelle.stage.wandering import Wandering
 
 SCANNER = "ranger ( sensor ( range [0 8] fov 180 samples {} ) )"

@@ -23,7 +23,7 @@ from gazelle.stage.format.entity import Entity, Property
 from gazelle.stage.format.properties import Properties
 from gazelle.stage.format.reader import Context
 
-known_controllers = {"lasernoise", "wander"}
+known_controllers = {"lasernoise", "rounds", "wander"}
 """Those that are started here; others may join (``stage.register_controller``)."""
 """Controllers that come with Gazelle."""
 

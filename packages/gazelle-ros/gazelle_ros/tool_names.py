@@ -7,7 +7,7 @@ from collections.abc import Sequence
 COMMANDS: dict[str, tuple[str, ...]] = {
     "rosbag": ("bag",),
     "roscore": ("launch", "--core"),
-    "roslaunch": ("launch", "--nodes-survive"),
+    "roslaunch": ("launch", "--nodes-survive", "--verbose"),
     "rosmaster": ("master", "--no-rosout"),
     "rosmsg": ("msg",),
     "rosnode": ("node",),
@@ -30,7 +30,7 @@ NODES: dict[str, tuple[str, str]] = {
 }
 """From a tool to the package and the type of a built-in node."""
 
-_NAMES_NOTHING = {"--nodes-survive"}
+_NAMES_NOTHING = {"--nodes-survive", "--verbose"}
 """Options that leave a process its name."""
 
 

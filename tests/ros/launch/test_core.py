@@ -271,6 +271,7 @@ def test_what_nodes_log_first_reaches_everybody(free_uri, tmp_path, monkeypatch)
     ("words", "name"),
     [
         (["launch", "a.launch"], "roslaunch"),
+        (["launch", "--nodes-survive", "--verbose", "a.launch"], "roslaunch"),
         (["launch", "--core", "-p", "1"], "roscore"),
         (["launch", "--screen", "--test", "a.test"], "rostest"),
         (["master"], "rosmaster"),

@@ -14,6 +14,7 @@ from gazelle_ros.launch import (
     MissingPackageError,
     Packages,
     ParameterCommand,
+    describing,
     load_launch,
     load_launch_text,
 )
@@ -403,3 +404,13 @@ def test_every_launch_file_of_the_corpus_loads_or_says_what_is_missing(corpus):
                 faults.append(str(error))
     assert faults == []
     assert loaded > 0.6 * len(files)
+
+
+def test_a_launch_is_told_in_one_line_unless_all_is_wanted():
+    plan = load_launch_text(
+        '<launch><param name="a" value="1"/><node pkg="p" type="t" name="n"/></launch>',
+        name="b/c.launch",
+    )
+    assert describing.outline(plan) == "c.launch: 1 node, 1 parameter"
+    assert " * /a: 1\n" in describing.summary(plan)
+    assert "    n (p/t)\n" in describing.summary(plan)

@@ -28,7 +28,7 @@ from gazelle_ros.base.writing import write_text
 if TYPE_CHECKING:
     from gazelle_ros.launch import LaunchPlan, Packages
 
-_NO_EFFECT = ("--local", "--skip-log-check", "--disable-title", "-v")
+_NO_EFFECT = ("--local", "--skip-log-check", "--disable-title")
 _NO_EFFECT_VALUES = (("-w", "--numworkers"), ("-t", "--timeout"), ("--master-logger-level",))
 _CHILD = (("-c", "--child"), ("-u", "--server_uri"))
 
@@ -62,7 +62,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     runs.add_argument("--run_id", default="", metavar="ID", help="run_id of the session")
     runs.add_argument("--pid", metavar="FILE", help="write the process number to a file")
-    runs.add_argument("--no-summary", action="store_true", help="do not show parameters and nodes")
+    runs.add_argument(
+        "-v", "--verbose", action="store_true", help="first show parameters and nodes, as roslaunch"
+    )
+    runs.add_argument("--no-summary", action="store_true", help="do not tell what is started")
     runs.add_argument("--sigint-timeout", type=positive_float, default=15.0, metavar="S")
     runs.add_argument("--sigterm-timeout", type=positive_float, default=2.0, metavar="S")
     tests = parser.add_argument_group("test, as rostest does")
@@ -205,7 +208,8 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
         _say(f"{len(plan.tests)} tests are not run; --test runs them")
     launch = Launch(plan, options, say=_say, packages=packages)
     if not args.no_summary:
-        sys.stdout.write(describing.summary(plan) + f"\nROS_MASTER_URI={launch.master_uri}\n\n")
+        told = describing.summary if args.verbose else describing.outline
+        sys.stdout.write(f"{told(plan)}\nROS_MASTER_URI={launch.master_uri}\n\n")
     with _same_terminal(), launch, stopping(launch.end) as request:
         try:
             launch.start()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 from gazelle_ros import names
@@ -38,6 +39,16 @@ def summary(plan: LaunchPlan) -> str:
             if node.namespace == space
         ]
     return "\n".join(lines) + "\n"
+
+
+def outline(plan: LaunchPlan) -> str:
+    """Return in one line which files are launched, and the numbers of nodes and parameters."""
+    files = ", ".join(Path(file).name for file in plan.files[:1]) or "roscore"
+    counts = ", ".join(
+        f"{number} {noun}{'' if number == 1 else 's'}"
+        for number, noun in ((len(plan.nodes), "node"), (len(plan.parameters), "parameter"))
+    )
+    return f"{files}: {counts}"
 
 
 def _short(value: Any) -> str:
