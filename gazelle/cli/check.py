@@ -22,6 +22,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gazelle.cli.progress_line import ProgressLine
 from gazelle.errors import (
     ControlError,
     Error,
@@ -61,7 +62,7 @@ def run(args: argparse.Namespace) -> int:
         raise Error("there is no file to check", hint="arg:=value goes with a launch file")
     lists: dict[str, list[str]] = {}
     judged: dict[str, list[Problem]] = {}
-    for file in words:
+    for file in ProgressLine("checking", len(words), "files").count(words):
         if is_launch(file):
             lists[file], judged[file] = check_launch(file, arguments)
         else:

@@ -19,6 +19,7 @@ from collections.abc import Iterable, Iterator
 
 from gazelle.array_types import Picture
 from gazelle.cli.filming import add_source, opened
+from gazelle.cli.progress_line import ProgressLine
 from gazelle_ros.base.argument_types import positive_float
 from gazelle_ros.base.interrupts import StopRequest, stopping
 
@@ -57,7 +58,9 @@ def run(args: argparse.Namespace) -> int:
         if seconds is None and not isinstance(source, BagSource | BagTopView | RecordingSource):
             seconds = _SECONDS
         period = args.speed / args.fps
-        pictures = pictures_of(source, seconds, period)
+        total = None if seconds is None else max(1, round(seconds / period)) + 1
+        shown = ProgressLine("filming", total, "pictures")
+        pictures = shown.count(pictures_of(source, seconds, period))
         sys.stderr.write("filming; Ctrl-C ends the film early\n")
         count = write_film(file, _until(stop, pictures), args.fps)
     sys.stdout.write(f"{file}: {count} pictures, {count / args.fps:.1f} s\n")

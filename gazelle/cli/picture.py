@@ -14,6 +14,7 @@ import argparse
 import sys
 
 from gazelle.cli.filming import add_source, opened
+from gazelle.cli.progress_line import ProgressLine
 from gazelle_ros.base.argument_types import positive_float
 
 
@@ -32,7 +33,8 @@ def run(args: argparse.Namespace) -> int:
     file = writable(args.out, STILLS)
     with opened(args) as source:
         if args.at is not None:
-            source.advance(args.at)
+            for part in ProgressLine("simulating", 100, "%").count(range(1, 101)):
+                source.advance(args.at * part / 100)
         picture = source.look()
     write_picture(file, picture)
     sys.stdout.write(f"{file}: {picture.shape[1]} x {picture.shape[0]}\n")

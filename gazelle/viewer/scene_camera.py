@@ -36,7 +36,8 @@ class SceneCamera:
     Args:
         simulation: What to look at.
         eye: Where the camera is [m]; by default where it sees the whole world, or behind the
-            model that it follows, or beside it where something is in the way at the beginning. While it follows, in the frame that moves with the model.
+            model that it follows, and elsewhere as soon as something is in the way. While it
+            follows, in the frame that moves with the model.
         target: What it looks at [m], likewise.
         follow: Name of a model that the camera goes along with, without turning.
         world: Which world of a batch.
@@ -65,6 +66,7 @@ class SceneCamera:
         self._world, self._size = np.array([which]), size
         self._lens = PinholeLens(size[0] * _FINER, size[1] * _FINER, fov)
         self._scene: tuple[object, LiveScene | None] = (None, None)
+        self._dodges = bool(follow) and eye is None
         self._eye, self._target = self._usual(eye, target)
 
     def look(self) -> Picture:
@@ -82,6 +84,8 @@ class SceneCamera:
         shift = np.zeros(3)
         if self._follow:
             shift = simulation.robots[self._follow].placement(self._world).position[0]
+            if self._dodges:
+                self._eye = self._target + self._clear_way(self._eye - self._target)
         eye, target = self._eye + shift, self._target + shift
         pose = look_at(_triple(eye), _triple(target))
         frames = scene.render(
@@ -94,37 +98,39 @@ class SceneCamera:
         fine = Image.fromarray(frames.color[0])
         return np.asarray(fine.reduce(_FINER), np.uint8)
 
-    def _clear_way(self, middle: Floats) -> Floats:
-        """Return from where the model that is followed is seen now, relative to it [m].
+    def _clear_way(self, present: Floats) -> Floats:
+        """Return from where the model that is followed is seen, relative to the target [m].
 
-        The first of ``_ways`` along which nothing but the model is met, at the beginning.
+        The nearest to the present one along which nothing but the model is met; the present one if
+        there is none.
         """
         simulation = self._simulation
         robot, engine = simulation.robots[self._follow], simulation.engine
-        ways = list(_ways())
         first = robot.first_link
         if first is None:
-            return ways[0]
-        target = robot.placement(self._world).position[0] + middle
+            return present
+        ways = np.array([present, *_ways()])
+        target = robot.placement(self._world).position[0] + self._target
         place = engine.links[first.name].placement(self._world)
         back = conjugate(place.quaternion[0])
-        eyes = target + np.array(ways)
         lengths = np.linalg.norm(ways, axis=1)
-        origins = rotate(back, eyes - place.position[0])
-        directions = rotate(back, -np.array(ways) / lengths[:, None])
+        origins = rotate(back, target + ways - place.position[0])
+        directions = rotate(back, -ways / lengths[:, None])
         try:
             hits = engine.links[first.name].cast_rays(origins, directions, self._world)
         except EngineError:  # the plane has rays of one height only
-            return ways[0]
+            return present
         clear = (hits.distance[0] >= lengths - _NEAR) & ~hits.from_inside[0]
-        return ways[int(np.argmax(clear))]
+        if not clear.any():
+            return present
+        change = np.linalg.norm(ways - present, axis=1)
+        found: Floats = ways[int(np.where(clear, change, np.inf).argmin())]
+        return found
 
     def _usual(self, eye: Vector3 | None, target: Vector3 | None) -> tuple[Floats, Floats]:
         """Return eye and target, by default from the size of the scene."""
         if self._follow:
-            middle = np.array([0.0, 0.0, 0.1])
-            with self._simulation.lock:
-                away = self._clear_way(middle)
+            middle, away = np.array([0.0, 0.0, 0.1]), _BEHIND
         else:
             low, high = extent_of_world(self._simulation.world)
             middle = (low + high) / 2.0

@@ -1,10 +1,13 @@
 """Pictures and films of worlds in space, recordings, bags and policies."""
 
+import shlex
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from PIL import Image
+from PIL import Image, ImageSequence
 
 from gazelle import assets, formats
 from gazelle.cli.main import main
@@ -70,9 +73,41 @@ def test_a_camera_that_follows_looks_from_where_nothing_is_in_the_way(x, thick):
         camera = SceneCamera(sim, size=(240, 160), follow="turtlebot3_burger")
         with_it = camera.look()
         robot.set_pose((0.0, 0.0, -5.0))
-        camera._follow = ""
+        camera._follow, camera._dodges = "", False
         gone = np.abs(camera.look().astype(int) - with_it).max(axis=2) > 25
         assert gone[60:100, 90:150].mean() > 0.05
+
+
+def test_a_robot_that_drives_behind_walls_stays_in_sight():
+    with Simulation("empty", threads=1) as sim:
+        robot = sim.spawn("turtlebot3_burger")
+        sim.spawn(formats.load_model_string(WALL.format(2.0, 0.1)))
+        camera = SceneCamera(sim, size=(120, 80), follow="turtlebot3_burger")
+        hidden = SceneCamera(
+            sim,
+            size=(120, 80),
+            follow="turtlebot3_burger",
+            eye=(-1.6, -1.0, 1.2),
+            target=(0, 0, 0.1),
+        )
+        for x, seen in ((0.0, True), (2.5, False), (3.0, False), (5.0, True)):
+            shares = [_share_of_robot(each, robot, x) for each in (camera, hidden)]
+            assert shares[0] > 0.02
+            assert (shares[1] > 0.02) == seen
+
+
+def _share_of_robot(camera, robot, x):
+    """Return the share of pixels in the middle that change when the robot is not there."""
+    robot.set_pose((x, 0.0, 0.0))
+    with_it = camera.look()
+    robot.set_pose((x, 0.0, -5.0))
+    follow, dodges, eye, target = camera._follow, camera._dodges, camera._eye, camera._target
+    camera._follow, camera._dodges = "", False
+    shift = np.array([x, 0.0, 0.0])
+    camera._eye, camera._target = eye + shift, target + shift
+    gone = np.abs(camera.look().astype(int) - with_it).max(axis=2) > 25
+    camera._follow, camera._dodges, camera._eye, camera._target = follow, dodges, eye, target
+    return gone[25:55, 40:80].mean()
 
 
 def test_a_camera_follows_models_that_come_and_go():
@@ -220,3 +255,19 @@ def test_every_environment_draws_itself_with_record_video(tmp_path):
 def test_places_that_cannot_be(which, place):
     with Simulation("empty", threads=1) as sim, pytest.raises(Error, match=which):
         SceneCamera(sim, **{which: place})
+
+
+def test_the_film_of_the_docs_shows_the_robot_in_each_picture(tmp_path):
+    page = Path(__file__).parents[2] / "docs/how-to/viewing.md"
+    (line,) = (each for each in page.read_text().splitlines() if "film turtlebot3_world" in each)
+    _, *words = shlex.split(line)
+    words[2] = str(tmp_path / "burger.gif")
+    assert main([*words, "--size", "120x75", "--fps", "3"]) == 0
+    with Image.open(words[2]) as gif:
+        frames = [np.asarray(each.convert("RGB")) for each in ImageSequence.Iterator(gif)]
+    assert len(frames) == 16
+    dark = np.array([frame.max(axis=2) < 60 for frame in frames])
+    assert (dark[:, 25:60, 45:80].mean(axis=(1, 2)) > 0.15).all()
+    assert (dark[:, :, :40].mean(axis=(1, 2)) < 0.01).all()
+    # Only the robot is as dark, and it turns; pillars come into sight.
+    assert np.abs(frames[-1][:20].astype(int) - frames[0][:20]).mean() > 5
