@@ -124,7 +124,9 @@ def test_an_installed_package_comes_before_a_built_in_one(workspace):
 def test_packages_can_be_added(monkeypatch, tmp_path):
     monkeypatch.setattr(registry, "_registered", {})
     registry.register(
-        registry.BuiltinPackage("my_sim", {"server": "ros.launch.test_packages:serve"}, tmp_path)
+        registry.BuiltinPackage(
+            "my_sim", {"server": "ros.launch.test_packages:serve"}, folder=tmp_path
+        )
     )
     packages = Packages({})
     assert packages.folder("my_sim") == tmp_path
