@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from gazelle.array_types import Indices, Worlds
 from gazelle.errors import Error
+from gazelle_ros.base.argument_types import MOST_INT
 from gazelle_ros.base.characters import can_be_written
 from gazelle_ros.base.path_texts import can_be_path
 
@@ -29,7 +30,6 @@ Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 MOST = 1e15
 """Greatest magnitude of a float: its square and cube are numbers, too."""
-MOST_INT = 2**63 - 1
 _DEEPEST = 4
 _CHECKED: set[type] = set()
 """Classes whose instances were checked when they were made."""

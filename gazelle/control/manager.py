@@ -11,7 +11,6 @@ from typing import Any, Final, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle.argument_checks import MOST_INT
 from gazelle.array_types import Worlds
 from gazelle.control import registry
 from gazelle.control.control_law import ControlLaw
@@ -23,6 +22,7 @@ from gazelle.control.ports import Serializer
 from gazelle.control.switching import LoadedController, Switch, planned
 from gazelle.description import Model
 from gazelle.errors import ControlError, ControlWarning, did_you_mean
+from gazelle_ros.base.argument_types import MOST_INT
 
 R = TypeVar("R")
 

@@ -21,6 +21,13 @@ def test_what_is_no_whole_number_above_0_is_refused(text):
         positive_int(text)
 
 
+@pytest.mark.parametrize("text", ["1e19", str(2**63)])
+def test_a_count_that_no_array_can_hold_is_refused(text):
+    assert positive_int(str(2**63 - 1)) == 2**63 - 1
+    with pytest.raises(argparse.ArgumentTypeError, match=r"below 2\^63"):
+        positive_int(text)
+
+
 @pytest.mark.parametrize("text", ["0", "-1", "inf", "nan", "fast"])
 def test_what_is_no_number_above_0_is_refused(text):
     with pytest.raises(argparse.ArgumentTypeError, match="above 0"):

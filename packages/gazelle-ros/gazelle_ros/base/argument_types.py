@@ -13,6 +13,8 @@ N = TypeVar("N", int, float)
 _NEGATIVE = re.compile(r"-(\.?\d|\.?inf\b|\.?nan\b)", re.IGNORECASE)
 
 _LARGEST = 1e9
+MOST_INT = 2**63 - 1
+"""Largest int that arrays and files can hold."""
 
 
 class NumberParser(argparse.ArgumentParser):
@@ -49,6 +51,8 @@ def positive_int(text: str) -> int:
     number = _number(_int, text)
     if number is None or number < 1:
         raise argparse.ArgumentTypeError(f"expected an int above 0, not '{text}'")
+    if number > MOST_INT:
+        raise argparse.ArgumentTypeError(f"expected an int below 2^63, not '{text}'")
     return number
 
 
