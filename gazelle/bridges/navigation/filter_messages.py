@@ -1,0 +1,96 @@
+"""Messages of an estimate of pose, velocity and acceleration."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from gazelle.array_types import Floats
+from gazelle.bridges.conversions import set_point, set_pose, set_twist
+from gazelle.description import Pose
+from gazelle.navigation.estimation.kalman import Estimate
+from gazelle.navigation.estimation.motion import ACCELERATION, ANGULAR, LINEAR, POSE, TWIST
+from gazelle_ros.msgs import diagnostic_msgs, geometry_msgs, nav_msgs
+from gazelle_ros.time import Time
+
+_RATE_SLACK = 0.1
+
+
+def base_pose(state: Floats) -> Pose:
+    """Return the pose of a state, shape (15,)."""
+    return Pose(*state[POSE].tolist())
+
+
+def odometry_message(estimate: Estimate, frame: str, child: str) -> nav_msgs.msg.Odometry:
+    """Return an estimate as odometry of a child frame in a frame."""
+    message = nav_msgs.msg.Odometry()
+    message.header.stamp, message.header.frame_id = Time(nsecs=estimate.stamp), frame
+    message.child_frame_id = child
+    pose, state = base_pose(estimate.state), estimate.state
+    set_pose(message.pose.pose, pose.position, pose.quaternion)
+    set_twist(message.twist.twist, state[LINEAR], state[ANGULAR])
+    message.pose.covariance = estimate.covariance[POSE, POSE].ravel().tolist()
+    message.twist.covariance = estimate.covariance[TWIST, TWIST].ravel().tolist()
+    return message
+
+
+def acceleration_message(
+    estimate: Estimate, frame: str, turning: Floats, interval: float
+) -> geometry_msgs.msg.AccelWithCovarianceStamped:
+    """Return the accelerations of an estimate.
+
+    Args:
+        estimate: With linear accelerations.
+        frame: In which they are given.
+        turning: Angular acceleration, shape (3,) [rad/s^2].
+        interval: Time over which it was differentiated [s].
+    """
+    message = geometry_msgs.msg.AccelWithCovarianceStamped()
+    message.header.stamp, message.header.frame_id = Time(nsecs=estimate.stamp), frame
+    set_point(message.accel.accel.linear, estimate.state[ACCELERATION])
+    set_point(message.accel.accel.angular, turning)
+    spread = np.zeros((6, 6))
+    spread[:3, :3] = estimate.covariance[ACCELERATION, ACCELERATION]
+    spread[3:, 3:] = 2.0 / interval**2 * estimate.covariance[ANGULAR, ANGULAR]
+    message.accel.covariance = spread.ravel().tolist()
+    return message
+
+
+def diagnostics_message(
+    name: str, now: int, warnings: Mapping[str, str], rate: float, wanted: float
+) -> diagnostic_msgs.msg.DiagnosticArray:
+    """Return the diagnostics of a filter.
+
+    Args:
+        name: Of the node.
+        now: [ns].
+        warnings: Since the last diagnostics, by source.
+        rate: Estimates per second.
+        wanted: The same by its parameter.
+    """
+    status, value = diagnostic_msgs.msg.DiagnosticStatus, diagnostic_msgs.msg.KeyValue
+    slow = rate < (1.0 - _RATE_SLACK) * (wanted - 2.0)
+    made = diagnostic_msgs.msg.DiagnosticArray(
+        status=[
+            status(
+                level=status.WARN if warnings else status.OK,
+                name=f"{name}: Filter diagnostic updater",
+                message="; ".join(f"{key}: {text}" for key, text in warnings.items()) or "ok",
+                hardware_id="none",
+                values=[value(key=key, value=text) for key, text in warnings.items()],
+            ),
+            status(
+                level=status.WARN if slow else status.OK,
+                name=f"{name}: odometry/filtered topic status",
+                message="Frequency too low." if slow else "Desired frequency met",
+                hardware_id="none",
+                values=[
+                    value(key="Actual frequency (Hz)", value=f"{rate:.3f}"),
+                    value(key="Target frequency (Hz)", value=f"{wanted:g}"),
+                ],
+            ),
+        ]
+    )
+    made.header.stamp = Time(nsecs=now)
+    return made
