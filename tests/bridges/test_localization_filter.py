@@ -8,9 +8,14 @@ import numpy as np
 import pytest
 from ros.graph import until
 
-from gazelle.bridges.conversions import pose_message, pose_of_message, set_point, set_quaternion
+from gazelle.bridges.conversions import (
+    pose_message,
+    pose_of_message,
+    pose_of_transform,
+    set_point,
+    set_quaternion,
+)
 from gazelle.bridges.navigation import localization_filter
-from gazelle.bridges.navigation.fake_localization import of_transform
 from gazelle.description import Pose
 from gazelle_ros import Master, Node, Time, load_message
 from gazelle_ros.clock import SimulatedClock
@@ -132,7 +137,7 @@ def test_wheels_and_a_turned_imu_give_odometry_and_its_transform(start, kind):
         lambda: drive.tree.has("base_link") and drive.tree.latest_common_time("odom", "base_link")
     )
     until(lambda: drive.tree.latest_common_time("odom", "base_link") == drive.now)
-    found = of_transform(drive.tree.lookup("odom", "base_link"))
+    found = pose_of_transform(drive.tree.lookup("odom", "base_link"))
     assert found.is_close(pose_of_message(message.pose.pose))
 
 
@@ -145,7 +150,9 @@ def test_in_a_map_the_odometry_is_placed(start):
     stamp = drive.now + 500_000_000
     until(lambda: drive.tree.has("map"))
     until(lambda: drive.tree.latest_common_time("map", "odom") == stamp)
-    assert (of_transform(drive.tree.lookup("map", "odom")) * Pose(x=0.5, yaw=0.2)).is_close(base)
+    assert (pose_of_transform(drive.tree.lookup("map", "odom")) * Pose(x=0.5, yaw=0.2)).is_close(
+        base
+    )
 
 
 def test_without_a_transform_the_node_says_what_it_waits_for(start):

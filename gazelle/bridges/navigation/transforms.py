@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from gazelle.bridges.navigation.fake_localization import of_transform
+from gazelle.bridges.conversions import pose_of_transform
 from gazelle.bridges.navigation.frames import GraphFrames
 from gazelle.description import Pose
 
@@ -41,7 +41,7 @@ class TransformFinder:
             self.missing.add((target, source))
             return None
         self.missing.discard((target, source))
-        return of_transform(found)
+        return pose_of_transform(found)
 
     def described(self) -> list[str]:
         """Return the missing transforms as text."""
