@@ -1,8 +1,12 @@
 """List the training runs of a folder: task, steps, success, time; newest last.
 
-gazelle runs
-gazelle runs runs other/runs
-"""
+  gazelle runs
+  gazelle runs runs other/runs
+  gazelle runs --import run.zip      # of 'gazelle export RUN --format run'
+
+An archive may come from anybody: nothing in it is executed. If the run names
+modules of its own, 'gazelle eval' and 'gazelle train' need --trust.
+"""  # this is the text of --help
 
 from __future__ import annotations
 
@@ -34,12 +38,24 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=[Path("runs")],
         help="where they are (default runs)",
     )
+    parser.add_argument(
+        "--import",
+        dest="archives",
+        metavar="FILE",
+        type=Path,
+        action="append",
+        default=[],
+        help="first unpack a run that was exported, into the first folder (repeatable)",
+    )
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
-    from gazelle.training import list_runs
+    from gazelle.training import list_runs, unpack_run
 
+    for archive in args.archives:
+        unpacked = unpack_run(archive, args.folders[0])
+        sys.stdout.write(f"{archive} is in {unpacked.folder}\n")
     rows = [_row(each, folder) for folder in args.folders for each in list_runs(folder)]
     if not rows:
         sys.stdout.write("there are no runs; 'gazelle train TASK' makes one\n")
@@ -51,11 +67,17 @@ def run(args: argparse.Namespace) -> int:
 
 def _row(summary: RunSummary, folder: Path) -> tuple[str, ...]:
     """Return the cells of a run."""
+    from gazelle.training.recipes import task_name
+
     run, total = summary.run, summary.run.config.recipe.steps
     name = run.folder.relative_to(folder).as_posix()
+    name = run.folder.name if name == "." else name
+    task, algo = task_name(run.config.task), run.config.recipe.algo
+    if not run.folder.name.startswith(f"{task}-{algo}-"):
+        name = f"{name} ({task}, {algo})"
     steps = _short(summary.steps)
     return (
-        run.folder.name if name == "." else name,
+        name,
         str(run.config.seed),
         steps if summary.finished else f"{steps} of {_short(total)}",
         "-" if summary.success is None else f"{100.0 * summary.success:.1f} %",

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
         recipe_for,
     )
     from gazelle.training.records import EpisodeRecord
+    from gazelle.training.run_archive import pack_run, unpack_run
     from gazelle.training.run_list import RunSummary, list_runs
     from gazelle.training.runs import Run, RunConfig
     from gazelle.training.session import TrainResult, resume, train
@@ -82,12 +83,14 @@ _HOMES = {
     "load_actor": "actor",
     "load_policy": "policy_files",
     "make_task": "tasks",
+    "pack_run": "run_archive",
     "predicted_range": "prediction",
     "published_claims": "claims",
     "recipe_for": "recipes",
     "resume": "session",
     "task_recipe": "recipe_choice",
     "train": "session",
+    "unpack_run": "run_archive",
     "wilson_interval": "statistics",
     "with_values": "overrides",
 }
@@ -128,12 +131,14 @@ __all__ = [
     "load_actor",
     "load_policy",
     "make_task",
+    "pack_run",
     "predicted_range",
     "published_claims",
     "recipe_for",
     "resume",
     "task_recipe",
     "train",
+    "unpack_run",
     "wilson_interval",
     "with_values",
 ]

@@ -86,7 +86,7 @@ class Run:
         stamp = datetime.now().astimezone().strftime("%Y%m%d-%H%M%S")
         name = f"{task_name(config.task)}-{config.recipe.algo}-{stamp}"
         try:
-            folder = _new_folder(out, name)
+            folder = new_folder(out, name)
             (folder / "checkpoints").mkdir()
             _write_config(folder, config)
         except OSError as error:
@@ -196,7 +196,7 @@ class Run:
         return place
 
 
-def _new_folder(out: Path, name: str) -> Path:
+def new_folder(out: Path, name: str) -> Path:
     """Return a folder that did not exist, also when two runs start in the same second."""
     for suffix in ("", *(f"-{i}" for i in range(2, 100))):
         folder = out / f"{name}{suffix}"

@@ -90,3 +90,6 @@ def test_the_command(tmp_path, monkeypatch, capsys):
     ]
     assert main(["runs", "runs"]) == 0
     assert run.folder.name in capsys.readouterr().out
+    run.folder.rename(tmp_path / "runs" / "mine")
+    assert main(["runs"]) == 0
+    assert "\nmine (Corridor, ppo)  3 " in capsys.readouterr().out
