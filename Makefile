@@ -27,7 +27,7 @@ BUILD_INPLACE = $(VENV)/bin/python setup.py --quiet build_ext --inplace
 ON_KERNELS = $(VENV)/bin/python -m pytest -q -n $(WORKERS) --dist loadfile -m "not slow" -p no:cacheprovider \
 	-W error::pytest.PytestUnraisableExceptionWarning $(KERNEL_TESTS)
 
-.PHONY: help setup demo test test-slow ros-suites release-check lint bench checked wheel clean
+.PHONY: help setup demo test test-slow ros-suites release-check lint docs bench checked wheel clean
 
 help:
 	@echo "make demo       train and evaluate a TurtleBot3 from its files (2 minutes)"
@@ -37,6 +37,7 @@ help:
 	@echo "make release-check  measure all that is published again (hours; goes on where it stopped)"
 	@echo "make setup      .venv with everything, nothing run"
 	@echo "make lint       ruff (check and format) and mypy in strict mode"
+	@echo "make docs       the documentation as a site, in build/docs; warnings are errors"
 	@echo "make bench      the benchmark of the environments"
 	@echo "make checked    kernels' tests with checked indices, then with sanitizers (gcc)"
 	@echo "make wheel      wheels for Linux, macOS and Windows into dist, with Zig's C compiler"
@@ -78,6 +79,13 @@ lint: $(ALL)
 	$(VENV)/bin/ruff check
 	$(VENV)/bin/ruff format --check
 	$(VENV)/bin/mypy
+
+$(STAMP)-docs: $(VENV)/bin/python pyproject.toml packages/gazelle-ros/pyproject.toml constraints.txt $(KERNELS)
+	$(PIP) install --quiet --constraint constraints.txt --editable packages/gazelle-ros --editable '.[docs]'
+	@touch $@
+
+docs: $(if $(findstring docs,$(EXTRAS)),$(ALL),$(STAMP)-docs)
+	$(VENV)/bin/sphinx-build --quiet --fail-on-warning --keep-going --jobs auto docs build/docs
 
 bench: $(ALL)
 	$(PIP) install --quiet --constraint constraints.txt --editable packages/gazelle-ros --editable '.[bench]'

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 ROS_FILE = ROOT / "packages" / "gazelle-ros" / "pyproject.toml"
 ROS_PROJECT = tomllib.loads(ROS_FILE.read_text(encoding="utf-8"))["project"]
-DEVELOPERS = {"test", "lint", "oracle", "bench"}
+DEVELOPERS = {"test", "lint", "oracle", "bench", "docs"}
 """Extras that no user installs."""
 
 NOT_OURS = {

@@ -9,12 +9,15 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from ports import free_port
 
 from gazelle.cli.commands import COMMANDS
 from gazelle_ros import tool_names
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
+TUTORIALS = sorted((ROOT / "docs" / "tutorials").glob("*-*.md"))
+FENCE = re.compile(r"^```(\w+)(?: file=(\S+))?\n(.*?)^```", re.DOTALL | re.MULTILINE)
 EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
 
 
@@ -40,6 +43,34 @@ def test_the_python_of_a_page_runs(page, tmp_path):
             check=False,
         )
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("page", TUTORIALS, ids=lambda p: p.name)
+def test_a_tutorial_works_as_typed(page, tmp_path):
+    """Blocks with ``file=NAME`` are saved; those of ``sh`` are typed into one shell."""
+    blocks = FENCE.findall(page.read_text())
+    for _, name, text in blocks:
+        if name:
+            (tmp_path / name).write_text(text)
+    typed = "".join(text for kind, name, text in blocks if kind == "sh" and not name)
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run(
+            ["bash", "-euc", f"trap 'kill $(jobs -p) 2>/dev/null || true; wait' EXIT\n{typed}"],
+            cwd=tmp_path,
+            env={
+                **os.environ,
+                "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
+                "ROS_MASTER_URI": f"http://localhost:{free_port()}",
+                "TMPDIR": folder,
+            },
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+    assert typed
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 @pytest.mark.long

@@ -189,17 +189,22 @@ def _run(
 
 
 def _call(program: CommandLine, command: Command, arguments: list[str], *, debug: bool) -> int:
+    parsed = command_parser(program, command).parse_args(arguments)
+    parsed.debug = debug
+    code = command.load().run(parsed)
+    with naming("the standard output"):
+        sys.stdout.flush()
+    return code
+
+
+def command_parser(program: CommandLine, command: Command) -> Parser:
+    """Return the parser of a sub-command's arguments."""
     module = command.load()
     parser = Parser(
         prog=f"{program.name} {command.name}", description=_usage(program, module.__doc__)
     )
     module.configure(parser)
-    parsed = parser.parse_args(arguments)
-    parsed.debug = debug
-    code = module.run(parsed)
-    with naming("the standard output"):
-        sys.stdout.flush()
-    return code
+    return parser
 
 
 def _usage(program: CommandLine, text: str | None) -> str:
