@@ -149,7 +149,7 @@ HUSKY = Expected(
     + _tuned("/navsat/fix", "position", "velocity", "status")
     + " /husky_velocity_controller/cmd_vel /husky_velocity_controller/cmd_vel_out "
     "/husky_velocity_controller/odom /odometry/filtered /set_pose /diagnostics "
-    "/e_stop /cmd_vel /joy_teleop/cmd_vel /kb_teleop/cmd_vel /twist_marker_server/cmd_vel "
+    "/e_stop /cmd_vel /joy_teleop/cmd_vel /joy_teleop/joy /kb_teleop/cmd_vel /twist_marker_server/cmd_vel "
     + _tuned("", "husky_velocity_controller"),
     frames="odom>base_link base_link>base_footprint base_link>front_bumper_link base_link>imu_link "
     "base_link>inertial_link base_link>rear_bumper_link base_link>top_chassis_link "
@@ -157,19 +157,12 @@ HUSKY = Expected(
     "top_plate_link>top_plate_rear_link base_link>front_left_wheel_link "
     "base_link>front_right_wheel_link base_link>rear_left_wheel_link "
     "base_link>rear_right_wheel_link",
-    missing=(
-        "there is no package 'interactive_marker_twist_server'",
-        "there is no package 'joy'",
-        "there is no package 'teleop_twist_joy'",
-    ),
-    left_out=3,
+    missing=("there is no package 'interactive_marker_twist_server'",),
+    left_out=1,
 )
 
 REFUSED = {
-    "husky_gazebo husky_playpen.launch": (
-        "there is no package 'fath_pivot_mount_description'",
-        "there is no package 'twist_mux'",
-    ),
+    "husky_gazebo husky_playpen.launch": ("there is no package 'fath_pivot_mount_description'",),
     "gazebo_ros willowgarage_world.launch": ("willowgarage",),
     "gazebo_plugins test_single_pendulum.launch": ("there is no package 'gazebo'",),
     "gazebo_plugins balance.launch": ("there is no package 'gazebo_tests'",),

@@ -54,6 +54,8 @@ _OWN = {
         BuiltinPackage("joint_state_publisher", {
             "joint_state_publisher": "gazelle_ros.builtin.robot:joint_main",
         }),
+        BuiltinPackage("joy", {"joy_node": "gazelle_ros.builtin.joysticks.joy_node:main"}),
+        BuiltinPackage("joy_teleop", dict.fromkeys(("joy_teleop", "joy_teleop.py"), "gazelle_ros.builtin.joysticks.joy_teleop:main")),
         BuiltinPackage("laser_filters", {
             "scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:main",
         }, {"scan_to_scan_filter_chain": "gazelle_ros.builtin.scans.filters.chain:ScanFilterChain"}),
@@ -80,6 +82,7 @@ _OWN = {
         BuiltinPackage("rospack", {"rospack": "gazelle_ros.builtin.rospack:main"}),
         BuiltinPackage("rosservice", {"rosservice": "gazelle_ros.builtin.commands:service"}),
         BuiltinPackage("rosparam", {"rosparam": "gazelle_ros.builtin.commands:param"}),
+        BuiltinPackage("teleop_twist_joy", {"teleop_node": "gazelle_ros.builtin.joysticks.teleop_twist:main"}),
         BuiltinPackage("teleop_twist_keyboard", dict.fromkeys(("teleop_twist_keyboard", "teleop_twist_keyboard.py"), "gazelle_ros.builtin.teleop.twist:main")),
         BuiltinPackage("turtlebot3_teleop", {
             "turtlebot3_teleop_key": "gazelle_ros.builtin.teleop.turtlebot3:main",
@@ -104,12 +107,17 @@ _OWN = {
         BuiltinPackage("twist_mux", {
             "twist_mux": "gazelle_ros.builtin.twist_mux:main",
             "twist_marker": "gazelle_ros.builtin.twist_mux:marker",
+            "joystick_relay": "gazelle_ros.builtin.joysticks.relay:main",
+            "joystick_relay.py": "gazelle_ros.builtin.joysticks.relay:main",
         }),
         BuiltinPackage("xacro", {
             "xacro": "gazelle_ros.builtin.xacro:main",
             "xacro.py": "gazelle_ros.builtin.xacro:main",
         }, folder=_SHARE / "xacro"),
         BuiltinPackage("yocs_cmd_vel_mux", nodelets=_CMD_VEL_MUX),
+        BuiltinPackage("yocs_velocity_smoother", nodelets={
+            "VelocitySmootherNodelet": "gazelle_ros.builtin.velocity_smoother:VelocitySmoother",
+        }),
         BuiltinPackage("rviz", skipped=_NO_SCREEN),
     )
 }  # fmt: skip

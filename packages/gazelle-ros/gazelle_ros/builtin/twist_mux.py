@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.builtin.arguments import parse_arguments, run_node, spin
+from gazelle_ros.builtin.diagnostics import DiagnosticPublisher
 from gazelle_ros.builtin.mux_inputs import MuxInput, mux_input
-from gazelle_ros.msgs import diagnostic_msgs, geometry_msgs, std_msgs, visualization_msgs
+from gazelle_ros.msgs import geometry_msgs, std_msgs, visualization_msgs
 from gazelle_ros.node import Node
-from gazelle_ros.time import Time
 
 HIGHEST = 255
 """Highest priority."""
@@ -65,9 +65,7 @@ class TwistMux:
             _LOG.warning("%s/topics is empty: no command will pass", node.name)
         twist, flag = geometry_msgs.msg.Twist, std_msgs.msg.Bool
         self._commands = node.advertise("cmd_vel_out", twist, queue_size=1)
-        self._diagnostics = node.advertise(
-            "/diagnostics", diagnostic_msgs.msg.DiagnosticArray, queue_size=1
-        )
+        self._diagnostics = DiagnosticPublisher(node, "Twist mux status")
         for source in self.priorities.locks:
             node.subscribe(source.topic, flag, self._lock_taker(source), queue_size=1)
         for source in self.priorities.velocities:
@@ -94,8 +92,7 @@ class TwistMux:
 
         return take
 
-    def _report(self) -> diagnostic_msgs.msg.DiagnosticArray:
-        value = diagnostic_msgs.msg.KeyValue
+    def _report(self) -> dict[str, str]:
         now = self._node.clock.now()
         with self._lock:
             priority = self.priorities.of_locks(now)
@@ -111,15 +108,7 @@ class TwistMux:
                 for each in self.priorities.locks
             ]
             pairs.append(("current priority", str(priority)))
-        status = diagnostic_msgs.msg.DiagnosticStatus(
-            name=f"{self._node.name.lstrip('/')}: Twist mux status",
-            message="ok",
-            hardware_id="none",
-            values=[value(key=key, value=text) for key, text in pairs],
-        )
-        report = diagnostic_msgs.msg.DiagnosticArray(status=[status])
-        report.header.stamp = Time(nsecs=now)
-        return report
+        return dict(pairs)
 
 
 def main(arguments: Sequence[str]) -> int:

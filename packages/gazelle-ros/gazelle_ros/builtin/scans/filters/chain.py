@@ -150,5 +150,5 @@ class ScanFilterChain(StampedWork[Mapping[str, ScanMotion]]):
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Filter scans until shutdown; returns the exit code."""
+    """Pass scans through the filters until shutdown; returns the exit code."""
     return run_node(arguments, "scan_to_scan_filter_chain", ScanFilterChain)

@@ -1,0 +1,1 @@
+"""Joysticks of this machine, and what drives robots by them."""
