@@ -19,7 +19,7 @@ class CollisionBody:
 
     Attributes:
         name: Unique.
-        parent: Name of the body that carries it; empty for the base of the robot.
+        parent: Name of its body; empty for the base of the robot.
         pose: In the parent's frame.
         shapes: With their poses in its own frame.
         axis: Of the joint to the parent, in its own frame; None where it is fixed.

@@ -97,7 +97,7 @@ class Engine(Protocol):
         """Count of changes of models; systems have to be bound to the state again after one."""
 
     def prepare(self) -> None:
-        """Compile the world with all that was asked for, so that the next step is one like others.
+        """Compile the world with everything requested, so that the next step is one like others.
 
         An engine may put that off until motors and kinematic models are known.
 

@@ -86,10 +86,10 @@ class HangingLinks:
         linear, angular = goal.linear, goal.angular
         if holder.body.parent is not None:
             above = self._links[holder.body.parent].placement(worlds)
-            carried = self._links[holder.body.parent].motion(worlds)
-            linear = linear - carried.linear
-            linear = linear - cross(carried.angular, here.position - above.position)
-            angular = angular - carried.angular
+            parent = self._links[holder.body.parent].motion(worlds)
+            linear = linear - parent.linear
+            linear = linear - cross(parent.angular, here.position - above.position)
+            angular = angular - parent.angular
         body = _times(here, holder.offset.inverse())
         if holder.joint.type in ("ball", "floating"):
             turned = rotate(conjugate(body.quaternion), angular)

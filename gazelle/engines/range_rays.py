@@ -12,10 +12,10 @@ from gazelle.native.system import System
 
 @dataclass(frozen=True, slots=True)
 class RangeRays:
-    """Rays of a range finder, which asks for the same ones again and again.
+    """Rays of a range finder, the same in every scan.
 
     Attributes:
-        link: Scoped name of the link that carries them.
+        link: Scoped name of their link.
         origins: In the link's frame [m], shape (rays, 3).
         directions: Unit vectors, likewise.
         reach: How far they go [m]; what is farther may be left out.
@@ -28,7 +28,7 @@ class RangeRays:
 
 
 class RangeTable(Protocol):
-    """Range finders of one kind, whose rays are cast together; good for one ``Engine.revision``.
+    """Range finders of one kind with rays cast together; good for one ``Engine.revision``.
 
     Distances are infinite where a ray meets nothing, and minus infinite where it starts inside of
     something.

@@ -63,7 +63,7 @@ class Contacts:
     """The points where some collisions touch others, in the world frame.
 
     Attributes:
-        collisions: Scoped names, ``model::link::collision``, of those asked for, length k.
+        collisions: Scoped names, ``model::link::collision``, of the requested ones, length k.
         others: Scoped names of what touches them, length k.
         position: Between the two surfaces [m], shape (k, 3).
         normal: Unit vectors from the other into the collision, shape (k, 3).

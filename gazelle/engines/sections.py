@@ -64,7 +64,7 @@ class Levels:
 
 
 def parts_of(collision: Collision, pose: Pose, levels: Levels, *, moving: bool) -> list[PlanarPart]:
-    """Return parts of a collision whose shape is at a pose; the levels are in the same frame.
+    """Return parts of a collision with its shape at a pose; the levels are in the same frame.
 
     Raises:
         FormatError: A mesh cannot be read.

@@ -16,8 +16,8 @@ _MOST = 4096  # rows that are kept
 class Table(Generic[Row_co, Rows_co]):
     """Links, joints or models of an engine, by their scoped names.
 
-    ``table["burger::base"]`` is one row, whose arrays have the shape (n, ...); a tuple of names gives
-    several rows, whose arrays have the shape (n, rows, ...). Rows stay good when models come and go.
+    ``table["burger::base"]`` is one row with arrays of shape (n, ...); a tuple of names gives
+    several rows with arrays of shape (n, rows, ...). Rows stay good when models come and go.
 
     Args:
         names: Returns the names of all rows.

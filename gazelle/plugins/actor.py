@@ -28,7 +28,7 @@ _ROLLED = np.array([math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)])
 
 
 class ActorWalk(ModelPlugin):
-    """Walks to targets drawn at random, drawn to them and pushed away by other models.
+    """An actor drawn to random targets and pushed away by other models.
 
     It goes through what does not push it away enough, as in Gazebo. Every world has targets
     of its own.
@@ -62,7 +62,7 @@ class ActorWalk(ModelPlugin):
         self._target[rows], self._last_ns[rows] = self._first, self._simulation.clock.now_ns
         self._place()
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock of the simulation counts
         """Turn and move the actor."""
         now_ns = self._simulation.clock.now_ns
         interval = (now_ns - self._last_ns) / NANOSECONDS
@@ -78,9 +78,9 @@ class ActorWalk(ModelPlugin):
             distance = np.linalg.norm(apart, axis=1, keepdims=True)
             push = self._repulsion / np.maximum(distance, 1e-9)
             way -= np.where(distance < _NEAR, _directions(apart) * push, 0.0)
-        self._walk(way, interval)
+        self._advance(way, interval)
 
-    def _walk(self, way: Floats, interval: Floats) -> None:
+    def _advance(self, way: Floats, interval: Floats) -> None:
         """Turn towards a direction, and move along it once it is ahead."""
         angle = np.arctan2(way[:, 1], way[:, 0]) + math.pi / 2.0 - self._yaw
         angle = (angle + math.pi) % (2.0 * math.pi) - math.pi

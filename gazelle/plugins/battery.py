@@ -30,7 +30,7 @@ class BatteryConsumer(ModelPlugin):
 
 
 class LinearBattery(ModelPlugin):
-    """A battery whose voltage falls evenly with its charge, and with its current.
+    """A battery with a voltage that falls linearly with charge and current.
 
     The current follows the power that is taken with the time constant of the file.
 
@@ -65,7 +65,7 @@ class LinearBattery(ModelPlugin):
     def _open_voltage(self) -> Floats:
         return np.asarray(self._full + self._slope * (1.0 - self.charge / self._capacity))
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock of the simulation counts
         """Discharge the battery."""
         interval = self._watch.lap()
         taken = sum(

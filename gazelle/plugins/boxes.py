@@ -22,7 +22,7 @@ from gazelle.simulation.values import Flags
 
 
 class Contain(WorldPlugin):
-    """Tells whether a model or link is in a box, whenever that changes in a world."""
+    """Box that publishes whether a model or link is inside, whenever that changes in a world."""
 
     update_rate = 0.0
 
@@ -40,7 +40,7 @@ class Contain(WorldPlugin):
         self._half = np.asarray(box.numbers("size", (1.0, 1.0, 1.0))) / 2.0
         self._place = Pose(*numbers)
         self._enabled = self._starts_enabled = parameters.get("enabled", True)
-        self._told: NDArray[np.bool_] | None = None
+        self._published: NDArray[np.bool_] | None = None
         simulation.ports.inputs[f"{namespace} enable"] = Input(
             absolute("", f"{namespace}/enable"), bool, self._enable
         )
@@ -49,7 +49,7 @@ class Contain(WorldPlugin):
         )
 
     def _enable(self, wanted: bool, _worlds: Worlds | None) -> None:  # noqa: FBT001  what the topic says
-        self._enabled, self._told = wanted, None
+        self._enabled, self._published = wanted, None
 
     @property
     def active(self) -> bool:
@@ -59,8 +59,8 @@ class Contain(WorldPlugin):
     def on_update(self, time: float) -> None:  # noqa: ARG002  it looks at every step
         """Publish a change of contents."""
         inside = self._look()
-        if self._told is None or (inside != self._told).any():
-            self._told = inside
+        if self._published is None or (inside != self._published).any():
+            self._published = inside
             self._output.publish()
 
     def _look(self) -> NDArray[np.bool_]:
@@ -79,7 +79,7 @@ class Contain(WorldPlugin):
 
     def reset(self, worlds: Worlds | None) -> None:
         """Publish again after a reset."""
-        self._told = None
+        self._published = None
         if worlds is None:
             self._enabled = self._starts_enabled
 
@@ -89,7 +89,7 @@ class Contain(WorldPlugin):
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned, and publish again."""
-        self._enabled, self._told = bool(state["enabled"]), None
+        self._enabled, self._published = bool(state["enabled"]), None
 
 
 @dataclass(frozen=True, slots=True)

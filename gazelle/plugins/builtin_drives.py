@@ -10,7 +10,7 @@ from gazelle.description import Cylinder, Parameters, Sphere
 from gazelle.plugins.wheels import Side, WheeledDrive
 from gazelle.simulation import Robot
 
-# A wheel whose shape is not known is as large as this [m].
+# Radius of a wheel without a known shape [m].
 _DIAMETER = 0.15
 
 

@@ -38,7 +38,7 @@ class CameraTopic(SensorOutput):
         topic: As the file names it.
         kind: Type of the values.
         read: The value now.
-        may_tell: Whether this measurement is published; called once for each.
+        may_publish: Whether this measurement is published; called once for each.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class CameraTopic(SensorOutput):
         topic: str,
         kind: type[Any],
         read: Callable[[], Any],
-        may_tell: Callable[[], bool] | None = None,
+        may_publish: Callable[[], bool] | None = None,
     ) -> None:
         super().__init__(
             sensor,
@@ -58,11 +58,11 @@ class CameraTopic(SensorOutput):
             read=read,
             namespace=settings.namespace,
         )
-        self._may_tell = may_tell
+        self._may_publish = may_publish
 
-    def _tell(self, sensor: SampledSensor) -> None:
-        if self._may_tell is None or self._may_tell():
-            super()._tell(sensor)
+    def _on_reading(self, sensor: SampledSensor) -> None:
+        if self._may_publish is None or self._may_publish():
+            super()._on_reading(sensor)
 
 
 class PublishedCamera:
@@ -73,7 +73,7 @@ class PublishedCamera:
         camera: Of the sensor.
         settings: Names and lens.
         look: The camera's picture now.
-        may_tell: Whether a measurement is published.
+        may_publish: Whether a measurement is published.
 
     Attributes:
         encoding: Of the pictures.
@@ -85,11 +85,11 @@ class PublishedCamera:
         camera: Camera,
         settings: CameraSettings,
         look: Callable[[], CameraImage],
-        may_tell: Callable[[], bool] | None = None,
+        may_publish: Callable[[], bool] | None = None,
     ) -> None:
         self.sensor, self.camera, self.settings, self.look = sensor, camera, settings, look
         self.encoding = encoding_of(camera.format, sensor.name)
-        self._may_tell = may_tell
+        self._may_publish = may_publish
         self._last_info_ns: int | None = None
 
     def open(self) -> None:
@@ -104,12 +104,12 @@ class PublishedCamera:
         topic: str,
         kind: type[Any],
         read: Callable[[], Any],
-        may_tell: Callable[[], bool] | None = None,
+        may_publish: Callable[[], bool] | None = None,
     ) -> None:
         """Add an output under a name."""
         name = self.settings.topic(topic).removeprefix(self.settings.namespace).strip("/")
         self.sensor.robot.outputs[name] = CameraTopic(
-            self.sensor, self.settings, topic, kind, read, may_tell or self._may_tell
+            self.sensor, self.settings, topic, kind, read, may_publish or self._may_publish
         )
 
     def _image(self) -> ImageValue:
@@ -126,7 +126,7 @@ class PublishedCamera:
         return self.settings.info(self.camera, self.look().stamp)
 
     def _info_is_due(self) -> bool:
-        if self._may_tell is not None and not self._may_tell():
+        if self._may_publish is not None and not self._may_publish():
             return False
         now = self.sensor.robot.simulation.clock.now_ns
         before, period = self._last_info_ns, self.settings.info_period * NANOSECONDS
@@ -163,7 +163,7 @@ class CameraPlugin(SensorPlugin):
 
 
 class PictureTrigger:
-    """Messages that ask for one picture each.
+    """Messages that each request one picture.
 
     Args:
         sensor: Measures.
@@ -172,7 +172,7 @@ class PictureTrigger:
     """
 
     def __init__(self, sensor: SensorUnit, settings: CameraSettings, of: str = "") -> None:
-        self._sensor, self._pending, self._told_ns = sensor, 0, -1
+        self._sensor, self._pending, self._published_ns = sensor, 0, -1
         sensor.robot.inputs[of + settings.trigger_topic.strip("/")] = Input(
             settings.topic(settings.trigger_topic), Trigger, self._pull, forget=self._forget
         )
@@ -181,16 +181,16 @@ class PictureTrigger:
         self._pending += 1
 
     def _forget(self, _worlds: Worlds | None) -> None:
-        self._pending, self._told_ns = 0, -1
+        self._pending, self._published_ns = 0, -1
 
     def is_pulled(self) -> bool:
         """Return whether this moment's measurement is published; the same for all topics."""
         now = self._sensor.robot.simulation.clock.now_ns
-        if self._told_ns == now:
+        if self._published_ns == now:
             return True
         if not self._pending:
             return False
-        self._pending, self._told_ns = self._pending - 1, now
+        self._pending, self._published_ns = self._pending - 1, now
         return True
 
 
@@ -232,8 +232,8 @@ class MultiCameraPlugin(SensorPlugin):
                 image: CameraImage = seen[number] if isinstance(seen, tuple) else seen
                 return image
 
-            may_tell = self.trigger(sensor, settings, side)
-            PublishedCamera(sensor, camera, settings, look, may_tell).open()
+            may_publish = self.trigger(sensor, settings, side)
+            PublishedCamera(sensor, camera, settings, look, may_publish).open()
 
     def trigger(
         self,

@@ -40,7 +40,7 @@ class CommandTables:
         return cls(linear, angular, *np.zeros((3, count), np.int64))
 
     def clear_old(self, now_ns: int, longest: Floats) -> None:
-        """Stop those whose last command is too old.
+        """Stop robots with an expired command.
 
         Args:
             now_ns: Simulated time [ns].
@@ -61,7 +61,7 @@ class CommandTimeout:
     """Command of one base, and its timeout.
 
     Args:
-        clock: Tells how old the command is.
+        clock: Gives the age of the command.
         command: Its command.
         longest: How long a command holds [s]; may be infinite.
     """
@@ -133,6 +133,6 @@ class CommandGroup:
         self._ends = bool(np.isfinite(self._longest).any())
 
     def clear_old(self) -> None:
-        """Stop those whose last command is too old."""
+        """Stop robots with an expired command."""
         if self._ends:
             self._tables.clear_old(self._clock.now_ns, self._longest)

@@ -94,7 +94,7 @@ class DeadReckoning:
     """Adds up what a left and a right wheel roll, in every world.
 
     Args:
-        clock: Tells how long that took.
+        clock: Gives the elapsed time.
         separation: Between the wheels [m].
         radius: Of the wheels [m].
         wheels: The left and the right.
@@ -159,7 +159,7 @@ class DeadReckoning:
 
 
 class ReckoningGroup:
-    """Adds up what the wheels of some robots of one simulation roll, whose tables they join.
+    """Dead reckoning for many robots of one simulation, with shared tables.
 
     Args:
         reckonings: Of each robot.

@@ -62,22 +62,22 @@ class DepthCameraPlugin(CameraPlugin):
     def _depths(self) -> ImageValue:
         """Return depths in metres, NaN for unknown; or in millimetres, 0 for unknown."""
         seen = self.look()
-        depth, told = self._told(seen.depth)
+        depth, valid = self._valid(seen.depth)
         if not self._millimetres:
-            return ImageValue(seen.stamp, np.where(told, depth, np.float32(math.nan)), "32FC1")
+            return ImageValue(seen.stamp, np.where(valid, depth, np.float32(math.nan)), "32FC1")
         most = np.iinfo(np.uint16).max
-        whole = np.where(told, np.minimum(depth * 1000.0, most), 0.0)
+        whole = np.where(valid, np.minimum(depth * 1000.0, most), 0.0)
         return ImageValue(seen.stamp, whole.astype(np.uint16), "16UC1")
 
     def _points(self) -> PixelPoints:
         """Return points along the rays of pixels, about the middle of the picture."""
         seen = self.look()
-        depth, told = self._told(seen.depth)
+        depth, valid = self._valid(seen.depth)
         focal = self._settings.info(self._camera, seen.stamp).focal_length
         height, width = depth.shape[1:]
         right = ((np.arange(width) - (width - 1) / 2.0) / focal).astype(np.float32)
         down = ((np.arange(height) - (height - 1) / 2.0) / focal).astype(np.float32)
-        kept = np.where(told, depth, np.float32(math.nan))
+        kept = np.where(valid, depth, np.float32(math.nan))
         points = np.stack((kept * right, kept * down[:, None], kept), axis=-1)
         return PixelPoints(seen.stamp, points, self._picture(seen.color))
 
@@ -86,11 +86,11 @@ class DepthCameraPlugin(CameraPlugin):
         coloured = self._encoding in ("rgb8", "bgr8")
         return pixels_of(color, self._encoding if coloured else "rgb8")
 
-    def _told(self, depth: Floats32 | None) -> tuple[Floats32, Bools]:
+    def _valid(self, depth: Floats32 | None) -> tuple[Floats32, Bools]:
         if depth is None:
             raise SimulationError(f"'{self._sensor.name}' measures no depth")
-        told = (depth > self._least) & (depth < self._most) & np.isfinite(depth)
-        return depth, told
+        valid = (depth > self._least) & (depth < self._most) & np.isfinite(depth)
+        return depth, valid
 
 
 class KinectPlugin(DepthCameraPlugin):

@@ -43,7 +43,7 @@ class DroneCommands(TwistInput):
         self._drifts: Floats = np.zeros((nworld, _AXES))
         # Since the drift was drawn, counted from command to command [s]; and the last command [ns].
         self._age: Floats = np.zeros(nworld)
-        self._heard_ns = np.full(nworld, -1, np.int64)
+        self._received_ns = np.full(nworld, -1, np.int64)
 
     @between_steps
     def send(
@@ -68,9 +68,9 @@ class DroneCommands(TwistInput):
         old = self._age[rows] > self._drift_time
         self._drifts[rows[old]] = self._drift * drawn[old, _AXES:]
         self._age[rows[old]] = 0.0
-        now_ns, heard = self._clock.now_ns, self._heard_ns[rows]
-        self._age[rows] += np.where(heard < 0, 0, now_ns - heard) / NANOSECONDS
-        self._heard_ns[rows] = now_ns
+        now_ns, received = self._clock.now_ns, self._received_ns[rows]
+        self._age[rows] += np.where(received < 0, 0, now_ns - received) / NANOSECONDS
+        self._received_ns[rows] = now_ns
         noise: Floats = self._drifts[rows] + self._small * drawn[:, :_AXES]
         return noise
 
@@ -81,7 +81,7 @@ class DroneCommands(TwistInput):
     def reset(self, worlds: Worlds | None) -> None:
         """Discard the drift; for all worlds, also the count of random numbers."""
         rows = slice(None) if worlds is None else worlds
-        self._drifts[rows], self._age[rows], self._heard_ns[rows] = 0.0, 0.0, -1
+        self._drifts[rows], self._age[rows], self._received_ns[rows] = 0.0, 0.0, -1
         if worlds is None:
             self._stream.rewind()
 
@@ -90,7 +90,7 @@ class DroneCommands(TwistInput):
         return {
             "drifts": self._drifts.copy(),
             "age": self._age.copy(),
-            "heard": self._heard_ns.copy(),
+            "heard": self._received_ns.copy(),
             "keys": self._stream.keys.copy(),
             "counters": self._stream.counters.copy(),
         }
@@ -98,5 +98,5 @@ class DroneCommands(TwistInput):
     def restore(self, state: dict[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
         self._drifts[:], self._age[:] = state["drifts"], state["age"]
-        self._heard_ns[:] = state["heard"]
+        self._received_ns[:] = state["heard"]
         self._stream.keys[:], self._stream.counters[:] = state["keys"], state["counters"]

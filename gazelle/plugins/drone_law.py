@@ -1,7 +1,7 @@
 """Control law of SJTU's quadrotor (``libplugin_drone.so``), in every world at once.
 
-Three PIDs in a row for each horizontal axis: of the place (if asked for), of the velocity, of the tilt;
-one for the velocity upwards, and one for the turning rate. What they ask for acts as one force along
+Three PIDs in a row for each horizontal axis: of the place (if commanded), of the velocity, of the tilt;
+one for the velocity upwards, and one for the turning rate. Their output acts as one force along
 the drone's own z axis and one torque, as if four rotors had made them at once. Forces are not rotors'.
 """
 
@@ -97,7 +97,7 @@ class DroneLaw:
 
         Args:
             now: What is known.
-            orders: What is asked for.
+            orders: The commands.
             gravity: In the world frame [m/s²], shape (nworld, 3).
         """
         pids, step, linear = self.pids, now.step, now.motion.linear
@@ -108,18 +108,18 @@ class DroneLaw:
         tilt, climb = self._tilt_and_climb(now, orders, from_yaw(-angles[:, 2]), weight)
         rates = rotate(conjugate(now.place.quaternion), now.motion.angular)
         turning = orders.angular[:, 2:]
-        asked = np.hstack(
+        angular = np.hstack(
             (
                 pids["rollpitch"].update(tilt, angles[:, :2], rates[:, :2], step, held),
                 pids["yaw"].update(turning, now.motion.angular[:, 2:], 0.0, step, ~orders.places),
             )
         )
-        asked[orders.places, 2] = 0.0
+        angular[orders.places, 2] = 0.0
         rising, change = linear[:, 2:], now.acceleration[:, 2:]
         lift = pids["velocityZ"].update(climb, rising, change, step, held)[:, 0]
         thrust = self._mass * (lift + _load(now.place, gravity, weight) * weight)
         most = self._max_force if self._max_force > 0.0 else np.inf
-        return np.where(held, np.clip(thrust, 0.0, most), 0.0), self._inertia * asked * held[
+        return np.where(held, np.clip(thrust, 0.0, most), 0.0), self._inertia * angular * held[
             :, None
         ]
 

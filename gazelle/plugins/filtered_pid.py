@@ -79,11 +79,11 @@ class FilteredPids:
             self._command[acting] = filtered[acting]
             command = filtered
         error = command - value
-        asked: Floats = gains.proportional * error + gains.differential * (wanted_rate - rate)
+        output: Floats = gains.proportional * error + gains.differential * (wanted_rate - rate)
         if gains.integral != 0.0:
             self._sum[acting] += step * error[acting]
-            asked = asked + gains.integral * self._sum
-        return asked
+            output = output + gains.integral * self._sum
+        return output
 
     def reset(self, worlds: Worlds | None) -> None:
         """Discard filtered commands and sums."""

@@ -32,7 +32,7 @@ _STILL = 1e-4
 class ForceBasedMove(ModelPlugin):
     """Pushes the base with forces proportional to what its velocity lacks.
 
-    The gains are those of the file, but never more than what brings the whole model to its
+    The gains are those of the file, but never more than what takes the whole model to its
     velocity within one step: beyond that the original swings. The odometry starts at zero
     where the model starts.
     """

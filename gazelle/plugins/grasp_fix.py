@@ -40,7 +40,7 @@ class _Arm:
 
 
 class GraspFix(ModelPlugin):
-    """Holds an object to the palm when forces from opposite sides last; lets go when fingers open.
+    """Holds an object to the palm when forces from opposite sides last; releases it when fingers open.
 
     It looks at ``update_rate`` of simulated time, where the original does of wall time. The
     contacts of a held object stay on.

@@ -1,4 +1,4 @@
-"""Joints that bear the weight they carry: what ``libGravityCompensationPlugin.so`` does."""
+"""Gravity compensation of joints: ``libGravityCompensationPlugin.so``."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class GravityCompensation(ModelPlugin):
             warnings.warn(
                 SimulationWarning(
                     f"'{robot.name}' is not held to the world: its joints go on feeling the "
-                    "weight that they carry"
+                    "weight on them"
                 ),
                 stacklevel=2,
             )

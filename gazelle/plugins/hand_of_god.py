@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.plugins.frames import frames_output
-from gazelle.plugins.heard_frames import HeardFrames
+from gazelle.plugins.received_frames import ReceivedFrames
 from gazelle.rotations import conjugate, multiply
 from gazelle.simulation import FramePrefix, Input, ModelPlugin, Robot, Transform, Transforms
 
@@ -31,23 +31,25 @@ class HandOfGod(ModelPlugin):
         self._link.set_properties(gravity=0.0)
         self._name = parameters.get("frameId", "hog")
         self._stiffness = parameters.get("kl", 200.0), parameters.get("ka", 200.0)
-        self._frames = HeardFrames(robot.simulation.nworld)
+        self._frames = ReceivedFrames(robot.simulation.nworld)
         robot.inputs[f"{self._name}_desired"] = Input(
-            "/tf", Transforms, self._frames.hear, forget=self.reset, queue_size=100
+            "/tf", Transforms, self._frames.receive, forget=self.reset, queue_size=100
         )
         robot.inputs[f"{self._name}_static"] = Input(
-            "/tf_static", Transforms, self._hear_static, queue_size=100
+            "/tf_static", Transforms, self._receive_static, queue_size=100
         )
         actual = f"{self._name}_actual"
-        self._actual = robot.outputs[actual] = frames_output(self._tell, prefix=FramePrefix.NONE)
+        self._actual = robot.outputs[actual] = frames_output(
+            self._actual_frame, prefix=FramePrefix.NONE
+        )
 
     @property
     def active(self) -> bool:
         """True if there are frames or subscribers."""
         return self._frames.any or self._actual.wanted
 
-    def _hear_static(self, transforms: Transforms, worlds: Worlds | None) -> None:
-        self._frames.hear(transforms, worlds, static=True)
+    def _receive_static(self, transforms: Transforms, worlds: Worlds | None) -> None:
+        self._frames.receive(transforms, worlds, static=True)
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it draws at every step
         """Pull the link, and publish its pose."""
@@ -72,7 +74,7 @@ class HandOfGod(ModelPlugin):
             "hand_of_god", name, np.where(known, force, 0.0), np.where(known, torque, 0.0)
         )
 
-    def _tell(self) -> Transforms:
+    def _actual_frame(self) -> Transforms:
         place = self._link.placement()
         actual = Transform("world", f"{self._name}_actual", place.position, place.quaternion)
         return Transforms(self._simulation.clock.now_ns, (actual,))

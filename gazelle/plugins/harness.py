@@ -2,7 +2,7 @@
 
 The joints that the plugin names hang the model on the world; one of them is a winch, which PID
 controllers pull at, and one is let go when the model is to stand by itself. Here each joint
-carries a small carriage, a model of its own in the engine alone, and the model's link is held
+moves a small carriage, a model of its own in the engine alone, and the model's link is held
 to that; so a model can be let go in some worlds and hang in others.
 """
 
@@ -39,7 +39,7 @@ class _Rope:
     Attributes:
         name: As the file has it.
         joint: Scoped name in the engine.
-        carriage: Scoped name of the link that the joint carries.
+        carriage: Scoped name of the link on the joint.
         link: What hangs on it.
     """
 
@@ -141,7 +141,7 @@ class Harness(ModelPlugin):
         """True if the model hangs in any world."""
         return bool(self._held.any())
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock of the simulation counts
         """Control the winch: by its speed, and at rest by its position too."""
         interval = self._watch.lap()
         engine, joint = self._simulation.engine, self._winch.joint

@@ -50,7 +50,7 @@ class OnBody(Noisy, Publishing):
 
 
 class SampledOnBody(OnBody):
-    """A sensor on a body whose outputs publish one sample.
+    """A sensor on a body; its outputs publish one sample.
 
     Attributes:
         sample: What they publish now; None outside of an update.

@@ -1,4 +1,4 @@
-"""Tells of resets: what ``libhector_gazebo_reset_plugin.so`` does."""
+"""Notification of resets: ``libhector_gazebo_reset_plugin.so``."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from gazelle.array_types import Floats, Worlds
 from gazelle.description import Parameters
 from gazelle.errors import SimulationError
 from gazelle.plugins.frames import placed
-from gazelle.plugins.heard_frames import HeardFrames
+from gazelle.plugins.received_frames import ReceivedFrames
 from gazelle.rotations import conjugate, multiply
 from gazelle.simulation import (
     Input,
@@ -34,7 +34,7 @@ _AXES = {(1.0, 0.0, 0.0): "x", (0.0, 1.0, 0.0): "y", (0.0, 0.0, 1.0): "z"}
 
 
 class HectorServo(ModelPlugin):
-    """Turns one to three servos so that what they carry has an orientation in some frame.
+    """Turns one to three servos so that the last link has an orientation in some frame.
 
     Frames are those of ``/tf``, or the model's own where it does not have them. While one is
     not known the servos stand still.
@@ -69,7 +69,7 @@ class HectorServo(ModelPlugin):
             servo.add_motor(self._torque)
         self._schedule = Schedule(parameters.get("controlRate", 0.0))
         nworld = robot.simulation.nworld
-        self._heard = HeardFrames(nworld)
+        self._received = ReceivedFrames(nworld)
         self._wanted: Floats = np.zeros((nworld, 4))
         self._frames = np.full(nworld, _LEVEL, object)
         self._speeds: Floats = np.zeros((nworld, len(self._servos)))
@@ -88,7 +88,7 @@ class HectorServo(ModelPlugin):
             absolute(namespace, topic), TurnCommand, self._take, forget=self._forget, queue_size=1
         )
         robot.inputs[f"{topic.strip('/')} frames"] = Input(
-            "/tf", Transforms, self._heard.hear, queue_size=100
+            "/tf", Transforms, self._received.receive, queue_size=100
         )
         states = parameters.get("jointStateName", "joint_states")
         self._states = Output(
@@ -134,9 +134,9 @@ class HectorServo(ModelPlugin):
 
     def _turn(self, frame: str) -> Floats | None:
         """Return the orientation of a frame relative to the base, in all worlds."""
-        heard = self._heard.turn(_BASE, frame)
-        if heard is not None:
-            return heard
+        turn = self._received.turn(_BASE, frame)
+        if turn is not None:
+            return turn
         try:
             base, other = (self._robot.frame(name) for name in (_BASE, frame))
         except SimulationError:
@@ -164,7 +164,7 @@ class HectorServo(ModelPlugin):
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Return the command, the received frames and the speeds of the servos."""
         return {
-            **self._heard.state(),
+            **self._received.state(),
             "wanted": self._wanted.copy(),
             "wanted frames": self._frames.astype(np.str_),
             "speeds": self._speeds.copy(),
@@ -172,7 +172,7 @@ class HectorServo(ModelPlugin):
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
-        self._heard.restore(state)
+        self._received.restore(state)
         self._wanted[:], self._speeds[:] = state["wanted"], state["speeds"]
         self._frames[:] = state["wanted frames"]
 

@@ -59,7 +59,7 @@ class JointControl(ModelPlugin):
         self._pids = {str(i): pid for i, pid in pids if pid is not None}
         self._watch = Stopwatch(robot.simulation.clock)
 
-    def on_update(self, time: float) -> None:  # noqa: ARG002  the watch tells
+    def on_update(self, time: float) -> None:  # noqa: ARG002  the clock of the simulation counts
         """Control the joints."""
         interval = self._watch.lap()
         efforts: dict[str, Floats] = {}

@@ -60,7 +60,7 @@ class JointStatePublisher(Publishing):
 
 
 class JointStateSystem(PublisherSystem[JointStatePublisher]):
-    """Publishers whose joints are read in one look."""
+    """Publishers with joints read in one batch."""
 
     def measure(self, plugins: Sequence[JointStatePublisher]) -> list[JointStates]:
         """Return the joint states of each plugin."""

@@ -178,7 +178,7 @@ class Kobuki(ModelPlugin):
 
 
 class KobukiSystem(OdometrySystem[Kobuki]):
-    """Kobukis, whose motors, wheel counts and gyros are those of all.
+    """Kobukis with shared tables of motors, wheel counts and gyros.
 
     Args:
         plugins: The bases.

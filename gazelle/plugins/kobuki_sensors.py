@@ -92,7 +92,7 @@ class Cliffs:
 
 
 class Bumpers:
-    """A contact sensor whose sides are distinguished by where they are touched.
+    """A contact sensor that distinguishes its sides by the place of the contact.
 
     Attributes:
         pressed: Shape (nworld, 3).

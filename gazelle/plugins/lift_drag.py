@@ -1,6 +1,6 @@
 """Wings and keels: what ``libLiftDragPlugin.so`` does.
 
-A thin aerofoil whose coefficients are linear in the angle of attack, up to stall and beyond it;
+A thin aerofoil with coefficients linear in the angle of attack, up to stall and beyond it;
 Anderson, "Fundamentals of Aerodynamics", chapters 4 and 5, for the meaning of the terms.
 """
 

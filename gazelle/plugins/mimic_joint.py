@@ -21,7 +21,7 @@ _HASTE = 0.1
 class MimicJoint(ModelPlugin):
     """Puts a joint at a multiple of another's position, plus an offset, at every step.
 
-    With ``hasPID`` it is brought there with at most ``maxEffort``: by a PID controller if there
+    With ``hasPID`` it is moved there with at most ``maxEffort``: by a PID controller if there
     are gains in the parameter ``gazebo_ros_control/pid_gains/JOINT``, else by a motor.
     """
 

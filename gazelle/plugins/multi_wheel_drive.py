@@ -31,10 +31,12 @@ class MultiWheelDrive(WheeledDrive):
         frame = parameters.get("odometryFrame", "odom")
         base = parameters.get("robotBaseFrame", "base_footprint")
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
-        told = parameters.get("publishOdometryMsg", True)
+        published = parameters.get("publishOdometryMsg", True)
         framed = parameters.get("publishOdometryTf", True)
         measure = TrueOdometry(robot, frame, base)
-        self.tell(OdometryOutputs(robot, topic, measure, namespace, told=told, framed=framed))
+        self.publish_odometry(
+            OdometryOutputs(robot, topic, measure, namespace, published=published, framed=framed)
+        )
 
     def _joints(self, parameters: Parameters) -> list[tuple[str, Side]]:
         """Return names of the joints, and their sides."""

@@ -92,8 +92,8 @@ class OdometryOutputs:
         robot: Gets the outputs ``odom`` and ``odom_tf``.
         topic: Of the odometry.
         measure: The odometry now.
-        namespace: Whose frame it is.
-        told: Whether there is ``odom``.
+        namespace: Namespace of the frame.
+        published: Whether there is ``odom``.
         framed: Whether there is ``odom_tf``.
 
     Attributes:
@@ -107,14 +107,14 @@ class OdometryOutputs:
         measure: Callable[[], Odometry],
         namespace: str,
         *,
-        told: bool = True,
+        published: bool = True,
         framed: bool = True,
     ) -> None:
         self._measure = measure
         self.source = measure if isinstance(measure, OdometrySource) else None
         self._odom: Output[Odometry] | None = None
         self._frame: Output[Transforms] | None = None
-        if told:
+        if published:
             self._odom = robot.outputs["odom"] = Output(
                 topic, Odometry, measure, namespace=namespace
             )
@@ -159,7 +159,7 @@ D = TypeVar("D", bound=OdometryPlugin)
 
 
 class OdometrySystem(PluginSystem[D]):
-    """Plugins whose odometry is measured at once."""
+    """Plugins with odometry measured in one batch."""
 
     def measure(self, plugins: Sequence[D]) -> Sequence[Odometry | None]:
         """Return the odometry of each plugin where anybody has subscribed to that."""

@@ -120,7 +120,7 @@ class P3D(Noisy, Publishing):
 
 
 class P3DSystem(PublisherSystem[P3D]):
-    """Publishers whose bodies are looked up at once."""
+    """Publishers with bodies read in one batch."""
 
     def measure(self, plugins: Sequence[P3D]) -> list[TruePose]:
         """Return the pose that each plugin publishes."""

@@ -1,7 +1,7 @@
 """PID controllers as Gazebo has them, in every world.
 
 The output is ``-(p e + i sum + d de/dt)`` of the error ``e = measured - wanted``, each sum and
-the output held within limits; limits whose upper end is below the lower do not hold.
+the output held within limits; limits with the upper end below the lower do not hold.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The pixels of a picture as SDF's ``<format>`` asks for them, and what ROS calls that."""
+"""Pixels of a picture in SDF's ``<format>``, and its name in ROS."""
 
 from __future__ import annotations
 

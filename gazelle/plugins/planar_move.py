@@ -106,8 +106,8 @@ class SlidingSystem(OdometrySystem[PlanarMove]):
         super().__init__(plugins)
         self._simulation = plugins[0].robot.simulation
         self._models = tuple(each.robot.name for each in plugins)
-        told = [each.command for each in plugins]
-        self.commands = CommandGroup(self._simulation.clock, told, self._simulation.nworld)
+        commands = [each.command for each in plugins]
+        self.commands = CommandGroup(self._simulation.clock, commands, self._simulation.nworld)
         models = self._simulation.engine.models[self._models]
         self.kernel = models.twist(self.commands.linear, self.commands.angular)
 
@@ -136,7 +136,7 @@ class PatientSystem(SlidingSystem):
         self._law, self.kernel = self.kernel, None
 
     def update(self, time: float) -> None:
-        """Stop those whose last command is too old, and move."""
+        """Stop robots with an expired command, and move."""
         self.commands.clear_old()
         if self._law is None:
             super().update(time)

@@ -34,7 +34,7 @@ class RealSenseInfrared(CameraPlugin):
 
 
 class RealSenseDepth(DepthCameraPlugin):
-    """Depths in millimetres, and points if they are asked for.
+    """Depths in millimetres, and points on request.
 
     Args:
         parameters: Of the RealSense.
@@ -63,7 +63,7 @@ class RealSenseDepth(DepthCameraPlugin):
     def _depths(self) -> ImageValue:
         """Return millimetres, 0 for what is out of the range; points have limits of their own."""
         seen = self.look()
-        depth, _ = self._told(seen.depth)
+        depth, _ = self._valid(seen.depth)
         with np.errstate(invalid="ignore"):
             inside = (depth >= self._nearest) & (depth <= self._farthest)
         return ImageValue(

@@ -32,7 +32,7 @@ class _Region:
 
 
 class RegionEvents(WorldPlugin):
-    """Tells the plugins of models, such as lifts, when a model that can move is in a region.
+    """Regions that notify the plugins of models, such as lifts, when a movable model is inside.
 
     Events of other kinds, which are only on Gazebo's own topics, are left out with a warning.
     """
@@ -48,7 +48,7 @@ class RegionEvents(WorldPlugin):
             if event.require("type", str) != "occupied":
                 warnings.warn(
                     SimulationWarning(
-                        f"'world': events of type '{event.get('type', '')}' are told on Gazebo's "
+                        f"'world': events of type '{event.get('type', '')}' are published on Gazebo's "
                         "own topics only; they are left out"
                     ),
                     stacklevel=3,

@@ -1,6 +1,6 @@
 """The force on a body: what ``libgazebo_ros_f3d.so`` does.
 
-The original asks ODE for the force on the body after a step, when ODE has forgotten it; this
+The original reads from ODE the force on the body after a step, when ODE has forgotten it; this
 one gives what all forces on the body come to, by Newton's and Euler's laws.
 """
 

@@ -33,7 +33,7 @@ _PREFIX = "hardware_interface/"
 
 
 class RosControl(ControlLoop):
-    """Lets controllers command the joints that transmissions name, each through its first interface.
+    """Controllers for the joints of transmissions, each through its first interface.
 
     Its controllers are ``robot.controllers``; of a model with several of these plugins, each with a
     namespace of its own, ``robot.managers[namespace]``. Settings and inputs of the second and

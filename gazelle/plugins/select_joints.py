@@ -15,7 +15,7 @@ from gazelle.plugins.ros_control import RosControl
 
 
 class SelectedRosControl(RosControl):
-    """Lets controllers command the joints that ``<joints>`` names, of those that have transmissions.
+    """Controllers for the joints in ``<joints>`` that have transmissions.
 
     Without ``<joints>`` it is all of them, as with `RosControl`. Others of these plugins may control the
     rest, each in a namespace of its own.

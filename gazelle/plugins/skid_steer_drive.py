@@ -46,4 +46,4 @@ class SkidSteerDrive(WheeledDrive):
         measure = TrueOdometry(robot, frame, base, variance, variance)
         topic = absolute(namespace, parameters.get("odometryTopic", "odom"))
         framed = parameters.get("broadcastTF", False)
-        self.tell(OdometryOutputs(robot, topic, measure, namespace, framed=framed))
+        self.publish_odometry(OdometryOutputs(robot, topic, measure, namespace, framed=framed))

@@ -1,6 +1,6 @@
 """Every plugin library that Gazelle knows by its file name, without ``lib`` and ``.so``: one row each.
 
-A plugin of Gazelle's own is found as soon as its row is here. Other packages add theirs by entry
+A plugin of Gazelle's own is found by its row here. Other packages add theirs by entry
 points of the group ``gazelle.plugins``, scripts by ``gazelle.simulation.register``.
 """
 
@@ -53,7 +53,7 @@ _SENSORS = (
     _simulated("gazebo_ros_imu_sensor", "an IMU sensor", "imu_sensor:ImuSensor"),
     _simulated("gazebo_ros_p3d", "the true pose of a body", "p3d:P3D"),
     _simulated("gazebo_ros_f3d", "the sum of all forces on a body", "resultant:ResultantForce"),
-    _simulated("gazebo_ros_ft_sensor", "what a joint carries", "force_torque:ForceTorqueSensor"),
+    _simulated("gazebo_ros_ft_sensor", "the wrench on a joint", "force_torque:ForceTorqueSensor"),
     _simulated("gazebo_ros_bumper", "what touches", "bumper:Bumper"),
     _simulated("gazebo_ros_joint_state_publisher", "joints as they are", "joint_state_publisher:JointStatePublisher"),
     _simulated("hector_gazebo_ros_imu", "Hector's IMU", "hector_imu:HectorImu"),
@@ -87,7 +87,7 @@ _JOINTS = (
     _simulated("gazebo_grasp_fix", "holds what is squeezed", "grasp_fix:GraspFix"),
     _simulated("gazebo_ros_harness HarnessPlugin", "hangs the model on joints to the world, with a winch, until it is let go", "harness:Harness"),
     _simulated("hector_servo_plugin", "one to three servos that turn to an orientation in a frame of `/tf` or of the model", "hector_servo:HectorServo"),
-    _simulated("gazebo_ros_wheel_slip WheelSlipPlugin", "lets wheels slip by compliance · radius · spin · force / normal force", "wheel_slip:WheelSlip"),
+    _simulated("gazebo_ros_wheel_slip WheelSlipPlugin", "wheel slip by compliance · radius · spin · force / normal force", "wheel_slip:WheelSlip"),
     _simulated("gazebo_ros_elevator ElevatorPlugin", "a lift with a door", "elevator:Elevator"),
     _simulated("gazebo_ros_control", "joints under ros_control's controllers", "ros_control:RosControl"),
     _simulated("gazebo_ros_control_select_joints", "the same for the joints that `<joints>` names", "select_joints:SelectedRosControl"),
@@ -96,14 +96,14 @@ _JOINTS = (
 
 _WORLDS = (
     _simulated("gazelle_scripted_motion", "a model that follows waypoints, an `<actor>` its script", "scripted_motion:ScriptedMotion"),
-    _simulated("ActorPlugin", "an actor that walks to targets drawn at random, pushed away by models less than 4 m off", "actor:ActorWalk"),
+    _simulated("ActorPlugin", "an actor that moves to random targets, pushed away by models less than 4 m off", "actor:ActorWalk"),
     _simulated("RandomVelocityPlugin", "a velocity drawn from time to time", "velocities:RandomVelocity"),
     _simulated("InitialVelocityPlugin", "a velocity to start with", "velocities:InitialVelocity"),
     _simulated("ContainPlugin", "publishes whether a model or link is in a box, when that changes (world)", "boxes:Contain"),
     _simulated("SimEventsPlugin", "regions that call plugins of models, such as lifts, while something is in them (world)", "regions:RegionEvents"),
     _simulated("TransporterPlugin", "puts what is on a pad to another one (world)", "boxes:Transporter"),
     _simulated("TouchPlugin", "publishes when contact sensors have touched one thing alone long enough", "touch:Touch"),
-    _simulated("GravityCompensationPlugin", "joints bear the weight they carry", "gravity_compensation:GravityCompensation"),
+    _simulated("GravityCompensationPlugin", "gravity compensation of joints", "gravity_compensation:GravityCompensation"),
     _simulated("LiftDragPlugin", "wings and keels", "lift_drag:LiftDrag"),
     _simulated("BuoyancyPlugin", "bodies in water", "buoyancy:Buoyancy"),
     _simulated("usv_gazebo_dynamics_plugin", "a vessel with two hulls on still water", "usv_dynamics:UsvDynamics"),
@@ -117,14 +117,14 @@ _NOT_SIMULATED = (
     _left_out("gazebo_ros_projector gazebo_ros_video", "pictures on models", "pictures on models are not shown; its topic is not listened to"),
     _left_out("CessnaGUIPlugin HydraDemoPlugin HydraPlugin JoyPlugin KeysToCmdVelPlugin KeysToJointsPlugin PlaneDemoPlugin",
               "what keys, joysticks and buttons drive", "there are no keys, joysticks or buttons; command it by topics, or from Python"),
-    _left_out("AttachLightPlugin FlashLightPlugin LedPlugin RosFlashLightPlugin", "lights that flash, or that links carry",
+    _left_out("AttachLightPlugin FlashLightPlugin LedPlugin RosFlashLightPlugin", "lights that flash, or lights on links",
               "lights neither flash nor move with links; they shine as the file says"),
     _left_out("MudPlugin", "mud that holds links", "mud does not hold what is in it"),
     _left_out("FiducialCameraPlugin MisalignmentPlugin PressurePlugin TriggerPlugin", "markers, alignment, pressure and triggers, published on Gazebo's own topics",
               "nothing is published on Gazebo's own topics"),
     _left_out("CessnaPlugin", "propellers and rudders of a demonstration", "its propellers and rudders are not driven"),
     _left_out("CartDemoPlugin JointTrajectoryPlugin LookAtDemoPlugin", "motions of demonstrations", "the motion that is written in this plugin is not made"),
-    _left_out("VariableGearboxPlugin", "a gearbox whose ratio changes", "its ratio does not change; the gearbox keeps that of its joint"),
+    _left_out("VariableGearboxPlugin", "a gearbox with a variable ratio", "its ratio does not change; the gearbox keeps that of its joint"),
     _left_out("RubblePlugin StaticMapPlugin", "models strewn at random, maps of the Earth", "the models that it would put into the world are left out"),
     _left_out("ActuatorPlugin", "models of motors", "its models of motors limit nothing; joints have the limits of the file"),
     _left_out("RaySensorNoisePlugin", "noise of rays for a demonstration", "it adds no noise to the rays; give the sensor a <noise>"),

@@ -16,7 +16,7 @@ from gazelle.simulation.values import Flags
 
 
 class Touch(ModelPlugin):
-    """Tells when some contact sensors have touched the target, and nothing else, long enough.
+    """Detects when some contact sensors have touched the target, and nothing else, long enough.
 
     It publishes once, and waits then to be enabled again, in every world by itself.
     """

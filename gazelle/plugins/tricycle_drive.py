@@ -186,7 +186,7 @@ class TricycleDrive(ModelPlugin):
 
 
 class TricycleSystem(OdometrySystem[TricycleDrive]):
-    """Tricycles, whose wheels drive, steer and count.
+    """Tricycles with wheels that drive, steer and count.
 
     Args:
         plugins: The tricycles.
@@ -243,7 +243,7 @@ class TricycleSystem(OdometrySystem[TricycleDrive]):
 
 
 class CountingTricycles(TricycleSystem):
-    """Tricycles whose odometry is what their wheels have rolled."""
+    """Tricycles with odometry from their wheels."""
 
     def _count(self) -> None:
         """Add up what the wheels have rolled."""

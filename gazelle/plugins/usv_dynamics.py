@@ -24,7 +24,7 @@ _LITTLE = 0.1
 
 
 class UsvDynamics(ModelPlugin):
-    """Carries a vessel with two hulls, and resists its motion."""
+    """Buoyancy and drag of a vessel with two hulls."""
 
     update_rate = 0.0
 

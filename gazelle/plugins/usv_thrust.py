@@ -46,7 +46,7 @@ class ThrustCurve:
 
     Attributes:
         logistic: By the curve of the WAM-V's motors; else in proportion.
-        most_command: That brings the largest force.
+        most_command: Command of the largest force.
         ahead: Largest force ahead [N].
         astern: Largest force astern [N], above 0.
     """
@@ -107,7 +107,7 @@ class UsvThrust(ModelPlugin):
         self._links = [robot.frame(each.require("linkName", str)) for each in thrusters]
         self._curves = [ThrustCurve.read(each, 250.0) for each in thrusters]
         self._commands: Floats = np.zeros((nworld, len(thrusters) or 2))
-        self._heard_ns = np.full(self._commands.shape, _NEVER, np.int64)
+        self._received_ns = np.full(self._commands.shape, _NEVER, np.int64)
         for column, each in enumerate(thrusters):
             topic = each.require("cmdTopic", str)
             robot.inputs[topic.strip("/")] = Input(
@@ -144,14 +144,14 @@ class UsvThrust(ModelPlugin):
         if not np.isfinite(value).all():
             raise SimulationError(f"a command of a propeller must be finite, not {value}")
         self._commands[rows, columns] = value
-        self._heard_ns[rows, columns] = self._clock.now_ns
+        self._received_ns[rows, columns] = self._clock.now_ns
 
     # -- what it does ----------------------------------------------------------------------
 
     def on_update(self, time: float) -> None:  # noqa: ARG002  it acts at every step
         """Apply thrust."""
         if self._timeout > 0.0:
-            silent = self._clock.now_ns - self._heard_ns > self._timeout * NANOSECONDS
+            silent = self._clock.now_ns - self._received_ns > self._timeout * NANOSECONDS
             self._commands[silent] = 0.0
         if self._links:
             self._push_each()
@@ -185,15 +185,15 @@ class UsvThrust(ModelPlugin):
     def reset(self, worlds: Worlds | None) -> None:
         """Discard commands."""
         rows = slice(None) if worlds is None else worlds
-        self._commands[rows], self._heard_ns[rows] = 0.0, _NEVER
+        self._commands[rows], self._received_ns[rows] = 0.0, _NEVER
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
         """Return commands and their times."""
-        return {"commands": self._commands.copy(), "heard": self._heard_ns.copy()}
+        return {"commands": self._commands.copy(), "heard": self._received_ns.copy()}
 
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
-        self._commands[:], self._heard_ns[:] = state["commands"], state["heard"]
+        self._commands[:], self._received_ns[:] = state["commands"], state["heard"]
 
 
 def _tiled(vector: Floats, count: int) -> Floats:

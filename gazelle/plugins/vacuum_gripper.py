@@ -27,7 +27,7 @@ _MOST_FORCE = 20.0
 
 
 class VacuumGripper(ModelPlugin):
-    """Draws links of other models whose origins are near its body, while it is on.
+    """Draws links of other models with origins near its body, while it is on.
 
     What is drawn moves as the body does, and what is very near is put in place.
     """

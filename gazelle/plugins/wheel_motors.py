@@ -93,7 +93,7 @@ class WheelPlugin(OdometryPlugin, Protocol):
 
 
 class WheelSystem(OdometrySystem[WheelPlugin]):
-    """Drives of two sides, whose law runs in steps without subscribers.
+    """Drives of two sides; their law runs in steps without subscribers.
 
     Args:
         plugins: The drives.

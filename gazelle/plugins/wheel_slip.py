@@ -42,7 +42,7 @@ class _Wheel:
         link: Its link.
         axle: Direction in the link's frame.
         radius: [m].
-        force: That it usually carries [N].
+        force: Nominal load on the wheel [N].
         compliance: Along the axle and across it; what the file says until it is tuned.
     """
 
@@ -54,7 +54,7 @@ class _Wheel:
 
 
 class WheelSlip(ModelPlugin):
-    """Lets wheels slip in proportion to their speed and the force on them."""
+    """Wheel slip in proportion to speed and the force on the wheels."""
 
     update_rate = 0.0
 

@@ -24,7 +24,7 @@ class Side(Enum):
 class WheeledDrive(ModelPlugin):
     """Gives the wheels of each side one speed, by motors of limited torque.
 
-    Subclasses call ``drive``, ``listen`` and, if they publish, ``tell`` in ``load``.
+    Subclasses call ``drive``, ``listen`` and, if they publish, ``publish_odometry`` in ``load``.
 
     Attributes:
         odometry: What is published, if anything is.
@@ -80,7 +80,7 @@ class WheeledDrive(ModelPlugin):
             radius=self._radius,
         )
 
-    def tell(self, odometry: OdometryOutputs) -> None:
+    def publish_odometry(self, odometry: OdometryOutputs) -> None:
         """Publish the odometry at every update."""
         self.odometry = odometry
         self.published = (odometry,)

@@ -17,7 +17,7 @@ _WAVERING = ("horizontal", "vertical")
 
 
 class Wind(WorldPlugin):
-    """Lets the wind be as steady as the world says."""
+    """Steady wind of the world."""
 
     def load(self, simulation: Simulation, parameters: Parameters) -> None:  # noqa: ARG002  the engine blows
         """Warn of gusts, noise and rise times, which are left out."""

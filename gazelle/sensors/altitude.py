@@ -13,7 +13,7 @@ from gazelle.description import Atmosphere, Noise, Parameters, Pose
 from gazelle.engines import Engine
 from gazelle.errors import SimulationError
 from gazelle.formats.sdf.noise import read_noise
-from gazelle.sensors.carried import CarriedPoint
+from gazelle.sensors.link_points import LinkPoint
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
 
@@ -86,7 +86,7 @@ class AltimeterModel(NoisySensor):
     ) -> None:
         noises = {"position": settings.position, "velocity": settings.velocity}
         super().__init__(noises, seed, name, engine.nworld)
-        self._point = CarriedPoint(engine, link, np.asarray(pose.position))
+        self._point = LinkPoint(engine, link, np.asarray(pose.position))
         self._reference = self._point.position()[:, 2]
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
@@ -171,7 +171,7 @@ class AirPressureModel(NoisySensor):
         super().__init__({"pressure": settings.noise}, seed, name, engine.nworld)
         self.settings = settings
         self._engine = engine
-        self._point = CarriedPoint(engine, link, np.asarray(pose.position))
+        self._point = LinkPoint(engine, link, np.asarray(pose.position))
 
     def measure(self, worlds: Worlds | None = None, interval: float = 0.0) -> Floats:
         """Return the pressure now [Pa], shape (n, 1).

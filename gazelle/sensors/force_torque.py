@@ -1,4 +1,4 @@
-"""Force and torque that a joint carries, in the frame and direction that SDF asks for."""
+"""Force and torque in a joint, in the frame and direction of SDF."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class ForceTorque:
     """Settings of a force-torque sensor.
 
     Attributes:
-        frame: Whose axes the values are in: ``child``, ``parent`` or ``sensor``.
+        frame: Frame of the values: ``child``, ``parent`` or ``sensor``.
         direction: ``child_to_parent``: what the child exerts on the parent; or the reverse.
         noises: On force [N] and torque [N m], by ``force/x`` to ``torque/z``.
     """
@@ -135,8 +135,8 @@ class ForceTorqueModel(NoisySensor):
             if parent == "world":
                 return None
             return self._engine.links[parent].placement(worlds).quaternion
-        carried = self._engine.links[child].placement(worlds).quaternion
-        return multiply(carried, self._turn) if self.settings.frame == "sensor" else carried
+        orientation = self._engine.links[child].placement(worlds).quaternion
+        return multiply(orientation, self._turn) if self.settings.frame == "sensor" else orientation
 
     def reading(self, values: Floats, stamp: int) -> WrenchReading:
         """Return a measurement by name."""

@@ -12,8 +12,8 @@ from gazelle.description import Noise, Parameters, Pose, SphericalCoordinates
 from gazelle.engines import Engine
 from gazelle.errors import SimulationError
 from gazelle.formats.sdf.noise import read_noise
-from gazelle.sensors.carried import CarriedPoint
 from gazelle.sensors.geodesy import TangentPlane
+from gazelle.sensors.link_points import LinkPoint
 from gazelle.sensors.model import NoisySensor
 from gazelle.sensors.noise import NO_NOISE
 
@@ -97,7 +97,7 @@ class GpsModel(NoisySensor):
         }
         super().__init__(noises, seed, name, engine.nworld)
         self._engine = engine
-        self._point = CarriedPoint(engine, link, np.asarray(pose.position))
+        self._point = LinkPoint(engine, link, np.asarray(pose.position))
         self._origin: SphericalCoordinates | None = None
         self._plane = TangentPlane(SphericalCoordinates())
 

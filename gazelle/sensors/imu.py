@@ -27,7 +27,7 @@ class ImuReading:
         angular_velocity: [rad/s], shape (..., 3).
         linear_acceleration: What an accelerometer feels, +g upwards at rest [m/s²],
             shape (..., 3).
-        variance: Of every value, as who publishes it claims.
+        variance: Of every value, for the published covariance.
     """
 
     stamp: int
@@ -87,7 +87,7 @@ class ImuModel(NoisySensor):
         return np.concatenate((orientation, self.noisy(felt, interval, worlds)), axis=1)
 
     def system(self) -> SystemOf:
-        """Return what measures it with others whose files say the same of their noise."""
+        """Return the system that measures it with others of equal noise."""
         return SystemOf(ImuGroup, tuple(noise.description for noise in self.noises))
 
     @property

@@ -144,7 +144,7 @@ class LidarModel:
         self._alone, self._revision = None, -1
 
     def _drifting(self, true: Floats, interval: float, worlds: Worlds | None) -> Floats:
-        """Return a measurement of true ranges with noise whose bias changes with time."""
+        """Return a measurement of true ranges with noise of changing bias."""
         lidar, measured = self.lidar, self._noise.apply(true, interval, worlds)
         if lidar.quantum > 0.0:
             measured = np.rint(measured / lidar.quantum) * lidar.quantum

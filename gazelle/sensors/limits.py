@@ -1,4 +1,4 @@
-"""Limits of what a sensor's description may ask for."""
+"""Limits of a sensor's description."""
 
 from __future__ import annotations
 

@@ -71,8 +71,8 @@ class MagnetometerModel(NoisySensor):
             worlds: Which worlds; all if None.
             interval: Time since the last measurement [s].
         """
-        carried = self._engine.links[self._link].placement(worlds).quaternion
-        to_sensor = conjugate(multiply(carried, self._turn))
+        orientation = self._engine.links[self._link].placement(worlds).quaternion
+        to_sensor = conjugate(multiply(orientation, self._turn))
         field = rotate(to_sensor, np.asarray(self._engine.world.magnetic_field, np.float64))
         return self.noisy(field, interval, worlds)
 

@@ -262,7 +262,7 @@ class NoiseRows:
 
 
 class JoinedNoise:
-    """The noise of sensors whose files say the same, applied at once.
+    """The noise of sensors with equal parameters, applied at once.
 
     Args:
         models: They keep what they have in its tables from now on.
@@ -272,7 +272,7 @@ class JoinedNoise:
         noise, channels = models[0].description, models[0].channels
         shape = models[0].nworld, len(models)
         self._stddev = np.zeros(shape)
-        stream = Stream(0, "", self._stddev.size)  # whose numbers are those of the models' streams
+        stream = Stream(0, "", self._stddev.size)  # with the numbers of the models' streams
         keys, counters = stream.keys.reshape(shape), stream.counters.reshape(shape)
         bias, drift = np.zeros((2, *shape, channels))
         for i, each in enumerate(models):

@@ -27,14 +27,14 @@ class Optics(Protocol):
     ) -> tuple[Bytes, Floats32]:
         """Return colours, shape (n, height, width, 3), and depths (n, height, width).
 
-        Depths are empty if not asked.
+        Depths are empty if not requested.
 
         Args:
             scene: Draws.
             positions: Of the cameras [m], shape (n, 3).
             quaternions: x, y, z, w, shape (n, 4).
             worlds: That they are in, shape (n,); all if None.
-            depth: Whether depths are asked.
+            depth: Whether depths are requested.
         """
 
 
@@ -99,7 +99,7 @@ class WideOptics:
         """Return colours.
 
         Raises:
-            EngineError: Depths are asked; there is no axis to measure them along.
+            EngineError: Depths are requested; there is no axis to measure them along.
         """
         if depth:
             raise EngineError("a wide-angle camera measures no depths")

@@ -26,7 +26,7 @@ def node(master):
         yield made
 
 
-def heard_frames(node):
+def received_frames(node):
     tree, kind = FrameTree(), load_message("tf2_msgs/TFMessage")
     for topic, static in (("/tf", False), ("/tf_static", True)):
         node.subscribe(
@@ -37,7 +37,7 @@ def heard_frames(node):
 
 @pytest.mark.parametrize("world", ["turtlebot3_stage_1", "turtlebot3_world"])
 def test_the_frames_of_a_spawned_robot_hang_together(master, node, world):
-    tree = heard_frames(node)
+    tree = received_frames(node)
     with gazelle.Simulation(world, "planar") as sim:
         sim.spawn(BURGER, pose=gazelle.Pose(-2.0, -0.5))
         with serve_ros(sim, master.uri) as door, descriptions_beside(sim, door):

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from models import block, plugin, simulate
 
 from gazelle.errors import PluginWarning
-from gazelle.plugins.heard_frames import HeardFrames
 from gazelle.plugins.hector_servo import angles_of
+from gazelle.plugins.received_frames import ReceivedFrames
 from gazelle.rotations import from_yaw, multiply
 from gazelle.simulation import Transform, Transforms
 from gazelle.simulation.values import TurnCommand
@@ -139,11 +139,11 @@ yaws = st.lists(st.floats(-3.0, 3.0), min_size=2, max_size=5)
 @given(yaws=yaws, data=st.data())
 def test_a_turn_between_heard_frames_does_not_depend_on_the_way(yaws, data):
     """A tree of frames about one axis: the turn is the difference of the sums."""
-    frames, total = HeardFrames(2), {"f0": 0.0}
+    frames, total = ReceivedFrames(2), {"f0": 0.0}
     for i, yaw in enumerate(yaws, start=1):
         parent = data.draw(st.sampled_from(sorted(total)))
         one = Transform(f"/{parent}", f"f{i}", np.zeros((1, 3)), from_yaw(np.array([yaw])))
-        frames.hear(Transforms(0, (one,)), None)
+        frames.receive(Transforms(0, (one,)), None)
         total[f"f{i}"] = total[parent] + yaw
     target, source = (data.draw(st.sampled_from(sorted(total))) for _ in range(2))
     turn = frames.turn(target, source)
@@ -153,10 +153,10 @@ def test_a_turn_between_heard_frames_does_not_depend_on_the_way(yaws, data):
 
 
 def test_frames_that_turn_in_a_circle_end():
-    frames = HeardFrames(1)
+    frames = ReceivedFrames(1)
     for parent, child in (("a", "b"), ("b", "a")):
         one = Transform(parent, child, np.zeros((1, 3)), np.array([UPRIGHT]))
-        frames.hear(Transforms(0, (one,)), None)
+        frames.receive(Transforms(0, (one,)), None)
     assert frames.turn("c", "a") is None
 
 

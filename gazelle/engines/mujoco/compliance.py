@@ -24,7 +24,7 @@ def retune(batch: Batch, springs: Sequence[int]) -> None:
     """Set the springs of every world to the described stiffness.
 
     Args:
-        batch: Whose inertias were changed, ``set_const`` being done.
+        batch: Worlds with changed inertias, after ``set_const``.
         springs: Indices of MuJoCo's contact pairs that are springs.
     """
     model = batch.model

@@ -61,12 +61,12 @@ class MujocoEngine:
         nworld: Number of copies.
         time_step: Physics step [s]; the world's ``max_step_size`` if None.
         threads: Native threads; all processors if None. The results do not depend on it.
-        late: Compile the world only when ``prepare`` says so, or when something is asked for that
-            only a compiled world has: after motors and kinematic models have been asked for.
+        late: Compile the world only when ``prepare`` says so, or when something is requested that
+            only a compiled world has: after motors and kinematic models have been requested.
 
     Attributes:
         running: What runs.
-        reactions: What joints carry.
+        reactions: Wrenches of joints.
         links: Links of all models.
         joints: Joints of all models that can move.
         models: All models.
@@ -165,7 +165,7 @@ class MujocoEngine:
         return self._run.world
 
     def prepare(self) -> None:
-        """Compile the world with all that was asked for, so that the next step is one like others.
+        """Compile the world with everything requested, so that the next step is one like others.
 
         Raises:
             EngineError: The world cannot be simulated.
@@ -302,7 +302,7 @@ class MujocoEngine:
         self._made.find_dropped()
         state: Floats = np.hstack((self._run.batch.state, self._run.overlaps.saved()))
         if self._run.sleepy:
-            # Who sleeps is not in the state; all awake, this future and a restored one agree.
+            # Sleeping is not in the state; all awake, this future and a restored one agree.
             self.restore(state)
         return state
 

@@ -1,10 +1,10 @@
 """Checks of the installed MuJoCo and MuJoCo Warp: two distributions write into one folder.
 
-``mujoco-core`` is what Gazelle asks for; ``mujoco`` (asked for by mink, gymnasium-robotics,
-mujoco-warp and others) up to 3.17 brings the same folder ``mujoco``, and 4.0 brings its own version of
+``mujoco-core`` is what Gazelle requires; ``mujoco`` (required by mink, gymnasium-robotics,
+mujoco-warp and others) up to 3.17 contains the same folder ``mujoco``, and 4.0 its own version of
 ``mujoco-core``. Whichever is installed later overwrites the other's files, uninstalling one takes
-away the other's, and ``pip check`` finds nothing wrong. ``mujoco-warp`` asks
-for ``mujoco``, so it is installed without its dependencies, and those apart.
+away the other's, and ``pip check`` finds nothing wrong. ``mujoco-warp`` requires
+``mujoco``, so it is installed without its dependencies, and those apart.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _LEAST = (4, 0, 1)  # 4.0.0 factorises sparse Hessians wrongly
 _REPAIR_HINT = (
     "repair it with these two commands: 'pip uninstall -y mujoco mujoco-core' and "
     "'pip install --force-reinstall --no-deps \"mujoco-core>=4.0.1\"'; "
-    "packages that ask for 'mujoco' run with that too"
+    "packages that require 'mujoco' run with that too"
 )
 
 
@@ -72,7 +72,7 @@ _WARP_HINT = (
 
 
 def check_packages() -> None:
-    """Raise what is missing or does not fit, if anything, and bring Warp up without a word.
+    """Raise what is missing or does not fit, if anything, and start Warp silently.
 
     Raises:
         EngineError: A package is missing, cannot be imported, or another MuJoCo lies over Gazelle's.

@@ -1,7 +1,7 @@
 """Reactions of joints and contacts: forces, measured without moving anything.
 
 MuJoCo has both only after the constraint forces of a state are known. They are computed
-when asked for, so that a step costs nothing more.
+on request, so that a step costs nothing more.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _FIELDS = ("cfrc_int", "subtree_com", "xipos", "xpos", "xmat")
 
 
 class JointReactions:
-    """The part of ``gazelle.engines.engine.Engine`` that measures what joints carry.
+    """The part of ``gazelle.engines.engine.Engine`` that measures joint wrenches.
 
     Args:
         run: What runs.
@@ -35,7 +35,7 @@ class JointReactions:
     def __init__(self, run: RunningWorlds, stepper: ForcedSteps) -> None:
         self._run, self._stepper = run, stepper
         # The batch, its states and how often they had been computed when forces between bodies were.
-        self._carried: tuple[Batch, Floats, int] | None = None
+        self._computed: tuple[Batch, Floats, int] | None = None
         # A world apart from the batch, for what only a single world of MuJoCo has.
         self._probed: tuple[Batch, mujoco.MjModel, mujoco.MjData] | None = None
 
@@ -61,7 +61,7 @@ class JointReactions:
         """Compute the forces between bodies for the present state."""
         batch = self._run.batch
         self._run.refresh()
-        known = self._carried
+        known = self._computed
         count = self._run.computed
         if (
             known is None
@@ -80,7 +80,7 @@ class JointReactions:
             finally:
                 flags |= SENSORS_OFF
                 batch.state[:] = state
-            self._carried = (batch, state, count)
+            self._computed = (batch, state, count)
         return batch
 
     def _weightless(self, body: int) -> list[int]:

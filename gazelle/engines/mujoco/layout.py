@@ -46,7 +46,7 @@ class LinkSlot:
         free: Columns of its free joint, if it has one.
         mocap: Row in ``mocap_pos``, if it is kinematic.
         pose: Its pose in the world in the initial state, if it is a root.
-        carrier: Scoped name of the root link that carries it, its own for a root.
+        carrier: Scoped name of its root link, its own for a root.
     """
 
     body: int
@@ -90,11 +90,11 @@ class ModelSlot:
     """One top-level model.
 
     Attributes:
-        roots: Scoped names of the links that carry the others.
+        roots: Scoped names of the root links.
         canonical: Scoped name of the link that the model's pose follows.
         offset: The model frame in the canonical link's frame.
         back: The canonical link in the model frame; None if they agree.
-        loose: Whether all roots can be placed as they are.
+        free: Whether all roots can be placed as they are.
         joints: Scoped names of its joints that move.
     """
 
@@ -102,7 +102,7 @@ class ModelSlot:
     canonical: str
     offset: Pose
     back: Pose | None
-    loose: bool
+    free: bool
     joints: tuple[str, ...]
 
 
@@ -268,5 +268,5 @@ def _model_slot(bodies: list[TreeLink], joints: Mapping[str, tuple[Slot, ...]]) 
     own = tuple(body.joint_name for body in bodies if body.joint_name in joints)
     back = None if canonical.link.pose == Pose() else canonical.link.pose
     kinds = {body.root for body in bodies if body.parent is None}
-    loose = kinds <= {"free", "kinematic"}
-    return ModelSlot(roots, canonical.name, offset, back, loose, own)
+    free = kinds <= {"free", "kinematic"}
+    return ModelSlot(roots, canonical.name, offset, back, free, own)

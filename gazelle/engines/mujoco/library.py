@@ -15,7 +15,7 @@ def settle() -> None:
 
     It would write a log file into the working directory, while faults are raised here. And
     its Python module reads the clock at every stage of every step, for ``MjData.timer``,
-    which is a tenth of the time of a step of a small robot. Who wants those times says
+    which is a tenth of the time of a step of a small robot. Callers that want those times set
     ``mujoco.set_mjcb_time(None)`` after the first simulation was made, or sets a function
     before; then it is left alone.
     """

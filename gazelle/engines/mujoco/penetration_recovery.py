@@ -4,10 +4,10 @@ A contact corrects its depth within some steps, however deep it is: a box that a
 1 m into the ground would leave it at 90 m/s. ODE limits the velocity of the correction. Here
 the surface of what overlaps starts as deep as it is and rises at that velocity: a contact
 margin below zero, that grows to zero. That holds for what a file, a spawn or the placing of a
-free body at run time lets overlap; what strikes or pushes is left to the contact.
+free body at run time makes overlap; what strikes or pushes is left to the contact.
 
 The contacts of what overlaps each want to part at ``max_vel``. Where they face each other there
-is a motion that lets all of them part, but it is fast: out of a wedge of the half angle a at
+is a motion that parts all of them, but it is fast: out of a wedge of the half angle a at
 ``max_vel`` / sin(a), and about two points that are d apart with ``max_vel`` / d. Where there is
 none, as between rings that are linked, contacts throw what they hold. So while a free body
 recovers, its speed grows beyond twice ``max_vel`` by no more than gravity's work.
@@ -85,7 +85,7 @@ class Overlaps:
         self._margins[:] = self._start
         self._show(batch)
 
-    def carry(self, batch: Batch, old: Overlaps) -> None:
+    def transfer(self, batch: Batch, old: Overlaps) -> None:
         """Continue after a change of the model, and find new overlaps."""
         was = {name: column for column, name in enumerate(old._names)}
         known = np.array([name in was for name in self._names], np.bool_)

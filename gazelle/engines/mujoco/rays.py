@@ -1,4 +1,4 @@
-"""Rays that links carry, which may pass through the shapes of their link."""
+"""Rays fixed to links, which may pass through the shapes of their link."""
 
 from __future__ import annotations
 

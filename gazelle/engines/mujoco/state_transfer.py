@@ -1,4 +1,4 @@
-"""Carry the state of a batch over to another batch, name by name."""
+"""Transfer of the state of a batch to another batch, name by name."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from gazelle.engines.mujoco.layout import LinkSlot, MujocoLayout, Slot
 _BY_DOF = ("qvel", "qacc_warmstart", "qfrc_applied")
 
 
-def carry_over(old: Batch, old_layout: MujocoLayout, new: Batch, new_layout: MujocoLayout) -> None:
+def transfer_state(
+    old: Batch, old_layout: MujocoLayout, new: Batch, new_layout: MujocoLayout
+) -> None:
     """Copy the state of all joints, kinematic bodies, motors, attachments and tyres of both."""
     new.time[:] = old.time
     for name, slots in new_layout.joints.items():

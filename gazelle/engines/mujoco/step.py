@@ -123,7 +123,7 @@ class WorldSteps:
         run.placed = False
         run.moved.fill(0.0)
         self._made += count
-        # MuJoCo itself resets a simulation whose state became bad, and counts a warning.
+        # MuJoCo itself resets a simulation with a bad state, and counts a warning.
         faults = run.state.faults
         if len(failed) or np.count_nonzero(faults):
             bad = np.asarray(faults.any(axis=1))
@@ -158,12 +158,14 @@ class WorldSteps:
             DivergenceError: Always.
         """
         before = self._run.before[worlds].copy()
-        who = divergence_report(self._run.layout, self._run.state, self._run.batch.state, before[0])
+        cause = divergence_report(
+            self._run.layout, self._run.state, self._run.batch.state, before[0]
+        )
         self._run.batch.warning[worlds] = 0
         self._reset(worlds)
         raise DivergenceError(
             f"the state of {len(worlds)} of {self._run.nworld} worlds became infinite "
-            f"(first: world {worlds[0]}{who and ', where ' + who})",
+            f"(first: world {worlds[0]}{cause and ', where ' + cause})",
             worlds,
             before,
             count,

@@ -90,11 +90,11 @@ class ForcedSteps:
         self._spun = True
         world = int(np.abs(self._run.state.qvel).max(axis=1).argmax())
         states = self._run.batch.state
-        who = divergence_report(self._run.layout, self._run.state, states, states[world])
+        cause = divergence_report(self._run.layout, self._run.state, states, states[world])
         warnings.warn(
             EngineWarning(
                 f"something turns more than a quarter of a radian in a physics step of "
-                f"{self._run.time_step:g} s (fastest: {who}); it precesses more than 1 % too slowly. "
+                f"{self._run.time_step:g} s (fastest: {cause}); it precesses more than 1 % too slowly. "
                 "Take a smaller step"
             ),
             stacklevel=5,

@@ -25,7 +25,7 @@ from gazelle.engines.mujoco.layout import MujocoLayout, layout_of, look_up
 from gazelle.engines.mujoco.parameters import ParameterStore, as_rows, check
 from gazelle.engines.mujoco.penetration_recovery import Overlaps
 from gazelle.engines.mujoco.state import StateViews, rows_of
-from gazelle.engines.mujoco.state_transfer import carry_over
+from gazelle.engines.mujoco.state_transfer import transfer_state
 from gazelle.engines.mujoco.step_hooks import Hooks
 from gazelle.errors import EngineError
 from gazelle.kinematics.tree import TreeLink
@@ -59,7 +59,7 @@ class RunningWorlds:
     """Many copies of a compiled world, which the parts of the engine share.
 
     They are compiled on the first use of what only a compiled world has. Motors and kinematic
-    models that are asked for before that, as plugins do, are compiled with it.
+    models that are requested before that, as plugins do, are compiled with it.
 
     Args:
         recipe: What to compile.
@@ -231,8 +231,8 @@ class RunningWorlds:
             return
         batch, layout, overlaps = self.batch, self.layout, self.overlaps
         self._start(recipe, compiled)
-        carry_over(batch, layout, self.batch, self.layout)
-        self.overlaps.carry(self.batch, overlaps)
+        transfer_state(batch, layout, self.batch, self.layout)
+        self.overlaps.transfer(self.batch, overlaps)
 
     def end(self) -> None:
         """Free threads and memory."""
@@ -322,7 +322,7 @@ class RunningWorlds:
         """Compile a link's inertia as general as worlds need it.
 
         MuJoCo leaves out the terms that vanish for a link whose centre of mass is at its
-        origin and whose principal axes are the link's; a value that needs them is compiled.
+        origin and principal axes along the link's; a value that needs them is compiled.
         """
         needed = values[:, :3] if kind == "link_centre" else values[:, 3:]
         general = np.flatnonzero(needed.any(axis=1))

@@ -247,7 +247,7 @@ class Candidates:
     def solve(self, n: int) -> None:
         """Prepare the first n for drawing: what distances are shares of, and names by side.
 
-        A segment is solid on its left: who sees it from there sees it from inside.
+        A segment is solid on its left: a viewpoint there is inside.
         """
         for i in range(n):
             x0, y0, x1, y1 = (

@@ -29,7 +29,7 @@ class ConvertedModel:
         z: Height of its frame [m].
         tilt: How its frame leans.
         still: Whether it never moves: it is part of the statics.
-        loose: Whether it moves by itself: driven, or pushed off once.
+        free: Whether it moves by itself: driven, or pushed off once.
     """
 
     model: Model
@@ -38,7 +38,7 @@ class ConvertedModel:
     z: float
     tilt: Pose
     still: bool
-    loose: bool
+    free: bool
 
     @property
     def leaning(self) -> bool:
@@ -47,11 +47,11 @@ class ConvertedModel:
 
 
 class ConvertedModels(Mapping[str, ConvertedModel]):
-    """The models of a world by name; each is looked at when it is first asked for.
+    """The models of a world by name; each is converted at first access.
 
     Args:
         models: Of the world.
-        kinematic: Names of those that only move when told to.
+        kinematic: Names of those that only move by request.
     """
 
     def __init__(self, models: Iterable[Model], kinematic: Collection[str]) -> None:
@@ -98,9 +98,9 @@ def convert_model(model: Model, *, kinematic: bool) -> ConvertedModel:
     if pose.roll != 0.0 or pose.pitch != 0.0:
         tilt = Pose(yaw=-yaw) * Pose.from_quaternion((0.0, 0.0, 0.0), pose.quaternion)
     tree = link_tree(model, tilt, kinematic=kinematic)
-    loose = not (model.static or kinematic or tree.held)
-    z = _grounded(model, tree, tilt) if loose else pose.z
-    return ConvertedModel(model, tree, yaw, z, tilt, model.static and not kinematic, loose)
+    free = not (model.static or kinematic or tree.held)
+    z = _grounded(model, tree, tilt) if free else pose.z
+    return ConvertedModel(model, tree, yaw, z, tilt, model.static and not kinematic, free)
 
 
 def _grounded(model: Model, tree: LinkTree, tilt: Pose) -> float:
@@ -126,7 +126,7 @@ def levels_of(models: Iterable[ConvertedModel], more: Iterable[float]) -> Levels
             for sensor in link.link.sensors:
                 if sensor.lidar is not None:
                     rays.add(round((frame * link.rest * sensor.pose).z, 4))
-            if each.loose and each.tree.wheels:
+            if each.free and each.tree.wheels:
                 for collision in link.link.collisions:
                     lows.append(STEP)
                     highs.append((frame * link.rest * collision.pose).z)
@@ -156,7 +156,7 @@ def body_of(each: ConvertedModel, levels: Levels) -> Body:
         for part in parts_of(collision, each.tilt * link.rest * collision.pose, own, moving=True)
     ]
     place = (each.model.pose.x, each.model.pose.y, each.yaw)
-    return Body(tuple(parts), place, each.z, Drive("omni") if each.loose else None)
+    return Body(tuple(parts), place, each.z, Drive("omni") if each.free else None)
 
 
 def _lifted(part: PlanarPart) -> PlanarPart:

@@ -79,7 +79,7 @@ DIFFERENTIAL: Final = 0
 OMNIDIRECTIONAL: Final = 1
 CAR: Final = 2
 
-# What a body is, the same in all worlds: its family, whose members ignore each other, its
+# What a body is, the same in all worlds: its family (members ignore each other), its
 # primitives and its pieces, from the first to before the last.
 FAMILY: Final = 0
 FIRST_LOOK: Final = 1

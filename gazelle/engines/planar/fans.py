@@ -26,7 +26,7 @@ from gazelle.native.system import System
 
 _ANGLES = 5e-5  # how wrong the kernels' angles may be [rad]
 _SIDE_BY_SIDE = 32  # beams of a bundle
-_FEW_BEAMS = 8  # of a fan whose beams are followed one by one
+_FEW_BEAMS = 8  # of a fan with beams cast one by one
 _MANY = 256  # statics in view from which it pays to find out which ones are hidden
 _SHARE = 4000  # beams that are worth a thread
 
@@ -122,7 +122,7 @@ class Scanner:
         ranges: Of the last scan [m], shape (nworld, mounts, count).
         names: What each beam met, as ``columns.NAMES`` says, a row a sensor, if ``named``.
         owners: Body of each sensor, counted through all worlds, shape (nworld * mounts,).
-        tick: Number of scans asked for one by one so far; the noise of a scan depends on it.
+        tick: Number of scans requested one by one so far; the noise of a scan depends on it.
 
     Raises:
         EngineError: The fan cannot be, or there is no such body.
@@ -196,8 +196,8 @@ class Scanner:
     @cached_property
     def mounts(self) -> list[Mount]:
         """Mounts of the fans, in one world."""
-        carried = zip(self._carriers.tolist(), self._mounts.tolist(), strict=True)
-        return [Mount(body, x, y, math.atan2(sin, cos), z) for body, (x, y, cos, sin, z) in carried]
+        mounted = zip(self._carriers.tolist(), self._mounts.tolist(), strict=True)
+        return [Mount(body, x, y, math.atan2(sin, cos), z) for body, (x, y, cos, sin, z) in mounted]
 
     @property
     def flat_ranges(self) -> Floats:

@@ -119,7 +119,7 @@ def rolling_bases(layout: PlanarLayout, motors: Iterable[str]) -> list[RollingBa
         if name not in owners:
             continue
         own = layout.models[name]
-        wheels = driven(own.tree.wheels, order) if own.loose else ()
+        wheels = driven(own.tree.wheels, order) if own.free else ()
         if wheels:
             columns = np.array([layout.joints[wheel.joint][0] for wheel in wheels])
             bases.append(RollingBase(index, columns, rolling(wheels)))

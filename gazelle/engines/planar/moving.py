@@ -1,6 +1,6 @@
 # cython: annotation_typing=False, infer_types=True
 # mypy: disable-error-code="attr-defined, misc, no-any-return"
-"""A step of all bodies: plan, find who is in whose way, settle that in order, and move."""
+"""A step of all bodies: plan, find overlapping bodies, settle that in order, and move."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def plan(w: Bodies, first: int, last: int, dt: float) -> float:
 
 
 def screen(w: Bodies, first: int, last: int, reach: float) -> None:
-    """Mark bodies whose move depends on others, or is blocked by one at rest."""
+    """Mark bodies with a move that depends on others, or is blocked by one at rest."""
     if w.nbody < 2:
         return
     for b in range(first, last):
@@ -100,7 +100,7 @@ class Planning(System):
 
 @cython.cclass
 class Screening(System):
-    """The second part: who depends on what others do.
+    """The second part: which bodies depend on others.
 
     Args:
         bodies: What moves.
@@ -111,7 +111,7 @@ class Screening(System):
         self.bodies = bodies
 
     def update(self, first: int, last: int, time: int) -> None:  # noqa: ARG002  time plays no part
-        """Mark those of the bodies first to last whose move depends on others."""
+        """Mark those of the bodies first to last with a move that depends on others."""
         b = first
         while b < last:
             end = min((b // self.bodies.nbody + 1) * self.bodies.nbody, last)

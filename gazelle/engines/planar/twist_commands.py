@@ -28,7 +28,7 @@ class TwistCommands(System):
         self.linear, self.angular = linear, angular
         self.body = np.full(self.rows, -1, np.intp)
 
-    def carry(
+    def write(
         self,
         bodies: Bodies,
         body: NDArray[np.intp],

@@ -1,6 +1,6 @@
 """Operations that need forces, which the planar engine lacks; part of ``Engine``."""
 
-# ruff: noqa: ARG001  # whatever is asked for is refused
+# ruff: noqa: ARG001  # every request is refused
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ class Viewpoint:
         cos: Of its heading.
         sin: Of its heading.
         z: Its height [m].
-        owner: The body that carries it, counted through all worlds.
+        owner: Its body, counted through all worlds.
         world: In which it is.
         family: Of the owner; its members are not seen.
     """

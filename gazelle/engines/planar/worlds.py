@@ -41,7 +41,7 @@ class RunningPlane:
         targets: Velocities that motors hold, likewise; not a number where there is no motor.
         steps: Makes steps.
         revision: Counts changes of models and of the step.
-        on_change: Called when other models run: who keeps what is made of them forgets it.
+        on_change: Called when other models run: caches of them are dropped.
     """
 
     recipe: FleetInput

@@ -42,7 +42,7 @@ def tighten_hierarchies(model: mujoco.MjModel) -> None:
 
 
 def _likely(tree: BoxTree) -> Bools:
-    """Return the nodes whose test is better skipped: nearly everything that comes meets them.
+    """Return the nodes with a test better skipped: nearly every query meets them.
 
     What has the ground below it is met by all; and next to 1e10 m numbers are exact to a
     micrometre only.

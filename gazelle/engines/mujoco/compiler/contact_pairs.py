@@ -162,7 +162,7 @@ def add_pairs(
     return Pairs(springs, bounces, _directional_frictions_of(everything) if directional else {})
 
 
-def ask_for_cone(solids: Iterable[ContactGeom]) -> bool:
+def world_needs_cone(solids: Iterable[ContactGeom]) -> bool:
     """Return whether some contact may have more friction than a pyramid bears."""
     frictions = [(friction_of(solid.collision), math.isfinite(solid.mass)) for solid in solids]
     return needs_cone(

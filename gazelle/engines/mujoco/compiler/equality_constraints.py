@@ -139,7 +139,7 @@ def _through_a_link(
 
     The child is welded to it.
 
-    MuJoCo has no constraint that lets two bodies slide along an axis. The link is where the child
+    MuJoCo has no constraint for two bodies that slide along an axis. The link is where the child
     is and like it, but lighter; it weighs nothing, and the child is held nearly rigidly.
     """
     joint = closure.joint

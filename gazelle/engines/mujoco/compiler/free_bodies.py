@@ -21,7 +21,7 @@ SLEEP_SPEED = 1e-4
 _FAST = 20.0
 
 # Pairs of a shape that moves and one of the world from which on contacts are sought on the way of
-# a step only where the world asks for it. MuJoCo then looks at every pair in every step, at 7 to
+# a step only where the world enables it. MuJoCo then looks at every pair in every step, at 7 to
 # 12 ns each, instead of in trees of boxes: a city took 0.45 s a step, of which 0.44 s for that.
 _MOST_PAIRS = 200_000
 
@@ -97,7 +97,7 @@ def _collides(model: Model) -> bool:
 
 
 def keep_awake(model: mujoco.MjModel, world: World) -> None:
-    """Allow sleep only for free bodies whose description allows it.
+    """Allow sleep only for free bodies with a description that allows it.
 
     Something with joints may stand still for a moment in the middle of a motion.
     """

@@ -1,4 +1,4 @@
-"""Velocities whose Coriolis and gyroscopic forces matter."""
+"""Velocities with significant Coriolis and gyroscopic forces."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _TOLERANCE = 0.02
 
 
 def tumbling(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> list[str]:
-    """Return the free links that turn about changing axes, to whose spin Euler's method would add.
+    """Return the free links that turn about changing axes, with spin that Euler's method would increase.
 
     Args:
         world: The description.
@@ -37,7 +37,7 @@ def tumbling(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> list[str
 
 
 def swings(world: World, bodies: Mapping[str, Sequence[TreeLink]]) -> bool:
-    """Return whether there are joints, whose swing Euler's method would amplify.
+    """Return whether there are joints with swing that Euler's method would amplify.
 
     Args:
         world: The description.
@@ -56,7 +56,7 @@ def unbalanced_dofs(model: mujoco.MjModel) -> tuple[list[int], list[int]]:
     """Return the angular velocities of trees with joints: hinges but balanced wheels, and spins.
 
     A wheel may turn as fast as it likes: it is the same from all sides, and what it does to
-    the body that carries it depends on how fast that turns. A tree of one axis has no such
+    its parent body depends on how fast that turns. A tree of one axis has no such
     forces at all, and a free body of one link is looked after apart.
     """
     hinges: list[int] = []
@@ -74,11 +74,11 @@ def unbalanced_dofs(model: mujoco.MjModel) -> tuple[list[int], list[int]]:
 
 
 def _is_wheel(model: mujoco.MjModel, joint: int) -> bool:
-    """Return whether a hinge carries nothing but a body of revolution about its axis."""
+    """Return whether a hinge has only a body of revolution about its axis."""
     body = int(model.jnt_bodyid[joint])
-    # A tyre that slips weighs next to nothing, see ``wheel_slip``.
-    carried = float(model.body_subtreemass[body] - model.body_mass[body])
-    if carried > _TOLERANCE * model.body_mass[body] or model.body_jntnum[body] != 1:
+    # A slip body weighs next to nothing, see ``wheel_slip``.
+    load = float(model.body_subtreemass[body] - model.body_mass[body])
+    if load > _TOLERANCE * model.body_mass[body] or model.body_jntnum[body] != 1:
         return False
     turn = np.zeros(9)
     mujoco.mju_quat2Mat(turn, model.body_iquat[body])

@@ -65,7 +65,7 @@ def inertia_of(body: TreeLink) -> tuple[Floats, Floats]:
 
 
 def give_inertias(model: mujoco.MjModel, bodies: Iterable[TreeLink]) -> None:
-    """Restore the file's moments of links whose compiled ones had to be raised."""
+    """Restore the file's moments of links with compiled ones that had to be raised."""
     changed = False
     for body in bodies:
         found = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, body.name)

@@ -1,7 +1,7 @@
 """Soft stops of joints: limits that give way as a spring and damper.
 
 SDF's ``<stiffness>`` and ``<dissipation>`` of a limit are of the stop's spring. Its default of
-1e8 stands for a stop that does not give; so is every stop whose spring would be too stiff for
+1e8 stands for a stop that does not give; so is every stop with a spring too stiff for
 the physics step to follow.
 """
 

@@ -143,7 +143,7 @@ def _axis_options(joint: Joint, axis: JointAxis, time_step: float) -> dict[str, 
     }
     if joint.type != "continuous" and (math.isfinite(axis.lower) or math.isfinite(axis.upper)):
         options["limited"] = mujoco.mjtLimited.mjLIMITED_TRUE
-        # A joint that is locked by equal limits keeps a play that MuJoCo asks for.
+        # A joint that is locked by equal limits keeps a play that MuJoCo requires.
         play = _PLAY if axis.upper - axis.lower < _PLAY else 0.0
         options["range"] = [max(axis.lower, -1e10) - play, min(axis.upper, 1e10) + play]
         options["solref_limit"], options["solimp_limit"] = rigid_stop(time_step)

@@ -54,7 +54,7 @@ def _warn_of(draft: Draft) -> None:
         "bounces are less exact": extras.bounces,
         "friction differs along world y and x, not along fdir1": extras.rubs,
         "bodies that tumble freely drift": extras.tumbling and not any(draft.spec.option.gravity),
-        "tyres that slip wander off their wheels": draft.slips,
+        "slip bodies drift off their wheels": draft.slips,
     }
     found = [words for words, present in lacking.items() if present]
     if found:

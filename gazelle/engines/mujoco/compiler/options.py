@@ -100,7 +100,7 @@ def damp_implicitly(spec: mujoco.MjSpec) -> None:
 
     With the damping D and the step h, implicit Euler is (M + h D) a = f - D v. MuJoCo's own way
     (``eulerdamp``) solves constraints with M, and finds the acceleration again with M + h D from their
-    forces: what a motor and a stiff contact ask for is not what comes of it, and a robot that grips
+    forces: the force that a motor and a stiff contact command is not the resulting one, and a robot that grips
     or leans on something shakes until it flies apart. Here h D is part of the joints' inertia (as an
     armature), so that both are found together; motion without constraints is the same.
     """

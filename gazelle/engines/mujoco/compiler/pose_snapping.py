@@ -3,7 +3,7 @@
 "1.57" for a quarter of a turn leaves a box on two of its corners, a dozen micrometres below the
 others: a caster then brakes on one side, and the robot veers when it speeds up. ODE has a surface
 layer, within which all corners bear; rigid contacts have none. So a shape that is misaligned in the
-frame of what carries it, by less at its ends than a tenth of ODE's layer, is put straight. Links
+frame of its parent, by less at its ends than a tenth of ODE's layer, is put straight. Links
 and joints stay where the file has them.
 """
 

@@ -166,7 +166,7 @@ class ShapeBuilder:
     def _ground_geom(
         self, shape: Mesh, ground: Ground, pose: Pose, source: Source | None
     ) -> dict[str, Any]:
-        """Return ground as a height field, whose cells MuJoCo splits from (0, 0) to (1, 1).
+        """Return ground as a height field with cells that MuJoCo splits from (0, 0) to (1, 1).
 
         Where the mesh has them split the other way, it is turned by a right angle.
         """

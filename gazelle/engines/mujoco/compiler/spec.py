@@ -16,10 +16,10 @@ from gazelle.engines.mujoco.compiler.contact_pairs import (
     ContactGeom,
     Spring,
     add_pairs,
-    ask_for_cone,
     may_slide,
     recovery_velocities_of,
     tune_springs,
+    world_needs_cone,
 )
 from gazelle.engines.mujoco.compiler.description_edits import with_frame_link
 from gazelle.engines.mujoco.compiler.equality_constraints import add_closure, add_couplings, at_rest
@@ -75,7 +75,7 @@ class CompilerInput:
         kinematic: Names of kinematic models.
         motors: By scoped joint name.
         attachments: Pairs of links that can be held together at run time.
-        tyres: Links whose shapes may slip in proportion to the force.
+        tyres: Links with shapes that may slip in proportion to the force.
         damped: Whether joints may be damped that the world's are not.
         hooks: Address of what takes commands within steps; 0 for none.
     """
@@ -120,7 +120,7 @@ class Draft:
         shapes: That made its geoms, and knows the meshes in it.
         bodies: By model name, in order.
         geoms: Names of MuJoCo's geoms by scoped collision.
-        springs: Contacts whose terms depend on the compiled model.
+        springs: Contacts with terms that depend on the compiled model.
         closures: Joints that close loops or couple others.
         extras: Laws that MuJoCo alone does not know.
         slips: Of wheels that may slip, by link.
@@ -222,7 +222,7 @@ def draft_world(recipe: CompilerInput) -> Draft:
     add_motors(spec, recipe.motors.values(), recipe.time_step)
     add_attachments(spec, recipe.attachments, bodies)
     hold_tyres(spec, slips, recipe.time_step)
-    if ask_for_cone(builder.solids):
+    if world_needs_cone(builder.solids):
         spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     warn_of_losses(bodies.values(), slips)
     warn_of_links(bodies.values())
@@ -316,7 +316,7 @@ class _SpecBuilder:
         return handle
 
     def _add_shapes(self, add_geom: Callable[..., str], body: TreeLink, pose: Pose) -> None:
-        """Add a link's collision shapes to a MuJoCo body, in whose frame the link is at a pose."""
+        """Add a link's collision shapes to a MuJoCo body; the link's pose is in the body's frame."""
         for collision in body.link.collisions:
             if isinstance(collision.geometry, Plane) and body.root not in ("static", "kinematic"):
                 self._add_still_plane(body, collision)
@@ -350,7 +350,7 @@ class _SpecBuilder:
         return ContactGeom(name, where, model, mass, body.self_collide, collision, placed)
 
     def _exclude_own(self, bodies: list[TreeLink]) -> None:
-        """Exclude contacts between links of one model unless both ask for them, as in Gazebo."""
+        """Exclude contacts between links of one model unless both enable them, as in Gazebo."""
         solid = [body for body in bodies if body.link.collisions and body.root != "static"]
         for first, second in itertools.combinations(solid, 2):
             neighbours = second.name in self._tyres and second.parent == first.name

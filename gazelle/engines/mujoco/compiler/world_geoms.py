@@ -11,7 +11,7 @@ _FEW = 1000
 _TOGETHER = 4000
 """Geoms that are added in one go."""
 _PREFIX = "still_"
-"""Of names of what is attached, as MuJoCo asks for one. Nothing has a name by then."""
+"""Prefix of attached names, required by MuJoCo. Nothing has a name by then."""
 
 
 class WorldGeoms:

@@ -20,7 +20,7 @@ from gazelle.native.interpreted import structure
 
 
 def __getattr__(name: str) -> Any:
-    """Build ``Touch`` when sources run in Python ask for it: it takes Cython, which users lack."""
+    """Build ``Touch`` when sources run in Python need it: it takes Cython, which users lack."""
     if name != "Touch":
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
     globals()[name] = structure()

@@ -179,15 +179,15 @@ def _alike(model: mujoco.MjModel) -> NDArray[np.bool_]:
     """
     roots = model.body_rootid[model.geom_bodyid]
     joints = np.bincount(model.body_rootid, model.body_jntnum, model.nbody)
-    loose = joints[roots] == 1
-    first = model.body_jntadr[roots[loose]]
-    loose[loose] = model.jnt_type[first] == int(mujoco.mjtJoint.mjJNT_FREE)
+    free = joints[roots] == 1
+    first = model.body_jntadr[roots[free]]
+    free[free] = model.jnt_type[first] == int(mujoco.mjtJoint.mjJNT_FREE)
     touching = (model.geom_contype | model.geom_conaffinity) != 0
     meshes = touching & (model.geom_type == int(mujoco.mjtGeom.mjGEOM_MESH))
-    loose &= np.bincount(roots, meshes, model.nbody)[roots] < 2
+    free &= np.bincount(roots, meshes, model.nbody)[roots] < 2
     least, most = np.full(model.nbody, np.inf), np.full(model.nbody, -np.inf)
     np.minimum.at(least, roots[touching], model.geom_friction[touching, 0])
     np.maximum.at(most, roots[touching], model.geom_friction[touching, 0])
     alike: NDArray[np.bool_] = model.body_weldid[model.geom_bodyid] == 0
-    alike |= loose & (least == most)[roots]
+    alike |= free & (least == most)[roots]
     return alike

@@ -236,7 +236,7 @@ def _type_of(kind: Any) -> Any:
 
 
 def _verify(found: Offsets) -> None:
-    """Compare the offsets with a small model whose addresses MuJoCo reports.
+    """Compare the offsets with a small model with addresses reported by MuJoCo.
 
     Raises:
         EngineError: They differ.
@@ -254,7 +254,7 @@ def _verify(found: Offsets) -> None:
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     here, there = model._address, data._address  # noqa: SLF001  # the only way to an address
-    told = [
+    reported = [
         (there + found.qvel, data.qvel),
         (there + found.passive, data.qfrc_passive),
         (there + found.contact, data.contact.dist),
@@ -291,7 +291,7 @@ def _verify(found: Offsets) -> None:
         (here + found.model_inertia, model.body_inertia),
     ]
     right = all(
-        ctypes.c_int64.from_address(place).value == array.ctypes.data for place, array in told
+        ctypes.c_int64.from_address(place).value == array.ctypes.data for place, array in reported
     )
     step = ctypes.c_double.from_address(here + found.model_timestep).value
     count = ctypes.c_int.from_address(there + found.ncon).value

@@ -146,11 +146,11 @@ class MujocoLinkRow(MujocoLinkRows):
                 f"link '{self._name}' moves only when it is placed; it has no velocity"
             )
         here, row = self.placement(worlds), self._link(slot.carrier)
-        root, carried = row.placement(worlds), row.motion(worlds)
+        root, motion = row.placement(worlds), row.motion(worlds)
         more_spin, more = spin - motion.angular, speed - motion.linear
         arm = root.position - here.position
-        velocity = carried.linear + more + cross(more_spin, arm)
-        local = rotate(conjugate(root.quaternion), carried.angular + more_spin)
+        velocity = motion.linear + more + cross(more_spin, arm)
+        local = rotate(conjugate(root.quaternion), motion.angular + more_spin)
         both = np.concatenate((velocity, local), axis=1)
         self._run.state.qvel[rows_of(worlds), carrier.free.velocity] = both
         self._run.stale = True

@@ -66,7 +66,7 @@ class MujocoModelRow:
     ) -> None:
         """Move the model rigidly, joints as they are; a static model becomes kinematic for it."""
         slot = self._run.now().model(self._name)
-        if not slot.loose:
+        if not slot.free:
             slot = self._freed(slot)
         goal_p, goal_q = np.asarray(position, np.float64), np.asarray(quaternion, np.float64)
         if len(slot.roots) == 1:
@@ -95,7 +95,7 @@ class MujocoModelRow:
     def _put_only(
         self, slot: ModelSlot, position: Floats, quaternion: Floats, worlds: Worlds | None
     ) -> None:
-        """Place a model with a single root, whose previous pose does not matter."""
+        """Place a model with a single root, whatever its previous pose."""
         if slot.back is not None:
             quaternion = unit(quaternion)
             position = position + rotate(quaternion, np.asarray(slot.back.position))
@@ -115,7 +115,7 @@ class MujocoModelRow:
             put_root(self._run, self._run.layout.link(root), moved, turned, worlds)
 
     def path(self, path: ModelPath) -> System | None:
-        """Return what moves the model along a path; None where several links carry it."""
+        """Return what moves the model along a path; None where it has several root links."""
         slot = self._run.now().model(self._name)
         mocap = self._run.layout.link(slot.roots[0]).mocap
         if len(slot.roots) > 1 or mocap is None:
@@ -165,7 +165,7 @@ class _Frames:
     """Frames of some models.
 
     Attributes:
-        links: Scoped names of those that carry the frames.
+        links: Scoped names of those with the frames.
         moved: Models whose frames are not their links', shape (k,).
         at: Positions of those in their links' frames [m], shape (k, 3).
         turned: Quaternions (x, y, z, w), shape (k, 4).
@@ -197,7 +197,7 @@ class _Frames:
 
 @dataclass(frozen=True, slots=True)
 class _Roots:
-    """Links that carry some models and move freely.
+    """Free links that are roots of some models.
 
     Attributes:
         links: Their scoped names.
@@ -283,7 +283,7 @@ class MujocoModelRows:
         self._run.stale = True
 
     def twist(self, linear: Floats, angular: Floats) -> System | None:
-        """Return what gives the models their velocities; None where not one free link carries each."""
+        """Return what gives the models their velocities; None unless each has one free root link."""
         layout, state = self._run.now(), self._run.state
         slots = [layout.model(name) for name in self._names]
         free = [layout.link(slot.canonical).free for slot in slots]

@@ -1,6 +1,6 @@
-"""MuJoCo on a graphics card: the MuJoCo engine, whose steps and rays are MuJoCo Warp's.
+"""MuJoCo on a graphics card: the MuJoCo engine, with steps and rays of MuJoCo Warp.
 
-Everything here is imported only when the engine ``mujoco-warp`` is asked for.
+Everything here is imported only when the engine ``mujoco-warp`` is requested.
 """
 
 from gazelle.engines.mujoco.installation import check_packages

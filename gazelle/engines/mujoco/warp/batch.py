@@ -1,4 +1,4 @@
-"""MuJoCo's batch of worlds, whose steps and rays are MuJoCo Warp's."""
+"""MuJoCo's batch of worlds, with steps and rays of MuJoCo Warp."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ _ALL = slice(None)
 
 
 class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
-    """Worlds whose states are here, in double precision, between calls of ``step``.
+    """Worlds with states here, in double precision, between calls of ``step``.
 
-    A step takes them to the device and back, in single precision. What is asked of a state that stands
+    A step takes them to the device and back, in single precision. Queries of a state that stands
     (places of links, contacts, forces of joints) MuJoCo computes on the processor.
 
     Args:
@@ -83,7 +83,7 @@ class WarpBatch(Batch):  # type: ignore[misc]  # MuJoCo has no types
         start, along = np.zeros((2, self.nsim, *shape[1:]))
         rows = _ALL if ids is None else np.asarray(ids)
         start[rows], along[rows] = pnt, vec
-        along[~along.any(axis=-1)] = (0.0, 0.0, 1.0)  # in worlds that were not asked for
+        along[~along.any(axis=-1)] = (0.0, 0.0, 1.0)  # in worlds that were not requested
         groups = wp.types.vector(length=6, dtype=float)(*(float(each) for each in geomgroup))
         found = self._device.cast(self._fields(), start, along, groups, bodyexclude)
         return tuple(each[rows] for each in found[: 3 if normal else 2])

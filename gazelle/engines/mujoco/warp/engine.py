@@ -70,7 +70,7 @@ class WarpEngine(MujocoEngine):
             warnings.warn(
                 EngineWarning(
                     "the engine 'mujoco-warp' has friction as a cone only, not as the pyramid that the world "
-                    "asks for"
+                    "requires"
                 ),
                 stacklevel=5,
             )
@@ -95,7 +95,7 @@ def _miss_foresight(world: World) -> None:
     """Warn that speculative contacts are not computed.
 
     Raises:
-        EngineError: The world asks for it.
+        EngineError: The world requires it.
     """
     if world.profile.speculative_contacts:
         raise EngineError(

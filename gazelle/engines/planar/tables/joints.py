@@ -41,7 +41,7 @@ class PlanarJointRow:
     def wrench(self, worlds: Worlds | None = None) -> Wrench:
         """Raise an error: the plane has no forces."""
         del worlds
-        raise refuse(f"what '{self._name}' carries")
+        raise refuse(f"the wrench in '{self._name}'")
 
     def set_position(self, position: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set the position [m or rad], shape (axes,) or (n, axes)."""

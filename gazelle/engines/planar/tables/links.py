@@ -138,9 +138,9 @@ class _LinkColumns:
     """Some links in the fleet's tables.
 
     Attributes:
-        moving: Links whose models are bodies, shape (k,).
+        moving: Links of models that are bodies, shape (k,).
         body: Bodies of those, shape (k,).
-        loose: Those of them whose models move by themselves, shape (k,).
+        free: Those of them of models that move by themselves, shape (k,).
         tilts: Quaternions by which their models' frames lean, shape (k, 4).
         base: Poses of the models' frames at first, shapes (links, 3) and (links, 4).
         rest: Poses in the models' frames with all joints at zero, likewise.
@@ -149,7 +149,7 @@ class _LinkColumns:
 
     moving: Indices
     body: Indices
-    loose: Bools
+    free: Bools
     tilts: Floats
     base: Placement
     rest: Placement
@@ -171,7 +171,7 @@ class _LinkColumns:
         return cls(
             moving,
             body[moving],
-            np.array([models[i].loose for i in moving], np.bool_),
+            np.array([models[i].free for i in moving], np.bool_),
             np.array([models[i].tilt.quaternion for i in moving]).reshape(-1, 4),
             _stacked([model.model.pose for model in models]),
             _stacked([link.rest for link in links]),
@@ -236,7 +236,7 @@ class PlanarLinkRows:
         )
         shape = (fleet.nworld, fleet.nbody)
         v = fleet.velocity.reshape(*shape, 3)[rows][:, columns.body]
-        resting = fleet.stalled.reshape(shape)[rows][:, columns.body] | ~columns.loose
+        resting = fleet.stalled.reshape(shape)[rows][:, columns.body] | ~columns.free
         v = np.where(resting[..., None], 0.0, v)
         body = fleet.body_rows[rows][:, columns.body]
         linear, spin = np.zeros((2, len(v), len(self._names), 3))

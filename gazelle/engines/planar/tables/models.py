@@ -101,7 +101,7 @@ class PlanarModelRow:
         pose[:, :2], pose[:, 2] = place[:, :2], yaw
         body = self._run.layout.bodies[self._name]
         self._run.fleet.place(body, pose[0] if count == 1 else pose, worlds)
-        if not (each.loose and each.tree.wheels):
+        if not (each.free and each.tree.wheels):
             self._run.fleet.rows[self._run.rows(body, worlds), c.Z] = place[:, 2]
 
     def set_motion(
@@ -109,7 +109,7 @@ class PlanarModelRow:
     ) -> None:
         """Set the velocity of the model, constant in its own frame, joints at rest."""
         each = self._run.model(self._name)
-        if not each.loose:
+        if not each.free:
             return
         rows = self._run.rows(self._run.layout.bodies[self._name], worlds)
         body = self._run.fleet.rows[rows]
@@ -123,7 +123,7 @@ class PlanarModelRow:
     def set_ground_motion(self, twist: ArrayLike, worlds: Worlds | None = None) -> None:
         """Set a lasting velocity of the model along and across its heading, joints at rest."""
         each = self._run.model(self._name)
-        if not each.loose:
+        if not each.free:
             return
         rows = self._run.rows(self._run.layout.bodies[self._name], worlds)
         self._run.fleet.command.reshape(-1, 3)[rows] = twist
@@ -136,7 +136,7 @@ class PlanarModelRow:
         """Return the velocity of the frame in the world: linear and angular, shapes (n, 3)."""
         count = self._run.fleet.nworld if worlds is None else len(worlds)
         linear, spin = np.zeros((count, 3)), np.zeros((count, 3))
-        if not self._run.model(self._name).loose:
+        if not self._run.model(self._name).free:
             return linear, spin
         rows = self._run.rows(self._run.layout.bodies[self._name], worlds)
         body, v = self._run.fleet.rows[rows], self._run.fleet.velocity.reshape(-1, 3)[rows]
@@ -153,7 +153,7 @@ class _ModelColumns:
 
     Attributes:
         body: Their bodies, shape (models,); -1 for a static model.
-        loose: Those that move by themselves, shape (models,).
+        free: Those that move by themselves, shape (models,).
         tilts: Quaternions by which their frames lean, shape (models, 4).
         first: First columns of their joints, shape (models,).
         width: Numbers of those columns, shape (models,).
@@ -162,7 +162,7 @@ class _ModelColumns:
     """
 
     body: Indices
-    loose: Bools
+    free: Bools
     tilts: Floats
     first: Indices
     width: Indices
@@ -179,7 +179,7 @@ class _ModelColumns:
         found, layout = [run.model(name) for name in names], run.layout
         return cls(
             np.array([layout.bodies.get(name, -1) for name in names], np.intp),
-            np.array([each.loose for each in found], np.bool_),
+            np.array([each.free for each in found], np.bool_),
             np.array([each.tilt.quaternion for each in found]).reshape(-1, 4),
             np.array([layout.columns.get(name, 0) for name in names], np.intp),
             np.array([each.tree.width for each in found], np.intp),
@@ -217,7 +217,7 @@ class PlanarModelRows:
         """Set lasting velocities of the models along and across their headings."""
         columns, fleet = self._columns.within(self._run.layout), self._run.fleet
         shape = (fleet.nworld if worlds is None else len(worlds), len(self._names), 3)
-        given, which = np.broadcast_to(twist, shape), np.flatnonzero(columns.loose)
+        given, which = np.broadcast_to(twist, shape), np.flatnonzero(columns.free)
         rows = np.arange(fleet.nworld) if worlds is None else worlds
         at = rows[:, None], columns.body[which]
         for values in (fleet.command, fleet.velocity):
@@ -230,6 +230,6 @@ class PlanarModelRows:
     def twist(self, linear: Floats, angular: Floats) -> System:
         """Return what gives the models their velocities."""
         columns, law = self._columns.within(self._run.layout), TwistCommands(linear, angular)
-        bodies = np.where(columns.loose, columns.body, -1)
-        law.carry(self._run.fleet.bodies, bodies, self._run.rates, columns.first, columns.width)
+        bodies = np.where(columns.free, columns.body, -1)
+        law.write(self._run.fleet.bodies, bodies, self._run.rates, columns.first, columns.width)
         return law

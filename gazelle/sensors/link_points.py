@@ -1,4 +1,4 @@
-"""Points that a link carries along."""
+"""Points fixed to links."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from gazelle.rotations import cross, rotate
 
 
 @dataclass(frozen=True, slots=True)
-class CarriedPoint:
+class LinkPoint:
     """Position and velocity of a point of a link, in every world.
 
     Attributes:

@@ -14,7 +14,7 @@ from gazelle.simulation import Transforms
 
 
 @dataclass(slots=True)
-class _HeardTransform:
+class _ReceivedTransform:
     """Transform of a frame in its parent, in the worlds that it is known in.
 
     Attributes:
@@ -32,7 +32,7 @@ class _HeardTransform:
     quaternion: Floats
 
 
-class HeardFrames:
+class ReceivedFrames:
     """The last transforms that were received, by child.
 
     Args:
@@ -41,17 +41,19 @@ class HeardFrames:
 
     def __init__(self, nworld: int) -> None:
         self._nworld = nworld
-        self._steps: dict[str, _HeardTransform] = {}
+        self._steps: dict[str, _ReceivedTransform] = {}
 
     @property
     def any(self) -> bool:
         """True if any transform was received."""
         return bool(self._steps)
 
-    def hear(self, told: Transforms, worlds: Worlds | None, *, static: bool = False) -> None:
+    def receive(
+        self, transforms: Transforms, worlds: Worlds | None, *, static: bool = False
+    ) -> None:
         """Store received transforms."""
         rows = slice(None) if worlds is None else worlds
-        for each in told.transforms:
+        for each in transforms.transforms:
             child, parent = each.child_frame.lstrip("/"), each.frame.lstrip("/")
             step = self._steps.get(child)
             if step is None or step.parent != parent:
@@ -60,10 +62,10 @@ class HeardFrames:
             step.known[rows] = True
             step.position[rows], step.quaternion[rows] = each.position, each.quaternion
 
-    def _fresh(self, parent: str, *, static: bool) -> _HeardTransform:
+    def _fresh(self, parent: str, *, static: bool) -> _ReceivedTransform:
         upright = np.tile([0.0, 0.0, 0.0, 1.0], (self._nworld, 1))
         known = np.zeros(self._nworld, np.bool_)
-        return _HeardTransform(parent, static, known, np.zeros((self._nworld, 3)), upright)
+        return _ReceivedTransform(parent, static, known, np.zeros((self._nworld, 3)), upright)
 
     def find(self, frame: str, base: str) -> tuple[NDArray[np.bool_], Floats, Floats]:
         """Find the transform of a frame in another one, and the worlds in which it is known.
@@ -131,7 +133,7 @@ class HeardFrames:
     def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
         """Restore what ``state`` returned."""
         self._steps = {
-            str(frame): _HeardTransform(
+            str(frame): _ReceivedTransform(
                 str(state["parents"][i]),
                 bool(state["static"][i]),
                 np.array(state["known"][i], np.bool_),
