@@ -15,6 +15,7 @@ environment wraps one with many worlds, a single environment one with one world.
 """
 
 import importlib
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,7 +23,7 @@ from gazelle.native import search_path
 
 __path__ = search_path([str(Path(__file__).parent)])
 
-from gazelle.envs.batched_task import BatchedTask, Transition, Verdict
+from gazelle.envs.batched_task import BatchedTask, TaskOutcome, Transition
 from gazelle.envs.contract import ActionRule, ObservationPart, PolicyContract, ScanRule
 from gazelle.envs.dict_rows import DictRows
 from gazelle.envs.errors import ClosedEnvError, ResetNeededError
@@ -54,9 +55,9 @@ __all__ = [
     "TaskEnv",
     "TaskGoalEnv",
     "TaskGoalVectorEnv",
+    "TaskOutcome",
     "TaskVectorEnv",
     "Transition",
-    "Verdict",
     "register_all",
     "task_ids",
 ]
@@ -73,6 +74,10 @@ _HOMES = {
 
 def __getattr__(name: str) -> Any:
     """Import on first use what needs a simulation."""
+    if name == "Verdict":
+        text = "gazelle.envs.Verdict is called TaskOutcome now"
+        warnings.warn(DeprecationWarning(text), stacklevel=2)
+        return TaskOutcome
     if name not in _HOMES:
         raise AttributeError(f"module 'gazelle.envs' has no attribute '{name}'")
     value = getattr(importlib.import_module(f"gazelle.envs.{_HOMES[name]}"), name)

@@ -35,7 +35,7 @@ def with_idle(actions: ArrayLike, space: gym.Space[Any], over: NDArray[np.intp])
     Args:
         actions: Shape (nworld, ...); what has another shape is left to the task to refuse.
         space: Of the actions of one world.
-        over: The worlds whose action is not looked at, shape (n,).
+        over: The worlds with an ignored action, shape (n,).
     """
     given = action_array(actions)
     if given.ndim == 0 or len(given) <= over.max(initial=-1):

@@ -55,7 +55,7 @@ class Transition:
 
 
 @dataclass(frozen=True, slots=True)
-class Finals:
+class FinalObservations:
     """Final observations and infos of episodes that a control step ended.
 
     Attributes:
@@ -74,17 +74,17 @@ class BatchStep:
     """A control step in every world, with the next episode begun where one ended.
 
     Attributes:
-        transition: What it brought; observation and info are those of the next episode where
+        transition: The step; observation and info are those of the next episode where
             one ended.
-        finals: How episodes ended; None if none did.
+        final: Of the episodes that ended; None if none did.
     """
 
     transition: Transition
-    finals: Finals | None
+    final: FinalObservations | None
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class TaskOutcome:
     """A transition before the step limit is applied; see `Transition`."""
 
     observation: Floats32
@@ -142,7 +142,7 @@ class BatchedTask(ABC):
         self.nworld = nworld
         self.max_episode_steps = max_episode_steps
         self.elapsed = np.zeros(nworld, dtype=np.int64)
-        self._goals_told: Floats | None = None
+        self._known_goals: Floats | None = None
 
     @property
     def goal_places(self) -> Floats | None:
@@ -151,7 +151,7 @@ class BatchedTask(ABC):
         By default the info's ``goal``; None before the first episode, and of a task
         without such an entry.
         """
-        return self._goals_told
+        return self._known_goals
 
     @property
     def row_space(self) -> gym.spaces.Box:
@@ -179,9 +179,9 @@ class BatchedTask(ABC):
         worlds = world_indices(worlds, self.nworld, TaskError)
         self.elapsed[worlds] = 0
         self._begin(worlds)
-        seen, told = self._look(worlds)
+        seen, found = self._look(worlds)
         observation = checked_observation(seen, len(worlds), self.row_space.shape)
-        info = checked_info(told, len(worlds))
+        info = checked_info(found, len(worlds))
         self._note_goals(info, worlds)
         if self.max_episode_steps is not None:
             info["is_timeout"] = np.zeros(len(worlds), dtype=np.bool_)
@@ -210,12 +210,12 @@ class BatchedTask(ABC):
             TaskError: The actions have the wrong shape or values, or what the task returns has.
         """
         plain = isinstance(self.action_space, _PLAIN)
-        verdict = self._act(action_array(actions) if plain else actions)
+        outcome = self._act(action_array(actions) if plain else actions)
         nworld = self.nworld
-        observation = checked_observation(verdict.observation, nworld, self.row_space.shape)
-        reward = checked_reward(verdict.reward, nworld)
-        terminated = checked_ends("terminated", verdict.terminated, nworld)
-        info = checked_info(verdict.info, nworld)
+        observation = checked_observation(outcome.observation, nworld, self.row_space.shape)
+        reward = checked_reward(outcome.reward, nworld)
+        terminated = checked_ends("terminated", outcome.terminated, nworld)
+        info = checked_info(outcome.info, nworld)
         self._note_goals(info)
         self.elapsed += 1
         truncated = np.zeros(nworld, dtype=np.bool_)
@@ -242,23 +242,23 @@ class BatchedTask(ABC):
         first, start = self.begin(worlds)
         observation[worlds] = first
         info = _put(last.info, start, worlds)
-        finals = Finals(
+        final = FinalObservations(
             worlds,
             last.observation[worlds],
             {name: _only(values, worlds) for name, values in last.info.items()},
         )
         now = Transition(observation, last.reward, last.terminated, last.truncated, info)
-        return BatchStep(now, finals)
+        return BatchStep(now, final)
 
     def advance_or_begin(self, actions: ArrayLike, over: Worlds) -> Transition:
         """Advance some worlds by one control step, and start the next episode in the others.
 
         Args:
             actions: Shape (nworld, ...); those of worlds that begin are not looked at.
-            over: Worlds whose episode is over, shape (n,).
+            over: Worlds with their episode over, shape (n,).
 
         Returns:
-            What it brought; where an episode began the first observation and info, a reward of 0,
+            The transition; where an episode began the first observation and info, a reward of 0,
             and no end.
 
         Raises:
@@ -279,17 +279,17 @@ class BatchedTask(ABC):
 
     def _note_goals(self, info: Info, worlds: Worlds | None = None) -> None:
         """Store the goals of these worlds, all if None, for `goal_places`."""
-        told = info.get(GOAL)
-        if told is None or told.ndim != 2 or told.shape[1] not in (2, 3):
+        goals = info.get(GOAL)
+        if goals is None or goals.ndim != 2 or goals.shape[1] not in (2, 3):
             return
         if worlds is None:
-            self._goals_told = told
+            self._known_goals = goals
             return
-        whole = np.zeros((self.nworld, told.shape[1]))
-        if self._goals_told is not None:
-            whole[:] = self._goals_told
-        whole[worlds] = told
-        self._goals_told = whole
+        whole = np.zeros((self.nworld, goals.shape[1]))
+        if self._known_goals is not None:
+            whole[:] = self._known_goals
+        whole[worlds] = goals
+        self._known_goals = whole
 
     def get_state(self) -> dict[str, Any]:
         """Return the whole state as a dict of arrays and bytes.
@@ -350,7 +350,7 @@ class BatchedTask(ABC):
         """Return observation, shape (n, size), and info of these worlds at their start."""
 
     @abstractmethod
-    def _act(self, actions: ArrayLike) -> Verdict:
+    def _act(self, actions: ArrayLike) -> TaskOutcome:
         """Advance by one control step."""
 
     @abstractmethod

@@ -18,7 +18,7 @@ from gazelle.simulation import Robot
 class CameraObservation:
     """The pictures of one camera of a robot, for a task of one's own.
 
-    They are drawn when they are asked for, of just the worlds that are asked for, whatever the
+    They are rendered on request, of just the requested worlds, whatever the
     ``update_rate`` of the camera.
 
     Args:

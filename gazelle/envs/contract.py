@@ -1,6 +1,6 @@
 """Contract of a policy: its observations and actions, independent of the training environment.
 
-A user who runs a policy elsewhere, on a robot or in another simulator, has to give it the same
+A user with a policy elsewhere, on a robot or in another simulator, has to give it the same
 numbers in the same order, as often, and do with its actions what the environment did. A task says
 all that by a `PolicyContract`; it is kept beside the policy as JSON.
 """
@@ -82,7 +82,7 @@ class ScanRule:
     farthest: float = np.inf
     """Longer ranges are cut to this [m]."""
     frame: str = "base_scan"
-    """Frame that ranges are measured from; x ahead, z up, as REP 103 asks."""
+    """Frame that ranges are measured from; x ahead, z up, as in REP 103."""
 
 
 @checked(TaskError, most=math.inf)
@@ -107,7 +107,7 @@ class ActionRule:
     at_high: tuple[float, float] | None = None
     """The same of the greatest actions."""
     frame: str = "base_footprint"
-    """Frame of the velocities; x ahead, left turns positive, as REP 103 asks."""
+    """Frame of the velocities; x ahead, left turns positive, as in REP 103."""
     meaning: str = ""
     """One sentence."""
 

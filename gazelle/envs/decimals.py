@@ -62,7 +62,7 @@ def round_one(x: float, scale: float) -> float:
 
 
 def settled(x: float, product: float, scale: float) -> float:
-    """Return the nearest int of a number whose product seems to be half-way between two."""
+    """Return the nearest int of a number with a product that seems half-way between two."""
     high = x * SPLIT
     high -= high - x
     error = (high * scale - product) + (x - high) * scale

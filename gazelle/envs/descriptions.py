@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 DESCRIPTIONS = {
-    "ABBIRB120Reach": "ABB's arm IRB 120 brings its tool to a place.",
-    "ABBIRB140Reach": "ABB's arm IRB 140 brings its tool to a place.",
+    "ABBIRB120Reach": "ABB's arm IRB 120 moves its tool to a place.",
+    "ABBIRB140Reach": "ABB's arm IRB 140 moves its tool to a place.",
     "ABBIRB140VelocityReach": "ABBIRB140Reach with small joint velocities as actions.",
     "AGVFleet": "Automated guided vehicles drive to goals in one hall and avoid each other.",
     "CartPoleStayUp": "A cart balances a pole.",
@@ -38,7 +38,7 @@ DESCRIPTIONS = {
     "TurtleBot3Stage4": "A TurtleBot3 drives to goals among walls and two moving cylinders.",
     "TurtleBot3Stage4Continuous": "TurtleBot3Stage4 with continuous speeds as actions.",
     "TurtleBot3World": "A TurtleBot3 drives among the columns of turtlebot3_world.",
-    "UR5Reach": "Universal Robots' arm UR5 brings its tool to a place.",
+    "UR5Reach": "Universal Robots' arm UR5 moves its tool to a place.",
     "WamvBuoys": "A boat with two propellers passes a gate of buoys and stops in the next.",
 }
 """A sentence by the name of the task."""

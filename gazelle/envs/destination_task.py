@@ -12,7 +12,7 @@ from gazelle.envs.simulation_task import SimulationTask
 
 
 class DestinationTask(SimulationTask):
-    """A `SimulationTask` whose info says from the start where the robot is, and that nothing came yet."""
+    """A `SimulationTask` with the robot's place in its info from the reset on."""
 
     @abstractmethod
     def whereabouts(self, worlds: Worlds | None) -> Info:

@@ -123,7 +123,7 @@ class TaskGoalEnv(TaskEnv):
 def _reward(
     task: GoalSimulationTask, achieved: NDArray[Any], desired: NDArray[Any], info: object
 ) -> NDArray[Any]:
-    """Return the reward, for goals whose shapes were checked."""
+    """Return the reward, for goals of checked shapes."""
     shape = task.goal_space.shape
     for goals in (achieved, desired):
         if np.shape(goals)[-len(shape) :] != shape:

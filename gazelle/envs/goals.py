@@ -20,7 +20,7 @@ class GoalTable:
     Args:
         points: Places in the world frame [m], shape (m, 2).
         follows: ``follows[i, j]``: place j may come after place i, shape (m, m); by default
-            any other place. A row without any place lets the goal stay.
+            any other place. A row without any place keeps the goal.
         start: Index of the place of the very first goal, where a task wants a fixed one.
 
     Raises:

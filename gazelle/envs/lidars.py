@@ -13,7 +13,7 @@ from gazelle.errors import GazelleWarning, TaskError
 
 @dataclass(frozen=True, slots=True)
 class FittedLidar:
-    """A robot whose lidar has the rays that a task reads.
+    """A robot with a lidar of the rays that a task reads.
 
     Attributes:
         model: The robot.
@@ -29,7 +29,7 @@ class FittedLidar:
 def fit_lidar(model: Model, samples: int, *, notice: bool) -> FittedLidar:
     """Set the first planar lidar of a robot to exactly ``samples`` rays over its fan.
 
-    The TurtleBot3 manual asks its users to edit ``<samples>`` from 360 to 24 in the robot's
+    The TurtleBot3 manual has its users edit ``<samples>`` from 360 to 24 in the robot's
     file; this does the same to the description. The rays that are left start at the same
     first and end at the same last angle, evenly spread, and only they are cast.
 

@@ -80,7 +80,7 @@ class TaskSettings:
                 hint=did_you_mean(str(self.engine), engine_names()),
             )
         if self.needs_forces and self.engine == "planar":
-            hint = "leave the engine out, or ask for mujoco"
+            hint = "leave the engine out, or choose mujoco"
             raise TaskError("the engine planar knows no forces, which this task needs", hint=hint)
         if self.render_mode is not None:
             check_name("render mode", self.render_mode, RENDER_MODES)
@@ -95,7 +95,7 @@ class TaskSettings:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DynamicsSettings(TaskSettings):
-    """Options of a task whose robot is moved by forces, checked: the plane's engine is refused."""
+    """Checked options of a task with a robot moved by forces: the plane's engine is refused."""
 
     needs_forces: ClassVar[bool] = True
 

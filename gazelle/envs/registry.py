@@ -43,7 +43,7 @@ def _turtlebot3() -> list[RegisteredTask]:
 
 
 def _named(room: str, name: str, steps: int, env: str = "") -> RegisteredTask:
-    """Return a task whose environments are called after it.
+    """Return a task with environments of the same name.
 
     Args:
         room: The package below `gazelle.envs` that has them.

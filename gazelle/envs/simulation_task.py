@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.argument_checks import checked, world_indices
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.description import World
-from gazelle.envs.batched_task import BatchedTask, Info, Verdict
+from gazelle.envs.batched_task import BatchedTask, Info, TaskOutcome
 from gazelle.envs.limits import MAX_DRAWS
 from gazelle.envs.options import TaskSettings, check_whole
 from gazelle.envs.row_checks import checked_observation
@@ -142,12 +142,12 @@ class SimulationTask(BatchedTask):
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
         return self._seen(worlds), {}
 
-    def _act(self, actions: ArrayLike) -> Verdict:
+    def _act(self, actions: ArrayLike) -> TaskOutcome:
         self.act(checked_actions(actions, self.action_space, self.nworld))
         self.simulation.run(self.control_period)
         observation = self._seen(None)
         came = self.outcome(observation)
-        return Verdict(observation, came.reward, came.terminated, dict(came.info))
+        return TaskOutcome(observation, came.reward, came.terminated, dict(came.info))
 
     def _seen(self, worlds: Worlds | None) -> Any:
         count = self.nworld if worlds is None else len(worlds)
@@ -187,7 +187,7 @@ def simulation_of(
     Args:
         world: What stands there.
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
         time_step: The task's own physics step [s]; None for the world's.
     """
     return Simulation(

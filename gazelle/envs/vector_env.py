@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.autoreset import autoreset_mode as mode_of
-from gazelle.envs.batched_task import BatchedTask, BatchStep, Finals, Info
+from gazelle.envs.batched_task import BatchedTask, BatchStep, FinalObservations, Info
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.errors import ResetNeededError, check_open, check_ready
 from gazelle.envs.floor_plan import FloorPlan
@@ -120,13 +120,13 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
 
         Raises:
             TaskError: The actions have the wrong shape or values.
-            ResetNeededError: Nothing was reset yet, or with ``Disabled`` a world whose episode is
+            ResetNeededError: Nothing was reset yet, or with ``Disabled`` a world with its episode
                 over was not.
             ClosedEnvError: The environment is closed.
         """
         self.check_ready("step()")
         step = self._step(actions)
-        result, finals = step.transition, step.finals
+        result, final = step.transition, step.final
         self._observation = result.observation
         masks = np.ones((len(result.info), self.num_envs), dtype=np.bool_)
         names = (f"_{name}" for name in result.info)
@@ -138,7 +138,7 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
             {
                 **result.info,
                 **dict(zip(names, masks, strict=True)),
-                **({} if finals is None else _spelled(finals, self.num_envs)),
+                **({} if final is None else _final_infos(final, self.num_envs)),
             },
         )
 
@@ -233,19 +233,19 @@ class TaskVectorEnv(gym.vector.VectorEnv[Any, Any, NDArray[Any]]):
         return spread
 
 
-def _spelled(finals: Finals, nworld: int) -> dict[str, Any]:
+def _final_infos(final: FinalObservations, nworld: int) -> dict[str, Any]:
     """Return ``final_obs`` and ``final_info`` as in Gymnasium's vector environments."""
     observation = np.full(nworld, None, dtype=np.object_)
-    observation[finals.worlds] = np.fromiter(
-        finals.observation, dtype=np.object_, count=len(finals.worlds)
+    observation[final.worlds] = np.fromiter(
+        final.observation, dtype=np.object_, count=len(final.worlds)
     )
-    masks = np.zeros((len(finals.info) + 2, nworld), dtype=np.bool_)
-    masks[:, finals.worlds] = True
-    names = (f"_{name}" for name in finals.info)
+    masks = np.zeros((len(final.info) + 2, nworld), dtype=np.bool_)
+    masks[:, final.worlds] = True
+    names = (f"_{name}" for name in final.info)
     return {
         "final_obs": observation,
         "_final_obs": masks[0],
-        "final_info": {**finals.info, **dict(zip(names, masks[2:], strict=True))},
+        "final_info": {**final.info, **dict(zip(names, masks[2:], strict=True))},
         "_final_info": masks[1],
     }
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Floats, Floats32, Worlds
-from gazelle.envs.batched_task import SCENARIO, BatchedTask, Info, Verdict
+from gazelle.envs.batched_task import SCENARIO, BatchedTask, Info, TaskOutcome
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.options import check_whole
 from gazelle.envs.single_env import TaskEnv
@@ -104,9 +104,9 @@ class TaskWrapper(BatchedTask):
         info = {name: values for name, values in info.items() if name != SCENARIO}
         return self.first_observation(observation, worlds), info
 
-    def _act(self, actions: ArrayLike) -> Verdict:
+    def _act(self, actions: ArrayLike) -> TaskOutcome:
         came = self.task.advance(self.changed_actions(actions))
-        return Verdict(
+        return TaskOutcome(
             self.changed_observation(came.observation), came.reward, came.terminated, came.info
         )
 

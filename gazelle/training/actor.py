@@ -276,7 +276,7 @@ def load_actor(path: Path) -> Actor:
 
 
 def _refuse_unfit(actor: Actor) -> None:
-    """Run a policy once, to find arrays whose shapes do not match.
+    """Run a policy once, to find arrays of mismatched shapes.
 
     Raises:
         ValueError: They do not; any of ``BROKEN`` likewise.

@@ -49,7 +49,7 @@ _CURVE_POINTS = 200
 
 
 class StopRequested(Exception):  # noqa: N818  # a signal to the loop, not a fault
-    """A signal asked to stop, and everything is saved."""
+    """A signal stopped the training, and everything is saved."""
 
 
 class CurveTable(KVWriter):  # type: ignore[misc]  # untyped base
@@ -86,7 +86,7 @@ class TrainingCallback(BaseCallback):  # type: ignore[misc]  # untyped base
         total: Control steps of the whole training.
         episodes: The account of the latest episodes.
         progress: Shows how far the run is.
-        stop: Tells whether the user wants to stop.
+        stop: Returns whether the user wants to stop.
     """
 
     def __init__(

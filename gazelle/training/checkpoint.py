@@ -132,7 +132,7 @@ def _restore_environment(learner: Learner, state: dict[str, Any]) -> None:
     env = learner.env
     if state["environment"] is None:
         warnings.warn(
-            "this environment cannot save its state: its episodes start anew, "
+            "this environment cannot save its state: its episodes start again, "
             "so the run goes on well but not bit for bit as without the break",
             SimulationWarning,
             stacklevel=2,

@@ -14,7 +14,7 @@ from gazelle.envs.contract import PolicyContract, generic_contract
 from gazelle.errors import FormatError, TaskError
 from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.runs import Run, RunConfig, versions
-from gazelle.training.tasks import control_period, make_task, told_by
+from gazelle.training.tasks import control_period, env_attribute, make_task
 from gazelle.training.trust import require_trust
 from gazelle_ros.base.writing import write_text
 
@@ -27,28 +27,30 @@ def task_contract(env: VectorEnv[Any, Any, Any]) -> PolicyContract:
     A task declares it in an attribute ``contract`` of its environment, a `PolicyContract`; without
     one, the contract is derived from the spaces.
     """
-    told = told_by(env, "contract")
-    if not isinstance(told, PolicyContract):
+    contract = env_attribute(env, "contract")
+    if not isinstance(contract, PolicyContract):
         spaces = env.single_observation_space, env.single_action_space
-        told = generic_contract(*spaces, control_period(env))
-    limit = told.time_limit
-    if limit is None and told.control_period and env.spec and env.spec.max_episode_steps:
-        limit = env.spec.max_episode_steps * told.control_period
-    return dataclasses.replace(told, time_limit=limit)
+        contract = generic_contract(*spaces, control_period(env))
+    limit = contract.time_limit
+    if limit is None and contract.control_period and env.spec and env.spec.max_episode_steps:
+        limit = env.spec.max_episode_steps * contract.control_period
+    return dataclasses.replace(contract, time_limit=limit)
 
 
-def contract_of(told: PolicyContract, config: RunConfig) -> PolicyContract:
+def contract_of(contract: PolicyContract, config: RunConfig) -> PolicyContract:
     """Return the contract of a policy trained with this configuration.
 
     Args:
-        told: By its task, see `task_contract`.
+        contract: Of its task, see `task_contract`.
         config: Of the run.
     """
-    limit, steps = told.time_limit, config.recipe.evaluation_options.get("max_episode_steps")
-    if steps is not None and told.control_period:  # trainings may have shorter or longer episodes
-        limit = steps * told.control_period
+    limit, steps = contract.time_limit, config.recipe.evaluation_options.get("max_episode_steps")
+    if (
+        steps is not None and contract.control_period
+    ):  # trainings may have shorter or longer episodes
+        limit = steps * contract.control_period
     return dataclasses.replace(
-        told,
+        contract,
         task=config.task,
         time_limit=limit,
         versions=versions(),
@@ -86,7 +88,7 @@ def load_contract(file: Path) -> PolicyContract:
 def run_contract(
     run: Run, modules: Sequence[TaskModule] = (), *, trust: bool = False
 ) -> PolicyContract:
-    """Return the contract of a run; of one that kept none, its environment is made once to ask it.
+    """Return the contract of a run; without a saved one, from its environment, made for that.
 
     Args:
         run: The run.

@@ -1,4 +1,4 @@
-"""Demonstrations: a function that acts before the first update, whose steps the learner imitates.
+"""Demonstrations: a function that acts before the first update; the learner imitates its steps.
 
 A. Nair et al., "Overcoming Exploration in Reinforcement Learning with Demonstrations", 2018, arXiv
 1709.10089: demonstrations are in the memory, the policy is drawn towards their actions, and only

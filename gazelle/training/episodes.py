@@ -28,7 +28,7 @@ class Episodes:
     An episode is a row of attempts at goals, one after the other. Each ends in one of four
     ways: the goal is reached, there is a collision, time runs out, or the episode ends
     otherwise. Those that begin in the first half of the time limit count, as each of them has the other half
-    to come to its end. Of later ones most of what ends soon would be seen, collisions above all,
+    to end. Of later ones mostly the short ones would be counted, above all collisions,
     and little of what takes its time, so none of them counts.
     """
 
@@ -55,17 +55,17 @@ class Episodes:
     scenarios: Floats | None = None
     """Initial conditions that the environment reports, shape (k, size)."""
     info: dict[str, Floats] = field(default_factory=dict)
-    """Numbers of their last info, shapes (k,) or (k, few), if they were asked for."""
+    """Numbers of their last info, shapes (k,) or (k, few), if they were requested."""
 
     @functools.cached_property
     def succeeded(self) -> Bools:
         """True where the last step reached a goal or stayed at it."""
-        return self._told("is_success")
+        return self._outcome("is_success")
 
     @functools.cached_property
     def collisions(self) -> Bools:
         """True where the last attempt ended in a collision."""
-        return self._told("is_collision")
+        return self._outcome("is_collision")
 
     @functools.cached_property
     def timeouts(self) -> Bools:
@@ -104,5 +104,5 @@ class Episodes:
         """Return the episodes with the indices of their copies shifted."""
         return dataclasses.replace(self, slots=self.slots + shift)
 
-    def _told(self, name: str) -> Bools:
+    def _outcome(self, name: str) -> Bools:
         return self.outcomes.get(name, np.zeros(len(self.slots), np.bool_))

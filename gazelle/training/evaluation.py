@@ -123,7 +123,7 @@ def evaluate(
     of them all start again. Same policy, seed and number of copies: same result.
 
     A task says with which options it is evaluated, see `evaluation_options`; the bundled
-    navigation tasks ask for starts and goals that no policy was trained on. Episodes that
+    navigation tasks define starts and goals that no policy was trained on. Episodes that
     repeat others widen the intervals, see `clustered_rate`, and so do those in one world.
 
     Args:
@@ -147,7 +147,7 @@ def evaluate(
         TaskError: A number is below 1, no task is given, the policy does not fit it, or the run
             names code that is not trusted.
         FormatError: The policy is damaged.
-        MissingExtraError: Ray is asked for and not installed.
+        MissingExtraError: Ray is requested and not installed.
     """
     if episodes < 1 or (num_envs is not None and num_envs < 1):
         raise TaskError("an evaluation needs at least 1 episode and 1 environment")
@@ -178,8 +178,8 @@ def _summed_up(parts: Sequence[EpisodesPlayed], **about: Any) -> Evaluation:
         sim_seconds=sum(times) if times else None,
         episodes=len(ledger.records),
         distinct=ledger.distinct,
-        success=ledger.rate("goals") if ledger.tells("is_success") else None,
-        collision=ledger.rate("collisions") if ledger.tells("is_collision") else None,
+        success=ledger.rate("goals") if ledger.reports("is_success") else None,
+        collision=ledger.rate("collisions") if ledger.reports("is_collision") else None,
         timeout=ledger.rate("timeouts"),
         other=ledger.rate("others"),
         mean_return=float(np.mean([record.sum_of_rewards for record in ledger.records])),
@@ -214,7 +214,7 @@ def resolve_policy(
             known | dict(run.config.recipe.evaluation_options) | given,
         )
     if task is None:
-        raise TaskError("a policy alone does not tell its task", hint="give the task as well")
+        raise TaskError("a policy file does not name its task", hint="give the task as well")
     options = evaluation_options(task, {}) | given
     if isinstance(run_or_policy, Actor):
         return run_or_policy, task, options

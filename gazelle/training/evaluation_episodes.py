@@ -4,7 +4,7 @@ How many episodes a copy runs is fixed in advance: of those that end first, the 
 many. Copies that share a world, such as the robots of one hall, run one each and begin it together; for
 more episodes all of them start again. A world that simply went on would be another one in its second hour: what
 happens in it then, such as a jam that dissolves when the first episodes are cut off, would
-count the more, the more episodes are asked for.
+count the more, the more episodes are requested.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from gazelle.training.actor import Actor
 from gazelle.training.importing import TaskModule, load_all
 from gazelle.training.records import Ledger, Trail
 from gazelle.training.stepper import Stepper
-from gazelle.training.tasks import control_period, make_task, told_by
+from gazelle.training.tasks import control_period, env_attribute, make_task
 from gazelle.training.workers.callers import TRIES, call_all, workers_at
 
 _BRANCH = 1  # of seeds: that of evaluations
@@ -78,8 +78,8 @@ def play_episodes(setup: EvaluationSetup, copies: int, episodes: int, seed: int)
     env = make_task(setup.task, copies, **setup.options)
     try:
         period = control_period(env)
-        plan = told_by(env, "floor_plan")
-        ledger = Ledger(setup.together, tuple(told_by(env, "scenario_names") or ()))
+        plan = env_attribute(env, "floor_plan")
+        ledger = Ledger(setup.together, tuple(env_attribute(env, "scenario_names") or ()))
         stepper = Stepper(env, keep_info=True)
         start = time.perf_counter()
         steps = 0

@@ -1,6 +1,6 @@
 """TensorBoard's files of events, written by whole records and cut where a run continues from.
 
-TensorBoard's own writer has a thread, whose errors would be tracebacks without the file. A run that
+TensorBoard's own writer has a thread; its errors would be tracebacks without the file. A run that
 was killed has written curves beyond its last checkpoint, and writes those steps again when it
 continues. The form of the files is that of TensorFlow's records: length (8 bytes), its
 checksum (4), the event, its checksum (4).

@@ -32,8 +32,8 @@ class Features:
     """Features that are added to observations.
 
     Attributes:
-        angles: The entries whose sines and cosines are added, shape (a,).
-        magnitudes: Those whose logarithms are added, shape (m,).
+        angles: The entries with added sines and cosines, shape (a,).
+        magnitudes: Those with added logarithms, shape (m,).
         spans: The upper bounds of those, shape (m,), float32.
         bearing: Of a fixed goal, if that is added.
     """

@@ -29,7 +29,7 @@ _KOBUKI_FAR = dataclasses.replace(
 )
 
 # Arms turn further in a step than to the goal and back: steps are taken small at first, and what
-# counts is what the very next ones bring. Coarse steps of physics hold joints' speeds as well.
+# counts is the reward of the very next ones. Coarse steps of physics hold joints' speeds as well.
 _REACH_SETTINGS = PPOSettings(
     n_steps=16, batch_size=1024, n_epochs=6, ent_coef=0.0, initial_std=0.3, bfloat16=True
 )

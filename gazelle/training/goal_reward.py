@@ -59,7 +59,7 @@ class GoalRewards:
 
     def begin(self, info: dict[str, Any], where: Bools) -> None:
         """Start episodes in some copies, with their first info."""
-        self.distance = np.where(where, _told(info, "distance"), self.distance)
+        self.distance = np.where(where, _info_values(info, "distance"), self.distance)
         self.waypoints[where] = 0.0
 
     def of_step(
@@ -75,7 +75,7 @@ class GoalRewards:
         Args:
             info: Of the step.
             last: Where the ended episodes have their last info, if not in ``info``.
-            slots: Copies whose episodes ended.
+            slots: Copies with an ended episode.
             terminated: Where the task ended them, shape (N,).
             valid: False where the step was spent on a reset, shape (N,).
 
@@ -95,7 +95,7 @@ class GoalRewards:
             passed = _merged(info, last, slots, "waypoints") - self.waypoints
             self.waypoints += passed
             reward += pay.waypoint * passed
-        # After a goal or a point another one is under way, whose distance comes with the next step.
+        # After a goal or a point another one is under way, with its distance in the next step.
         self.distance = np.where((success + passed) > 0.0, np.nan, now)
         result: Floats = np.where(valid, reward, 0.0)
         return result
@@ -117,16 +117,16 @@ def _merged(
     name: str,
 ) -> Floats:
     """Return a number of each copy at the end of the step, before any reset."""
-    values = _told(info, name)
+    values = _info_values(info, name)
     if last is not None and len(slots):
-        values[slots] = _told(last, name)[slots]
+        values[slots] = _info_values(last, name)[slots]
     return values
 
 
-def _told(info: dict[str, Any], name: str) -> Floats:
+def _info_values(info: dict[str, Any], name: str) -> Floats:
     if name not in info:
         raise TaskError(
-            f"a goal_reward needs info['{name}'], which this task does not tell",
+            f"a goal_reward needs info['{name}'], which this task does not report",
             hint="leave goal_reward out of the recipe",
         )
     return np.array(info[name], dtype=np.float64)

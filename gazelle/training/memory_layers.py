@@ -29,7 +29,7 @@ class PolicyMemory:
     cell: Floats32
 
     def forget(self, where: Bools) -> None:
-        """Clear the memory in some copies, shape (N,), whose episodes start."""
+        """Clear the memory in some copies, shape (N,), at episode starts."""
         self.hidden[:, where] = 0.0
         self.cell[:, where] = 0.0
 

@@ -9,7 +9,6 @@ from typing import Any
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.training.bearing import bearing_of
 from gazelle.training.goal_reward import GoalReward
-from gazelle.training.heeded import SOME_HEED, heeds, unheeded_error
 from gazelle.training.recipes import (
     ALGORITHM_NAMES,
     LibrarySettings,
@@ -17,6 +16,7 @@ from gazelle.training.recipes import (
     PPOSettings,
     Recipe,
 )
+from gazelle.training.supported_values import PARTIAL_SUPPORT, supports, unsupported_error
 
 _OWN = {"algo", "settings", "training_options", "evaluation_options"}
 _REPLAYING = tuple(name for name in ALGORITHM_NAMES if name != "ppo")
@@ -32,7 +32,7 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
             For an algorithm with `LibrarySettings`, any argument of its class.
 
     Raises:
-        TaskError: There is no such value, the algorithm takes no notice of it, or it cannot be.
+        TaskError: There is no such value, the algorithm does not support it, or it cannot be.
     """
     fields = {each.name for each in dataclasses.fields(Recipe)} - _OWN
     library = isinstance(recipe.settings, LibrarySettings)
@@ -42,8 +42,8 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
     settings: dict[str, Any] = {}
     reward: dict[str, Any] = {}
     for name, value in values.items():
-        if name in fields | inner and not heeds(recipe.algo, name):
-            raise unheeded_error(recipe.algo, name, SOME_HEED[name])
+        if name in fields | inner and not supports(recipe.algo, name):
+            raise unsupported_error(recipe.algo, name, PARTIAL_SUPPORT[name])
         if name in fields:
             outer[name] = _typed(name, value)
         elif name in rewards:
@@ -52,7 +52,7 @@ def with_values(recipe: Recipe, values: Mapping[str, Any]) -> Recipe:
             settings[name] = value
         else:
             if heeding := algorithms_heeding(name):
-                raise unheeded_error(recipe.algo, name, heeding)
+                raise unsupported_error(recipe.algo, name, heeding)
             hint = did_you_mean(name, fields | inner | rewards)
             raise TaskError(f"a recipe for {recipe.algo} has no '{name}'", hint=hint)
     if settings:
@@ -76,7 +76,7 @@ def algorithms_heeding(name: str) -> tuple[str, ...]:
         for algo, kind in kinds.items()
         if name in {each.name for each in dataclasses.fields(kind)}
     ]
-    return tuple(algo for algo in having if heeds(algo, name))
+    return tuple(algo for algo in having if supports(algo, name))
 
 
 def _changed(settings: Any, values: dict[str, Any]) -> Any:

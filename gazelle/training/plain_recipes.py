@@ -17,7 +17,7 @@ _ON_POLICY_COPIES = 64
 
 
 def library_recipe(algo: str) -> Recipe:
-    """Return the library's own settings, but for what many copies ask for."""
+    """Return the library's own settings, adapted to many copies."""
     if algo in {"tqc", "qrdqn"}:
         options = {"learning_starts": 5_000, "train_freq": 1, "gradient_steps": 4}
         return Recipe(

@@ -71,7 +71,7 @@ def export_policy(
     actor = load_actor(found.policy_file(best=best))
     if actor.inputs != contract.size:
         raise TaskError(
-            f"the policy takes {actor.inputs} numbers, the contract tells {contract.size}",
+            f"the policy takes {actor.inputs} numbers, the contract defines {contract.size}",
             hint="the run's contract.json is of another task; remove it to have it made again",
         )
     policy = _place(found, FORMATS[format], None if out is None else Path(out))

@@ -1,7 +1,7 @@
 """Prediction interval for the success rate of one more training.
 
 A recipe is trained with a few seeds, and each policy is evaluated on a number of episodes. Someone
-who types the same commands with a seed of their own differs from these by two things: by what
+the same commands with another seed differ from these by two things: by what
 seeds make of a policy, and by which episodes are drawn.
 
 Rates are compared as angles, for which the variance of a binomial share hardly depends on the share

@@ -178,7 +178,7 @@ def choose_progress(stream: TextIO | None = None) -> Progress:
 
 
 def describe(summary: dict[str, float]) -> str:
-    """Return the most telling figure of an `EpisodeLog.summary`: success, else return."""
+    """Return the main figure of an `EpisodeLog.summary`: success, else return."""
     if "success_rate" in summary:
         return f", success {summary['success_rate']:.0%}"
     if "return" in summary:

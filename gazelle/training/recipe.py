@@ -11,8 +11,8 @@ from gazelle.argument_checks import checked
 from gazelle.errors import TaskError, did_you_mean
 from gazelle.training.bearing import Bearing, bearing_of
 from gazelle.training.goal_reward import GoalReward
-from gazelle.training.heeded import check_heeded
 from gazelle.training.number_checks import check_numbers
+from gazelle.training.supported_values import check_supported
 
 Activation = Literal["tanh", "relu"]
 ACTIVATIONS = ("tanh", "relu")
@@ -154,11 +154,11 @@ class Recipe:
     """True if the network also gets sines and cosines of angles and logarithms of ranges."""
     angles: tuple[int, ...] = ()
     """Indices of observation entries that are angles, beside those with bounds -pi and pi
-    (`features`): those of joints, whose limits are anywhere.
+    (`features`): those of joints, with any limits.
     """
     bearing: Bearing | None = None
     """Indices of a base's pose and its goal, if the network also gets distance and direction: for
-    tasks whose goal is fixed and so not observed.
+    tasks with a fixed goal, which is not observed.
     """
     hindsight: float = 0.8
     """Share of what is learnt from that gets a goal which was reached later: of tasks with goals,
@@ -175,7 +175,7 @@ class Recipe:
     """Options of the environment that a training sets, unless the user does."""
     evaluation_options: Mapping[str, Any] = field(default_factory=dict)
     """Options of the environment that evaluations set differently from the training, beside
-    those that the task itself asks for."""
+    those of the task itself."""
     settings: Settings = PPOSettings()
     """Settings that only this algorithm has."""
 
@@ -206,7 +206,7 @@ class Recipe:
         for name in ("hindsight", "hindsight_redraw"):
             if not 0 <= getattr(self, name) <= 1:
                 raise TaskError(f"{name} must be between 0 and 1, not {getattr(self, name)}")
-        check_heeded(self.algo, self)
+        check_supported(self.algo, self)
         _check_settings(self.algo, self.settings)
 
 
@@ -217,7 +217,7 @@ def _check_settings(algo: str, settings: Settings) -> None:
         raise TaskError(f"a recipe for {algo} needs {wanted.__name__}")
     if not isinstance(settings, OffPolicySettings):
         return
-    check_heeded(algo, settings)
+    check_supported(algo, settings)
     if settings.imitation and settings.demonstrator is None:
         hint = "name a demonstrator, or set imitation to 0"
         raise TaskError("there is nobody to imitate", hint=hint)
@@ -239,7 +239,7 @@ def recipe_from_dict(values: dict[str, Any]) -> Recipe:
     """Return the recipe that `recipe_to_dict` wrote.
 
     Raises:
-        TaskError: A key is not part of a recipe, or its algorithm takes no notice of a value.
+        TaskError: A key is not part of a recipe, or its algorithm does not support a value.
     """
     rest = _checked(Recipe, values)
     kind = _settings_of(rest.get("algo", "ppo"))

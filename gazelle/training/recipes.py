@@ -13,7 +13,6 @@ from gazelle.errors import TaskWarning
 from gazelle.training.flight_recipes import FLIGHT, VESSEL
 from gazelle.training.frobs_rl_recipes import FROBS_RL
 from gazelle.training.goal_reward import GoalReward
-from gazelle.training.heeded import SOME_HEED, heeded_only
 from gazelle.training.openai_ros_recipes import OPENAI_ROS
 from gazelle.training.plain_recipes import OFF_POLICY, library_recipe, plain_recipe
 from gazelle.training.recipe import (
@@ -26,6 +25,7 @@ from gazelle.training.recipe import (
     recipe_from_dict,
     recipe_to_dict,
 )
+from gazelle.training.supported_values import PARTIAL_SUPPORT, supported_only
 
 __all__ = [
     "ALGORITHM_NAMES",
@@ -61,7 +61,7 @@ _NAVIGATION = Recipe(
 # a third of the step size and fewer, longer rollouts in 15 % of the episodes.
 _DEFAULT = Recipe(learning_rate=1e-3, settings=PPOSettings(n_steps=32, n_epochs=6))
 
-# Small networks, a step size that stays, a target that follows soon: goals are few steps away.
+# Small networks, a step size that stays, a target that follows quickly: goals are few steps away.
 _FETCH_REACH = Recipe(
     algo="ddpg",
     steps=5_000,
@@ -139,7 +139,7 @@ def _shown_fetch(task: str, steps: int) -> Recipe:
 RECIPES: dict[str, Recipe] = {
     # A hall full of AGVs: what bumps is two that meet, so that is dear, and far goals draw gently. An
     # AGV of 0.5 m is never between two of 48 rays within 3.8 m, but was between two of 24 at 1.9 m.
-    # Who looks 10 s ahead (a discount of 0.98) waits in crowds until all wait for each other.
+    # With a horizon of 10 s (a discount of 0.98) robots in crowds wait for each other.
     # Collisions are rare, so an update needs many transitions to learn of them.
     "AGVFleet": Recipe(
         steps=3_200_000,
@@ -249,7 +249,7 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
     if algo is None or (own is not None and own.algo == algo):
         return own or _DEFAULT
     own = RECIPES.get(f"{name}Continuous", own)
-    _tell_of_demonstrator(own, algo)
+    _warn_of_demonstrator(own, algo)
     if algo == "ppo":
         return _DEFAULT
     if own is not None and isinstance(own.settings, OffPolicySettings):
@@ -272,7 +272,7 @@ def recipe_for(task: str, algo: str | None = None) -> Recipe:
 def _with_memory(own: Recipe, settings: OffPolicySettings, algo: str) -> Recipe:
     """Return the recipe for another algorithm; off-policy ones keep their numbers."""
     if algo in OFF_POLICY:
-        return dataclasses.replace(own, algo=algo, settings=heeded_only(algo, settings))
+        return dataclasses.replace(own, algo=algo, settings=supported_only(algo, settings))
     if algo != "tqc":
         return dataclasses.replace(library_recipe(algo), gamma=own.gamma)
     shared = ("buffer_size", "batch_size", "learning_starts", "gradient_steps", "tau")
@@ -280,10 +280,10 @@ def _with_memory(own: Recipe, settings: OffPolicySettings, algo: str) -> Recipe:
     return dataclasses.replace(own, algo=algo, settings=LibrarySettings(options=options))
 
 
-def _tell_of_demonstrator(own: Recipe | None, algo: str) -> None:
+def _warn_of_demonstrator(own: Recipe | None, algo: str) -> None:
     """Warn that an algorithm does not use a recipe's demonstrator."""
     shown = own is not None and getattr(own.settings, "demonstrator", None) is not None
-    able = SOME_HEED["demonstrator"]
+    able = PARTIAL_SUPPORT["demonstrator"]
     if shown and algo in (*OFF_POLICY, *LIBRARY_ALGORITHMS, "ppo") and algo not in able:
         text = f"{algo} cannot be shown what to do, so this recipe's demonstrator is left out"
         warnings.warn(TaskWarning(f"{text}; {' and '.join(able)} can"), stacklevel=3)

@@ -85,7 +85,7 @@ class Ledger:
         self._keys: list[bytes] = []
         self._worlds: list[int] = []
         self._first_world = 0
-        self._told: set[str] = set()
+        self._reported: set[str] = set()
 
     def expect(self, episodes: npt.NDArray[np.int64]) -> None:
         """Expect so many more episodes of each copy, shape (copies,), in restarted worlds."""
@@ -97,21 +97,23 @@ class Ledger:
         """Number of different episodes."""
         return len(set(self._keys))
 
-    def tells(self, outcome: str) -> bool:
+    def reports(self, outcome: str) -> bool:
         """Return whether the environment reports this outcome."""
-        return outcome in self._told
+        return outcome in self._reported
 
     def add(self, ended: Episodes, trails: UInts64) -> None:
         """Add the episodes that ended in one step, with keys of their trails."""
-        self._told.update(ended.outcomes)
+        self._reported.update(ended.outcomes)
         for row, slot in enumerate(ended.slots):
             if not self.left[slot]:
                 continue
             self.left[slot] -= 1
             self.records.append(self._record(ended, row))
-            # Without a word on how it began, an episode is known by all that was seen in it.
-            told = ended.scenarios
-            self._keys.append(trails[row].tobytes() if told is None else told[row].tobytes())
+            # Without a scenario, an episode is identified by all its observations.
+            scenarios = ended.scenarios
+            self._keys.append(
+                trails[row].tobytes() if scenarios is None else scenarios[row].tobytes()
+            )
             self._worlds.append(self._first_world + int(slot) // self._together)
 
     def take_in(self, other: Ledger) -> None:
@@ -120,14 +122,14 @@ class Ledger:
         self._keys += other._keys
         first = max(self._worlds, default=-1) + 1
         self._worlds += [first + world for world in other._worlds]
-        self._told |= other._told
+        self._reported |= other._reported
 
     def rate(self, what: str) -> SuccessRate:
         """Return the rate of attempts that were ``goals``, or ended as `EpisodeRecord.ends` names."""
         ends = np.array([record.ends for record in self.records], dtype=np.int64)
         ends *= np.array([[record.counted] for record in self.records])
         goals = np.array([record.counted_goals for record in self.records], dtype=np.int64)
-        if not self.tells("is_success"):
+        if not self.reports("is_success"):
             goals = np.zeros_like(goals)
         counts = goals if what == "goals" else ends[:, _ENDS.index(what)]
         rate = clustered_rate if self._together == 1 else rate_between_worlds

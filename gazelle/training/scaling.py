@@ -1,6 +1,6 @@
 """Observations to the range that networks like, as the first layer of the network itself.
 
-Entries whose bounds fit what is observed are mapped from them to [-1, 1], once and for all. An
+Entries with bounds that fit the observations are mapped from them to [-1, 1], once and for all. An
 entry without bounds, or one that spreads over so little of them that a network would hardly see it
 change, is normalised by what was observed so far. Either way it is one factor and one summand an entry,
 which fold exactly into the first layer of the numpy actor, and all of it is saved with the weights.
@@ -21,14 +21,14 @@ from gazelle.training.bearing import Bearing
 from gazelle.training.features import LEAST, MIDDLE, Features
 
 _LARGEST_BOUND = 1e4
-# Least standard deviation of an entry whose bounds fit, as a share of their span: a tenth of what
+# Least standard deviation of an entry with fitting bounds, as a share of their span: a tenth of what
 # an entry has that fills them evenly. The range says less, as one rare value can fill it.
 _LEAST_SPREAD = 0.03
 _FARTHEST = 10.0  # from the mean, in what the network sees
 _SMALLEST = 1e-6  # spread, relative to the mean, that is more than rounding
 
 _COUNT, _DECIDED = 0, 1
-_MEAN, _SQUARES, _LOW, _HIGH, _LOOSE = range(5)
+_MEAN, _SQUARES, _LOW, _HIGH, _UNBOUNDED = range(5)
 
 
 class ObservationScale:
@@ -74,8 +74,8 @@ class ObservationScale:
     @property
     def normalised(self) -> npt.NDArray[np.bool_]:
         """Mask of the entries that are normalised by observed moments, shape (entries,)."""
-        loose: npt.NDArray[np.bool_] = self.moments[_LOOSE].numpy() != 0.0
-        return loose
+        unbounded: npt.NDArray[np.bool_] = self.moments[_UNBOUNDED].numpy() != 0.0
+        return unbounded
 
     @property
     def cuts(self) -> bool:
@@ -116,7 +116,7 @@ class ObservationScale:
         mean = moments[_MEAN]
         spread = np.sqrt(moments[_SQUARES] / tally[_COUNT])
         if first:
-            moments[_LOOSE] = spread < _LEAST_SPREAD * self._span
+            moments[_UNBOUNDED] = spread < _LEAST_SPREAD * self._span
             tally[_DECIDED] = 1.0
         reach = np.maximum(moments[_HIGH] - mean, mean - moments[_LOW])
         size = spread if self.cuts else np.maximum(spread, reach / _FARTHEST)
@@ -129,13 +129,13 @@ class ObservationScale:
 
 
 class ScaledObservations(BaseFeaturesExtractor):  # type: ignore[misc]  # untyped base
-    """Flattens, scales each entry, and adds `Features` and differences if asked to.
+    """Flattens, scales each entry, and adds `Features` and differences if requested.
 
     Args:
         observation_space: A Box.
         scale: By what; that of all networks of the learner. By default the bounds alone.
-        features: Whether sines, cosines and logarithms are added, as bounds ask for.
-        angles: Entries whose sines and cosines are added anyway.
+        features: Whether sines, cosines and logarithms are added by the bounds.
+        angles: Entries with sines and cosines added in any case.
         bearing: Of a fixed goal, if that is added.
         goals: Where what is reached and the goal stand, if by how much it is missed is added,
             scaled as the goal is.

@@ -172,17 +172,17 @@ class EpisodeLog:
     def add(self, episodes: Episodes) -> None:
         """Add the episodes that ended in one step."""
         unknown = np.full(len(episodes.slots), np.nan)
-        told = episodes.outcomes
+        outcomes = episodes.outcomes
         collisions, timeouts = (
             each & episodes.counted for each in (episodes.collisions, episodes.timeouts)
         )
         columns = {
             "return": episodes.returns,
             "length": episodes.lengths,
-            "goals": episodes.counted_goals if "is_success" in told else unknown,
+            "goals": episodes.counted_goals if "is_success" in outcomes else unknown,
             "attempts": episodes.attempts,
-            "collisions": collisions if "is_collision" in told else unknown,
-            "timeouts": timeouts if "is_timeout" in told else unknown,
+            "collisions": collisions if "is_collision" in outcomes else unknown,
+            "timeouts": timeouts if "is_timeout" in outcomes else unknown,
         }
         rows = np.column_stack([columns[name] for name in _COLUMNS])
         self._rows = np.concatenate([self._rows, rows])[-self.window :]

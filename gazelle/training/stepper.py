@@ -59,7 +59,7 @@ class TrainingStep:
 
     @property
     def begun(self) -> Bools:
-        """Mask of copies whose ``obs`` belongs to another episode than the step, shape (N,).
+        """Mask of copies with ``obs`` of another episode than the step, shape (N,).
 
         A policy with a memory forgets there. In autoreset mode "next step" the last observation of an
         episode is one of them, too, as nothing is done with it.
@@ -71,7 +71,7 @@ class Stepper:
     """Steps a vector environment and keeps count of its episodes.
 
     Args:
-        env: A Gymnasium vector environment whose observations are a Box, or a Dict of boxes: then
+        env: A Gymnasium vector environment with observations that are a Box, or a Dict of boxes: then
             its parts in a row are what is learnt from.
         keep_info: Whether ended episodes keep all numbers of their last info.
         goal_reward: What the learner is given in place of the task's rewards, if anything.

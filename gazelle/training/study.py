@@ -125,7 +125,7 @@ def conduct(
     Raises:
         TaskError: There is no such function, or workers are lost again and again.
         FormatError: The table is of another study.
-        MissingExtraError: Ray is asked for and not installed.
+        MissingExtraError: Ray is requested and not installed.
     """
     module, name = _found(study.function)
     count, start = workers_at(ray, workers, ExperimentHost, module, name)

@@ -1,6 +1,6 @@
 """Search hyperparameters with Optuna, over processes or a cluster; a stopped search resumes.
 
-The driver asks Optuna for one trial after another, has workers train and evaluate them, and keeps
+The driver requests one trial after another from Optuna, has workers train and evaluate them, and keeps
 all in a journal file. Workers end with the driver, however it ends; what they were at is tried
 again when the search continues.
 """
@@ -85,7 +85,7 @@ def sweep(
     Raises:
         TaskError: A parameter is not part of the recipe, there is no such cluster, or all trials
             of this call failed.
-        MissingExtraError: Optuna is not installed, or Ray where it is asked for.
+        MissingExtraError: Optuna is not installed, or Ray where it is requested.
     """
     plan.check()
     name = task_name(task.rpartition(":")[2])
@@ -158,10 +158,10 @@ def _work(job: TrialJob, study: optuna.Study, *, workers: int | None, ray: str |
 
     trials: dict[int, Trial] = {}
     left = plan.trials - _ended(study)
-    call_all(_asked(study, plan, trials, left), start, done, workers=min(count, left))
+    call_all(_requested_trials(study, plan, trials, left), start, done, workers=min(count, left))
 
 
-def _asked(
+def _requested_trials(
     study: optuna.Study, plan: SweepPlan, trials: dict[int, Trial], left: int
 ) -> Iterator[TrialValues]:
     """Yield the values Optuna wants to try next, which depend on the results so far."""

@@ -150,8 +150,8 @@ def evaluation_options(task: str, trained: Mapping[str, Any]) -> dict[str, Any]:
     it takes the options that a policy was trained with and returns those that differ, such
     as starts and goals that it was not trained on.
     """
-    ask = _hook(task, "evaluation_options")
-    return {} if ask is None else dict(ask(trained))
+    options = _hook(task, "evaluation_options")
+    return {} if options is None else dict(options(trained))
 
 
 def fitting_copies(task: str, least: int, options: Mapping[str, Any]) -> int:
@@ -160,8 +160,8 @@ def fitting_copies(task: str, least: int, options: Mapping[str, Any]) -> int:
     A task that cannot be made in any number has a class method or static method
     ``fitting_num_envs`` of its vector environment, which takes a number and options.
     """
-    ask = _hook(task, "fitting_num_envs")
-    return least if ask is None else int(ask(least, options))
+    fitting = _hook(task, "fitting_num_envs")
+    return least if fitting is None else int(fitting(least, options))
 
 
 def _hook(task: str, name: str) -> Any:
@@ -213,7 +213,7 @@ def control_period(env: VectorEnv[Any, Any, Any]) -> float | None:
     return 1.0 / float(rate) if rate else None
 
 
-def told_by(env: VectorEnv[Any, Any, Any], name: str) -> Any:
+def env_attribute(env: VectorEnv[Any, Any, Any], name: str) -> Any:
     """Return an attribute of the environment below all wrappers, or of its copies.
 
     None if missing.
@@ -230,7 +230,7 @@ def step_limit(env: VectorEnv[Any, Any, Any]) -> int | None:
 
     Read from ``task.max_episode_steps`` of Gazelle's environments, else from the specification of the copies.
     """
-    task = told_by(env, "task")
+    task = env_attribute(env, "task")
     limit = getattr(task, "max_episode_steps", None)
     if limit is None:
         spec = next((each.spec for each in getattr(env.unwrapped, "envs", [])), None)

@@ -28,16 +28,16 @@ def require_trust(run: Run, modules: Sequence[TaskModule] = (), *, trust: bool =
     """
     given = {module.name for module in modules}
     named = [*(() if modules else run.config.imports), *_named(run.config)]
-    asked = {
+    unknown = {
         module.name: module
         for module in reversed(named)
         if module.name not in given and not module.is_loaded()
     }
-    if not asked or trust:
+    if not unknown or trust:
         return
     names = ", ".join(
         f"'{module.name}'" + (f" from the folder '{module.folder}'" if module.folder else "")
-        for module in asked.values()
+        for module in unknown.values()
     )
     raise TaskError(
         f"this run imports code: {names}",

@@ -155,7 +155,7 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         self.env.close()
 
     def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        """Return an attribute of the environment, once for each copy asked for."""
+        """Return an attribute of the environment, once for each requested copy."""
         value = getattr(self.env, attr_name, None)
         return [value for _ in self._get_indices(indices)]
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gazelle import assets, formats
-from gazelle.envs import BatchedTask, TaskEnv, TaskVectorEnv, Verdict
+from gazelle.envs import BatchedTask, TaskEnv, TaskOutcome, TaskVectorEnv
 
 COPIES = [lambda made: pickle.loads(pickle.dumps(made)), copy.deepcopy]
 STAGE, FLEET = "gazelle/TurtleBot3Stage{}-v0", "gazelle/AGVFleet-v0"
@@ -143,7 +143,7 @@ class Walk(BatchedTask):
             size=self.nworld
         )
         seen = self.place[:, None].astype(np.float32)
-        return Verdict(seen, self.place.copy(), self.place > 20.0, {})
+        return TaskOutcome(seen, self.place.copy(), self.place > 20.0, {})
 
     def _state(self):
         return {"place": self.place.copy(), "random": pickle.dumps(self.random)}

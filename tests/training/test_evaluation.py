@@ -66,7 +66,7 @@ def test_a_task_that_tells_no_outcome_still_counts_time_outs():
 
 def test_a_policy_file_needs_a_task(tmp_path):
     RIGHT.save(tmp_path / "policy.npz")
-    with pytest.raises(TaskError, match="does not tell its task"):
+    with pytest.raises(TaskError, match="does not name its task"):
         evaluate(tmp_path / "policy.npz")
     assert evaluate(tmp_path / "policy.npz", task=TASK, episodes=5).episodes == 5
 

@@ -23,8 +23,8 @@ from gazelle.training import (
 )
 from gazelle.training.bearing import Bearing
 from gazelle.training.checkpoint import read_checkpoint
-from gazelle.training.heeded import heeded_only
 from gazelle.training.learners import build_learner
+from gazelle.training.supported_values import supported_only
 from gazelle.training.tasks import make_task
 from gazelle.training.vecenv import VectorEnvAdapter
 
@@ -37,7 +37,7 @@ QUICK = PPOSettings(n_steps=16, batch_size=32, n_epochs=2)
 
 
 def recipe(algo, **values):
-    settings = QUICK if algo == "ppo" else heeded_only(algo, SMALL)
+    settings = QUICK if algo == "ppo" else supported_only(algo, SMALL)
     return Recipe(algo=algo, steps=600, num_envs=4, settings=settings, **values)
 
 

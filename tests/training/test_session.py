@@ -20,8 +20,8 @@ from tensorboard.backend.event_processing.event_file_loader import EventFileLoad
 
 from gazelle.errors import FormatError, MissingExtraError, SimulationWarning, TaskError
 from gazelle.training import GoalReward, OffPolicySettings, Recipe, Run, evaluate, resume, train
-from gazelle.training.heeded import heeded_only
 from gazelle.training.progress import NoProgress
+from gazelle.training.supported_values import supported_only
 
 SMALL = OffPolicySettings(
     buffer_size=2000, batch_size=32, learning_starts=100, target_update_interval=100
@@ -29,7 +29,7 @@ SMALL = OffPolicySettings(
 
 
 def off_policy(algo):
-    settings = heeded_only(algo, SMALL)
+    settings = supported_only(algo, SMALL)
     return Recipe(algo=algo, steps=320, num_envs=4, net_arch=(16,), settings=settings)
 
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
 from gazelle.envs.agv_fleet import hall
 from gazelle.envs.agv_fleet.contract import fleet_contract
-from gazelle.envs.batched_task import BatchedTask, Info, Verdict
+from gazelle.envs.batched_task import BatchedTask, Info, TaskOutcome
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.floor_plan import FloorPlan
 from gazelle.envs.limits import MAX_AGENTS, MAX_LIDAR_SAMPLES
@@ -88,7 +88,7 @@ class AGVFleetTask(BatchedTask):
 
     Args:
         nworld: AGVs in all halls together, a whole multiple of those in one.
-        settings: What the user asks for.
+        settings: Options of the user.
 
     Raises:
         TaskError: The number of AGVs does not fit.
@@ -250,7 +250,7 @@ class AGVFleetTask(BatchedTask):
         )
         return np.concatenate((ranges, np.stack(columns, axis=1)), axis=1, dtype=np.float32)
 
-    def _act(self, actions: ArrayLike) -> Verdict:
+    def _act(self, actions: ArrayLike) -> TaskOutcome:
         chosen = np.asarray(actions, np.float64)
         if chosen.shape != (self.nworld, 2) or np.isnan(chosen).any():
             raise TaskError(f"actions must be numbers of shape ({self.nworld}, 2)")
@@ -278,7 +278,7 @@ class AGVFleetTask(BatchedTask):
         if arrived.any():
             self._next_goals(everywhere[arrived])
         info = self._info(everywhere, distance, arrived, crashed)
-        return Verdict(self.observe(), reward, crashed, info)
+        return TaskOutcome(self.observe(), reward, crashed, info)
 
     def _info(self, worlds: Worlds, distance: Floats, arrived: Bools, crashed: Bools) -> Info:
         return {

@@ -32,7 +32,7 @@ class CameraWorldTask(SimulationTask):
 
     Args:
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
 
     Raises:
         TaskError: The robot has no camera.

@@ -27,7 +27,7 @@ class CartPoleTask(SimulationTask):
 
     Args:
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
     """
 
     scenario_names = ("pole_angle",)

@@ -225,7 +225,7 @@ class HusarionEnv(DriveEnv):
 
     ## Action
 
-    ``Discrete(4)``, for 0.2 s each: 0 asks for 0.5 m/s ahead, 1 for 1.5 rad/s left, 2 for 1.5 rad/s right, 3 for
+    ``Discrete(4)``, for 0.2 s each: 0 commands 0.5 m/s ahead, 1 for 1.5 rad/s left, 2 for 1.5 rad/s right, 3 for
     0.5 m/s ahead once more: that is called "backwards" in the published code, but is not. openai_ros waits until
     odometry shows the speed.
 

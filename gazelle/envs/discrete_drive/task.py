@@ -64,7 +64,7 @@ class DriveSettings(TaskSettings):
 
 
 def drive_task(rules: DriveRules, nworld: int, settings: DriveSettings) -> BatchedTask:
-    """Return the task that these rules and options ask for.
+    """Return the task of these rules and options.
 
     Raises:
         TaskError: An option does not fit the task.
@@ -84,7 +84,7 @@ class DriveTask(DestinationTask):
     Args:
         rules: Of the task.
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
 
     Attributes:
         scan: Ranges at the last observation [m], shape (n, rays).

@@ -1,4 +1,4 @@
-"""Fetch's arm, by whose joints the gripper follows commands."""
+"""Fetch's arm: its joints move the gripper by commands."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ARM = (
 )
 
 _BENT = (0.01, -0.7, 0.0, 1.45, 0.0, 0.8, 0.0)  # elbow up, near all starts [rad]
-_FASTEST = 4.0  # of a joint, where the arm is stretched and could be asked for anything [rad/s]
+_FASTEST = 4.0  # of a joint, where the arm is stretched and commands could be unbounded [rad/s]
 _EFFORT = 1000.0  # of the arm's motors, so that they hold their commands [N m]
 _TOLERANCE = (1e-4, 1e-4)  # [m], [rad]
 

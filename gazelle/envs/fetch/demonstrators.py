@@ -78,5 +78,5 @@ def _around(away: Floats, ahead: Floats) -> Floats:
 
 def _actions(way: Floats, fingers: Floats) -> Floats32:
     """Return actions of gripper displacements in a step [m] and finger commands."""
-    told = np.clip(way / _FASTEST, -1.0, 1.0)
-    return np.hstack((told, fingers[:, None])).astype(np.float32)
+    command = np.clip(way / _FASTEST, -1.0, 1.0)
+    return np.hstack((command, fingers[:, None])).astype(np.float32)

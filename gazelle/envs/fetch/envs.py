@@ -66,7 +66,7 @@ class FetchEnv(TaskGoalEnv):
     ``original``           31 mm  33 mm  32 mm  32 mm  2 mm   -1 mm
     =====================  =====  =====  =====  =====  =====  =====
 
-    ``control="original"`` has such a body and such a weld (0.02 s), an arm without motors whose joints
+    ``control="original"`` has such a body and such a weld (0.02 s), an arm without motors with joints that
     have the dampers (50 N m s/rad), armatures (1 kg m²) and spring of there, fingers of 4 kg as there,
     and the physics step of there. Gravity pulls at the arm in both. The links are not those of there,
     and fingers move as below: those of there are servos with an armature of 100 kg, which coast.

@@ -33,7 +33,7 @@ _OPEN = 0.05  # that a finger opens at most [m]
 _GRASP = 120.0  # of the motor that closes both fingers: as much as two of 60 N [N]
 _WRIST = "wrist_roll_link"
 _SLIDES = {"slide_x": (1.0, 0.0, 0.0), "slide_y": (0.0, 1.0, 0.0), "slide_z": (0.0, 0.0, 1.0)}
-_PULL = 45.0  # of a slide's motor, for each kilogram of what it carries [N/kg]
+_PULL = 45.0  # of a slide's motor, for each kilogram of its load [N/kg]
 _FINGER = 4.0  # that a finger of the flying gripper weighs, as there [kg]
 _CARRIER = 1.0  # [kg]
 
@@ -59,13 +59,13 @@ class CarriedGripper(ABC):
 
     Args:
         robot: That it is part of.
-        carrying: Names of the joints that carry it, which have motors.
+        slides: Names of its slide joints, which have motors.
         fingers_move: Whether there are motors on the fingers; else they stay closed.
     """
 
-    def __init__(self, robot: Robot, carrying: Sequence[str], *, fingers_move: bool) -> None:
+    def __init__(self, robot: Robot, slides: Sequence[str], *, fingers_move: bool) -> None:
         self._robot = robot
-        self._joints = [robot.joints[name] for name in carrying]
+        self._joints = [robot.joints[name] for name in slides]
         self._fingers = [robot.joints[name] for name in FINGERS if fingers_move]
         if self._fingers:
             self._fingers[0].add_motor(_GRASP)
@@ -138,9 +138,9 @@ class FlyingGripper(CarriedGripper):
         model = flying_model(fetch_model(), start, fingers_move=fingers_move)
         robot = simulation.spawn(model, name="fetch")
         super().__init__(robot, tuple(_SLIDES), fingers_move=fingers_move)
-        carried = sum(link.inertial.mass for link in model.links if link.inertial is not None)
+        mass = sum(link.inertial.mass for link in model.links if link.inertial is not None)
         for joint in self._joints:
-            joint.add_motor(_PULL * carried)
+            joint.add_motor(_PULL * mass)
 
     def begin(self, worlds: Worlds) -> None:
         """Do nothing: the slides' zero is the start."""

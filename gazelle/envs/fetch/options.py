@@ -23,7 +23,7 @@ class FetchSettings(DynamicsSettings):
 
     Attributes:
         reward_type: ``sparse`` (0 at the goal, else -1) or ``dense`` (minus the distance).
-        control: ``gripper`` (it flies by itself), ``joint`` (the joints of the arm carry it) or
+        control: ``gripper`` (it flies by itself), ``joint`` (the joints of the arm move it) or
             ``original`` (a soft weld draws the arm, as in Gymnasium-Robotics).
 
     Raises:

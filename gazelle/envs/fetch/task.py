@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gazelle import assets, rotations
 from gazelle.array_types import Bools, Floats, Worlds
-from gazelle.envs.batched_task import Verdict
+from gazelle.envs.batched_task import TaskOutcome
 from gazelle.envs.fetch.arm import ReachingArm
 from gazelle.envs.fetch.figures import (
     CLEAR,
@@ -44,7 +44,7 @@ class FetchTask(GoalSimulationTask):
     Args:
         task: A name of `FIGURES`.
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
     """
 
     scenario_names = ("goal_x", "goal_y", "goal_z", "object_x", "object_y")
@@ -138,9 +138,9 @@ class FetchTask(GoalSimulationTask):
 
     def act(self, actions: NDArray[Any]) -> None:
         """Move the gripper, and open or close its fingers."""
-        told = np.clip(actions, -1.0, 1.0)
-        self._gripper.move(self._reach * told[:, :3], CONTROL_PERIOD)
-        self._gripper.move_fingers(FINGER_SPEED * told[:, 3], CONTROL_PERIOD)
+        command = np.clip(actions, -1.0, 1.0)
+        self._gripper.move(self._reach * command[:, :3], CONTROL_PERIOD)
+        self._gripper.move_fingers(FINGER_SPEED * command[:, 3], CONTROL_PERIOD)
 
     def reached(self, achieved: NDArray[Any], desired: NDArray[Any]) -> Bools:
         """Return whether they are less than 5 cm apart."""
@@ -155,7 +155,7 @@ class FetchTask(GoalSimulationTask):
         distance = _distance(achieved_goal, desired_goal)
         return -distance if self._dense else np.where(distance > NEAR, -1.0, 0.0)
 
-    def _act(self, actions: ArrayLike) -> Verdict:
+    def _act(self, actions: ArrayLike) -> TaskOutcome:
         # A cube that is hit at its edge spins for a moment; how it precesses does not matter here.
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", "something turns more", EngineWarning)
@@ -173,7 +173,7 @@ class FetchTask(GoalSimulationTask):
 
 
 def _gripper_of(control: str, simulation: Simulation, figures: FetchFigures) -> CarriedGripper:
-    """Create the gripper that an option asks for."""
+    """Create the gripper of an option."""
     moving = figures.fingers_move
     if control == "gripper":
         return FlyingGripper(simulation, figures.gripper, fingers_move=moving)

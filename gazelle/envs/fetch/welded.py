@@ -24,7 +24,7 @@ _DOWN = np.array([0.0, 1.0, 0.0, 1.0])  # quaternion (x, y, z, w), not normalise
 
 
 class WeldedArm(ReachingArm):
-    """The arm without motors, whose gripper a soft weld draws after a body that is only placed.
+    """The arm without motors: a soft weld draws the gripper after a body that is only placed.
 
     That body, which MuJoCo calls mocap, is put where the gripper is wanted, from where it is, and
     turned as the sum of two quaternions: what the gripper has, and the one for pointing down.

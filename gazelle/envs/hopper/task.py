@@ -35,7 +35,7 @@ class HopperTask(SimulationTask):
 
     Args:
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
     """
 
     scenario_names = ("start_roll", "start_pitch")

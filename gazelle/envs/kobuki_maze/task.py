@@ -30,7 +30,7 @@ class KobukiTask(SimulationTask):
     Args:
         rules: Of the task.
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
     """
 
     scenario_names = ("start_x", "start_y", "start_heading", "goal_x", "goal_y", "way")

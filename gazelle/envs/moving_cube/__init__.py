@@ -1,1 +1,1 @@
-"""The cube of openai_ros that a wheel inside makes walk."""
+"""The cube of openai_ros that a wheel inside moves."""

@@ -1,4 +1,4 @@
-"""The cube that walks as Gymnasium environments."""
+"""The moving cube as Gymnasium environments."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
 
 
 class MovingCubeEnv(SettingsEnv):
-    """A cube walks along y by speeding up and slowing down the wheel in its face.
+    """A cube moves along y by speeding up and slowing down the wheel in its face.
 
     The task ``MovingCubeOneDiskWalk-v0`` of openai_ros with its observation, actions, reward and
     ends, in simulated time. Id: ``gazelle/MovingCubeOneDiskWalk-v0``. Cube and wheel weigh 0.5 kg
     each, the cube is 0.2 m wide, the wheel has a radius of 0.08 m; the cube does not slip (friction
     of 1,000,000, as published). A jump of the wheel's speed by 100 rad/s rolls the cube over its
-    edge; one by 50 rad/s only rocks it. So it walks for good by -50, 50 and 0 rad/s for half a second
+    edge; one by 50 rad/s only rocks it. So it moves for good by -50, 50 and 0 rad/s for half a second
     each: it is sped up in one jump and slowed down in two.
 
     ## Observation
@@ -36,12 +36,12 @@ class MovingCubeEnv(SettingsEnv):
 
     ## Action
 
-    ``Discrete(3)``: 0 asks for 50 rad/s, 1 for -50 rad/s, 2 for 0. With ``n_actions=5`` also 3
-    for 10 rad/s more than asked for before and 4 for 10 rad/s less, within 50 rad/s; openai_ros
+    ``Discrete(3)``: 0 commands 50 rad/s, 1 for -50 rad/s, 2 for 0. With ``n_actions=5`` also 3
+    for 10 rad/s more than the last command and 4 for 10 rad/s less, within 50 rad/s; openai_ros
     decodes these but its parameters leave them out.
 
     A step takes 0.04 s. openai_ros waits until joint states show the wheel within 0.1 rad/s of
-    what was asked for, which its controller needs about 0.01 s for.
+    the command, which its controller needs about 0.01 s for.
 
     ## Reward
 

@@ -16,7 +16,7 @@ class WalkRules:
     """Parameters of the task; the defaults are the published ones.
 
     Attributes:
-        speed: Speed of the wheel that actions 0 and 1 ask for, one each way [rad/s].
+        speed: Speed of the wheel of actions 0 and 1, one each way [rad/s].
         speed_step: Change of it by actions 3 and 4 [rad/s].
         largest_pitch: Pitch beyond which an episode ends [rad].
         largest_yaw: Likewise.
@@ -37,10 +37,10 @@ class WalkRules:
 
 
 def wheel_speeds(rules: WalkRules, speed: Floats, actions: NDArray[np.int64]) -> Floats:
-    """Return the speeds that actions (0 to 4) ask for, after these [rad/s], all of shape (n,)."""
+    """Return the commanded speeds of actions (0 to 4), after these [rad/s], all of shape (n,)."""
     fixed = np.ones_like(speed) * rules.speed
-    asked = (fixed, -fixed, 0.0 * fixed, speed + rules.speed_step, speed - rules.speed_step)
-    return np.asarray(np.clip(np.choose(actions, asked), -rules.speed, rules.speed), np.float64)
+    speeds = (fixed, -fixed, 0.0 * fixed, speed + rules.speed_step, speed - rules.speed_step)
+    return np.asarray(np.clip(np.choose(actions, speeds), -rules.speed, rules.speed), np.float64)
 
 
 def has_failed(rules: WalkRules, seen: Floats) -> Bools:

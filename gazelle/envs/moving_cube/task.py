@@ -25,7 +25,7 @@ from gazelle_ros.base.real_numbers import finite
 CONTROL_PERIOD = 0.04  # [s]; openai_ros waits until the wheel has its speed, some hundredths
 FIRST_SPEED = 10.0  # of the wheel when an episode begins [rad/s]
 START_YAW = 0.05  # largest at the start [rad]
-WALKED = 1.0  # farther along y is a success [m]
+SUCCESS_DISTANCE = 1.0  # farther along y is a success [m]
 HALF_SIDE = 0.1  # of the cube [m]
 _TIME_STEP = 0.002
 _MOTOR = 200.0  # [N m], as the robot's file says
@@ -60,11 +60,11 @@ class MovingCubeSettings(DynamicsSettings):
 
 
 class MovingCubeTask(SimulationTask):
-    """A cube walks along y, in ``nworld`` worlds; see `MovingCubeEnv`.
+    """A cube moves along y, in ``nworld`` worlds; see `MovingCubeEnv`.
 
     Args:
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
     """
 
     scenario_names = ("start_yaw",)
@@ -140,7 +140,7 @@ class MovingCubeTask(SimulationTask):
         failed, y = has_failed(self.rules, seen), seen[:, 1]
         reward = reward_of(self.rules, seen, self.memory["place"], failed)
         self.memory["place"][:] = y
-        success = self.lasting & ~failed & (y >= WALKED)
+        success = self.lasting & ~failed & (y >= SUCCESS_DISTANCE)
         return StepOutcome(reward, failed, self._info(success, y))
 
     def _look(self, worlds: Worlds) -> tuple[Floats32, Info]:
@@ -149,5 +149,5 @@ class MovingCubeTask(SimulationTask):
 
     @staticmethod
     def _info(success: Bools, y: Floats) -> Info:
-        left = np.maximum(WALKED - y, 0.0)
+        left = np.maximum(SUCCESS_DISTANCE - y, 0.0)
         return {"is_success": success, "is_collision": np.zeros_like(success), "distance": left}

@@ -40,8 +40,8 @@ class ParrotDroneGotoEnv(SettingsEnv):
 
     ## Action
 
-    ``Discrete(6)``: 0 asks for 0.5 m/s forward, 1 backward, 2 to the left, 3 to the right, 4 up, 5 down, for a
-    second each, as long as openai_ros sleeps (of wall time there). What is asked for comes with noise, drawn
+    ``Discrete(6)``: 0 commands 0.5 m/s forward, 1 backward, 2 to the left, 3 to the right, 4 up, 5 down, for a
+    second each, as long as openai_ros sleeps (of wall time there). The command has noise, drawn
     with each action: up to 0.05 m/s upwards and 0.05 rad/s about z, and up to 0.03 more that stays for six
     seconds or so.
 

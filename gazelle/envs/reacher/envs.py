@@ -67,7 +67,7 @@ class UR5ReachEnv(ReachEnv):
     ## Start
 
     Joints anywhere within their limits, uniformly. The goal is where the tool is in such a posture, out of several thousand
-    drawn once that lie within the goal's box (frobs_rl asks MoveIt whether a place in the box can be reached).
+    drawn once that lie within the goal's box (frobs_rl checks with MoveIt whether a place in the box can be reached).
 
     ## End
 

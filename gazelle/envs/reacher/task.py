@@ -49,7 +49,7 @@ class ReachTask(SimulationTask):
     Args:
         rules: Of the task.
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
     """
 
     view = View(look_at((1.7, -1.5, 1.2), (0.2, 0.0, 0.5)), width=480, height=400, samples=1)

@@ -56,7 +56,7 @@ class TurtleBot3Env(TaskEnv):
     resolution, which Gazebo does not use either. A range of +inf becomes 3.5, NaN becomes 0. A later revision of the published stage 1 pads its 26 numbers
     with two zeros to 28; this task does not.
 
-    The robot's file describes 360 rays, and ROBOTIS asks to edit ``<samples>`` to 24. Here that
+    The robot's file describes 360 rays, and ROBOTIS instructs to edit ``<samples>`` to 24. Here that
     is done to the loaded description: ``lidar_samples`` rays are cast, over the same angles.
     For a robot file of your own a warning says so; one with fewer rays is an error.
 

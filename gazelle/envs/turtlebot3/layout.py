@@ -25,14 +25,14 @@ _UNSEEN = 0.2  # of held-out goals from those seen in training, where these leav
 
 
 class GoalLayout:
-    """Goals and starts that the settings ask for.
+    """Goals and starts of the settings.
 
     Places in free space are on a square lattice: those for training on its points, held-out
     ones in the middles of its squares, so that no policy was trained on one.
 
     Args:
         stage: 1 to 4.
-        settings: What the user asks for.
+        settings: Options of the user.
     """
 
     def __init__(self, stage: int, settings: NavigationSettings) -> None:
@@ -45,13 +45,13 @@ class GoalLayout:
         Raises:
             TaskError: The user's goals are no places, or no place is free.
         """
-        asked, fixed = self._settings.goals, self._settings.starts == "published"
-        if asked is None or asked == "published":
+        chosen, fixed = self._settings.goals, self._settings.starts == "published"
+        if chosen is None or chosen == "published":
             return stage_goals(self._stage)
-        if not isinstance(asked, str):
-            return GoalTable(asked)
-        places = self.space.places(_GOAL_MARGIN, between=asked == "held-out")
-        if asked == "held-out":
+        if not isinstance(chosen, str):
+            return GoalTable(chosen)
+        places = self.space.places(_GOAL_MARGIN, between=chosen == "held-out")
+        if chosen == "held-out":
             places = _unseen(places, stage_goals(self._stage).points)
             if self._settings.seen_goals is not None:
                 places = _unseen(places, GoalTable(self._settings.seen_goals).points)
@@ -71,10 +71,10 @@ class GoalLayout:
 
     def starts(self, nworld: int) -> RandomStarts | None:
         """Return the starts of the robot; None if always the stage's own."""
-        asked = self._settings.starts
-        if asked == "published":
+        chosen = self._settings.starts
+        if chosen == "published":
             return None
-        places = self.space.places(_START_MARGIN, between=asked == "held-out")
+        places = self.space.places(_START_MARGIN, between=chosen == "held-out")
         return RandomStarts(places, nworld)
 
     @functools.cached_property

@@ -19,7 +19,7 @@ class TaskScene:
 
     Args:
         rules: Of the stage.
-        settings: What the user asks for.
+        settings: Options of the user.
         nworld: Number of worlds.
 
     Attributes:

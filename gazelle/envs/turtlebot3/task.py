@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gazelle.array_types import Bools, Floats, Floats32, Worlds
-from gazelle.envs.batched_task import BatchedTask, Info, Verdict
+from gazelle.envs.batched_task import BatchedTask, Info, TaskOutcome
 from gazelle.envs.contract import PolicyContract
 from gazelle.envs.decimals import round2
 from gazelle.envs.floor_plan import FloorPlan
@@ -46,7 +46,7 @@ class TurtleBot3Task(BatchedTask):
         stage: 1 to 4.
         nworld: Number of worlds.
         continuous: Whether actions are two real numbers instead of one of five.
-        settings: What the user asks for.
+        settings: Options of the user.
 
     Raises:
         TaskError: The stage, the robot or an option does not fit.
@@ -142,7 +142,7 @@ class TurtleBot3Task(BatchedTask):
         return (*names, *(f"phase_{number}" for number in range(phases)))
 
     @property
-    def floor_plan(self) -> FloorPlan | None:  # type: ignore[override]  # made when asked for
+    def floor_plan(self) -> FloorPlan | None:  # type: ignore[override]  # made at first access
         """Walls and pillars, seen from above; None where they cannot be laid in the plane."""
         try:
             return self.layout.plan
@@ -189,9 +189,9 @@ class TurtleBot3Task(BatchedTask):
             seen, worlds, arrived=no, crashed=no.copy()
         )
 
-    def _act(self, actions: ArrayLike) -> Verdict:
+    def _act(self, actions: ArrayLike) -> TaskOutcome:
         linear, angular = self._command(actions)
-        with self.scene.simulation.lock:  # asked for once, not at every access
+        with self.scene.simulation.lock:  # once, not at every access
             self.scene.robot.inputs[COMMAND].send(linear, angular)
             self.scene.simulation.run(self.control_period)
             seen = self._see(None)
@@ -211,7 +211,7 @@ class TurtleBot3Task(BatchedTask):
             self._next_goals(np.flatnonzero(arrived))
         terminated = crashed if self.respawn else crashed | arrived
         info = self._info(seen, slice(None), arrived=arrived, crashed=crashed & ~arrived)
-        return Verdict(observation(self.rules, seen), reward, terminated, info)
+        return TaskOutcome(observation(self.rules, seen), reward, terminated, info)
 
     @property
     def _lidar_model(self) -> SensorModel:

@@ -44,7 +44,7 @@ class WamvTask(DestinationTask):
 
     Args:
         nworld: Number of worlds.
-        settings: What the user asks for.
+        settings: Options of the user.
     """
 
     scenario_names = ("start_x", "start_y", "start_yaw")

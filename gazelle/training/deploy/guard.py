@@ -3,7 +3,7 @@
 The node writes to it through a pipe what the robot is to do, many times a second. When the pipe ends,
 because the node ended in whatever way (`SIGKILL` too), or when nothing comes through it for a while
 (the node hangs or was stopped), the guard sends the robot zero. As it is the only publisher, nothing
-of the node can come after that. It ignores Ctrl-C and SIGTERM, which ask the node to end.
+of the node can come after that. It ignores Ctrl-C and SIGTERM, which end the node.
 
 Run as ``python -m gazelle.training.deploy.guard OPTIONS``, options being JSON: ``node`` (what
 `gazelle_ros.Node` takes), ``topic``, ``timeout`` [s].

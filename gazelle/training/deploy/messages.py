@@ -50,7 +50,7 @@ def yaw_of(quaternion: geometry_msgs.msg.Quaternion) -> float:
 def floats_message(
     labels: Sequence[str], values: Sequence[float]
 ) -> std_msgs.msg.Float32MultiArray:
-    """Return a std_msgs/Float32MultiArray of one dimension, whose label names its numbers."""
+    """Return a std_msgs/Float32MultiArray of one dimension, with the names of its numbers as label."""
     message = std_msgs.msg.Float32MultiArray()
     dimension = std_msgs.msg.MultiArrayDimension()
     dimension.label, dimension.size, dimension.stride = ",".join(labels), len(values), len(values)

@@ -105,7 +105,7 @@ class DeployNode(Closeable):
                 self.interventions.note("armed", self._now())
             return fault
 
-    def disarm(self, why: str = "asked to") -> None:
+    def disarm(self, why: str = "on request") -> None:
         """Disarm and stop the robot."""
         with self._lock:
             if self.pilot.armed:
@@ -119,14 +119,14 @@ class DeployNode(Closeable):
         with self._lock:
             ended = self.pilot.go_to(goals, self._now())
             if ended is not None:
-                self._tell_end(ended)
+                self._publish_end(ended)
         self._news.set()
 
     def run(self, stop: threading.Event, *, arm: bool = False, until_done: bool = False) -> None:
         """Run until stopped, shut down, or until all goals are done.
 
         Args:
-            stop: Asks to stop.
+            stop: Stops the node.
             arm: Arm as soon as all sensors speak.
             until_done: Return when there is no goal left.
 
@@ -167,8 +167,8 @@ class DeployNode(Closeable):
         self._actions = node.advertise("get_action", floats, 10)
         self._results = node.advertise("result", floats, 10)
         self._status = node.advertise("~status", std_msgs.msg.String, 1, latch=True)
-        node.subscribe("scan", sensor_msgs.msg.LaserScan, self._hear_scan, 1)
-        node.subscribe("odom", nav_msgs.msg.Odometry, self._hear_odometry, 1)
+        node.subscribe("scan", sensor_msgs.msg.LaserScan, self._on_scan, 1)
+        node.subscribe("odom", nav_msgs.msg.Odometry, self._on_odometry, 1)
         goals = geometry_msgs.msg.PoseStamped
         node.subscribe("move_base_simple/goal", goals, lambda m: self.go_to([goal_of(m)]), 1)
         node.serve("~arm", std_srvs.srv.SetBool, self._serve_arm)
@@ -186,13 +186,13 @@ class DeployNode(Closeable):
         known = self.node.clock.simulated and 0.0 < stamp < now + _CLOCK_LATE_S
         return stamp if known else now
 
-    def _hear_scan(self, message: sensor_msgs.msg.LaserScan) -> None:
+    def _on_scan(self, message: sensor_msgs.msg.LaserScan) -> None:
         reading = scan_of(message)
         with self._lock:
             self.pilot.see(reading, self._measured_at(message))
         self._news.set()
 
-    def _hear_odometry(self, message: nav_msgs.msg.Odometry) -> None:
+    def _on_odometry(self, message: nav_msgs.msg.Odometry) -> None:
         reading = odometry_of(message)
         with self._lock:
             self._frame = message.header.frame_id.removeprefix("/")
@@ -217,12 +217,12 @@ class DeployNode(Closeable):
             self.interventions.follow(tick, now)
         self._guard.order(tick.command, active=tick.active)
         if tick.acted is not None:
-            self._tell_act(tick.acted)
+            self._publish_action(tick.acted)
         if tick.ended is not None:
-            self._tell_end(tick.ended)
-        self._tell_status(tick)
+            self._publish_end(tick.ended)
+        self._publish_status(tick)
 
-    def _tell_act(self, acted: Acted) -> None:
+    def _publish_action(self, acted: Acted) -> None:
         self._best = max(self._best, acted.decision.best_output)
         self._score = acted.score
         action = acted.decision.action
@@ -230,7 +230,7 @@ class DeployNode(Closeable):
         values = [*action, acted.score, acted.gain]
         self._actions.publish(floats_message([*names, "score", "reward"], values))
 
-    def _tell_end(self, ended: GoalResult) -> None:
+    def _publish_end(self, ended: GoalResult) -> None:
         _LOG.info("goal (%g, %g): %s", ended.goal.x, ended.goal.y, ended.outcome)
         self.interventions.note(
             "goal",
@@ -245,7 +245,7 @@ class DeployNode(Closeable):
         if self._on_end is not None:
             self._on_end(ended)
 
-    def _tell_status(self, tick: Tick) -> None:
+    def _publish_status(self, tick: Tick) -> None:
         if not self.pilot.armed:
             text = "disarmed"
         elif not tick.active:

@@ -74,10 +74,10 @@ def command_of(action: tuple[float, ...], rule: ActionRule) -> VelocityCommand:
     if rule.type == "discrete":
         number = int(action[0]) - rule.first
         if not 0 <= number < len(rule.choices):
-            raise TaskError(f"the contract does not tell what action {int(action[0])} means")
+            raise TaskError(f"the contract does not define action {int(action[0])}")
         return VelocityCommand(*rule.choices[number])
     if rule.at_low is None or rule.at_high is None or len(action) != 2:
-        raise TaskError("the contract does not tell what the two actions mean")
+        raise TaskError("the contract does not define the two actions")
     low, high = np.array(rule.low), np.array(rule.high)
     share = (np.clip(np.array(action), low, high) - low) / (high - low)
     least, greatest = np.array(rule.at_low), np.array(rule.at_high)
@@ -103,7 +103,7 @@ def open_policy(source: str | Path, *, imports: Sequence[str] = (), trust: bool 
     outputs, _ = brain.decide(np.zeros((1, contract.size), np.float32))
     if contract.action.choices and outputs.shape[1] != len(contract.action.choices):
         raise FormatError(
-            f"the policy has {outputs.shape[1]} actions, its contract tells "
+            f"the policy has {outputs.shape[1]} actions, its contract defines "
             f"{len(contract.action.choices)}",
             file=str(file),
         )
@@ -120,7 +120,7 @@ class _ArrayBrain:
     def decide(self, obs: Floats32) -> tuple[Floats32, npt.NDArray[Any]]:
         if obs.shape[1] != self._actor.inputs:
             raise FormatError(
-                f"the policy takes {self._actor.inputs} numbers, its contract tells {obs.shape[1]}"
+                f"the policy takes {self._actor.inputs} numbers, its contract defines {obs.shape[1]}"
             )
         outputs = self._actor.outputs(obs)
         return outputs, self._actor.to_env(self._actor.mode(outputs))

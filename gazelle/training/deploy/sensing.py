@@ -1,4 +1,4 @@
-"""From readings of a robot's sensors to the observation that a contract asks for."""
+"""From readings of a robot's sensors to the observation of a contract."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class Observer:
             known = part.kind in _KINDS or (part.kind == "scan" and contract.scan is not None)
             if not known:
                 raise TaskError(
-                    f"the policy sees '{part.name}', of which its contract does not tell how a "
+                    f"the policy sees '{part.name}', but its contract does not define how a "
                     "robot measures it",
                     hint="give the task a contract; docs/how-to/deploy.md says how",
                 )

@@ -104,7 +104,7 @@ class _Tour:
         goal = ended.goal
         sys.stderr.write(f"({goal.x:g}, {goal.y:g})  {ended.outcome}, {ended.seconds:.1f} s\n")
         if ended.outcome != "reached":
-            _begin_anew(self._deployed.node)
+            _restart(self._deployed.node)
         self._left -= 1
         if self._left == 0:
             self._stop.set()
@@ -122,7 +122,7 @@ def _goals(table: GoalTable, seed: int) -> Iterator[GoalPlace]:
         at = table.after(at, chance.random(1))
 
 
-def _begin_anew(node: Node) -> None:
+def _restart(node: Node) -> None:
     """Reset a Gazebo's models; a real robot is put back by hand.
 
     A real robot is put back by hand.

@@ -14,7 +14,7 @@ from gazelle.training.scaling import ObservationScale
 
 
 class CriticUpdate:
-    """A learner of Stable-Baselines3's with a critic, whose observations are made features once a minibatch.
+    """A learner of Stable-Baselines3 with a critic; features are computed once a minibatch.
 
     Attributes:
         scale: Of observations.

@@ -68,7 +68,7 @@ def _goal_places(env: VectorEnvAdapter) -> tuple[slice, slice]:
     goals = env.goal_replay
     if goals is None:
         raise TaskError(
-            "this task has no goals, of which a network could be told the differences",
+            "this task has no goals, so there are no differences to observe",
             hint="leave out goal_differences",
         )
     return goals.achieved, goals.desired

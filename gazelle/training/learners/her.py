@@ -119,7 +119,7 @@ class HindsightReplayBuffer(MaskedReplayBuffer):
         slots: npt.NDArray[np.intp],
         later: npt.NDArray[np.intp],
     ) -> None:
-        """Resample, in place, most of the steps whose goals were reached before them."""
+        """Resample, in place, most of the steps with goals reached before them."""
         looked_at = np.arange(len(rows))
         for _ in range(_ROUNDS):
             at, of = rows[looked_at], slots[looked_at]

@@ -116,7 +116,7 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         """Fill the buffer with ``n_rollout_steps`` control steps of every copy.
 
         Returns:
-            False if the callback asked to stop.
+            False if the callback stops the training.
         """
         callback.on_rollout_start()
         self.policy.set_training_mode(False)
@@ -184,17 +184,17 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
         step = self._learn_from if dense is None else dense.learn_from
 
         def learn() -> list[float]:
-            told = [
+            figures = [
                 step(batch, weights)
                 for order in orders
                 for batch in data.minibatches(order, self.batch_size)
             ]
-            means: list[float] = torch.stack(told).mean(dim=0).tolist()
+            means: list[float] = torch.stack(figures).mean(dim=0).tolist()
             return [*means, explained, weights.clip_range]
 
         if dense is None:
             with products(bfloat16=self.bfloat16):
-                self._learned(learn())
+                self._end_update(learn())
             return
         self.ahead = UpdateAhead(dense, learn)
         self.ahead.start()
@@ -213,28 +213,28 @@ class FastPPO(PPO):  # type: ignore[misc]  # untyped base
     def _hand_over(self) -> None:
         """Apply the running update's result to the policy, if there is one."""
         if self.ahead is not None:
-            told = self.ahead.hand_over()
+            figures = self.ahead.hand_over()
             self.ahead = None
-            self._learned(told)
+            self._end_update(figures)
 
-    def _learned(self, told: list[float]) -> None:
+    def _end_update(self, figures: list[float]) -> None:
         """Record an update, then scale observations by all that were seen so far."""
         self._n_updates += self.n_epochs
-        self._record(told)
+        self._record(figures)
         self.scale.refresh()
 
     def _learn_from(self, batch: Transitions, weights: Weights) -> torch.Tensor:
         """Update the policy by one step; returns what the curves show of it."""
-        loss, told = loss_of(self.policy, batch, weights)
+        loss, figures = loss_of(self.policy, batch, weights)
         self.policy.optimizer.zero_grad()
         torch.autograd.backward(loss)
         torch.nn.utils.clip_grad_norm_(self.policy.parameters(), self.max_grad_norm)
         self.policy.optimizer.step()
-        return told
+        return figures
 
-    def _record(self, told: list[float]) -> None:
+    def _record(self, figures: list[float]) -> None:
         """Record the curves under Stable-Baselines3's names."""
-        for name, value in zip((*NAMES, *_MORE_NAMES), told, strict=True):
+        for name, value in zip((*NAMES, *_MORE_NAMES), figures, strict=True):
             self.logger.record(f"train/{name}", value)
         if hasattr(self.policy, "log_std"):
             self.logger.record("train/std", self.policy.log_std.exp().mean().item())

@@ -28,13 +28,13 @@ class UpdateAhead:
     def __init__(self, update: DenseUpdate, learn: Callable[[], list[float]]) -> None:
         self._update = update
         self._learn = learn
-        self._told: list[float] = []
+        self._figures: list[float] = []
         self._error: BaseException | None = None
         self._thread: threading.Thread | None = None
 
     def start(self) -> None:
         """Start the update."""
-        # Who interrupts the process twice does not want to wait for it.
+        # A second interrupt does not wait for it.
         self._thread = threading.Thread(target=self._run, name="ppo_update", daemon=True)
         self._thread.start()
 
@@ -54,24 +54,24 @@ class UpdateAhead:
         """
         self.wait()
         self._update.finish()
-        return self._told
+        return self._figures
 
     def get_state(self) -> dict[str, Any]:
         """Wait; what `from_state` continues with."""
         self.wait()
-        return {**self._update.get_state(), "told": self._told}
+        return {**self._update.get_state(), "told": self._figures}
 
     @classmethod
     def from_state(cls, update: DenseUpdate, state: Mapping[str, Any]) -> UpdateAhead:
         """Return a finished update, from what `get_state` returned."""
         update.set_state(state)
         found = cls(update, list)
-        found._told = [float(value) for value in state["told"]]
+        found._figures = [float(value) for value in state["told"]]
         return found
 
     def _run(self) -> None:
         try:
             with torch.no_grad():
-                self._told = self._learn()
-        except BaseException as error:  # noqa: BLE001  who waits for it gets it
+                self._figures = self._learn()
+        except BaseException as error:  # noqa: BLE001  the waiting thread gets it
             self._error = error

@@ -102,8 +102,8 @@ def loss_of(policy: Any, batch: Transitions, weights: Weights) -> tuple[torch.Te
         # http://joschu.net/blog/kl-approx.html
         kl = (ratio - 1.0 - log_ratio).mean()
         clipped = (ratio != within).float().mean()
-        told = torch.stack((loss, -gain, error, -entropy, kl, clipped))
-    return loss, told
+        figures = torch.stack((loss, -gain, error, -entropy, kl, clipped))
+    return loss, figures
 
 
 def learns_features(policy: Any) -> bool:

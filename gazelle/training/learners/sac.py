@@ -1,7 +1,7 @@
 """SAC with an update that costs a processor less.
 
 What Stable-Baselines3 computes (T. Haarnoja et al., "Soft Actor-Critic Algorithms and Applications",
-2018, arXiv 1812.05905): observations are made features once a minibatch, the critics are asked for
+2018, arXiv 1812.05905): observations are made features once a minibatch, the critics are evaluated for
 no gradients while the actor learns, and the targets follow in one call. Besides, the actor may learn
 from fewer minibatches than the critics.
 """

@@ -10,10 +10,10 @@ import gymnasium as gym
 from stable_baselines3.common.off_policy_algorithm import OffPolicyAlgorithm
 
 from gazelle.errors import MissingExtraError, TaskError, did_you_mean
-from gazelle.training.heeded import unheeded_error
 from gazelle.training.learners.arguments import replay_options
 from gazelle.training.overrides import algorithms_heeding
 from gazelle.training.recipes import LIBRARY_ALGORITHMS, LibrarySettings, Recipe
+from gazelle.training.supported_values import unsupported_error
 from gazelle.training.vecenv import VectorEnvAdapter
 
 _POLICIES = {"recurrent_ppo": "MlpLstmPolicy"}
@@ -56,7 +56,7 @@ def _check_options(algo: str, settings: LibrarySettings, kind: type[Any]) -> Non
             raise TaskError(f"{algo} is given its '{name}'", hint="leave it out")
         if name not in taken:
             if heeding := algorithms_heeding(name):
-                raise unheeded_error(algo, name, heeding)
+                raise unsupported_error(algo, name, heeding)
             hint = did_you_mean(name, taken)
             raise TaskError(f"{algo} does not take '{name}'", hint=hint)
 

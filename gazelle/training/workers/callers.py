@@ -30,7 +30,7 @@ def call_all(
 
     Args:
         jobs: What is sent. Taken one at a time, so that it may depend on what is done by then.
-        start: Makes the link to a new worker, whose ``call`` does a job.
+        start: Makes the link to a new worker; its ``call`` does a job.
         done: Called with each job and its answer, None where all workers that tried it were lost;
             from several threads, never two at a time.
         workers: How many there are at most.
@@ -60,7 +60,7 @@ def workers_at(
 
     Raises:
         TaskError: There is no cluster at this address.
-        MissingExtraError: Ray is asked for and not installed.
+        MissingExtraError: Ray is requested and not installed.
     """
     if ray is not None:
         there = connect(ray)

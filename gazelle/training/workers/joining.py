@@ -31,7 +31,7 @@ def join_workers(
 
     Raises:
         TaskError: There are more workers than parts, or the task cannot be divided so.
-        MissingExtraError: Ray is asked for and not installed.
+        MissingExtraError: Ray is requested and not installed.
     """
     recipe = config.recipe
     fewest = fitting_copies(config.task, 1, config.options)

@@ -21,7 +21,7 @@ from gazelle.training.workers.team import WorkerLink, WorkerLostError
 
 _LENGTH = struct.Struct("<Q")
 _GRACE = 0.5  # of a worker at work to end it, once its driver has gone [s]
-_PATIENCE = 1.0  # until a worker that was asked to end is killed [s]
+_PATIENCE = 1.0  # until a worker that does not end is killed [s]
 _LIBRARIES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -118,7 +118,7 @@ def serve(requests: IO[bytes], answers: IO[bytes]) -> None:
 
 
 def _listen(requests: IO[bytes], inbox: queue.SimpleQueue[Any]) -> None:
-    """Forward requests; end the worker soon after the driver releases it or exits."""
+    """Forward requests; end the worker when the driver releases it or exits."""
     with contextlib.suppress(EOFError, OSError):
         while True:
             inbox.put(read(requests))
@@ -151,7 +151,7 @@ def read(pipe: IO[bytes]) -> Any:
 
 
 def _answer(host: Any, method: str, arguments: tuple[Any, ...]) -> tuple[Exception | None, Any]:
-    """Return an error or what was asked for."""
+    """Return an error or the result."""
     try:
         return None, getattr(host, method)(*arguments)
     except Exception as error:  # noqa: BLE001  # the driver raises it

@@ -141,7 +141,7 @@ class Shard:
 
 
 class ShardHost:
-    """A worker's side: holds shards and does what it is asked.
+    """A worker's side: holds shards and runs requests.
 
     Args:
         blueprint: What the shards are made from.
@@ -154,7 +154,7 @@ class ShardHost:
 
     @functools.cached_property
     def _shards(self) -> dict[int, Shard]:
-        """Made when first asked for, so that errors are answers."""
+        """Made at the first request, so that errors are answers."""
         load_all(self._blueprint.imports)
         return {number: Shard(self._blueprint, number) for number in self._numbers}
 

@@ -17,7 +17,7 @@ class WorkerLostError(Exception):
 
 
 class WorkerLink(Protocol):
-    """A way to one worker, in which an object, such as a `ShardHost`, does what it is asked."""
+    """A way to one worker, with an object, such as a `ShardHost`, that runs requests."""
 
     def send(self, method: str, *arguments: Any) -> None:
         """Call a method of the object.
@@ -44,7 +44,7 @@ class Team:
     """Some workers and the shards that they hold.
 
     A worker that is lost is started again, gets its shards back as they were after the last
-    rollout, and is asked again: nothing but time is lost. Where it was asked for a single step,
+    rollout, and gets the request again: nothing but time is lost. Where the request was a single step,
     its episodes start again instead, and the answer is their first observations.
 
     Args:
@@ -81,7 +81,7 @@ class Team:
 
     def spaces(self) -> Spaces:
         """Return the spaces, period and contract of the task."""
-        spaces: Spaces = _asked(self._links[0], "spaces")
+        spaces: Spaces = _request(self._links[0], "spaces")
         return spaces
 
     def call(self, method: str, *arguments: Any) -> dict[int, Any]:
@@ -98,7 +98,9 @@ class Team:
             TaskError: A worker was lost again and again.
         """
         lost = [
-            worker for worker in range(len(self._links)) if not self._ask(worker, method, arguments)
+            worker
+            for worker in range(len(self._links))
+            if not self._send(worker, method, arguments)
         ]
         found: dict[int, Any] = {}
         for worker in range(len(self._links)):
@@ -124,7 +126,7 @@ class Team:
         while self._links:
             self._links.pop().close()
 
-    def _ask(self, worker: int, method: str, arguments: tuple[Any, ...]) -> bool:
+    def _send(self, worker: int, method: str, arguments: tuple[Any, ...]) -> bool:
         try:
             self._links[worker].send(method, *arguments)
         except WorkerLostError:
@@ -147,10 +149,10 @@ class Team:
             link = self._links[worker]
             try:
                 if method == "step":
-                    return _asked(link, "reset", self.replaced)
+                    return _request(link, "reset", self.replaced)
                 if method not in {"reset", "set_state"}:
                     self._restore(link, share)
-                return _asked(link, method, *arguments)
+                return _request(link, method, *arguments)
             except WorkerLostError:
                 continue
         raise TaskError(
@@ -161,17 +163,17 @@ class Team:
     def _restore(self, link: WorkerLink, share: Sequence[int]) -> None:
         states = {number: self._states.get(number) for number in share}
         if None not in states.values():
-            _asked(link, "set_state", states)
+            _request(link, "set_state", states)
             return
         warnings.warn(
             "a worker was lost, and this environment cannot save its state: its episodes start "
-            "anew, so the run goes on well but not bit for bit as without the loss",
+            "again, so the run goes on well but not bit for bit as without the loss",
             SimulationWarning,
             stacklevel=2,
         )
-        _asked(link, "reset", self.replaced)
+        _request(link, "reset", self.replaced)
 
 
-def _asked(link: WorkerLink, method: str, *arguments: Any) -> Any:
+def _request(link: WorkerLink, method: str, *arguments: Any) -> Any:
     link.send(method, *arguments)
     return link.receive()

@@ -127,7 +127,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         ]
         infos: list[dict[str, Any]] = [{} for _ in range(self.num_envs)]
         for step, shift in zip(steps, [0, *self._ends], strict=True):
-            self._tell(step, int(shift), infos)
+            self._fill_infos(step, int(shift), infos)
         self.obs = np.concatenate([step.obs for step in steps])
         self.starts = np.concatenate([step.terminated | step.truncated for step in steps])
         if self._on_observations is not None:
@@ -135,7 +135,7 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         rewards = np.concatenate([step.rewards for step in steps])
         return self.obs, rewards, self.starts, infos
 
-    def _tell(self, step: ShardStep, shift: int, infos: list[dict[str, Any]]) -> None:
+    def _fill_infos(self, step: ShardStep, shift: int, infos: list[dict[str, Any]]) -> None:
         """Fill infos of one shard's copies, as Stable-Baselines3 defines them."""
         if step.ended is not None and self.on_episodes is not None:
             self.on_episodes(step.ended.moved(shift))

@@ -139,7 +139,7 @@ def test_a_task_on_systems_begins_as_one_on_plugins(stage):
         assert list(got.transition.info) == list(wanted.transition.info)
         for name, values in wanted.transition.info.items():
             np.testing.assert_allclose(got.transition.info[name], values, atol=1e-9)
-        begun += 0 if wanted.finals is None else len(wanted.finals.worlds)
+        begun += 0 if wanted.final is None else len(wanted.final.worlds)
     assert begun >= 32
     for task in (plugins, systems):
         task.close()

@@ -90,14 +90,14 @@ def test_steps_with_the_next_episodes_are_those_of_plugins(stage, options):
             np.testing.assert_array_equal(one.truncated, other.truncated)
             same(one.info, other.info)
             goals += int(one.info["is_success"].sum())
-        assert (got.finals is None) == (wanted.finals is None)
-        if wanted.finals is None:
+        assert (got.final is None) == (wanted.final is None)
+        if wanted.final is None:
             continue
-        np.testing.assert_array_equal(got.finals.worlds, wanted.finals.worlds)
-        np.testing.assert_allclose(got.finals.observation, wanted.finals.observation, atol=1e-5)
-        same(got.finals.info, wanted.finals.info)
-        for name in ends.keys() & wanted.finals.info.keys():
-            ends[name] += int(wanted.finals.info[name].sum())
+        np.testing.assert_array_equal(got.final.worlds, wanted.final.worlds)
+        np.testing.assert_allclose(got.final.observation, wanted.final.observation, atol=1e-5)
+        same(got.final.info, wanted.final.info)
+        for name in ends.keys() & wanted.final.info.keys():
+            ends[name] += int(wanted.final.info[name].sum())
     assert ends["is_collision"] if stage == 4 else ends["is_timeout"]
     assert goals or ends["is_success"] or "goals" not in options
     for name in ("goal", "goal_draws", "goals_reached", "start_distance", "elapsed"):

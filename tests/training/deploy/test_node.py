@@ -297,7 +297,7 @@ def test_an_exception_ends_it_with_zero(robot, deploy, homing, tmp_path):
     robot.alive(lambda: deployed.process.poll() is not None, "the end")
     code, _, err = deployed.wait()
     assert code == 1
-    assert "does not tell what action 0 means" in err
+    assert "does not define action 0" in err
     assert robot.last == STAND
 
 

@@ -25,7 +25,7 @@ _NOISY = ("td3", "ddpg")
 _EXPLORING = ("dqn",)
 _REMEMBERING = ("dqn", "sac", "td3", "ddpg", "tqc", "qrdqn")
 
-SOME_HEED: dict[str, tuple[str, ...]] = {
+PARTIAL_SUPPORT: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("hindsight", "hindsight_redraw"), _REMEMBERING),
     **dict.fromkeys(
         (
@@ -48,12 +48,12 @@ SOME_HEED: dict[str, tuple[str, ...]] = {
 """Of a `Recipe` or of `OffPolicySettings`, values that not all its algorithms support."""
 
 
-def heeds(algo: str, name: str) -> bool:
+def supports(algo: str, name: str) -> bool:
     """Return whether an algorithm uses a value that such a recipe has."""
-    return algo in SOME_HEED.get(name, (algo,))
+    return algo in PARTIAL_SUPPORT.get(name, (algo,))
 
 
-def check_heeded(algo: str, holder: RecipeValues) -> None:
+def check_supported(algo: str, holder: RecipeValues) -> None:
     """Check for settings that an algorithm does not support and that are not the defaults.
 
     Args:
@@ -63,25 +63,25 @@ def check_heeded(algo: str, holder: RecipeValues) -> None:
     Raises:
         TaskError: There is one.
     """
-    for name in _unheeded(algo, holder):
-        raise unheeded_error(algo, name, SOME_HEED[name])
+    for name in _unsupported(algo, holder):
+        raise unsupported_error(algo, name, PARTIAL_SUPPORT[name])
 
 
-def heeded_only(algo: str, holder: Held) -> Held:
+def supported_only(algo: str, holder: Held) -> Held:
     """Return the settings with the default for each value that an algorithm does not support."""
-    return dataclasses.replace(holder, **_unheeded(algo, holder))
+    return dataclasses.replace(holder, **_unsupported(algo, holder))
 
 
-def unheeded_error(algo: str, name: str, others: Iterable[str]) -> TaskError:
+def unsupported_error(algo: str, name: str, others: Iterable[str]) -> TaskError:
     """Return the error for a value that only other algorithms use."""
-    hint = f"leave it out; {', '.join(others)} would take notice"
-    return TaskError(f"{algo} takes no notice of '{name}'", hint=hint)
+    hint = f"leave it out; {', '.join(others)} support it"
+    return TaskError(f"{algo} does not support '{name}'", hint=hint)
 
 
-def _unheeded(algo: str, holder: RecipeValues) -> dict[str, Any]:
+def _unsupported(algo: str, holder: RecipeValues) -> dict[str, Any]:
     """Return the defaults of changed values that the algorithm ignores, by name."""
     return {
         each.name: each.default
         for each in dataclasses.fields(holder)
-        if not heeds(algo, each.name) and getattr(holder, each.name) != each.default
+        if not supports(algo, each.name) and getattr(holder, each.name) != each.default
     }

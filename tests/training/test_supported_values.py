@@ -1,4 +1,4 @@
-"""Values that an algorithm takes no notice of: refused, and by the table that says who does."""
+"""Values that an algorithm does not support: refused, and by the table that says who does."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from gazelle.training import (
     train,
     with_values,
 )
-from gazelle.training.heeded import SOME_HEED, heeded_only, heeds
 from gazelle.training.learners import build_learner
 from gazelle.training.recipes import recipe_from_dict, recipe_to_dict
+from gazelle.training.supported_values import PARTIAL_SUPPORT, supported_only, supports
 from gazelle.training.vecenv import VectorEnvAdapter
 
 PUSH = "gazelle.envs.fetch.demonstrators:push"
@@ -56,7 +56,7 @@ def values_of(algo, demonstrator):
     if algo == "ppo":
         return {"n_steps": 8, "batch_size": 16, "n_epochs": 1}
     values = {"buffer_size": 400, "batch_size": 8, "learning_starts": 16}
-    if algo in SOME_HEED["demonstrator"]:
+    if algo in PARTIAL_SUPPORT["demonstrator"]:
         values |= {"demonstrator": demonstrator, "imitation": 1.0, "bound_values": True}
     return values
 
@@ -74,16 +74,16 @@ def test_what_is_said_to_be_heeded_is_what_an_algorithm_reads(algo, shows):
     read.clear()  # of what the check itself read
     build_learner(given, env, seed=0).learn(40, log_interval=None)
     env.close()
-    assert read == {name for name in names if heeds(algo, name)}
+    assert read == {name for name in names if supports(algo, name)}
 
 
 @pytest.mark.parametrize(
     ("algo", "values", "complaint"),
     [
-        ("sac", {"demonstrator": PUSH}, r"sac takes no notice of 'demonstrator'.*td3, ddpg"),
-        ("dqn", {"policy_delay": 2}, r"dqn takes no notice of 'policy_delay'.*sac, td3, ddpg"),
-        ("dqn", {"action_noise": 0.3}, r"dqn takes no notice of 'action_noise'.*td3, ddpg"),
-        ("td3", {"exploration_final": 0.1}, r"td3 takes no notice of 'exploration_final'.*dqn"),
+        ("sac", {"demonstrator": PUSH}, r"sac does not support 'demonstrator'.*td3, ddpg"),
+        ("dqn", {"policy_delay": 2}, r"dqn does not support 'policy_delay'.*sac, td3, ddpg"),
+        ("dqn", {"action_noise": 0.3}, r"dqn does not support 'action_noise'.*td3, ddpg"),
+        ("td3", {"exploration_final": 0.1}, r"td3 does not support 'exploration_final'.*dqn"),
         ("ddpg", {"imitation": 2.0}, "nobody to imitate; name a demonstrator"),
     ],
 )
@@ -93,9 +93,9 @@ def test_settings_that_change_nothing_are_refused(algo, values, complaint):
 
 
 def test_a_recipe_refuses_hindsight_where_nothing_is_remembered():
-    with pytest.raises(TaskError, match=r"ppo takes no notice of 'hindsight'.*dqn, sac, td3"):
+    with pytest.raises(TaskError, match=r"ppo does not support 'hindsight'.*dqn, sac, td3"):
         Recipe(hindsight=0.5)
-    with pytest.raises(TaskError, match="a2c takes no notice of 'hindsight_redraw'"):
+    with pytest.raises(TaskError, match="a2c does not support 'hindsight_redraw'"):
         Recipe(algo="a2c", hindsight_redraw=0.5, settings=LibrarySettings())
     assert Recipe(algo="qrdqn", hindsight=0.5, settings=LibrarySettings()).hindsight == 0.5
 
@@ -103,12 +103,12 @@ def test_a_recipe_refuses_hindsight_where_nothing_is_remembered():
 @pytest.mark.parametrize(
     ("algo", "name", "complaint"),
     [
-        ("sac", "imitation", r"sac takes no notice of 'imitation'.*td3, ddpg would"),
-        ("ppo", "policy_delay", r"ppo takes no notice of 'policy_delay'.*sac, td3, ddpg would"),
-        ("ppo", "tau", r"ppo takes no notice of 'tau'.*dqn, sac, td3, ddpg would"),
-        ("sac", "n_epochs", r"sac takes no notice of 'n_epochs'.*ppo would"),
-        ("dqn", "bfloat16", r"dqn takes no notice of 'bfloat16'.*ppo, sac, td3, ddpg would"),
-        ("ppo", "hindsight", r"ppo takes no notice of 'hindsight'.*dqn, sac"),
+        ("sac", "imitation", r"sac does not support 'imitation'.*td3, ddpg support"),
+        ("ppo", "policy_delay", r"ppo does not support 'policy_delay'.*sac, td3, ddpg support"),
+        ("ppo", "tau", r"ppo does not support 'tau'.*dqn, sac, td3, ddpg support"),
+        ("sac", "n_epochs", r"sac does not support 'n_epochs'.*ppo support"),
+        ("dqn", "bfloat16", r"dqn does not support 'bfloat16'.*ppo, sac, td3, ddpg support"),
+        ("ppo", "hindsight", r"ppo does not support 'hindsight'.*dqn, sac"),
         ("td3", "policy_dellay", r"has no 'policy_dellay'; did you mean 'policy_delay'"),
     ],
 )
@@ -120,7 +120,7 @@ def test_a_value_by_name_is_refused_even_if_it_is_the_default(algo, name, compla
 @pytest.mark.parametrize(
     ("options", "complaint"),
     [
-        ({"imitation": 5.0}, r"tqc takes no notice of 'imitation'.*td3, ddpg would"),
+        ({"imitation": 5.0}, r"tqc does not support 'imitation'.*td3, ddpg support"),
         ({"batchsize": 5}, r"tqc does not take 'batchsize'; did you mean 'batch_size'"),
         ({"replay_buffer_class": None}, "tqc is given its 'replay_buffer_class'; leave it out"),
     ],
@@ -143,20 +143,20 @@ def test_a_recipe_for_another_algorithm_says_that_its_demonstrator_is_left_out(a
 
 def test_what_is_heeded_is_kept():
     own = recipe_for("FetchPush").settings
-    left = heeded_only("sac", own)
+    left = supported_only("sac", own)
     assert left.batch_size == own.batch_size != OffPolicySettings().batch_size
     assert left.demonstrator is None
     assert left.policy_delay == own.policy_delay
-    assert heeded_only("ddpg", own) == own
+    assert supported_only("ddpg", own) == own
 
 
 def test_a_saved_recipe_with_such_a_value_is_refused():
     values = recipe_to_dict(Recipe(algo="sac", settings=OffPolicySettings(tau=0.02)))
     assert recipe_from_dict(values).settings == OffPolicySettings(tau=0.02)
     values["settings"]["action_noise"] = 0.3
-    with pytest.raises(TaskError, match="sac takes no notice of 'action_noise'"):
+    with pytest.raises(TaskError, match="sac does not support 'action_noise'"):
         recipe_from_dict(values)
-    with pytest.raises(TaskError, match="ppo takes no notice of 'hindsight'"):
+    with pytest.raises(TaskError, match="ppo does not support 'hindsight'"):
         recipe_from_dict(recipe_to_dict(Recipe()) | {"hindsight": 0.3})
 
 
@@ -165,5 +165,5 @@ def test_the_command_line_says_it(cli, tmp_path):
         "train", "FetchReach", "--algo", "sac", "--set", f"demonstrator={PUSH}", "--out", tmp_path
     )
     assert code != 0
-    assert "sac takes no notice of 'demonstrator'" in err
+    assert "sac does not support 'demonstrator'" in err
     assert not list(tmp_path.iterdir())
