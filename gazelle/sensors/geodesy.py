@@ -105,3 +105,8 @@ class TangentPlane:
         place = self._origin + apply_matrix(self._axes.T, self.east_north_up(positions))
         latitude, longitude, altitude = to_geodetic(place)
         return np.degrees(latitude), np.degrees(longitude), altitude
+
+    def positions(self, latitude: Floats, longitude: Floats, altitude: Floats) -> Floats:
+        """Return positions in the world [m], shape (..., 3), of places [deg, deg, m], shape (...)."""
+        place = to_geocentric(np.radians(latitude), np.radians(longitude), altitude)
+        return apply_matrix(self._turn.T, apply_matrix(self._axes, place - self._origin))

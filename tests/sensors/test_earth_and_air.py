@@ -88,6 +88,14 @@ def test_heading_turns_x_from_east_to_north():
     assert abs(longitude[0]) < 1e-12
 
 
+@pytest.mark.parametrize("latitude", [-37.4, 0.0, 80.0])
+def test_places_on_earth_have_positions_in_the_world(latitude):
+    origin = SphericalCoordinates(latitude=latitude, longitude=11.6, elevation=500.0, heading=30.0)
+    plane = TangentPlane(origin)
+    positions = np.array([[3e4, 0.0, 0.0], [-200.0, 5e4, 100.0], [0.0, 0.0, -50.0]])
+    np.testing.assert_allclose(plane.positions(*plane.geodetic(positions)), positions, atol=1e-6)
+
+
 # -- GPS ---------------------------------------------------------------------------------
 
 
