@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from gazelle_ros.base.argument_types import port_number
-from gazelle_ros.base.closing import Closeable
 
 if TYPE_CHECKING:
     from gazelle.simulation import Simulation
@@ -55,32 +54,32 @@ def watched(progress: Progress, args: argparse.Namespace) -> Progress:
     """
     if args.view is None:
         return progress
-    from gazelle.training.progress import Watched
+    from gazelle.training.progress import CopiesView, Watched
     from gazelle.viewer.page.server import required_viser
 
     required_viser()
 
-    def watch(env: object) -> Closeable:
-        from gazelle.viewer.live import LiveView
+    def watch(env: object) -> CopiesView:
+        from gazelle.viewer.training_page import TrainingPage
 
         owner = _simulated(env)
         if owner is None:
             progress.say("there is nothing to view: the task has no simulation")
             return _Nothing()
-        view = LiveView(
-            owner.simulation,
-            port=args.view,
-            only_looking=True,
-            goals=lambda: getattr(owner, "goal_places", None),
+        page = TrainingPage(
+            owner.simulation, lambda: getattr(owner, "goal_places", None), args.view
         )
-        progress.say(f"view {view.url}")
-        return view
+        progress.say(f"view {page.url}")
+        return page
 
     return Watched(progress, watch)
 
 
-class _Nothing(Closeable):
+class _Nothing:
     """No page."""
+
+    def note(self, done: int, total: int, summary: dict[str, float]) -> None:
+        """Do nothing: there is nothing to show it on."""
 
     def close(self) -> None:
         """Do nothing: there is nothing to close."""

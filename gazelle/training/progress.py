@@ -7,8 +7,6 @@ import time
 from collections.abc import Callable
 from typing import Any, Protocol, TextIO
 
-from gazelle_ros.base.closing import Closeable
-
 _SECONDS_BETWEEN_LINES = 10.0
 
 
@@ -47,19 +45,29 @@ class NoProgress:
         """Show nothing."""
 
 
+class CopiesView(Protocol):
+    """Shows copies that learn."""
+
+    def note(self, done: int, total: int, summary: dict[str, float]) -> None:
+        """Show how far the training is; see `Progress`."""
+
+    def close(self) -> None:
+        """Stop showing them."""
+
+
 class Watched:
     """A display, and something to look at the copies with that learn in this process.
 
     Args:
         progress: The display.
-        watch: Called with the environment when the first rollout begins; what it returns is
-            closed at the end.
+        watch: Called with the environment when the first rollout begins.
     """
 
-    def __init__(self, progress: Progress, watch: Callable[[Any], Closeable]) -> None:
+    def __init__(self, progress: Progress, watch: Callable[[Any], CopiesView]) -> None:
         self._progress, self._watch = progress, watch
         self._env: Any = None
-        self._view: Closeable | None = None
+        self._view: CopiesView | None = None
+        self._total = 0
 
     def attach(self, env: Any) -> None:
         """Set the environment."""
@@ -67,12 +75,15 @@ class Watched:
 
     def start(self, done: int, total: int) -> None:
         """Start the display; see ``Progress``."""
+        self._total = total
         self._progress.start(done, total)
 
     def update(self, done: int, summary: dict[str, float]) -> None:
         """Update the display; see ``Progress``; the environment has been reset by now."""
         if self._view is None and self._env is not None:
             self._view = self._watch(self._env)
+        if self._view is not None:
+            self._view.note(done, self._total, summary)
         self._progress.update(done, summary)
 
     def say(self, text: str) -> None:

@@ -28,6 +28,7 @@ from gazelle.viewer.page.plots import PlotLayer
 from gazelle.viewer.page.run_controls import RunControls
 from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.shapes import extent_of_world
+from gazelle.viewer.page.training_panel import TrainingCurve, TrainingPanel
 from gazelle.viewer.page.world_layer import ShapeLayer
 from gazelle.viewer.scene_camera import distance_to_see
 from gazelle_ros.base.closing import Closeable
@@ -53,6 +54,7 @@ class LiveView(Closeable):
         only_looking: Whether nothing can be changed on the page.
         goals: Function that returns the goals of a task that runs in these worlds [m], shape
             (worlds * n, 2 or 3), world by world, or None; called between two steps.
+        training: Curve of a training that these worlds belong to.
 
     Attributes:
         url: Where the page is.
@@ -72,6 +74,7 @@ class LiveView(Closeable):
         rate: float = 20.0,
         only_looking: bool = False,
         goals: GoalPlaces | None = None,
+        training: TrainingCurve | None = None,
     ) -> None:
         left = simulation.nworld - one_world(world, simulation.nworld)
         count = min(_BESIDE, left) if worlds is None else worlds
@@ -80,7 +83,7 @@ class LiveView(Closeable):
         if not rate > 0.0:
             raise Error(f"a view needs a rate above zero, not {rate:g}")
         self._simulation, self._period = simulation, 1.0 / rate
-        self._goals, self._stop = goals, threading.Event()
+        self._goals, self._training, self._stop = goals, training, threading.Event()
         self._server = PageServer(simulation.world.name or "Gazelle", port)
         self.url = self._server.url
         try:
@@ -116,6 +119,7 @@ class LiveView(Closeable):
         self._look_from(spots)
         with simulation.lock:
             controls = RunControls(context)
+            training = [] if self._training is None else [TrainingPanel(context, self._training)]
             tools = ModelTools(context)
             shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
             steering: list[PageLayer] = []
@@ -137,7 +141,7 @@ class LiveView(Closeable):
             self._plots = PlotLayer(context)
             self._offer()
             self._layers: tuple[PageLayer, ...] = (
-                controls, shapes, tools, *steering, *self._optional.values(), self._plots
+                controls, *training, shapes, tools, *steering, *self._optional.values(), self._plots
             )  # fmt: skip
             self._changed = False
             events = simulation.events
