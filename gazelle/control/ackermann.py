@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle.array_types import Floats, Worlds
+from gazelle.array_types import Worlds
 from gazelle.control.ackermann_law import AckermannLaw
 from gazelle.control.base_controller import BaseController
 from gazelle.control.interfaces import POSITION, VELOCITY
@@ -45,7 +42,7 @@ class AckermannSteeringController(BaseController):
         steering = parameters.number("steer_pos_multiplier", 1.0)
         self._wheel = self.claim(VELOCITY, [rear])
         self._front = self.claim(POSITION, [front])
-        self._turned: Floats = np.zeros(self.nworld)
+        self._turned = self.column("turned")
         sizes = np.array([radius, rolling, effective, steering])
         self.drive_by(
             AckermannLaw(
@@ -66,12 +63,3 @@ class AckermannSteeringController(BaseController):
         """Set the wheel to rest and the steering straight ahead."""
         self._wheel.set_command(0.0, None, rows)
         self._front.set_command(0.0, None, rows)
-
-    def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Return all mutable state, with the wheel's rotation."""
-        return {**super().state(), "turned": self._turned.copy()}
-
-    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Restore what ``state`` returned."""
-        super().restore(state)
-        self._turned[:] = state["turned"]

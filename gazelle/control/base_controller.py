@@ -52,6 +52,7 @@ class BaseController(Controller):
         self.odometry = BaseOdometry(self.nworld, int(window))
         self.schedule = PublishingSchedule(parameters.number("publish_rate", 50.0))
         self.memory = BaseMemory.empty(self.nworld)
+        self._columns: dict[str, NDArray[Any]] = {}
         self.law_arguments = (
             self.memory,
             self.odometry.law,
@@ -98,6 +99,11 @@ class BaseController(Controller):
         self._prompt.append(port)
 
     # -- for subclasses ----------------------------------------------------------------
+
+    def column(self, name: str, *shape: int, kind: type[Any] = float) -> NDArray[Any]:
+        """Return zeros, shape (nworld, ...), that belong to the state of the controller."""
+        self._columns[name] = np.zeros((self.nworld, *shape), kind)
+        return self._columns[name]
 
     def stand(self, rows: Worlds) -> None:
         """Command the wheels to stand still in some worlds."""
@@ -232,10 +238,11 @@ class BaseController(Controller):
             self._begin(rows)
 
     def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Return odometry and commands."""
+        """Return odometry, commands and columns."""
         kept = {name: getattr(self.memory, name).copy() for name in _KEPT}
         return {
             **kept,
+            **{name: array.copy() for name, array in self._columns.items()},
             **self.schedule.state(),
             **{f"odometry/{name}": value for name, value in self.odometry.state().items()},
         }
@@ -244,6 +251,8 @@ class BaseController(Controller):
         """Restore what ``state`` returned."""
         for name in _KEPT:
             getattr(self.memory, name)[:] = state[name]
+        for name, array in self._columns.items():
+            array[:] = state[name]
         self.schedule.restore(state)
         names = self.odometry.state()
         self.odometry.restore({name: state[f"odometry/{name}"] for name in names})

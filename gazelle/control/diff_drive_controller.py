@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.control.base_controller import BaseController
@@ -46,7 +45,7 @@ class DiffDriveController(BaseController):
             ]
         )
         self._wheels = self.claim(self.interfaces[0], (*left, *right))
-        self._turned: Floats = np.zeros((self.nworld, 2))
+        self._turned = self.column("turned", 2)
         self._effective = self._size * self._multipliers
         self._sides = DiffDriveControlLaw(
             self._wheels,
@@ -114,12 +113,3 @@ class DiffDriveController(BaseController):
             JointSample(onward - position, wanted - velocity),
             np.full(self.nworld, self.period),
         )
-
-    def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Return all mutable state, with the wheels' rotation."""
-        return {**super().state(), "turned": self._turned.copy()}
-
-    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Restore what ``state`` returned."""
-        super().restore(state)
-        self._turned[:] = state["turned"]

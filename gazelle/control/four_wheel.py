@@ -7,9 +7,8 @@ import warnings
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle.array_types import Bools, Floats, Worlds
+from gazelle.array_types import Floats, Worlds
 from gazelle.control.base_controller import BaseController
 from gazelle.control.four_wheel_law import FourWheelLaw
 from gazelle.control.interfaces import POSITION, VELOCITY
@@ -36,11 +35,11 @@ class FourWheelSteeringController(BaseController):
                     f"two joints are needed in '{parameters.place}/{kind}', left and right, not {len(pair)}"
                 )
         self.open_base(parameters)
-        self._by_twist: Bools = np.zeros(self.nworld, bool)
+        self._by_twist = self.column("by_twist", kind=bool)
         sizes = self._read_sizes(parameters, names)
         self._wheels = self.claim(VELOCITY, (*names["front_wheel"], *names["rear_wheel"]))
         self._steers = self.claim(POSITION, (*names["front_steering"], *names["rear_steering"]))
-        self._angles: Floats = np.zeros((self.nworld, 2))
+        self._angles = self.column("angles", 2)
         self._measured: Floats = np.zeros((self.nworld, 2))
         arrays = (self._angles, self._by_twist, self._measured)
         self.drive_by(
@@ -117,14 +116,3 @@ class FourWheelSteeringController(BaseController):
         speed = np.hypot(self.odometry.twist[:, 0], self.odometry.twist[:, 1])
         signed = np.copysign(speed, self.odometry.twist[:, 0])
         return FourWheelOdometry(self.now_ns, front.copy(), rear.copy(), signed)
-
-    def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Return all mutable state, with the commanded angles."""
-        own = {"angles": self._angles.copy(), "by_twist": self._by_twist.copy()}
-        return {**super().state(), **own}
-
-    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Restore what ``state`` returned."""
-        super().restore(state)
-        self._angles[:] = state["angles"]
-        self._by_twist[:] = state["by_twist"]

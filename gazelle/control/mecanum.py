@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
-from numpy.typing import NDArray
 
 from gazelle.array_types import Floats, Worlds
 from gazelle.control.base_controller import BaseController
@@ -43,7 +40,7 @@ class MecanumDriveController(BaseController):
                 f"distances and wheel_radius must be positive, not {2.0 * lever:g} and {radius:g}"
             )
         self._wheels = self.claim(self.interfaces[0], names)
-        self._turned: Floats = np.zeros((self.nworld, 4))
+        self._turned = self.column("turned", 4)
         self.drive_by(
             MecanumLaw(
                 self._wheels,
@@ -63,12 +60,3 @@ class MecanumDriveController(BaseController):
     def stand(self, rows: Worlds) -> None:
         """Stop the wheels."""
         self._wheels.set_command(0.0, None, rows)
-
-    def state(self) -> Mapping[str, NDArray[np.generic]]:
-        """Return all mutable state, with the wheels' rotation."""
-        return {**super().state(), "turned": self._turned.copy()}
-
-    def restore(self, state: Mapping[str, NDArray[np.generic]]) -> None:
-        """Restore what ``state`` returned."""
-        super().restore(state)
-        self._turned[:] = state["turned"]

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats, Indices
 from gazelle.errors import EngineError
-from gazelle.rotations import cross
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,11 +82,3 @@ class Contacts:
 
     def __len__(self) -> int:
         return len(self.collisions)
-
-    def torque_about(self, point: Floats) -> Floats:
-        """Return the torque of each contact on the collision about a point [N m], shape (k, 3).
-
-        Args:
-            point: In the world frame [m], shape (3,) or (k, 3).
-        """
-        return self.torque + cross(self.position - point, self.force)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from inspect import getattr_static
 from typing import Any, ClassVar
 
 from gymnasium.vector import AutoresetMode
@@ -70,3 +71,13 @@ class SettingsVectorEnv(TaskVectorEnv):
             render_mode=settings.render_mode,
             autoreset_mode=autoreset_mode,
         )
+
+
+def many_worlds(single: type[SettingsEnv]) -> type[SettingsVectorEnv]:
+    """Return the class of many worlds of a task, named after that of one world."""
+    shared = ("task_class", "settings_class", "evaluation_options")
+    members = {each: getattr_static(single, each) for each in shared if hasattr(single, each)}
+    members["__doc__"] = f"`{single.__name__}` in many worlds at once; that page is the data sheet."
+    members["__module__"] = single.__module__
+    name = single.__name__.removesuffix("Env") + "VectorEnv"
+    return type(name, (SettingsVectorEnv,), members)

@@ -78,11 +78,6 @@ class ConvexPieces:
     closed: bool
 
 
-def convex_pieces(mesh: MeshData, *, static: bool = False) -> list[MeshData]:
-    """Return the solids of ``decompose``."""
-    return list(decompose(mesh, static=static).solids)
-
-
 def decompose(mesh: MeshData, *, static: bool) -> ConvexPieces:
     """Return convex pieces that together approximate a mesh; one if it is nearly convex.
 

@@ -55,11 +55,6 @@ class BoundedPid:
         self._sum = np.zeros(count)
         self._last = np.full(count, math.nan)
 
-    @property
-    def accumulated(self) -> Floats:
-        """The integral terms, shape (count,)."""
-        return self._sum.copy()
-
     def update(self, error: ArrayLike, dt: float, rows: Rows | None = None) -> Floats:
         """Return the outputs for the errors now.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
@@ -346,10 +346,6 @@ class Group:
         start = dict(zip(names, plan.start.tolist(), strict=True))
         motion = JointMotion(plan.names, path.times, path.positions, start, tip)
         self.robot.simulation.events.planned.emit(self.robot, self.world, motion)
-
-    def with_options(self, **changes: object) -> None:
-        """Set options, such as ``velocity=0.5``; see ``PlanOptions``."""
-        self.options = replace(self.options, **changes)  # type: ignore[arg-type]
 
     def _planner(self) -> MotionPlanner:
         return MotionPlanner(self.scene, self.model, self.options)

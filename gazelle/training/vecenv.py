@@ -7,13 +7,12 @@ their episodes end.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from gymnasium.vector import VectorEnv
-from stable_baselines3.common.vec_env import VecEnv
 
 from gazelle.array_types import Bools, Floats32
 from gazelle.envs.contract import PolicyContract
@@ -23,9 +22,10 @@ from gazelle.training.episodes import Episodes
 from gazelle.training.goal_replay import GoalReplay
 from gazelle.training.goal_reward import GoalReward
 from gazelle.training.rollout import Rollout, play
+from gazelle.training.shared_vecenv import SharedVecEnv
 
 
-class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
+class VectorEnvAdapter(SharedVecEnv):
     """Stable-Baselines3's ``VecEnv`` over a Gymnasium ``VectorEnv``.
 
     The infos of ended episodes hold ``terminal_observation`` and
@@ -55,11 +55,11 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         self.copies = TaskCopies(
             env, reward_scale=reward_scale, goal_reward=goal_reward, on_episodes=on_episodes
         )
-        self._seed: int | None = None
-        self._actions: npt.NDArray[Any] = np.zeros(0)
         self._infos: list[dict[str, Any]] = [{} for _ in range(env.num_envs)]
         self._marked: npt.NDArray[np.intp] = np.zeros(0, dtype=np.intp)
-        super().__init__(env.num_envs, self.copies.observation_space, env.single_action_space)
+        super().__init__(
+            env.num_envs, self.copies.observation_space, env.single_action_space, shared=env
+        )
 
     @property
     def obs(self) -> Floats32:
@@ -115,15 +115,6 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
         self._seed = None
         return obs
 
-    def seed(self, seed: int | None = None) -> Sequence[int | None]:
-        """Store the seed for the next reset."""
-        self._seed = seed
-        return [seed] * self.num_envs
-
-    def step_async(self, actions: npt.NDArray[Any]) -> None:
-        """Store the actions of the next step."""
-        self._actions = actions
-
     def step_wait(
         self,
     ) -> tuple[
@@ -153,25 +144,3 @@ class VectorEnvAdapter(VecEnv):  # type: ignore[misc]  # untyped base
     def close(self) -> None:
         """Close the environment."""
         self.env.close()
-
-    def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        """Return an attribute of the environment, once for each requested copy."""
-        value = getattr(self.env, attr_name, None)
-        return [value for _ in self._get_indices(indices)]
-
-    def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
-        """Set an attribute of the environment; the copies share it."""
-        del indices
-        setattr(self.env, attr_name, value)
-
-    def env_method(
-        self, method_name: str, *method_args: Any, indices: Any = None, **method_kwargs: Any
-    ) -> list[Any]:
-        """Call a method of the environment once; the copies share the result."""
-        result = getattr(self.env, method_name)(*method_args, **method_kwargs)
-        return [result for _ in self._get_indices(indices)]
-
-    def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
-        """Return False for each copy: single copies are not wrapped."""
-        del wrapper_class
-        return [False for _ in self._get_indices(indices)]

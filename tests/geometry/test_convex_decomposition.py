@@ -12,12 +12,16 @@ from gazelle.description import Mesh
 from gazelle.formats import load_mesh
 from gazelle.geometry import convex_decomposition as convex
 from gazelle.geometry import piece_cache
-from gazelle.geometry.convex_decomposition import convex_pieces, decompose
+from gazelle.geometry.convex_decomposition import decompose
 from gazelle.geometry.hull import convex_hull, hulls_of
 from gazelle.geometry.mesh_data import MeshData
 from gazelle.geometry.polygons import planar_area, planar_hull
 from gazelle.geometry.ray_hits import first_hits
 from gazelle.geometry.surface import clean, components
+
+
+def convex_pieces(mesh, static=False):
+    return list(decompose(mesh, static=static).solids)
 
 
 @pytest.fixture(autouse=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gazelle.envs.camera_world.task import CameraWorldTask
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 
 
 class TurtleBot3CameraWorldEnv(SettingsEnv):
@@ -60,14 +60,4 @@ class TurtleBot3CameraWorldEnv(SettingsEnv):
     task_class = CameraWorldTask
 
 
-class TurtleBot3CameraWorldVectorEnv(SettingsVectorEnv):
-    """`TurtleBot3CameraWorldEnv` in many worlds at once.
-
-    Args:
-        num_envs: How many.
-        autoreset_mode: See `TaskVectorEnv`.
-        options: Those that every task takes.
-    """
-
-    task: CameraWorldTask
-    task_class = CameraWorldTask
+TurtleBot3CameraWorldVectorEnv = many_worlds(TurtleBot3CameraWorldEnv)

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from gazelle.envs.cartpole.task import CartPoleTask
 from gazelle.envs.options import DynamicsSettings, TaskSettings
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 
 
 class CartPoleStayUpEnv(SettingsEnv):
@@ -63,15 +63,4 @@ class CartPoleStayUpEnv(SettingsEnv):
     settings_class: ClassVar[type[TaskSettings]] = DynamicsSettings
 
 
-class CartPoleStayUpVectorEnv(SettingsVectorEnv):
-    """`CartPoleStayUpEnv` in many worlds at once.
-
-    Args:
-        num_envs: How many.
-        autoreset_mode: See `TaskVectorEnv`.
-        options: Those that every task takes.
-    """
-
-    task: CartPoleTask
-    task_class = CartPoleTask
-    settings_class: ClassVar[type[TaskSettings]] = DynamicsSettings
+CartPoleStayUpVectorEnv = many_worlds(CartPoleStayUpEnv)

@@ -14,19 +14,12 @@ from gazelle.envs.discrete_drive.rules import (
 )
 from gazelle.envs.discrete_drive.task import DriveSettings, drive_task
 from gazelle.envs.options import TaskSettings
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 from gazelle.envs.starts import held_out_starts
 
 
 class DriveEnv(SettingsEnv):
     """A base with a laser drives by one of a few velocities; the subclasses are tasks."""
-
-    settings_class: ClassVar[type[TaskSettings]] = DriveSettings
-    evaluation_options = staticmethod(held_out_starts)
-
-
-class DriveVectorEnv(SettingsVectorEnv):
-    """`DriveEnv` in many worlds at once."""
 
     settings_class: ClassVar[type[TaskSettings]] = DriveSettings
     evaluation_options = staticmethod(held_out_starts)
@@ -85,10 +78,7 @@ class TurtleBot2MazeEnv(DriveEnv):
     task_class = partial(drive_task, MAZE)
 
 
-class TurtleBot2MazeVectorEnv(DriveVectorEnv):
-    """`TurtleBot2MazeEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(drive_task, MAZE)
+TurtleBot2MazeVectorEnv = many_worlds(TurtleBot2MazeEnv)
 
 
 class TurtleBot2WallEnv(DriveEnv):
@@ -146,10 +136,7 @@ class TurtleBot2WallEnv(DriveEnv):
     task_class = partial(drive_task, WALL)
 
 
-class TurtleBot2WallVectorEnv(DriveVectorEnv):
-    """`TurtleBot2WallEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(drive_task, WALL)
+TurtleBot2WallVectorEnv = many_worlds(TurtleBot2WallEnv)
 
 
 class TurtleBot3WorldEnv(DriveEnv):
@@ -195,10 +182,7 @@ class TurtleBot3WorldEnv(DriveEnv):
     task_class = partial(drive_task, TURTLEBOT3_WORLD)
 
 
-class TurtleBot3WorldVectorEnv(DriveVectorEnv):
-    """`TurtleBot3WorldEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(drive_task, TURTLEBOT3_WORLD)
+TurtleBot3WorldVectorEnv = many_worlds(TurtleBot3WorldEnv)
 
 
 class HusarionEnv(DriveEnv):
@@ -258,10 +242,7 @@ class HusarionEnv(DriveEnv):
     task_class = partial(drive_task, HUSARION)
 
 
-class HusarionVectorEnv(DriveVectorEnv):
-    """`HusarionEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(drive_task, HUSARION)
+HusarionVectorEnv = many_worlds(HusarionEnv)
 
 
 class SummitXLRoomEnv(DriveEnv):
@@ -315,7 +296,4 @@ class SummitXLRoomEnv(DriveEnv):
     task_class = partial(drive_task, SUMMIT_XL)
 
 
-class SummitXLRoomVectorEnv(DriveVectorEnv):
-    """`SummitXLRoomEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(drive_task, SUMMIT_XL)
+SummitXLRoomVectorEnv = many_worlds(SummitXLRoomEnv)

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from gazelle.envs.hopper.task import HopperTask
 from gazelle.envs.options import DynamicsSettings, TaskSettings
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 
 
 class HopperStayUpEnv(SettingsEnv):
@@ -72,8 +72,4 @@ class HopperStayUpEnv(SettingsEnv):
     settings_class: ClassVar[type[TaskSettings]] = DynamicsSettings
 
 
-class HopperStayUpVectorEnv(SettingsVectorEnv):
-    """`HopperStayUpEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = HopperTask
-    settings_class: ClassVar[type[TaskSettings]] = DynamicsSettings
+HopperStayUpVectorEnv = many_worlds(HopperStayUpEnv)

@@ -6,7 +6,7 @@ from functools import partial
 
 from gazelle.envs.kobuki_maze.rules import DYNAMIC_1, DYNAMIC_2, DYNAMIC_3, EMPTY, MAZE
 from gazelle.envs.kobuki_maze.task import KobukiTask
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 
 
 class KobukiMazeEnv(SettingsEnv):
@@ -73,10 +73,7 @@ class KobukiMazeEnv(SettingsEnv):
     task_class = partial(KobukiTask, MAZE)
 
 
-class KobukiMazeVectorEnv(SettingsVectorEnv):
-    """`KobukiMazeEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(KobukiTask, MAZE)
+KobukiMazeVectorEnv = many_worlds(KobukiMazeEnv)
 
 
 class KobukiEmptyEnv(SettingsEnv):
@@ -96,10 +93,7 @@ class KobukiEmptyEnv(SettingsEnv):
     task_class = partial(KobukiTask, EMPTY)
 
 
-class KobukiEmptyVectorEnv(SettingsVectorEnv):
-    """`KobukiEmptyEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(KobukiTask, EMPTY)
+KobukiEmptyVectorEnv = many_worlds(KobukiEmptyEnv)
 
 
 class KobukiDynamic1Env(SettingsEnv):
@@ -120,10 +114,7 @@ class KobukiDynamic1Env(SettingsEnv):
     task_class = partial(KobukiTask, DYNAMIC_1)
 
 
-class KobukiDynamic1VectorEnv(SettingsVectorEnv):
-    """`KobukiDynamic1Env` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(KobukiTask, DYNAMIC_1)
+KobukiDynamic1VectorEnv = many_worlds(KobukiDynamic1Env)
 
 
 class KobukiDynamic2Env(SettingsEnv):
@@ -135,10 +126,7 @@ class KobukiDynamic2Env(SettingsEnv):
     task_class = partial(KobukiTask, DYNAMIC_2)
 
 
-class KobukiDynamic2VectorEnv(SettingsVectorEnv):
-    """`KobukiDynamic2Env` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(KobukiTask, DYNAMIC_2)
+KobukiDynamic2VectorEnv = many_worlds(KobukiDynamic2Env)
 
 
 class KobukiDynamic3Env(SettingsEnv):
@@ -151,7 +139,4 @@ class KobukiDynamic3Env(SettingsEnv):
     task_class = partial(KobukiTask, DYNAMIC_3)
 
 
-class KobukiDynamic3VectorEnv(SettingsVectorEnv):
-    """`KobukiDynamic3Env` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(KobukiTask, DYNAMIC_3)
+KobukiDynamic3VectorEnv = many_worlds(KobukiDynamic3Env)

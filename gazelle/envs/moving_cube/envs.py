@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from gazelle.envs.moving_cube.task import MovingCubeSettings, MovingCubeTask
 from gazelle.envs.options import TaskSettings
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 
 
 class MovingCubeEnv(SettingsEnv):
@@ -76,8 +76,4 @@ class MovingCubeEnv(SettingsEnv):
     settings_class: ClassVar[type[TaskSettings]] = MovingCubeSettings
 
 
-class MovingCubeVectorEnv(SettingsVectorEnv):
-    """`MovingCubeEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = MovingCubeTask
-    settings_class: ClassVar[type[TaskSettings]] = MovingCubeSettings
+MovingCubeVectorEnv = many_worlds(MovingCubeEnv)

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.parrot_drone.task import ParrotDroneSettings, ParrotDroneTask
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 from gazelle.envs.starts import held_out_starts
 
 
@@ -79,9 +79,4 @@ class ParrotDroneGotoEnv(SettingsEnv):
     evaluation_options = staticmethod(held_out_starts)
 
 
-class ParrotDroneGotoVectorEnv(SettingsVectorEnv):
-    """`ParrotDroneGotoEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = ParrotDroneTask
-    settings_class: ClassVar[type[TaskSettings]] = ParrotDroneSettings
-    evaluation_options = staticmethod(held_out_starts)
+ParrotDroneGotoVectorEnv = many_worlds(ParrotDroneGotoEnv)

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 from gazelle.envs.options import TaskSettings
 from gazelle.envs.reacher.rules import IRB120, IRB140, IRB140_SPEED, UR5
 from gazelle.envs.reacher.task import ReachSettings, ReachTask
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 
 
 def _held_out(trained: Mapping[str, Any]) -> dict[str, Any]:
@@ -20,13 +20,6 @@ def _held_out(trained: Mapping[str, Any]) -> dict[str, Any]:
 
 class ReachEnv(SettingsEnv):
     """An arm reaches for a place; the subclasses are tasks."""
-
-    settings_class: ClassVar[type[TaskSettings]] = ReachSettings
-    evaluation_options = staticmethod(_held_out)
-
-
-class ReachVectorEnv(SettingsVectorEnv):
-    """`ReachEnv` in many worlds at once."""
 
     settings_class: ClassVar[type[TaskSettings]] = ReachSettings
     evaluation_options = staticmethod(_held_out)
@@ -90,10 +83,7 @@ class UR5ReachEnv(ReachEnv):
     task_class = partial(ReachTask, UR5)
 
 
-class UR5ReachVectorEnv(ReachVectorEnv):
-    """`UR5ReachEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(ReachTask, UR5)
+UR5ReachVectorEnv = many_worlds(UR5ReachEnv)
 
 
 class ABBIRB120ReachEnv(ReachEnv):
@@ -106,10 +96,7 @@ class ABBIRB120ReachEnv(ReachEnv):
     task_class = partial(ReachTask, IRB120)
 
 
-class ABBIRB120ReachVectorEnv(ReachVectorEnv):
-    """`ABBIRB120ReachEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(ReachTask, IRB120)
+ABBIRB120ReachVectorEnv = many_worlds(ABBIRB120ReachEnv)
 
 
 class ABBIRB140ReachEnv(ReachEnv):
@@ -125,10 +112,7 @@ class ABBIRB140ReachEnv(ReachEnv):
     task_class = partial(ReachTask, IRB140)
 
 
-class ABBIRB140ReachVectorEnv(ReachVectorEnv):
-    """`ABBIRB140ReachEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(ReachTask, IRB140)
+ABBIRB140ReachVectorEnv = many_worlds(ABBIRB140ReachEnv)
 
 
 class ABBIRB140VelocityReachEnv(ReachEnv):
@@ -147,7 +131,4 @@ class ABBIRB140VelocityReachEnv(ReachEnv):
     task_class = partial(ReachTask, IRB140_SPEED)
 
 
-class ABBIRB140VelocityReachVectorEnv(ReachVectorEnv):
-    """`ABBIRB140VelocityReachEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = partial(ReachTask, IRB140_SPEED)
+ABBIRB140VelocityReachVectorEnv = many_worlds(ABBIRB140VelocityReachEnv)

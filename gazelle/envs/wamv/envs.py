@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from gazelle.envs.options import TaskSettings
-from gazelle.envs.settings_env import SettingsEnv, SettingsVectorEnv
+from gazelle.envs.settings_env import SettingsEnv, many_worlds
 from gazelle.envs.starts import held_out_starts
 from gazelle.envs.wamv.task import WamvSettings, WamvTask
 
@@ -73,9 +73,4 @@ class WamvBuoysEnv(SettingsEnv):
     evaluation_options = staticmethod(held_out_starts)
 
 
-class WamvBuoysVectorEnv(SettingsVectorEnv):
-    """`WamvBuoysEnv` in many worlds at once; that page is the data sheet."""
-
-    task_class = WamvTask
-    settings_class: ClassVar[type[TaskSettings]] = WamvSettings
-    evaluation_options = staticmethod(held_out_starts)
+WamvBuoysVectorEnv = many_worlds(WamvBuoysEnv)

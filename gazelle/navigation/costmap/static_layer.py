@@ -69,15 +69,6 @@ class StaticLayer(Layer):
             costmap.resize(grid.height, grid.width, grid.resolution, origin)
         self._changed = self._extent()
 
-    def update_map(self, x: int, y: int, grid: OccupancyMap, costmap: Costmap) -> None:
-        """Set new cells of the map, from a column and row on (``map_updates``)."""
-        if self._map is None:
-            return
-        costs = self._interpreted(grid, track_unknown=costmap.track_unknown)
-        rows, columns = self._costs[y : y + grid.height, x : x + grid.width].shape
-        self._costs[y : y + rows, x : x + columns] = costs[:rows, :columns]
-        self._changed = self._extent()
-
     def _interpreted(self, grid: OccupancyMap, *, track_unknown: bool) -> Bytes:
         """Return the cost of each value, as costmap_2d says."""
         values = np.arange(256).astype(np.uint8).view(np.int8).astype(int)

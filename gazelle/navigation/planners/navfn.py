@@ -107,11 +107,6 @@ class NavfnPlanner(PotentialPlanner):
     """``navfn/NavfnROS``: parameters ``allow_unknown``, ``default_tolerance``."""
 
 
-def path_length(plan: Floats) -> float:
-    """Return the length of a plan, shape (n, 2) or (n, 3) [m]."""
-    return float(np.hypot(*np.diff(plan[:, :2], axis=0).T).sum()) if len(plan) > 1 else 0.0
-
-
 def heading_along(plan: Floats) -> Floats:
     """Return the heading from each pose to the next [rad], shape (n,).
 

@@ -7,8 +7,6 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
-from stable_baselines3.common.vec_env import VecEnv
 
 from gazelle.array_types import Bools, Floats32
 from gazelle.training.actor import Actor
@@ -17,11 +15,12 @@ from gazelle.training.episodes import Episodes
 from gazelle.training.goal_replay import GoalReplay
 from gazelle.training.picture_layers import observation_dtype
 from gazelle.training.rollout import Rollout, join
+from gazelle.training.shared_vecenv import SharedVecEnv
 from gazelle.training.workers.shards import ShardStep
 from gazelle.training.workers.team import Team
 
 
-class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
+class WorkerVecEnv(SharedVecEnv):
     """All copies of a task that a team of workers holds.
 
     Learners that can, such as `FastPPO`, have whole rollouts played by the workers (`collect`);
@@ -53,8 +52,6 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         self.on_episodes = on_episodes
         self._on_observations: Callable[[Floats32], None] | None = None
         self._ends = np.cumsum(sizes)[:-1]
-        self._seed: int | None = None
-        self._actions: npt.NDArray[Any] = np.zeros(0)
         spaces = team.spaces()
         self.control_period = spaces.control_period
         self.contract = spaces.contract
@@ -77,11 +74,6 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
     def watch(self, on_observations: Callable[[Floats32], None]) -> None:
         """Call a function with the observations after each step, shape (N, ...)."""
         self._on_observations = on_observations
-
-    def seed(self, seed: int | None = None) -> Sequence[int | None]:
-        """Store the seed for the next reset."""
-        self._seed = seed
-        return [seed] * self.num_envs
 
     def reset(self) -> Floats32:
         """Start all episodes again, with the seed given to `seed` if there is one."""
@@ -111,10 +103,6 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
             if on_step is not None and not on_step():
                 return None
         return met
-
-    def step_async(self, actions: npt.NDArray[Any]) -> None:
-        """Store the actions of the next step."""
-        self._actions = actions
 
     def step_wait(self) -> tuple[Floats32, Floats32, Bools, list[dict[str, Any]]]:
         """Step; returns observations, rewards, dones, infos."""
@@ -168,30 +156,6 @@ class WorkerVecEnv(VecEnv):  # type: ignore[misc]  # untyped base
         own = self.__dict__.get("_own_copy")
         if own is not None:
             own.close()
-
-    def get_attr(self, attr_name: str, indices: Any = None) -> list[Any]:
-        """Return an attribute of this environment, once for each copy.
-
-        Those of the workers stay there.
-        """
-        return [getattr(self, attr_name, None) for _ in self._get_indices(indices)]
-
-    def set_attr(self, attr_name: str, value: Any, indices: Any = None) -> None:
-        """Set an attribute of this environment."""
-        del indices
-        setattr(self, attr_name, value)
-
-    def env_method(
-        self, method_name: str, *method_args: Any, indices: Any = None, **method_kwargs: Any
-    ) -> list[Any]:
-        """Call a method of this environment once; the copies share the result."""
-        result = getattr(self, method_name)(*method_args, **method_kwargs)
-        return [result for _ in self._get_indices(indices)]
-
-    def env_is_wrapped(self, wrapper_class: type[Any], indices: Any = None) -> list[bool]:
-        """Return False for each copy: single copies are not wrapped."""
-        del wrapper_class
-        return [False for _ in self._get_indices(indices)]
 
 
 def _cut_off(last: Floats32, first: Floats32) -> ShardStep:

@@ -312,13 +312,6 @@ def test_a_map_that_is_not_trinary_costs_in_proportion():
     assert costmap.cells.tolist() == [[0, 127, LETHAL, 63]]
 
 
-def test_a_part_of_a_map_may_change():
-    costmap = static_map([[0, 100, -1], [50, 99, 100]])
-    costmap.layers[0].update_map(1, 0, OccupancyMap(np.array([[0], [100]], np.int8), 0.5), costmap)
-    costmap.update((0.0, 0.0, 0.0))
-    assert costmap.cells.tolist() == [[FREE, FREE, UNKNOWN], [FREE, LETHAL, LETHAL]]
-
-
 def test_a_rolling_map_sees_the_static_one_through_its_frame():
     layer = StaticLayer()
     costmap = Costmap([layer], SQUARE * 0.01, width=3, height=3, resolution=0.5, rolling=True)
