@@ -51,6 +51,12 @@ _OWN = {
         BuiltinPackage("depthimage_to_laserscan", {
             "depthimage_to_laserscan": "gazelle_ros.builtin.scans.depth_image:main",
         }, {"DepthImageToLaserScanNodelet": "gazelle_ros.builtin.scans.depth_image:DepthImageToLaserScan"}),
+        BuiltinPackage("imu_complementary_filter", {
+            "complementary_filter_node": "gazelle_ros.builtin.imu.node:complementary_main",
+        }),
+        BuiltinPackage("imu_filter_madgwick", {
+            "imu_filter_node": "gazelle_ros.builtin.imu.node:madgwick_main",
+        }, {"ImuFilterNodelet": "gazelle_ros.builtin.imu.node:MadgwickNode"}),
         BuiltinPackage("joint_state_publisher", {
             "joint_state_publisher": "gazelle_ros.builtin.robot:joint_main",
         }),

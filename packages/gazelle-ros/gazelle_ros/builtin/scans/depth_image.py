@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import logging
 import math
-import threading
 import time
-from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -19,6 +17,7 @@ from gazelle_ros.builtin.on_demand import OnDemandPublisher
 from gazelle_ros.builtin.parameters import settings_of
 from gazelle_ros.builtin.tuned_settings import TunedSettings, tunable
 from gazelle_ros.compat.cv_bridge import CvBridge, CvBridgeError
+from gazelle_ros.compat.message_filters import SimpleFilter, TimeSynchronizer
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.subscribing import Subscriber
@@ -68,9 +67,8 @@ class DepthImageToLaserScan(CallbackWork):
         self.settings = settings_of(
             node, DepthScanSettings, others=("image_transport", "compressed_image_transport")
         )
-        self._lock = threading.Lock()
-        self._images: deque[Any] = deque(maxlen=_KEPT)
-        self._cameras: deque[Any] = deque(maxlen=_KEPT)
+        self._images, self._cameras = SimpleFilter(), SimpleFilter()
+        TimeSynchronizer([self._images, self._cameras], _KEPT).registerCallback(self._convert)
         self._warned = -math.inf
         self._tuned = TunedSettings(node, self.settings, self._change)
         self._output = OnDemandPublisher(node, "scan", sensor_msgs.msg.LaserScan, self._begin)
@@ -80,24 +78,12 @@ class DepthImageToLaserScan(CallbackWork):
         camera = names.namespace_of(image) + "camera_info"
         kinds = sensor_msgs.msg
         return [
-            self.node.subscribe(image, kinds.Image, self._take_image, _KEPT),
-            self.node.subscribe(camera, kinds.CameraInfo, self._take_camera, _KEPT),
+            self.node.subscribe(image, kinds.Image, self._images.signalMessage, _KEPT),
+            self.node.subscribe(camera, kinds.CameraInfo, self._cameras.signalMessage, _KEPT),
         ]
 
     def _change(self, settings: DepthScanSettings) -> None:
         self.settings = settings
-
-    def _take_image(self, image: sensor_msgs.msg.Image) -> None:
-        with self._lock:
-            camera = _partner(image, self._images, self._cameras)
-        if camera is not None:
-            self._convert(image, camera)
-
-    def _take_camera(self, camera: sensor_msgs.msg.CameraInfo) -> None:
-        with self._lock:
-            image = _partner(camera, self._cameras, self._images)
-        if image is not None:
-            self._convert(image, camera)
 
     def _convert(self, image: sensor_msgs.msg.Image, camera: sensor_msgs.msg.CameraInfo) -> None:
         try:
@@ -109,17 +95,6 @@ class DepthImageToLaserScan(CallbackWork):
                 _LOG.warning("a depth image cannot be converted: %s", error)
             return
         self._output.publish(scan)
-
-
-def _partner(message: Any, own: deque[Any], others: deque[Any]) -> Any:
-    """Return the message of the same time among others; None, and keep this one, if there is none."""
-    stamp = message.header.stamp
-    found = next((each for each in others if each.header.stamp == stamp), None)
-    if found is None:
-        own.append(message)
-    else:
-        others.remove(found)
-    return found
 
 
 def scan_of_image(

@@ -1,0 +1,1 @@
+"""Orientation from an inertial measurement unit and a magnetometer."""
