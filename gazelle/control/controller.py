@@ -308,3 +308,10 @@ def law_of(controller: Controller) -> ControlLaw | None:
     """Return the native law of a controller; None where Python has to update it."""
     owner = next(kind for kind in type(controller).__mro__ if {"law", "update"} & set(vars(kind)))
     return controller.law() if "law" in vars(owner) else None
+
+
+def state_below(
+    begin: str, state: Mapping[str, NDArray[np.generic]]
+) -> dict[str, NDArray[np.generic]]:
+    """Return the part of a state whose names begin so, without that beginning."""
+    return {k.removeprefix(begin): v for k, v in state.items() if k.startswith(begin)}

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.control.angles import shortest
 from gazelle.control.control_law import ControlLaw
-from gazelle.control.controller import Controller
+from gazelle.control.controller import Controller, state_below
 from gazelle.control.goals import ActionPort, Goal, GoalState
 from gazelle.control.parameters import ControllerParameters
 from gazelle.control.pid import PID_TUNABLES, Pid, PidGains, pid_changer, pid_values
@@ -364,15 +364,11 @@ class JointTrajectoryController(Controller):
         """Restore what ``state`` returned; goals end."""
         self._preempt(np.arange(self.nworld), "a snapshot was restored")
         self._memory.uptime[:], self._memory.period[:] = state["uptime"]
-        self._table.restore(_part("table/", state))
+        self._table.restore(state_below("table/", state))
         if self._pid is not None:
-            self._pid.restore(_part("pid/", state))
+            self._pid.restore(state_below("pid/", state))
         self._state_due.restore(state)
         self._followed = False
-
-
-def _part(begin: str, state: Mapping[str, NDArray[np.generic]]) -> dict[str, NDArray[np.generic]]:
-    return {k.removeprefix(begin): v for k, v in state.items() if k.startswith(begin)}
 
 
 def _is_endless(joint: Joint) -> bool:

@@ -107,6 +107,11 @@ class Model:
         """Name of the format of ``content``; empty without."""
         return "" if self.content is None else self.content.kind
 
+    @property
+    def has_collisions(self) -> bool:
+        """True if a link of this model or of a nested one has a collision."""
+        return any(link.collisions for placed in self.walk() for link in placed.model.links)
+
     def walk(self, prefix: str = "", pose: Pose | None = None) -> Iterator[PlacedModel]:
         """Yield this model and all nested ones, depth first, each with its scope and pose.
 

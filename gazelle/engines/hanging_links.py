@@ -69,7 +69,7 @@ class HangingLinks:
             position = np.concatenate((body.position, body.quaternion), axis=1)
         else:
             frame = self._frame(holder, goal, worlds)
-            position = _positions(joint, _seen_from(frame, _times(body, joint.pose)))
+            position = _positions(joint, _times(body, joint.pose).relative_to(frame))
         self._joints[holder.body.joint_name].set_position(position, worlds)
         return holder.body.joint_name
 
@@ -132,13 +132,6 @@ def _times(place: Placement, pose: Pose) -> Placement:
     at, turn = np.array(pose.position), np.array(pose.quaternion)
     return Placement(
         place.position + rotate(place.quaternion, at[None]), multiply(place.quaternion, turn[None])
-    )
-
-
-def _seen_from(frame: Placement, place: Placement) -> Placement:
-    back = conjugate(frame.quaternion)
-    return Placement(
-        rotate(back, place.position - frame.position), multiply(back, place.quaternion)
     )
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gazelle.array_types import Floats
+from gazelle.rotations import conjugate, multiply, rotate
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +22,13 @@ class Placement:
 
     position: Floats
     quaternion: Floats
+
+    def relative_to(self, frame: Placement) -> Placement:
+        """Return the placement in a frame that is itself placed in the same frame."""
+        back = conjugate(frame.quaternion)
+        return Placement(
+            rotate(back, self.position - frame.position), multiply(back, self.quaternion)
+        )
 
 
 @dataclass(frozen=True, slots=True)

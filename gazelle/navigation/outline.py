@@ -31,7 +31,7 @@ def outline_of(model: Model) -> Floats | None:
     """Return the footprint of a robot, in its frame, shape (n, 2) [m]; None without a shape."""
     corners = [
         pose.apply(point)[:2]
-        for link, place in _links(model, Pose())
+        for link, place in links_of(model, Pose())
         for collision in link.collisions
         for pose in (place * collision.pose,)
         for point in _corners(collision)
@@ -43,11 +43,12 @@ def outline_of(model: Model) -> Floats | None:
     return found if len(found) >= 3 else None
 
 
-def _links(model: Model, pose: Pose) -> Iterator[tuple[Link, Pose]]:
+def links_of(model: Model, pose: Pose) -> Iterator[tuple[Link, Pose]]:
+    """Yield the links of a model and of nested ones, each with its pose, for a pose of the model."""
     for link in model.links:
         yield link, pose * link.pose
     for inner in model.models:
-        yield from _links(inner, pose * inner.pose)
+        yield from links_of(inner, pose * inner.pose)
 
 
 def _corners(collision: Collision) -> list[tuple[float, float, float]]:

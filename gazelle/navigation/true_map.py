@@ -8,11 +8,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from gazelle.array_types import Bools, Floats
-from gazelle.description import Link, Model, Pose, World
+from gazelle.description import Model, Pose, World
 from gazelle.description.occupancy import FREE, OCCUPIED, OccupancyMap
 from gazelle.engines.sections import Levels, parts_of
 from gazelle.errors import SimulationError
 from gazelle.geometry.planar_part import PlanarPart
+from gazelle.navigation.outline import links_of
 
 _MOST_CELLS = 16_384
 """Along a side of a map; more would be gigabytes."""
@@ -63,7 +64,7 @@ def _parts(world: World, height: float) -> Iterator[list[PlanarPart]]:
     levels = Levels((height,), height, height)
     for model in world.models:
         if not _moves(model):
-            for link, pose in _links(model, model.pose):
+            for link, pose in links_of(model, model.pose):
                 for collision in link.collisions:
                     parts = parts_of(collision, pose * collision.pose, levels, moving=False)
                     cut = [part for part in parts if part.low <= height <= part.high]
@@ -75,13 +76,6 @@ def _parts(world: World, height: float) -> Iterator[list[PlanarPart]]:
 def _moves(model: Model) -> bool:
     """Return whether a model is a robot, not an object."""
     return not model.static and bool(model.plugins or any(link.sensors for link in model.links))
-
-
-def _links(model: Model, pose: Pose) -> Iterator[tuple[Link, Pose]]:
-    for link in model.links:
-        yield link, pose * link.pose
-    for inner in model.models:
-        yield from _links(inner, pose * inner.pose)
 
 
 def _edges(parts: list[PlanarPart]) -> Floats:

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from gazelle.array_types import Worlds
 from gazelle.description import Parameters
 from gazelle.engines import Placement
-from gazelle.plugins.frames import relative
 from gazelle.plugins.odometry import OdometryOutputs
 from gazelle.rotations import conjugate, rotate
 from gazelle.simulation import (
@@ -90,7 +89,7 @@ class ForceBasedMove(ModelPlugin):
 
     def _measure(self) -> Odometry:
         place, motion = self._robot.placement(), self._robot.motion()
-        seen = relative(self._start, place)
+        seen = place.relative_to(self._start)
         back = conjugate(place.quaternion)
         turning = bool((np.abs(motion.angular[:, 2]) >= _STILL).any())
         yaw = 100.0 if turning else 0.01

@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.description import Joint, Pose
 from gazelle.engines import Placement
-from gazelle.rotations import conjugate, multiply, rotate
+from gazelle.rotations import multiply, rotate
 from gazelle.simulation import FramePrefix, LinkHandle, Output, Robot, Transform, Transforms
 
 # Of tf2_ros::TransformBroadcaster.
@@ -29,17 +29,9 @@ def placed(frame: Frame) -> Placement:
     )
 
 
-def relative(parent: Placement, child: Placement) -> Placement:
-    """Return the placement of the child relative to the parent."""
-    back = conjugate(parent.quaternion)
-    return Placement(
-        rotate(back, child.position - parent.position), multiply(back, child.quaternion)
-    )
-
-
 def transform(parent: Frame, child: Frame, parent_name: str, child_name: str) -> Transform:
     """Return the transform between two frames of a robot."""
-    seen = relative(placed(parent), placed(child))
+    seen = placed(child).relative_to(placed(parent))
     return Transform(parent_name, child_name, seen.position, seen.quaternion)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from gazelle.description import Noise, Parameters, Pose
 from gazelle.engines import Motion, Placement
-from gazelle.plugins.frames import Frame, placed, relative
+from gazelle.plugins.frames import Frame, placed
 from gazelle.plugins.publishing import Publishing
 from gazelle.plugins.stateful import Noisy
 from gazelle.rotations import conjugate, multiply, rotate
@@ -91,7 +91,7 @@ class P3D(Noisy, Publishing):
                 rotate(back, moves.linear - motion[1].linear),
                 rotate(back, moves.angular - motion[1].angular),
             )
-            at = relative(place[1], at)
+            at = at.relative_to(place[1])
         turn = np.broadcast_to(self._turn, at.quaternion.shape)
         twist = np.concatenate((moves.linear, moves.angular), axis=1)
         twist = self._noise.apply(twist, 0.0)

@@ -14,6 +14,7 @@ from gazelle.array_types import Bools, Worlds
 from gazelle.control import ControllerManager
 from gazelle.control.control_cycle import ControlCycle
 from gazelle.control.control_law import ControlLaw
+from gazelle.control.controller import state_below
 from gazelle.control.joint_law import JointLaw
 from gazelle.control.limits import JointLimits
 from gazelle.description import Model
@@ -256,9 +257,9 @@ class ControlLoop(ModelPlugin):
         self._updated_ns, self._written_ns = times
         self.stopped, self._released = (np.array(row, bool) for row in state["stop"])
         self._clear_stop_record()
-        self.hardware.restore(_below("hardware/", state))
+        self.hardware.restore(state_below("hardware/", state))
         self.manager.now_ns = int(state["now"])
-        self.manager.restore(_below("controllers/", state))
+        self.manager.restore(state_below("controllers/", state))
 
 
 class ControlSystem(PluginSystem[ControlLoop]):
@@ -290,10 +291,6 @@ class ControlSystem(PluginSystem[ControlLoop]):
 
 def _or_never(time_ns: int | None) -> int:
     return -1 if time_ns is None else time_ns
-
-
-def _below(begin: str, state: Mapping[str, NDArray[np.generic]]) -> dict[str, NDArray[np.generic]]:
-    return {k.removeprefix(begin): v for k, v in state.items() if k.startswith(begin)}
 
 
 def add_controllers(robot: Robot) -> ControllerManager:

@@ -99,17 +99,13 @@ class FallWatch:
         return bool(np.isfinite(hits.distance).any())
 
     def _cause(self, model: Model) -> str:
-        if not _collides(model):
+        if not model.has_collisions:
             return "no link of it has a <collision>, so nothing can hold it"
         others = [each for each in self._engine.world.models if each.name != model.name]
-        if any(each.static and _collides(each) for each in others):
+        if any(each.static and each.has_collisions for each in others):
             return "it started beside the ground or in it, or was pushed through it"
         return "this world has no ground: add model://ground_plane, or leave out --no-ground"
 
 
 def _first_link(model: Model) -> str:
     return f"{model.name}::{model.links[0].name}"
-
-
-def _collides(model: Model) -> bool:
-    return any(link.collisions for placed in model.walk() for link in placed.model.links)

@@ -175,7 +175,7 @@ def test_a_task_that_cannot_save_its_state_starts_anew():
     team = Team(lambda numbers: Mortal(blueprint, numbers, deaths), 2, 1)
     team.call("reset", 1)
     assert team.states is None
-    with pytest.warns(SimulationWarning, match="episodes start anew"):
+    with pytest.warns(SimulationWarning, match="episodes start again"):
         team.call("get_state")
     assert team.replaced == 1
 

@@ -107,13 +107,13 @@ def _names(world: World) -> Iterator[Diagnostic]:
 
 def _falling(world: World) -> Iterator[Diagnostic]:
     """Yield unsupported things, in worlds that have a ground."""
-    grounded = any(model.static and _solid(model) for model in world.models)
+    grounded = any(model.static and model.has_collisions for model in world.models)
     for model in world.models:
         held = any(j.parent == "world" for p in model.walk() for j in p.model.joints)
         weightless = all(not link.gravity for p in model.walk() for link in p.model.links)
         links = [link for p in model.walk() for link in p.model.links]
         loose = not (model.static or held or weightless or any(link.kinematic for link in links))
-        if grounded and links and loose and not _solid(model):
+        if grounded and links and loose and not model.has_collisions:
             yield Diagnostic(
                 "falls",
                 f"model '{model.name}' has no collision, so it falls through the ground",
@@ -121,7 +121,3 @@ def _falling(world: World) -> Iterator[Diagnostic]:
                 "add collisions, set <static> to true, or <gravity> to false on its links",
                 model.source,
             )
-
-
-def _solid(model: Model) -> bool:
-    return any(link.collisions for placed in model.walk() for link in placed.model.links)

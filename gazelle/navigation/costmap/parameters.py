@@ -86,7 +86,7 @@ def costmap_of(values: Values, *, name: str = "costmap", frame: str = "map") -> 
     sensors: list[SensorTopic] = []
     for plugin in plugins:
         layer = _layer(plugin, values, maps, sensors)
-        layer.enabled = value_of(_below(values, layer.name), "enabled", True)
+        layer.enabled = value_of(section(values, layer.name), "enabled", True)
         layers.append(layer)
     padding = value_of(values, "footprint_padding", 0.01)
     costmap = Costmap(
@@ -115,7 +115,8 @@ def costmap_of(values: Values, *, name: str = "costmap", frame: str = "map") -> 
     )
 
 
-def _below(values: Values, name: str) -> Values:
+def section(values: Values, name: str) -> Values:
+    """Return the parameters below a name; none if there is no mapping."""
     found = values.get(name, {})
     return found if isinstance(found, Mapping) else {}
 
@@ -135,16 +136,16 @@ def _from_flat(values: Values, name: str) -> tuple[Values, list[dict[str, str]]]
     if value_of(values, "static_map", default_map):
         plugins.append({"name": "static_layer", "type": "costmap_2d::StaticLayer"})
         own = {key: values[key] for key in _STATIC_KEYS if key in values}
-        nested["static_layer"] = {**own, **_below(values, "static_layer")}
+        nested["static_layer"] = {**own, **section(values, "static_layer")}
     voxel = str(values.get("map_type", "costmap")) == "voxel"
     kind = "VoxelLayer" if voxel else "ObstacleLayer"
     plugins.append({"name": "obstacle_layer", "type": f"costmap_2d::{kind}"})
     taken = {*_STATIC_KEYS, *_INFLATION_KEYS, "static_layer", "obstacle_layer", "inflation_layer"}
     own = {key: value for key, value in values.items() if key not in taken}
-    nested["obstacle_layer"] = {**own, **_below(values, "obstacle_layer")}
+    nested["obstacle_layer"] = {**own, **section(values, "obstacle_layer")}
     plugins.append({"name": "inflation_layer", "type": "costmap_2d::InflationLayer"})
     own = {key: values[key] for key in _INFLATION_KEYS if key in values}
-    nested["inflation_layer"] = {**own, **_below(values, "inflation_layer")}
+    nested["inflation_layer"] = {**own, **section(values, "inflation_layer")}
     if any(key in values for key in (*_INFLATION_KEYS, "observation_sources", "map_type")):
         warnings.warn(
             SimulationWarning(
@@ -169,7 +170,7 @@ def _layer(plugin: Any, values: Values, maps: dict[str, str], sensors: list[Sens
 
 def _static(name: str, values: Values, maps: dict[str, str], sensors: list[SensorTopic]) -> Layer:
     del sensors
-    own = _below(values, name)
+    own = section(values, name)
     maps[name] = value_of(own, "map_topic", "map")
     return StaticLayer(
         name,
@@ -184,7 +185,7 @@ def _inflation(
     name: str, values: Values, maps: dict[str, str], sensors: list[SensorTopic]
 ) -> Layer:
     del maps, sensors
-    own = _below(values, name)
+    own = section(values, name)
     return InflationLayer(
         name,
         radius=value_of(own, "inflation_radius", 0.55),
@@ -195,7 +196,7 @@ def _inflation(
 
 def _obstacle(name: str, values: Values, maps: dict[str, str], sensors: list[SensorTopic]) -> Layer:
     del maps
-    own = _below(values, name)
+    own = section(values, name)
     return ObstacleLayer(
         name,
         _sources(name, own, sensors),
@@ -207,7 +208,7 @@ def _obstacle(name: str, values: Values, maps: dict[str, str], sensors: list[Sen
 
 def _voxel(name: str, values: Values, maps: dict[str, str], sensors: list[SensorTopic]) -> Layer:
     del maps
-    own = _below(values, name)
+    own = section(values, name)
     return VoxelLayer(
         name,
         _sources(name, own, sensors),
@@ -226,7 +227,7 @@ def _sources(layer: str, own: Values, sensors: list[SensorTopic]) -> dict[str, O
     """Return the sensors of ``observation_sources``."""
     found = {}
     for name in str(own.get("observation_sources", "")).split():
-        values = _below(own, name)
+        values = section(own, name)
         sensors.append(
             SensorTopic(
                 layer,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gazelle.navigation.costmap import CostmapSetup, costmap_of
+from gazelle.navigation.costmap.parameters import section
 from gazelle.navigation.move_base.recovery import make_recovery
 from gazelle.navigation.move_base.settings import MoveBaseSettings, recoveries_of
 from gazelle.navigation.move_base.state_machine import MoveBase
@@ -42,14 +42,14 @@ def navigation_stack(values: Values) -> NavigationStack:
         Error: A parameter is wrong, or names something that is not there.
     """
     settings = MoveBaseSettings.read(values)
-    whole = costmap_of(_below(values, "global_costmap"), name="global_costmap", frame="map")
-    local = costmap_of(_below(values, "local_costmap"), name="local_costmap", frame="odom")
+    whole = costmap_of(section(values, "global_costmap"), name="global_costmap", frame="map")
+    local = costmap_of(section(values, "local_costmap"), name="local_costmap", frame="odom")
     kind = settings.base_global_planner
     name = kind.rpartition("/")[2].rpartition(":")[2]
-    planner = global_planner(kind)(name, whole.costmap, _below(values, name))
+    planner = global_planner(kind)(name, whole.costmap, section(values, name))
     kind = settings.base_local_planner
     name = kind.rpartition("/")[2].rpartition(":")[2]
-    own = _below(values, name)
+    own = section(values, name)
     # The planner's own frequency counts where it is given, as in the original.
     rate = value_of(own, "controller_frequency", settings.controller_frequency)
     controller = local_planner(kind)(name, local.costmap, own, 1.0 / rate)
@@ -66,8 +66,3 @@ def navigation_stack(values: Values) -> NavigationStack:
     return NavigationStack(
         MoveBase(settings, planner, controller, recoveries), whole, local, settings
     )
-
-
-def _below(values: Values, name: str) -> Values:
-    found = values.get(name, {})
-    return found if isinstance(found, Mapping) else {}

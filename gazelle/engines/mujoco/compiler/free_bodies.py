@@ -84,16 +84,12 @@ def has_free_bodies(world: World, kinematic: Collection[str] = ()) -> bool:
         world: The description.
         kinematic: Names of kinematic models; such a one is never free.
     """
-    return any(_is_free(model) and _collides(model) for model in _moving(world, kinematic))
+    return any(_is_free(model) and model.has_collisions for model in _moving(world, kinematic))
 
 
 def _moving(world: World, kinematic: Collection[str]) -> list[Model]:
     """Return the dynamic models."""
     return [model for model in world.models if not model.static and model.name not in kinematic]
-
-
-def _collides(model: Model) -> bool:
-    return any(link.collisions for placed in model.walk() for link in placed.model.links)
 
 
 def keep_awake(model: mujoco.MjModel, world: World) -> None:

@@ -27,6 +27,7 @@ from gazelle.formats.write.sdf.plugin import write_plugin
 from gazelle.formats.write.sdf.sensor import write_sensor
 from gazelle.formats.write.sdf.surface import write_surface
 from gazelle.formats.write.urdf.link import (
+    moved,
     plain_material,
     read_names,
     surface_link,
@@ -79,7 +80,7 @@ def gazebo_of_model(model: Model, tree: WrittenTree, writing: Writing) -> Parame
     """Return flags, plugins, and joints that close loops, in SDF's words."""
     held = any(joint.parent == WORLD for joint in tree.joints.values())
     loops = (
-        replace(joint, pose=_moved(tree.shifts[joint.child], joint.pose)) for joint in tree.loops
+        replace(joint, pose=moved(tree.shifts[joint.child], joint.pose)) for joint in tree.loops
     )
     return group(
         "gazebo",
@@ -98,12 +99,8 @@ def _referring(name: str, *children: Parameters | None) -> Parameters | None:
     return found if found.children else None
 
 
-def _moved(shift: Pose, pose: Pose) -> Pose:
-    return pose if shift == Pose() else shift * pose
-
-
 def _placed(part: PartT, shift: Pose) -> PartT:
-    return replace(part, pose=_moved(shift, part.pose))
+    return replace(part, pose=moved(shift, part.pose))
 
 
 def gazebo_of_surface(link: Link, group: int) -> Parameters | None:

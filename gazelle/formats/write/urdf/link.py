@@ -157,13 +157,14 @@ def write_inertial(inertial: Inertial, shift: Pose) -> Parameters:
     tensor = {name: written(getattr(inertial.inertia, name)) for name in _MOMENTS}
     return element(
         "inertial",
-        write_origin(_moved(shift, inertial.pose)),
+        write_origin(moved(shift, inertial.pose)),
         element("mass", value=written(inertial.mass)),
         element("inertia", **tensor),
     )
 
 
-def _moved(shift: Pose, pose: Pose) -> Pose:
+def moved(shift: Pose, pose: Pose) -> Pose:
+    """Return a pose in the frame of a link that is shifted."""
     return pose if shift == Pose() else shift * pose
 
 
@@ -171,7 +172,7 @@ def _visual(visual: Visual, shift: Pose, writing: Writing) -> Parameters:
     with inside("visual", visual):
         return element(
             "visual",
-            write_origin(_moved(shift, visual.pose)),
+            write_origin(moved(shift, visual.pose)),
             _geometry(visual.geometry, writing),
             _material(visual, writing),
             name=plain_name(visual, "visual"),
@@ -182,7 +183,7 @@ def _collision(collision: Collision, name: str, shift: Pose, writing: Writing) -
     with inside("collision", collision):
         return element(
             "collision",
-            write_origin(_moved(shift, collision.pose)),
+            write_origin(moved(shift, collision.pose)),
             _geometry(collision.geometry, writing),
             name=name,
         )
