@@ -24,11 +24,12 @@ _COLOURS: dict[str, Colour] = {
     "other": (150, 90, 165),
 }
 _PAPER, _WALL, _INK, _PALE = (250, 250, 248), (60, 60, 66), (40, 40, 44), (205, 210, 218)
+_SIDE = 800  # longer side of the plan [pixel]
 _FINER = 2  # drawn so many times larger, and made smaller: smooth edges
 _HEAD, _EDGE = 70, 30  # of the picture: room for the legend, and around the plan [pixel]
 
 
-def draw_failures(found: Evaluation, size: int = 800) -> Picture:
+def draw_failures(found: Evaluation) -> Picture:
     """Draw the world with each failed episode: from its start over its end to its goal.
 
     A dot is where the episode ended, in the colour of its outcome, a cross its goal, and a
@@ -36,7 +37,6 @@ def draw_failures(found: Evaluation, size: int = 800) -> Picture:
 
     Args:
         found: Of a task that reports ``position`` or ``goal`` (x, y) [m] in its info.
-        size: Longer side of the plan [pixel].
 
     Returns:
         Shape (height, width, 3).
@@ -56,7 +56,7 @@ def draw_failures(found: Evaluation, size: int = 800) -> Picture:
         discs = plan.discs
         ends = [discs[:, :2] - discs[:, 2:], discs[:, :2] + discs[:, 2:]]
         corners = np.vstack((corners, plan.segments.reshape(-1, 2), *ends))
-    canvas = _Canvas(corners.min(axis=0), corners.max(axis=0), size)
+    canvas = _Canvas(corners.min(axis=0), corners.max(axis=0))
     if plan is not None:
         for x0, y0, x1, y1 in plan.segments:
             canvas.line((x0, y0), (x1, y1), _WALL, 2)
@@ -96,9 +96,9 @@ def _draw(canvas: _Canvas, record: EpisodeRecord) -> None:
 class _Canvas:
     """Draws in metres, x to the right and y up."""
 
-    def __init__(self, low: NDArray[np.float64], high: NDArray[np.float64], size: int) -> None:
+    def __init__(self, low: NDArray[np.float64], high: NDArray[np.float64]) -> None:
         extent = np.maximum(high - low, 1e-3)
-        self._scale = size / float(extent.max())
+        self._scale = _SIDE / float(extent.max())
         self._low, self._high = low, high
         width, height = np.ceil(extent * self._scale).astype(int) + 2 * _EDGE
         self._size = (max(int(width), 420), int(height) + _HEAD)

@@ -43,14 +43,14 @@ def robot_of_parameters(node: Node, description: str = DESCRIPTION) -> RobotMode
 
 
 def margins_of_parameters(
-    node: Node, robot: RobotModel, description: str = DESCRIPTION
+    node: Node, robot: RobotModel
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return padding [m] and scale of links, from ``..._planning/default_robot_padding`` etc.
 
     Raises:
         PlanningError: One is no number.
     """
-    given = find_parameter(node, f"{description}_planning", {})
+    given = find_parameter(node, f"{DESCRIPTION}_planning", {})
     given = given if isinstance(given, Mapping) else {}
     made: list[dict[str, float]] = []
     for kind in ("padding", "scale"):
@@ -64,7 +64,7 @@ def margins_of_parameters(
         made.append(found)
     for name in ("default_object_padding", "default_attached_padding"):
         if given.get(name):
-            text = f"{description}_planning/{name} has no effect, as in MoveIt; paddings are of the robot's links"
+            text = f"{DESCRIPTION}_planning/{name} has no effect, as in MoveIt; paddings are of the robot's links"
             warnings.warn(PlanningWarning(text), stacklevel=2)
     return made[0], made[1]
 

@@ -11,7 +11,6 @@ from gazelle.kinematics import RobotModel
 from gazelle.planning import NoPlanError, PlanOutcome
 from gazelle_ros.msgs import moveit_msgs, sensor_msgs
 from gazelle_ros.node import Node
-from gazelle_ros.time import Time
 
 _REGULAR_S = 0.5
 """Between messages that come regularly, at most."""
@@ -115,11 +114,10 @@ def state_of_message(
     return robot.complete(state)
 
 
-def state_message(robot: RobotModel, state: Floats, now: int = 0) -> moveit_msgs.msg.RobotState:
-    """Return a ``moveit_msgs/RobotState`` of all variables, shape (variables,), at a time [ns]."""
+def state_message(robot: RobotModel, state: Floats) -> moveit_msgs.msg.RobotState:
+    """Return a ``moveit_msgs/RobotState`` of all variables, shape (variables,)."""
     message = moveit_msgs.msg.RobotState()
     message.joint_state.header.frame_id = robot.frame
-    message.joint_state.header.stamp = Time(nsecs=now)
     message.joint_state.name = list(robot.names)
     message.joint_state.position = state.tolist()
     message.multi_dof_joint_state.header = message.joint_state.header

@@ -21,19 +21,19 @@ _LEVELS = {
 _NAMES = {value: name for name, value in _LEVELS.items()}
 
 
-def serve_loggers(node: Node, root: str = "gazelle") -> Callable[[], None]:
+def serve_loggers(node: Node) -> Callable[[], None]:
     """Serve ``~get_loggers`` and ``~set_logger_level``; returns what ends that.
 
     Args:
         node: Serves.
-        root: Loggers of this name and below are shown.
     """
     get = roscpp.srv.GetLoggers
     change = roscpp.srv.SetLoggerLevel
     logger = roscpp.msg.Logger
 
     def loggers(_request: roscpp.srv.GetLoggersRequest) -> Any:
-        known = [root, *(n for n in logging.root.manager.loggerDict if n.startswith(f"{root}."))]
+        names = logging.root.manager.loggerDict
+        known = ["gazelle", *(name for name in names if name.startswith("gazelle."))]
         return {"loggers": [logger(name, _level(name)) for name in sorted(known)]}
 
     def set_level(request: roscpp.srv.SetLoggerLevelRequest) -> Any:

@@ -16,15 +16,14 @@ def ros_home(environment: Mapping[str, str] | None = None) -> Path:
     return Path(given) if given else Path.home() / ".ros"
 
 
-def log_folder(run_id: str, environment: Mapping[str, str] | None = None) -> Path:
+def log_folder(run_id: str) -> Path:
     """Return the folder of a run's logs, created if need be.
 
     Raises:
         LaunchError: It cannot be made.
     """
-    env = os.environ if environment is None else environment
-    given = env.get("ROS_LOG_DIR")
-    base = Path(given) if given else ros_home(env) / "log"
+    given = os.environ.get("ROS_LOG_DIR")
+    base = Path(given) if given else ros_home() / "log"
     return made(base / run_id if run_id else base)
 
 

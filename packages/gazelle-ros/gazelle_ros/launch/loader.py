@@ -80,8 +80,6 @@ def load_launch_text(
     *,
     name: str = "string",
     packages: Packages | None = None,
-    environment: Mapping[str, str] | None = None,
-    namespace: str = "/",
 ) -> LaunchPlan:
     """Read the text of a launch file; ``name`` stands for the file in errors.
 
@@ -89,8 +87,8 @@ def load_launch_text(
         LaunchError: As `load_launch`.
     """
     data = text.encode() if isinstance(text, str) else text
-    loader = _Loader(packages, environment)
-    loader.load(parse_document(data, name), None, dict(args or {}), namespace)
+    loader = _Loader(packages, None)
+    loader.load(parse_document(data, name), None, dict(args or {}), "/")
     loader.finish(args or {})
     return loader.plan
 

@@ -33,13 +33,12 @@ class LaunchServer:
         processes: Callable[[], list[NodeProcess]],
         end: Callable[[str], None],
         host: str,
-        port: int = 0,
     ) -> None:
         self._processes = processes
         self._end = end
         self._loop = loop.acquire()
         try:
-            self._server = XmlRpcServer(self._loop, host, port, self._dispatch)
+            self._server = XmlRpcServer(self._loop, host, 0, self._dispatch)
         except OSError:
             loop.release(self._loop)
             raise
