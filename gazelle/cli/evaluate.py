@@ -3,6 +3,7 @@
   gazelle eval runs/TurtleBot3Stage1-ppo-20261105-140302 --episodes 1000
   gazelle eval RUN --failures failures.csv --failures failures.png
   gazelle eval RUN --goals published --starts published
+  gazelle eval RUN --view                  # then see its episodes, failures first
 
 Navigation tasks are evaluated on starts, goals and positions of obstacles that
 no policy was trained on, unless you ask for others. Every copy of the world
@@ -18,7 +19,9 @@ import sys
 from pathlib import Path
 
 from gazelle.cli import showing
+from gazelle.cli.episodes_beside import show_episodes
 from gazelle.cli.failures import failures_file, save_failures
+from gazelle.cli.viewing import add_view
 from gazelle_ros.base.argument_types import positive_int
 from gazelle_ros.cli.parsing import (
     add_environment_options,
@@ -52,16 +55,24 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--best", action="store_true", help="the best policy of the run, not the newest"
     )
+    add_view(parser)
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
     add_worker_options(parser, "processes that play the episodes")
     add_import_option(parser)
     add_file_options(parser)
     add_scenario_options(parser)
     add_environment_options(parser)
+    parser.set_defaults(parser=parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """Run the command; returns the exit code."""
+    if args.view is not None:
+        if args.json or args.workers is not None or args.ray is not None:
+            args.parser.error("a view plays episodes here; leave out --json, --workers and --ray")
+        from gazelle.viewer.page.server import required_viser
+
+        required_viser()
     from gazelle.training import evaluate
 
     result = evaluate(
@@ -88,4 +99,6 @@ def run(args: argparse.Namespace) -> int:
     )
     for file in args.failures:
         sys.stdout.write(f"the {len(result.failures)} that failed are in {file}\n")
+    if args.view is not None:
+        show_episodes(result, args.view)
     return 0

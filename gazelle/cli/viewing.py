@@ -62,7 +62,7 @@ def watched(progress: Progress, args: argparse.Namespace) -> Progress:
     def watch(env: object) -> CopiesView:
         from gazelle.viewer.training_page import TrainingPage
 
-        owner = _simulated(env)
+        owner = simulated(env)
         if owner is None:
             progress.say("there is nothing to view: the task has no simulation")
             return _Nothing()
@@ -85,7 +85,7 @@ class _Nothing:
         """Do nothing: there is nothing to close."""
 
 
-def _simulated(env: object) -> Any:
+def simulated(env: object) -> Any:
     """Return what owns the simulation of a vector environment, or of its first copy; or None."""
     bare = getattr(env, "unwrapped", env)
     first = next(iter(getattr(bare, "envs", ())), None)

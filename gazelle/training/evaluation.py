@@ -67,6 +67,10 @@ class Evaluation:
     """Each episode by itself."""
     floor_plan: FloorPlan | None = field(default=None, repr=False)
     """Obstacles of the world, seen from above; None if unknown."""
+    setup: EvaluationSetup | None = field(default=None, repr=False)
+    """Policy, task and options, to play episodes again; None if workers played them."""
+    copies: int = 0
+    """Copies of the environment; 0 if workers had them."""
 
     @property
     def rtf(self) -> float | None:
@@ -161,11 +165,14 @@ def evaluate(
     homes = modules or _homes(run_or_policy)
     setup = EvaluationSetup(actor=actor, task=task, options=options, imports=homes, together=unit)
     if workers is None and ray is None:
-        return _summed_up([play_episodes(setup, copies, episodes, seed)], task=task, seed=seed)
+        played = play_episodes(setup, copies, episodes, seed)
+        return _summed_up([played], task=task, seed=seed, setup=setup, copies=copies)
     start = time.perf_counter()
     parts = play_with_workers(setup, divided(copies, unit), episodes, seed, workers, ray)
     wall = time.perf_counter() - start
-    return replace(_summed_up(parts, task=task, seed=seed), wall_seconds=wall)
+    summed = _summed_up(parts, task=task, seed=seed)
+    records = tuple(replace(record, place=None) for record in summed.records)
+    return replace(summed, wall_seconds=wall, records=records)
 
 
 def _summed_up(parts: Sequence[EpisodesPlayed], **about: Any) -> Evaluation:

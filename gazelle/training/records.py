@@ -19,6 +19,18 @@ _ODD = np.uint64(0x9E3779B97F4A7C15)
 
 
 @dataclass(frozen=True, slots=True)
+class EpisodePlace:
+    """Place of an episode in an evaluation without workers."""
+
+    reset: int
+    """Number of the reset of all copies before it, from 0."""
+    copy: int
+    """Copy of the environment that it ran in."""
+    turn: int
+    """Episodes that ended in this copy since that reset."""
+
+
+@dataclass(frozen=True, slots=True)
 class EpisodeRecord:
     """One episode."""
 
@@ -42,6 +54,8 @@ class EpisodeRecord:
     """Goals of attempts that count, see `Episodes`."""
     counted: bool
     """True if the last attempt counts."""
+    place: EpisodePlace | None = None
+    """Place in the evaluation, to play it again; None if workers played it."""
 
     @property
     def failed(self) -> bool:
@@ -79,18 +93,21 @@ class Ledger:
 
     def __init__(self, together: int = 1, names: tuple[str, ...] = ()) -> None:
         self.left: npt.NDArray[np.int64] = np.zeros(0, np.int64)
+        self._expected = self.left
         self.records: list[EpisodeRecord] = []
         self._together = together
         self._names = names
         self._keys: list[bytes] = []
         self._worlds: list[int] = []
         self._first_world = 0
+        self._resets = 0
         self._reported: set[str] = set()
 
     def expect(self, episodes: npt.NDArray[np.int64]) -> None:
         """Expect so many more episodes of each copy, shape (copies,), in restarted worlds."""
         self._first_world += -(-len(self.left) // self._together)
-        self.left = episodes.copy()
+        self.left, self._expected = episodes.copy(), episodes.copy()
+        self._resets += 1
 
     @property
     def distinct(self) -> int:
@@ -107,8 +124,10 @@ class Ledger:
         for row, slot in enumerate(ended.slots):
             if not self.left[slot]:
                 continue
+            turn = int(self._expected[slot] - self.left[slot])
             self.left[slot] -= 1
-            self.records.append(self._record(ended, row))
+            place = EpisodePlace(self._resets - 1, int(slot), turn)
+            self.records.append(self._record(ended, row, place))
             # Without a scenario, an episode is identified by all its observations.
             scenarios = ended.scenarios
             self._keys.append(
@@ -147,7 +166,7 @@ class Ledger:
         numbers = {key: number for number, key in enumerate(dict.fromkeys(keys))}
         return np.array([numbers[key] for key in keys], dtype=np.int64)
 
-    def _record(self, ended: Episodes, row: int) -> EpisodeRecord:
+    def _record(self, ended: Episodes, row: int, place: EpisodePlace) -> EpisodeRecord:
         ends = tuple(int(getattr(ended, name)[row]) for name in _ENDS)
         goals = int(ended.goals[row])
         failed = [_NAMES[name] for name, end in zip(_ENDS, ends, strict=True) if end]
@@ -162,6 +181,7 @@ class Ledger:
             ends=(ends[0], ends[1], ends[2]),
             counted_goals=int(ended.counted_goals[row]),
             counted=bool(ended.counted[row]),
+            place=place,
         )
 
     def _name_of(self, index: int) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -28,7 +28,6 @@ from gazelle.viewer.page.plots import PlotLayer
 from gazelle.viewer.page.run_controls import RunControls
 from gazelle.viewer.page.server import PageServer
 from gazelle.viewer.page.shapes import extent_of_world
-from gazelle.viewer.page.training_panel import TrainingCurve, TrainingPanel
 from gazelle.viewer.page.world_layer import ShapeLayer
 from gazelle.viewer.scene_camera import distance_to_see
 from gazelle_ros.base.closing import Closeable
@@ -54,7 +53,7 @@ class LiveView(Closeable):
         only_looking: Whether nothing can be changed on the page.
         goals: Function that returns the goals of a task that runs in these worlds [m], shape
             (worlds * n, 2 or 3), world by world, or None; called between two steps.
-        training: Curve of a training that these worlds belong to.
+        panels: Makers of further parts of the page.
 
     Attributes:
         url: Where the page is.
@@ -74,7 +73,7 @@ class LiveView(Closeable):
         rate: float = 20.0,
         only_looking: bool = False,
         goals: GoalPlaces | None = None,
-        training: TrainingCurve | None = None,
+        panels: Sequence[Callable[[PageContext], PageLayer]] = (),
     ) -> None:
         left = simulation.nworld - one_world(world, simulation.nworld)
         count = min(_BESIDE, left) if worlds is None else worlds
@@ -83,7 +82,7 @@ class LiveView(Closeable):
         if not rate > 0.0:
             raise Error(f"a view needs a rate above zero, not {rate:g}")
         self._simulation, self._period = simulation, 1.0 / rate
-        self._goals, self._training, self._stop = goals, training, threading.Event()
+        self._goals, self._panels, self._stop = goals, panels, threading.Event()
         self._server = PageServer(simulation.world.name or "Gazelle", port)
         self.url = self._server.url
         try:
@@ -93,6 +92,21 @@ class LiveView(Closeable):
             raise
         self._thread = threading.Thread(target=self._follow, name="live-view", daemon=True)
         self._thread.start()
+
+    @property
+    def watched(self) -> bool:
+        """True while the page is open somewhere."""
+        return self._server.watched
+
+    def show_world(self, world: int) -> None:
+        """Show another world of the batch in the place of the first that is shown.
+
+        Raises:
+            Error: There is no such world.
+        """
+        which = one_world(world, self._simulation.nworld)
+        with self._simulation.lock:
+            self._context.worlds[0] = which
 
     def close(self) -> None:
         """Stop showing it, and give the port back; a second call does nothing."""
@@ -119,7 +133,7 @@ class LiveView(Closeable):
         self._look_from(spots)
         with simulation.lock:
             controls = RunControls(context)
-            training = [] if self._training is None else [TrainingPanel(context, self._training)]
+            panels = [make(context) for make in self._panels]
             tools = ModelTools(context)
             shapes = ShapeLayer(context, "shapes", on_batch=tools.watch)
             steering: list[PageLayer] = []
@@ -141,7 +155,7 @@ class LiveView(Closeable):
             self._plots = PlotLayer(context)
             self._offer()
             self._layers: tuple[PageLayer, ...] = (
-                controls, *training, shapes, tools, *steering, *self._optional.values(), self._plots
+                controls, *panels, shapes, tools, *steering, *self._optional.values(), self._plots
             )  # fmt: skip
             self._changed = False
             events = simulation.events

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from gazelle.simulation import Simulation
 from gazelle.viewer.live import LiveView
 from gazelle.viewer.page.goal_layer import GoalPlaces
-from gazelle.viewer.page.training_panel import TrainingCurve
+from gazelle.viewer.page.training_panel import TrainingCurve, TrainingPanel
 from gazelle_ros.base.closing import Closeable
 
 
@@ -24,7 +26,11 @@ class TrainingPage(Closeable):
     def __init__(self, simulation: Simulation, goals: GoalPlaces, port: int) -> None:
         self._curve = TrainingCurve()
         self._view = LiveView(
-            simulation, port=port, only_looking=True, goals=goals, training=self._curve
+            simulation,
+            port=port,
+            only_looking=True,
+            goals=goals,
+            panels=(partial(TrainingPanel, curve=self._curve),),
         )
         self.url = self._view.url
 

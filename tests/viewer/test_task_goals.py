@@ -7,7 +7,7 @@ import pytest
 pytest.importorskip("viser", reason="the extra 'web' is not installed")
 
 import gazelle.envs  # noqa: F401  # registers the tasks
-from gazelle.cli.viewing import _simulated
+from gazelle.cli.viewing import simulated
 from gazelle.envs.course import CourseTask
 from gazelle.envs.single_env import TaskEnv
 from gazelle.viewer import LiveView
@@ -28,7 +28,7 @@ def shown(view):
 
 
 def viewed(env, **options):
-    owner = _simulated(env)
+    owner = simulated(env)
     return LiveView(owner.simulation, goals=lambda: owner.goal_places, **options)
 
 
@@ -88,10 +88,10 @@ def test_goals_are_found_within_wrappers_and_copies_of_an_environment():
     class Copies:
         envs = (single,)
 
-    owner = _simulated(Copies())
+    owner = simulated(Copies())
     assert owner is inner
     np.testing.assert_allclose(owner.goal_places, wrapped.goal_places)
-    assert _simulated(object()) is None
+    assert simulated(object()) is None
 
 
 def test_a_task_without_goals_has_nothing_to_draw():

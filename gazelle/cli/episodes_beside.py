@@ -1,0 +1,86 @@
+"""The flag ``--view`` of ``gazelle eval``: the episodes again, live in a browser."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+from gazelle.cli.viewing import simulated
+from gazelle.errors import TaskError
+
+if TYPE_CHECKING:
+    from gazelle.array_types import Floats
+    from gazelle.training import Evaluation
+    from gazelle.training.records import EpisodeRecord
+
+_WAIT = 0.1  # until somebody may have opened the page [s]
+_AT_END = 1.0  # for which the last moment of an episode stays on the page [s]
+
+
+def show_episodes(result: Evaluation, port: int) -> None:
+    """Play the episodes of an evaluation one by one on a page, failures first.
+
+    Each is played in real time, and begins when somebody looks.
+
+    Raises:
+        TaskError: The task has no simulation, or workers played its episodes.
+        MissingExtraError: What serves the page is not installed.
+    """
+    from gazelle.training.rerun import Rerun, worst_first
+    from gazelle.viewer.episodes_page import EpisodesPage
+
+    records = worst_first(result)
+    with Rerun(result) as rerun:
+        owner = simulated(rerun.env)
+        if owner is None:
+            raise TaskError("there is nothing to view: the task has no simulation")
+        nworld = owner.simulation.nworld
+        if nworld == 1 < result.copies:
+            hint = "add --num-envs 1"
+            raise TaskError("each copy of this task has a simulation of its own", hint=hint)
+
+        def goals() -> Floats | None:
+            """Return the goals of all copies."""
+            found: Floats | None = getattr(owner, "goal_places", None)
+            return found
+
+        with EpisodesPage(owner.simulation, goals, port) as page:
+            sys.stdout.write(f"the episodes begin when the page is open\nview {page.url}\n")
+            sys.stdout.flush()
+            pace = _EpisodePace(page, rerun.period)
+            for number, record in enumerate(records, 1):
+                if record.place is None:
+                    continue
+                text = describe(record, rerun.period)
+                page.show(
+                    record.place.copy * nworld // result.copies,
+                    f"{number} of {len(records)}: {text}",
+                )
+                rerun.play(record, pace.wait)
+
+
+def describe(record: EpisodeRecord, period: float) -> str:
+    """Return how an episode ended, in Markdown; the period is that of a step [s]."""
+    return (
+        f"**{record.outcome}** after {record.length} steps ({record.length * period:.1f} s), "
+        f"return {record.sum_of_rewards:.4g}"
+    )
+
+
+class _EpisodePace:
+    """Real time, which stands while nobody looks at the page."""
+
+    def __init__(self, page: Any, period: float) -> None:
+        self._page, self._period = page, period
+        self._due = 0.0
+
+    def wait(self, left: int) -> None:
+        """Wait for the time of the next step; longer before the last of an episode."""
+        while not self._page.watched:
+            time.sleep(_WAIT)
+        now = time.monotonic()
+        time.sleep(max(0.0, self._due - now))
+        if left == 1:
+            time.sleep(_AT_END)
+        self._due = max(self._due, now) + self._period
