@@ -19,6 +19,7 @@ from gazelle.cli import showing
 from gazelle.cli.train import report
 from gazelle.cli.viewing import add_view, watched
 from gazelle_ros.base.argument_types import positive_int
+from gazelle_ros.base.output import say
 from gazelle_ros.cli.parsing import (
     add_environment_options,
     add_file_options,
@@ -88,8 +89,7 @@ def _tell_files(options: dict[str, Any]) -> None:
 
     world = _file(options.get("world", _WORLD), assets.worlds())
     robot = _file(options.get("robot", _ROBOT), assets.robots())
-    sys.stdout.write(f"world:    {world}\nrobot:    {robot}\n")
-    sys.stdout.flush()
+    say(f"world:    {world}\nrobot:    {robot}\n")
 
 
 def _file(name: str, bundled: dict[str, Path]) -> str:

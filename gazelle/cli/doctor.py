@@ -10,6 +10,7 @@ import sys
 
 from gazelle.cli import showing
 from gazelle.cli.machine_checks import Finding, Grade, examine
+from gazelle_ros.base.output import say
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -22,8 +23,7 @@ def run(args: argparse.Namespace) -> int:
     del args
     problems = 0
     for finding in examine():
-        sys.stdout.write(_lines(finding))
-        sys.stdout.flush()
+        say(_lines(finding))
         problems += finding.grade is Grade.PROBLEM
     sys.stdout.write(f"{problems or 'no'} problem{'' if problems == 1 else 's'}\n")
     return 1 if problems else 0

@@ -33,6 +33,7 @@ from gazelle.cli.spawning import spawn, wanted
 from gazelle.cli.viewing import add_view, viewing
 from gazelle.errors import SimulationError
 from gazelle_ros.base.argument_types import positive_float
+from gazelle_ros.base.output import say
 
 if TYPE_CHECKING:
     from gazelle.bridges import RosDoor
@@ -142,8 +143,7 @@ def run(args: argparse.Namespace) -> int:
         step = f"step {1000 * sim.engine.time_step:g} ms"
         sys.stdout.write(f"world '{sim.world.name}' ({args.engine}, {step}): {_listed(sim)}\n")
         sys.stdout.writelines(f"{line}\n" for line in said if line)
-        sys.stdout.write(_undriven(sim, args))
-        sys.stdout.flush()
+        say(_undriven(sim, args))
         with viewing(sim, args) as page:
             return _serve(sim, args, page) if args.ros else go(sim, args, page)
 
@@ -193,8 +193,7 @@ def go(sim: Simulation, args: argparse.Namespace, page: str = "") -> int:
         args: Of the command line.
         page: Line with the address of the page, printed first.
     """
-    sys.stdout.write(page)
-    sys.stdout.flush()
+    say(page)
     status = _Status(sim)
     sim.physics.update_rate = (args.rate or 0.0) / sim.physics.time_step
     try:
@@ -279,8 +278,7 @@ def _serve(sim: Simulation, args: argparse.Namespace, page: str) -> int:
 def _attend(
     sim: Simulation, door: RosDoor | StageServer, args: argparse.Namespace, page: str
 ) -> int:
-    sys.stdout.write(f"ROS node {door.node.name} on {door.master_uri}\n{page}")
-    sys.stdout.flush()
+    say(f"ROS node {door.node.name} on {door.master_uri}\n{page}")
     status = _Status(sim)
     try:
         door.run(args.seconds)

@@ -13,13 +13,13 @@ markers and images.
 from __future__ import annotations
 
 import argparse
-import sys
 import time
 
 from gazelle.cli.grounding import add_ground
 from gazelle.cli.run import go
 from gazelle.cli.viewing import viewing
 from gazelle_ros.base.argument_types import port_number
+from gazelle_ros.base.output import say
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -63,8 +63,7 @@ def _graph(args: argparse.Namespace) -> int:
     from gazelle.viewer.graph import GraphView
 
     with GraphView(frame=args.frame, port=args.view) as view:
-        sys.stdout.write(f"view {view.url}\n")
-        sys.stdout.flush()
+        say(f"view {view.url}\n")
         while not view.ended:
             time.sleep(0.2)
     return 0

@@ -17,6 +17,7 @@ from gazelle.description.pose import rpy_from_quaternion
 from gazelle.errors import RosError
 from gazelle_ros.base.argument_types import NumberParser
 from gazelle_ros.base.bundled_packages import published, published_hint
+from gazelle_ros.base.output import say
 from gazelle_ros.base.text_files import read_text
 
 _TIMEOUT_S = 10.0
@@ -182,8 +183,7 @@ def _stats(gazebo: Gazebo, options: argparse.Namespace) -> int:
         factor = max(0.0, there - simulated) / (now - before)
         form = "{:.4f}, {:.4f}, {:.4f}, {}" if options.plot else _STATS
         shown = form.format(factor, there, now - begun, "T" if paused else "F")
-        sys.stdout.write(f"{shown}\n")
-        sys.stdout.flush()
+        say(f"{shown}\n")
         before, simulated = now, there
     return 0
 

@@ -13,6 +13,7 @@ from gazelle.drop_in.moveit_commander.group_commands import (
     MoveGroupInfoLevel,
 )
 from gazelle.drop_in.moveit_commander.interpreter import MoveGroupCommandInterpreter
+from gazelle_ros.base.output import say
 from gazelle_ros.builtin.arguments import parse_arguments, spin
 from gazelle_ros.compat.rospy.client import init_node
 
@@ -82,8 +83,7 @@ def _tell(answer: Answer) -> None:
     """Show an answer; in colours on a terminal."""
     level, text = answer
     colour = _COLOURS.get(level, "") if sys.stdout.isatty() else ""
-    sys.stdout.write(f"{colour}{text}{_PLAIN if colour else ''}\n")
-    sys.stdout.flush()
+    say(f"{colour}{text}{_PLAIN if colour else ''}\n")
 
 
 class CommandCompleter:

@@ -13,6 +13,7 @@ from typing import Any
 from gazelle_ros import names
 from gazelle_ros.base.argument_types import positive_float, positive_int, seconds
 from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.base.output import say, say_line
 
 
 def configure_record(parser: argparse.ArgumentParser) -> None:
@@ -82,7 +83,7 @@ def record(args: argparse.Namespace, node_options: Mapping[str, Any] | None = No
     check(options)
     keywords = node_options or {"name": names.anonymous("record")}
     with Node(**keywords) as node, stopping() as stop:
-        BagRecorder(node, options, _quiet if args.quiet else _say).run(stop)
+        BagRecorder(node, options, _quiet if args.quiet else say_line).run(stop)
     return 0
 
 
@@ -185,8 +186,7 @@ def _keys(player: Any, stop: threading.Event) -> Iterator[None]:
     import termios
     import tty
 
-    sys.stdout.write("space: pause or go on, s: one message, Ctrl-C: end\n")
-    sys.stdout.flush()
+    say("space: pause or go on, s: one message, Ctrl-C: end\n")
     actions: dict[str, Callable[[], None]] = {" ": player.toggle, "s": player.step}
     old = termios.tcgetattr(sys.stdin)
     ended = threading.Event()
@@ -205,11 +205,6 @@ def _keys(player: Any, stop: threading.Event) -> Iterator[None]:
         ended.set()
         watcher.join()
         termios.tcsetattr(sys.stdin, termios.TCSADRAIN, old)
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()
 
 
 def _quiet(text: str) -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import shutil
 import subprocess
-import sys
 from collections.abc import Sequence
 from typing import Any
 
 from gazelle_ros.base.errors import RosError
+from gazelle_ros.base.output import say_line
 from gazelle_ros.base.writing import write_text
 from gazelle_ros.builtin.tf_delays import Delays
 from gazelle_ros.compat import rospy
@@ -40,7 +40,7 @@ def echo(arguments: Sequence[str]) -> int:
     listener = TransformListener(buffer)
     _wait_for(buffer, words[0], words[1])
     while not process.shutdown.is_set():
-        _say(_described(buffer, words[0], words[1]))
+        say_line(_described(buffer, words[0], words[1]))
         process.shutdown.wait(period)
     listener.unregister()
     return 0
@@ -61,12 +61,12 @@ def monitor(arguments: Sequence[str]) -> int:
     buffer = Buffer()
     listener = TransformListener(buffer)
     if words:
-        _say(f"waiting for a way between {words[0]} and {words[1]}")
+        say_line(f"waiting for a way between {words[0]} and {words[1]}")
         while not _connected(buffer, *words) and not process.shutdown.wait(0.1):
             pass
     delays = Delays(buffer, words)
     while not process.shutdown.wait(_PATIENCE_S):
-        _say(delays.report())
+        say_line(delays.report())
     delays.close()
     listener.unregister()
     return 0
@@ -83,14 +83,14 @@ def frames(arguments: Sequence[str]) -> int:
     _begin("view_frames", arguments)
     buffer = Buffer()
     listener = TransformListener(buffer)
-    _say(f"listening to /tf for {_LISTEN_S:g} s")
+    say_line(f"listening to /tf for {_LISTEN_S:g} s")
     if process.shutdown.wait(_LISTEN_S):
         return 0
     listener.unregister()
     write_text("frames.gv", as_dot(buffer.tree, rospy.get_rostime().to_nsec()))
     program = shutil.which("dot")
     if program is None:
-        _say("frames.gv is written; with 'dot' of graphviz there would be a frames.pdf, too")
+        say_line("frames.gv is written; with 'dot' of graphviz there would be a frames.pdf, too")
         return 0
     done = subprocess.run(  # noqa: S603  # graphviz
         [program, "-Tpdf", "frames.gv", "-o", "frames.pdf"],
@@ -100,7 +100,7 @@ def frames(arguments: Sequence[str]) -> int:
     )
     if done.returncode:
         raise RosError(f"dot failed: {done.stderr.strip()}", file="frames.gv")
-    _say("frames.gv and frames.pdf are written")
+    say_line("frames.gv and frames.pdf are written")
     return 0
 
 
@@ -151,8 +151,3 @@ def _positive(text: str) -> float:
     if not 0.0 < value < math.inf:
         raise RosError(f"'{text}' is no rate above 0", hint=_ECHO_USAGE)
     return value
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()

@@ -13,9 +13,9 @@ pages opened as files (origin 'null') unless it is --allow-origin null.
 from __future__ import annotations
 
 import argparse
-import sys
 
 from gazelle_ros.base.argument_types import port_number
+from gazelle_ros.base.output import say
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -47,6 +47,5 @@ def run(args: argparse.Namespace) -> int:
     given = {"port": args.port, "address": args.address, "allowed_origins": args.allow_origin}
     settings = settings_from(given)
     with bridge(settings, args.master) as server:
-        sys.stdout.write(f"{listening_text(settings, server.port)}\n")
-        sys.stdout.flush()
+        say(f"{listening_text(settings, server.port)}\n")
         return spin(server.node)

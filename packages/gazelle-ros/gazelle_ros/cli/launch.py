@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from gazelle_ros.base.argument_types import port_number, positive_float
 from gazelle_ros.base.errors import Error
+from gazelle_ros.base.output import say_line
 from gazelle_ros.base.program import program_name
 from gazelle_ros.base.writing import write_text
 
@@ -112,14 +113,14 @@ def _test(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> int
         plan,
         report,
         (folder / package).resolve(),
-        say=_say,
+        say=say_line,
         reuse_master=args.reuse_master,
         text=args.text,
         packages=packages,
     )
     report.write(folder / package / f"{name}.xml")
-    _say(report.summary())
-    _say(f"results are in {folder / package / name}.xml")
+    say_line(report.summary())
+    say_line(f"results are in {folder / package / name}.xml")
     return 0 if report.passed else 1
 
 
@@ -205,8 +206,8 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
     if args.required:
         plan.nodes = [replace(each, required=True, respawn=False) for each in plan.nodes]
     if plan.tests:
-        _say(f"{len(plan.tests)} tests are not run; --test runs them")
-    launch = Launch(plan, options, say=_say, packages=packages)
+        say_line(f"{len(plan.tests)} tests are not run; --test runs them")
+    launch = Launch(plan, options, say=say_line, packages=packages)
     if not args.no_summary:
         told = describing.summary if args.verbose else describing.outline
         sys.stdout.write(f"{told(plan)}\nROS_MASTER_URI={launch.master_uri}\n\n")
@@ -217,8 +218,8 @@ def _launch(args: argparse.Namespace, plan: LaunchPlan, packages: Packages) -> i
             if not request.is_set():
                 raise
         code = launch.spin()
-        _say("shutting down")
-    _say("done")
+        say_line("shutting down")
+    say_line("done")
     return code
 
 
@@ -235,8 +236,3 @@ def _same_terminal() -> Iterator[None]:
         yield
     finally:
         termios.tcsetattr(sys.stdin, termios.TCSANOW, before)
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()

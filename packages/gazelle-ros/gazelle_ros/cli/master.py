@@ -10,9 +10,9 @@ Only this machine can reach it unless --host names an address of a network.
 from __future__ import annotations
 
 import argparse
-import sys
 
 from gazelle_ros.base.argument_types import port_number
+from gazelle_ros.base.output import say
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -48,5 +48,4 @@ def run(args: argparse.Namespace) -> int:
 
 
 def _announce(uri: str) -> None:
-    sys.stdout.write(f"ROS master at {uri}\nexport ROS_MASTER_URI={uri}\n")
-    sys.stdout.flush()
+    say(f"ROS master at {uri}\nexport ROS_MASTER_URI={uri}\n")

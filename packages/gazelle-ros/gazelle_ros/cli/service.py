@@ -11,6 +11,7 @@ import argparse
 import sys
 from typing import Any
 
+from gazelle_ros.base.output import say
 from gazelle_ros.cli.tools import SubCommands
 
 
@@ -105,5 +106,4 @@ def _call_once(caller: Any, values: list[Any], *, verbose: bool) -> None:
     response = caller.call(request)
     if verbose:
         sys.stdout.write(f"{request}\n---\n")
-    sys.stdout.write(f"{response}\n")
-    sys.stdout.flush()
+    say(f"{response}\n")

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+from gazelle_ros.base.output import say
 from gazelle_ros.cli.parsing import Parser
 
 Action = Callable[[argparse.Namespace], int]
@@ -35,11 +36,9 @@ class SubCommands:
 
 def answer(question: str, choices: set[str]) -> str | None:
     """Ask the user for one of the choices; return None at the end of standard input."""
-    sys.stdout.write(question)
-    sys.stdout.flush()
+    say(question)
     while line := sys.stdin.readline():
         if line.strip() in choices:
             return line.strip()
-        sys.stdout.write(f"please answer with one of: {', '.join(sorted(choices))}\n")
-        sys.stdout.flush()
+        say(f"please answer with one of: {', '.join(sorted(choices))}\n")
     return None

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.base.output import say
 from gazelle_ros.builtin.arguments import parse_arguments
 from gazelle_ros.builtin.teleop.keyboard import CTRL_C, DOWN, LEFT, RIGHT, UP, Keyboard
 from gazelle_ros.msgs import geometry_msgs
@@ -80,7 +80,7 @@ def main(arguments: Sequence[str]) -> int:
         twist = geometry_msgs.msg.Twist
         publisher = node.advertise("cmd_vel", twist, 10)
         linear, angular = drive.limits
-        _say(_HELP.format(model=model, linear=linear, angular=angular))
+        say(_HELP.format(model=model, linear=linear, angular=angular))
         try:
             while not stop.is_set():
                 keys = keyboard.wait(_PERIOD_S)
@@ -88,7 +88,7 @@ def main(arguments: Sequence[str]) -> int:
                     break
                 known = [drive.press(key) for key in keys]
                 if any(known):
-                    _say("wanted: {:.2f} m/s, {:.2f} rad/s\n".format(*drive.wanted))
+                    say("wanted: {:.2f} m/s, {:.2f} rad/s\n".format(*drive.wanted))
                 publisher.publish(_message(twist, *drive.advance()))
         finally:
             if not node.closed:
@@ -111,8 +111,3 @@ def _bounded(value: float, limit: float) -> float:
 
 def _towards(now: float, wanted: float, step: float) -> float:
     return min(now + step, wanted) if wanted > now else max(now - step, wanted)
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from gazelle_ros.base.interrupts import stopping
+from gazelle_ros.base.output import say
 from gazelle_ros.builtin.arguments import parse_arguments
 from gazelle_ros.builtin.teleop.keyboard import CTRL_C, Keyboard
 from gazelle_ros.messages import load_message
@@ -90,7 +90,7 @@ def main(arguments: Sequence[str]) -> int:
         # Seconds between two messages without a key, and until the robot stops without one; 0: none.
         rate = float(node.get_param("~repeat_rate", 0.0))
         quiet, timeout = 0.0, float(node.get_param("~key_timeout", 0.0))
-        _say(_HELP + _speeds(drive))
+        say(_HELP + _speeds(drive))
         try:
             while not stop.is_set():
                 pause = 1.0 / rate if rate > 0.0 else _LOOK_S
@@ -102,7 +102,7 @@ def main(arguments: Sequence[str]) -> int:
                     keys = ["k"]
                 for key in keys:
                     if drive.press(key):
-                        _say(_speeds(drive))
+                        say(_speeds(drive))
                 if keys or rate > 0.0:
                     publisher.publish(drive)
         finally:
@@ -133,8 +133,3 @@ class _Publisher:
 
 def _speeds(drive: KeyDrive) -> str:
     return f"speed {drive.speed:.3f} m/s, turn {drive.turn:.3f} rad/s\n"
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(text)
-    sys.stdout.flush()

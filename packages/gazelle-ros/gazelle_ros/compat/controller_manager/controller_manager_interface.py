@@ -6,10 +6,10 @@ like. All functions wait for their service, for ever if need be.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from typing import Any
 
+from gazelle_ros.base.output import say_line
 from gazelle_ros.compat import rospy
 from gazelle_ros.messages import load_service
 
@@ -21,7 +21,7 @@ _BEST_EFFORT = 1
 def list_controller_types() -> None:
     """Print the types of controllers that can be loaded."""
     for kind in _call("list_controller_types", "ListControllerTypes").types:
-        _say(kind)
+        say_line(kind)
 
 
 def reload_libraries(force_kill: bool, restore: bool = False) -> bool:  # noqa: FBT001, FBT002  # the original's interface
@@ -34,19 +34,19 @@ def reload_libraries(force_kill: bool, restore: bool = False) -> bool:  # noqa: 
     Returns:
         Whether the code was loaded again.
     """
-    _say(f"Restore: {restore}")
+    say_line(f"Restore: {restore}")
     before = _call("list_controllers", "ListControllers").controller if restore else []
     done = _call("reload_controller_libraries", "ReloadControllerLibraries", force_kill=force_kill)
     if done.ok:
-        _say("Successfully reloaded libraries")
+        say_line("Successfully reloaded libraries")
     else:
-        _say("Failed to reload libraries. Do you still have controllers loaded?")
+        say_line("Failed to reload libraries. Do you still have controllers loaded?")
     if restore:
         for each in before:
             _call("load_controller", "LoadController", name=each.name)
         running = [each.name for each in before if each.state == "running"]
         _switch(running, (), _BEST_EFFORT)
-        _say("Controllers restored to original state")
+        say_line("Controllers restored to original state")
     return bool(done.ok)
 
 
@@ -54,23 +54,23 @@ def list_controllers() -> None:
     """Print name, interfaces and state of what is loaded."""
     loaded = _call("list_controllers", "ListControllers").controller
     if not loaded:
-        _say("No controllers are loaded in mechanism control")
+        say_line("No controllers are loaded in mechanism control")
     for each in loaded:
         interfaces = dict.fromkeys(claim.hardware_interface for claim in each.claimed_resources)
-        _say(f"'{each.name}' - '{'+'.join(interfaces)}' ( {each.state} )")
+        say_line(f"'{each.name}' - '{'+'.join(interfaces)}' ( {each.state} )")
 
 
 def load_controller(name: str) -> bool:
     """Load a controller whose parameters are on the parameter server; returns whether it is."""
     done = bool(_call("load_controller", "LoadController", name=name).ok)
-    _say(f"Loaded '{name}'" if done else f"Error when loading '{name}'")
+    say_line(f"Loaded '{name}'" if done else f"Error when loading '{name}'")
     return done
 
 
 def unload_controller(name: str) -> bool:
     """Unload a controller that does not run; returns whether it is."""
     done = bool(_call("unload_controller", "UnloadController", name=name).ok)
-    _say(f"Unloaded '{name}' successfully" if done else f"Error when unloading '{name}'")
+    say_line(f"Unloaded '{name}' successfully" if done else f"Error when unloading '{name}'")
     return done
 
 
@@ -101,11 +101,11 @@ def start_stop_controllers(
     start, stop = list(start_controllers), list(stop_controllers)
     done = _switch(start, stop, _STRICT)
     if not done:
-        _say(f"Error when starting {start} and stopping {stop}")
+        say_line(f"Error when starting {start} and stopping {stop}")
     elif start or stop:
         for verb, names in (("Started", start), ("Stopped", stop)):
             if names:
-                _say(f"{verb} {names} successfully")
+                say_line(f"{verb} {names} successfully")
     return done
 
 
@@ -125,8 +125,3 @@ def _call(name: str, kind: str, /, **fields: Any) -> Any:
     rospy.wait_for_service(full)
     service = load_service(f"controller_manager_msgs/{kind}")
     return rospy.ServiceProxy(full, service)(service._request_class(**fields))
-
-
-def _say(line: str) -> None:
-    sys.stdout.write(f"{line}\n")
-    sys.stdout.flush()
