@@ -13,28 +13,44 @@ _BEFORE = (
     Command(
         "check", "check files: every problem, with file and line", "simulate", "gazelle.cli.check"
     ),
-    Command("convert", "files from one format to another", "simulate", "gazelle.cli.convert"),
-    Command("map", "the true map of a world, for map_server", "simulate", "gazelle.cli.map"),
     Command(
-        "view", "a file, or a running ROS graph, live in a browser", "look", "gazelle.cli.view"
+        "convert", "convert files from one format to another", "simulate", "gazelle.cli.convert"
+    ),
+    Command("map", "write the true map of a world, for map_server", "simulate", "gazelle.cli.map"),
+    Command(
+        "view", "show a file, or a running ROS graph, live in a browser", "look", "gazelle.cli.view"
     ),
     Command("picture", "draw a world, a recording, a bag, a policy", "look", "gazelle.cli.picture"),
-    Command("plot", "curves, tables and bags as plots", "look", "gazelle.cli.plot"),
-    Command("film", "film them: GIF, MP4", "look", "gazelle.cli.film"),
+    Command("plot", "plot curves of runs, tables and bags", "look", "gazelle.cli.plot"),
+    Command("film", "film them, as GIF or MP4", "look", "gazelle.cli.film"),
     Command(
         "train", "train a policy for a task, or go on with a run", "learn", "gazelle.cli.train"
     ),
     Command(
-        "eval", "success, collision and time-out rates of a run", "learn", "gazelle.cli.evaluate"
+        "eval",
+        "measure success, collision and time-out rates of a run",
+        "learn",
+        "gazelle.cli.evaluate",
     ),
-    Command("new", "a task of your own; controllers for a robot", "learn", "gazelle.cli.new"),
-    Command("study", "many parameters and seeds, in one table", "learn", "gazelle.cli.study"),
-    Command("runs", "the training runs of a folder in one table", "learn", "gazelle.cli.runs"),
-    Command("export", "a run's policy as ONNX or numpy arrays", "learn", "gazelle.cli.export"),
+    Command(
+        "new", "begin a task of your own, or controllers for a robot", "learn", "gazelle.cli.new"
+    ),
+    Command("study", "try many parameters and seeds, in one table", "learn", "gazelle.cli.study"),
+    Command(
+        "runs", "list the training runs of a folder, or import one", "learn", "gazelle.cli.runs"
+    ),
+    Command(
+        "export",
+        "write a policy as ONNX or arrays, or a run as one file",
+        "learn",
+        "gazelle.cli.export",
+    ),
     Command("deploy", "let a policy drive a robot on a ROS 1 graph", "learn", "gazelle.cli.deploy"),
 )
 _AFTER = (
-    Command("shell", "a shell with roscore, rostopic, rosrun ...", "ROS 1", "gazelle.cli.shell"),
+    Command(
+        "shell", "open a shell with roscore, rostopic, rosrun ...", "ROS 1", "gazelle.cli.shell"
+    ),
     Command("tasks", "list the tasks", "what there is", "gazelle.cli.tasks"),
     Command("robots", "list the bundled robots", "what there is", "gazelle.cli.robots"),
     Command("worlds", "list the bundled worlds", "what there is", "gazelle.cli.worlds"),
@@ -44,12 +60,15 @@ _AFTER = (
     ),
     Command(
         "doctor",
-        "this machine: what works and what is missing",
+        "examine this machine: what works, what is missing",
         "what there is",
         "gazelle.cli.doctor",
     ),
     Command(
-        "completion", "tab completion for bash and zsh", "what there is", "gazelle.cli.completion"
+        "completion",
+        "print tab completion for bash and zsh",
+        "what there is",
+        "gazelle.cli.completion",
     ),
     Command("bench", "run the benchmarks of a source checkout", "measure", "gazelle.cli.bench"),
 )

@@ -17,7 +17,7 @@ from typing import Any
 
 from gazelle.cli import showing
 from gazelle.cli.train import report
-from gazelle.cli.viewing import add_view, watched
+from gazelle.cli.viewing import COPIES, add_view, watched
 from gazelle_ros.base.argument_types import positive_int
 from gazelle_ros.base.output import say
 from gazelle_ros.cli.parsing import (
@@ -43,7 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", type=Path, default=Path("runs"), help="where the run goes"
     )
-    add_view(parser)
+    add_view(parser, COPIES)
     add_file_options(parser)
     add_scenario_options(parser)
     add_environment_options(parser)

@@ -3,7 +3,7 @@
   gazelle eval runs/TurtleBot3Stage1-ppo-20261105-140302 --episodes 1000
   gazelle eval RUN --failures failures.csv --failures failures.png
   gazelle eval RUN --goals published --starts published
-  gazelle eval RUN --view                  # then see its episodes, failures first
+  gazelle eval RUN --view            # then see its episodes, failures first
 
 Navigation tasks are evaluated on starts, goals and positions of obstacles that
 no policy was trained on, unless you ask for others. Every copy of the world
@@ -55,7 +55,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--best", action="store_true", help="the best policy of the run, not the newest"
     )
-    add_view(parser)
+    add_view(
+        parser,
+        "then play the episodes again on a page in a browser on this machine, one by one, failures "
+        "first; its address is printed",
+    )
     parser.add_argument("--json", action="store_true", help="print JSON instead of text")
     add_worker_options(parser, "processes that play the episodes")
     add_import_option(parser)

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gazelle.cli import showing
-from gazelle.cli.viewing import add_view, watched
+from gazelle.cli.viewing import COPIES, add_view, watched
 from gazelle_ros.base.argument_types import positive_int
 from gazelle_ros.cli.parsing import (
     add_environment_options,
@@ -86,7 +86,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_worker_options(
         parser, "processes that play rollouts; the result does not depend on their number"
     )
-    add_view(parser)
+    add_view(parser, COPIES)
     add_import_option(parser)
     add_file_options(parser)
     add_scenario_options(parser)

@@ -14,15 +14,19 @@ if TYPE_CHECKING:
     from gazelle.training import Progress
 
 
-def add_view(parser: argparse.ArgumentParser) -> None:
-    """Declare the flag."""
+LIVE = "a page in a browser on this machine that shows it live and lets you take part; its address is printed"
+COPIES = "a page in a browser on this machine with some of the copies and the curve; its address is printed"
+
+
+def add_view(parser: argparse.ArgumentParser, purpose: str = LIVE) -> None:
+    """Declare the flag, with its purpose as help."""
     parser.add_argument(
         "--view",
         metavar="PORT",
         type=port_number,
         nargs="?",
         const=0,
-        help="a page in a browser on this machine that shows it live and lets you take part; its address is printed",
+        help=purpose,
     )
 
 

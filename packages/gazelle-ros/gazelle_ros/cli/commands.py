@@ -57,7 +57,7 @@ COMMANDS = {
         Command("param", "get, set, load and dump parameters", "ROS 1", "gazelle_ros.cli.param"),
         Command(
             "bridge",
-            "rosbridge: the graph for WebSocket clients",
+            "let WebSocket clients join the graph, as rosbridge does",
             "ROS 1",
             "gazelle_ros.cli.bridge",
         ),

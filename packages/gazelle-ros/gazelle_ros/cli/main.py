@@ -144,12 +144,12 @@ def overview(program: CommandLine) -> str:
         "",
         program.purpose,
     ]
-    group = ""
+    group, width = "", max(map(len, program.commands))
     for command in program.commands.values():
         if command.group != group:
             group = command.group
             lines += ["", f"{group}:"]
-        lines.append(f"  {command.name:<10} {command.purpose}")
+        lines.append(f"  {command.name:<{width}} {command.purpose}")
     lines += [
         "",
         "options:",
