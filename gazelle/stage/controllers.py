@@ -13,7 +13,7 @@ from typing import Final
 
 from gazelle.array_types import Worlds
 from gazelle.description import Model, World
-from gazelle.errors import SimulationError, SimulationWarning
+from gazelle.errors import SimulationError, SimulationWarning, did_you_mean
 from gazelle.native.system import System
 from gazelle.stage.description import stage_model, stage_world
 from gazelle.stage.description.models import StageController
@@ -74,8 +74,11 @@ def with_wander(world: World, controller: str = "wander") -> World:
         controller: ``wander``, or ``rounds``: in a round through all starting places.
 
     Raises:
-        SimulationError: It is of no Stage file.
+        SimulationError: It is of no Stage file, or there is no such controller.
     """
+    if controller not in _makers:
+        hint = did_you_mean(controller, _makers)
+        raise SimulationError(f"there is no controller '{controller}'", hint=hint)
     if stage_world(world) is None:
         raise SimulationError(
             f"only robots of Stage files wander, and '{world.name}' is none",

@@ -73,11 +73,14 @@ def describe_task(task: str) -> str:
     """Return a sentence about a task: of one from elsewhere, its environment's first sentence.
 
     Args:
-        task: A registered id.
+        task: See `find_task`.
+
+    Raises:
+        TaskError: There is no such task.
     """
     from gazelle.envs.descriptions import DESCRIPTIONS
 
-    spec = gym.registry[task]
+    spec = gym.registry[find_task(task)]
     if spec.namespace == NAMESPACE and spec.name in DESCRIPTIONS:
         return DESCRIPTIONS[spec.name]
     text = inspect.getdoc(entry_class(task, vector=False)) or ""

@@ -180,3 +180,5 @@ def test_robots_that_nothing_drives_wander_if_asked_to(tmp_path):
 def test_only_robots_of_stage_files_wander():
     with pytest.raises(SimulationError, match="only robots of Stage files"):
         with_wander(formats.load("empty"))
+    with pytest.raises(SimulationError, match="did you mean 'rounds'"):
+        with_wander(formats.load("fleet"), "round")
