@@ -33,6 +33,7 @@ from gazelle_ros.bags.records import BagIndex, Connection
 from gazelle_ros.bags.writer import CHUNK_BYTES, BagWriter, open_for_appending, open_new
 from gazelle_ros.base.closing import Closeable
 from gazelle_ros.base.writing import naming
+from gazelle_ros.clock import SECOND
 from gazelle_ros.time import Time
 from gazelle_ros.typed import class_for
 
@@ -215,7 +216,7 @@ class Bag(Closeable):
         Raises:
             BagError: There are none.
         """
-        return min(chunk.start for chunk in self.chunks()) / records.SECOND
+        return min(chunk.start for chunk in self.chunks()) / SECOND
 
     def get_end_time(self) -> float:
         """Return the time of the last message [s].
@@ -223,7 +224,7 @@ class Bag(Closeable):
         Raises:
             BagError: There are none.
         """
-        return max(chunk.end for chunk in self.chunks()) / records.SECOND
+        return max(chunk.end for chunk in self.chunks()) / SECOND
 
     def chunks(self) -> list[records.Chunk]:
         """Return the chunks that hold messages; raise `BagError` if there are none."""
@@ -276,7 +277,7 @@ class Bag(Closeable):
         start, end = _nanoseconds(start_time), _nanoseconds(end_time)
         for entry in messages_of(self.stored(), self.index, wanted, start, end):
             message = self._raw(entry) if raw else self._decoded(entry)
-            seconds, nanoseconds = divmod(entry.time, records.SECOND)
+            seconds, nanoseconds = divmod(entry.time, SECOND)
             topic, stamp = entry.connection.topic, Time(seconds, nanoseconds)
             if return_connection_header:
                 header = entry.connection.header

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from gazelle_ros import names
-from gazelle_ros.bags import records
 from gazelle_ros.bags.bag import Bag
 from gazelle_ros.bags.reader import RawBagMessage, messages_of
 from gazelle_ros.bags.records import Connection
+from gazelle_ros.clock import SECOND
 from gazelle_ros.msgs import rosgraph_msgs
 from gazelle_ros.node import Node
 from gazelle_ros.publishing import Publisher
@@ -126,7 +126,7 @@ class Player:
         stop.wait(self._options.delay)
         if self._options.wait_for_subscribers:
             self._wait_for_subscribers(stop)
-        start = self._first_ns() + round(self._options.start * records.SECOND)
+        start = self._first_ns() + round(self._options.start * SECOND)
         while not stop.is_set():
             self._play_once(start, stop)
             if not self._options.loop:
@@ -185,7 +185,7 @@ class Player:
 
     def _entries(self, start: int) -> Iterator[RawBagMessage]:
         duration = self._options.duration
-        end = None if duration is None else start + round(duration * records.SECOND)
+        end = None if duration is None else start + round(duration * SECOND)
         streams = [
             messages_of(bag.stored(), bag.index, wanted, start, end)
             for bag, wanted in zip(self._bags, self._wanted, strict=True)
@@ -210,7 +210,7 @@ class Player:
 
     def _skip_gap(self, pace: _Pace, gap: int) -> None:
         limit = self._options.skip_empty
-        if limit is not None and gap > limit * records.SECOND:
+        if limit is not None and gap > limit * SECOND:
             pace.skip(gap)
 
     def _wait_until(self, target: int, pace: _Pace, stop: threading.Event) -> bool:
@@ -254,12 +254,12 @@ class Player:
         if self._clock is None or wall - self._ticked < 1.0 / self._options.clock_hertz:
             return
         self._ticked = wall
-        seconds, nanoseconds = divmod(now, records.SECOND)
+        seconds, nanoseconds = divmod(now, SECOND)
         self._clock.publish(self._clock_class(clock=Time(seconds, nanoseconds)))
 
     def _report(self, state: str, now: int, pace: _Pace) -> None:
         if self._show is not None:
-            self._show(state, now / records.SECOND, (now - pace.start) / records.SECOND)
+            self._show(state, now / SECOND, (now - pace.start) / SECOND)
 
 
 class _Pace:
@@ -278,11 +278,11 @@ class _Pace:
     def now(self) -> int:
         """Return the bags' time [ns]."""
         passed = (time.monotonic() - self._wall) * self._rate
-        return self.start + round(passed * records.SECOND)
+        return self.start + round(passed * SECOND)
 
     def left(self, target: int) -> float:
         """Return seconds of wall time until a time of the bags [ns]."""
-        due = self._wall + (target - self.start) / records.SECOND / self._rate
+        due = self._wall + (target - self.start) / SECOND / self._rate
         return due - time.monotonic()
 
     def hold(self, seconds: float) -> None:
@@ -291,8 +291,8 @@ class _Pace:
 
     def skip(self, nanoseconds: int) -> None:
         """Advance the bags' time by a jump."""
-        self._wall -= nanoseconds / records.SECOND / self._rate
+        self._wall -= nanoseconds / SECOND / self._rate
 
     def jump_to(self, target: int) -> None:
         """Set the bags' time [ns]."""
-        self._wall = time.monotonic() - (target - self.start) / records.SECOND / self._rate
+        self._wall = time.monotonic() - (target - self.start) / SECOND / self._rate

@@ -14,6 +14,7 @@ import numpy as np
 from gazelle_ros.bags import compression, records
 from gazelle_ros.bags.errors import BagFormatError, BagUnindexedError
 from gazelle_ros.bags.records import BagIndex, Chunk, Connection
+from gazelle_ros.clock import SECOND
 
 _CACHED_CHUNKS = 8
 _BLOCK = 65536
@@ -247,7 +248,7 @@ def select(
                 raise BagFormatError(f"there is no connection {connection}", file=file.name)
             if connections is not None and connection not in connections:
                 continue
-            times = rows[:, 0].astype(np.int64) * records.SECOND + rows[:, 1]
+            times = rows[:, 0].astype(np.int64) * SECOND + rows[:, 1]
             ids = np.full(len(rows), connection, np.int64)
             columns.append((times, ids, np.full(len(rows), number, np.int64), rows[:, 2]))
     if not columns:

@@ -11,6 +11,7 @@ import numpy as np
 from gazelle_ros.bags import compression, records
 from gazelle_ros.bags.errors import BagFormatError
 from gazelle_ros.bags.records import BagIndex, Chunk, Fields
+from gazelle_ros.clock import SECOND
 
 
 @dataclass(slots=True)
@@ -115,7 +116,7 @@ class _Scanner:
         self._found.index.connections.setdefault(connection.id, connection)
 
     def _message(self, fields: Fields, offset: int) -> None:
-        seconds, nanoseconds = divmod(fields.time("time"), records.SECOND)
+        seconds, nanoseconds = divmod(fields.time("time"), SECOND)
         rows = self._rows.setdefault(fields.u32("conn"), [])
         rows.append((seconds, nanoseconds, offset))
 
@@ -127,6 +128,6 @@ class _Scanner:
             return
         chunk.entries = {key: np.array(each, dtype=np.uint32) for key, each in rows.items()}
         chunk.counts = {key: len(each) for key, each in rows.items()}
-        times = [s * records.SECOND + n for each in rows.values() for s, n, _ in each]
+        times = [s * SECOND + n for each in rows.values() for s, n, _ in each]
         chunk.start, chunk.end = min(times), max(times)
         self._found.index.chunks.append(chunk)

@@ -10,6 +10,7 @@ from typing import IO
 from gazelle_ros.bags import compression, records
 from gazelle_ros.bags.records import U32, U64, BagIndex, Buffer, Chunk, Connection
 from gazelle_ros.base.writing import naming
+from gazelle_ros.clock import SECOND
 
 CHUNK_BYTES = 768 * 1024
 """Uncompressed bytes after which a chunk is complete; as rosbag's."""
@@ -80,7 +81,7 @@ class BagWriter:
             self._start = nanoseconds
         elif nanoseconds > self._end:
             self._end = nanoseconds
-        seconds, rest = divmod(nanoseconds, records.SECOND)
+        seconds, rest = divmod(nanoseconds, SECOND)
         rows = self._rows.setdefault(connection.id, [])
         rows.append(records.INDEX_ENTRY.pack(seconds, rest, self._size))
         self._add(records.pack_message(connection.id, nanoseconds, data))
