@@ -54,6 +54,13 @@ def test_what_is_no_port_is_refused(text):
         port_number(text)
 
 
+@pytest.mark.parametrize("word", [" ", "", "\t", "=", "--="])
+def test_an_extra_word_is_refused_whatever_it_is(capsys, word):
+    with pytest.raises(SystemExit, match="2"):
+        Parser(prog="x").parse_args([word])
+    assert "unrecognized arguments" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("text", "pair"),
     [

@@ -130,17 +130,26 @@ def find_address(host: str) -> str:
     known = known_address(host)
     if known is not None:
         return known
-    try:
-        found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
-    except UnicodeError:  # empty, too long, or with characters that names do not have
-        raise OSError(f"{host!r} is no name of a host") from None
-    families = sorted(found, key=lambda entry: entry[0] != socket.AF_INET)
-    address = str(families[0][4][0])
+    address = addresses_of(host)[0]
     with _names_lock:
         if len(_names) > 1000:
             _names.clear()
         _names[host] = (time.monotonic() + _CACHE_SECONDS, address)
     return address
+
+
+def addresses_of(host: str) -> list[str]:
+    """Return the numeric addresses of a host, those of IPv4 first; may take seconds.
+
+    Raises:
+        OSError: There is no such host.
+    """
+    try:
+        found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
+    except UnicodeError:  # empty, too long, or with characters that names do not have
+        raise OSError(f"{host!r} is no name of a host") from None
+    families = sorted(found, key=lambda entry: entry[0] != socket.AF_INET)
+    return [str(entry[4][0]) for entry in families]
 
 
 def start_connect(address: str, port: int) -> socket.socket:

@@ -62,6 +62,9 @@ def test_nodes_are_described(graph, make_node):
     assert " * topic: /a\n    * to: /n/listener\n    * direction: outbound" in text
     with pytest.raises(ToolError, match="did you mean '/talker'"):
         nodes.node_info(graph, "/talkr")
+    for name in ("\udcff", "a" * 300, ".."):
+        with pytest.raises(ToolError, match="cannot resolve"):
+            nodes.nodes_on(graph, name)
 
 
 @pytest.mark.long

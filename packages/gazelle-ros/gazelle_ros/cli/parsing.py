@@ -49,7 +49,7 @@ class Parser(NumberParser):
         prefix = "unrecognized arguments: "
         if not message.startswith(prefix):
             return None
-        unknown = message.removeprefix(prefix).split()[0].partition("=")[0]
+        unknown = message.removeprefix(prefix).partition(" ")[0].partition("=")[0]
         known = [option for option in self._option_string_actions if option.startswith("--")]
         hint = did_you_mean(unknown, known)
         return hint if hint.startswith("did you mean") else None

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-import socket
 import threading
 import time
 from collections.abc import Callable, Sequence
 from typing import TextIO
 from urllib.parse import urlsplit
 
+from gazelle_ros import net
 from gazelle_ros.errors import ApiError, RosError, UnreachableError
 from gazelle_ros.master.proxy import MasterProxy, value_of
 from gazelle_ros.tools.errors import ToolError
@@ -153,7 +153,7 @@ def nodes_on(graph: GraphInspector, machine: str) -> list[str]:
 def _addresses(host: str) -> set[str]:
     if host == "localhost":  # RFC 6761; a machine without /etc/hosts does not know it
         return {"127.0.0.1", "::1"}
-    return {str(each[4][0]) for each in socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)}
+    return set(net.addresses_of(host))
 
 
 def kill(graph: GraphInspector, nodes: Sequence[str]) -> list[str]:

@@ -44,7 +44,7 @@ def get_local_addresses() -> list[str]:
     """Return addresses of this machine."""
     found = {net.LOOPBACK}
     with contextlib.suppress(OSError):
-        found |= {str(entry[4][0]) for entry in socket.getaddrinfo(socket.gethostname(), None)}
+        found.update(net.addresses_of(socket.gethostname()))
     return sorted(found)
 
 
