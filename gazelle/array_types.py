@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gazelle_ros.base.array_types import Floats as Floats  # noqa: PLC0414  # it is passed on
+from gazelle_ros.base.array_types import Bools as Bools  # noqa: PLC0414  # both are passed on
+from gazelle_ros.base.array_types import Floats as Floats  # noqa: PLC0414
 
 Floats32 = NDArray[np.float32]
-Bools = NDArray[np.bool_]
 Bytes = NDArray[np.uint8]
 Ints32 = NDArray[np.int32]
 Ints64 = NDArray[np.int64]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -21,6 +22,11 @@ class Event:
         """Call all listeners."""
         for listener in tuple(self._listeners):
             listener(*arguments)
+
+    def tell(self, *arguments: object) -> None:
+        """Call all listeners; deprecated, use `emit`."""
+        warnings.warn(DeprecationWarning("Event.tell is called emit now"), stacklevel=2)
+        self.emit(*arguments)
 
 
 class Events:

@@ -213,7 +213,7 @@ def test_a_pose_can_be_set(start):
     assert not sim.true_velocities.any()
     with pytest.raises(SimulationError, match="there are: r"):
         sim.set_pose("q", (0.0, 0.0, 0.0))
-    with pytest.raises(SimulationError, match="not finite"):
+    with pytest.raises(SimulationError, match="finite numbers"):
         sim.set_pose("r", (math.nan, 0.0, 0.0))
 
 

@@ -154,7 +154,7 @@ def test_differences_of_goals_need_goals():
     from corridor import Corridor
 
     env = VectorEnvAdapter(Corridor(4, continuous=True, bound=1.0))
-    with pytest.raises(TaskError, match="no goals, of which a network"):
+    with pytest.raises(TaskError, match="no goals, so there are no differences"):
         build_learner(recipe(goal_differences=True), env, seed=0)
     env.close()
 

@@ -7,14 +7,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gazelle_ros.base.array_types import Floats
+from gazelle_ros.base.array_types import Bools, Floats
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 from gazelle_ros.tf import StampedTransform
 from gazelle_ros.time import Time
-
-Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
