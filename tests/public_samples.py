@@ -31,7 +31,11 @@ from gazelle.geometry import triangles
 from gazelle.sensors import View, look_at
 from gazelle.streams import Stream
 from gazelle.training import Actor
+from gazelle_ros import bags
+from gazelle_ros import tf as frames
+from gazelle_ros.msgs import std_msgs, std_srvs, tf2_msgs
 
+TEXT = std_msgs.msg.String
 STAGE = """
 define lidar ranger ( sensor ( range [0 5] fov 90 samples 9 ) )
 define eyes camera ( resolution [8 6] )
@@ -52,7 +56,12 @@ PACKAGES = {
         *("kinematics", "navigation", "planning", "rendering", "sensors", "simulation"),
         *("stage", "training", "viewer"),
     )
-} | {"gazelle": "gazelle"}
+} | {
+    "gazelle": "gazelle",
+    "bags": "gazelle_ros.bags",
+    "frames": "gazelle_ros.tf",
+    "ros": "gazelle_ros",
+}
 
 
 def public(package: str) -> Iterator[tuple[str, Any]]:
@@ -84,7 +93,7 @@ class Samples:
         self._making: list[type] = []
 
     def __call__(self, name: str, annotation: str) -> Any:
-        if name in BY_NAME and ("str" in annotation or not annotation):
+        if name in BY_NAME and ("str" in annotation or annotation in ("", "Any")):
             return BY_NAME[name](self)
         plain = annotation.replace("'", "")
         if plain.startswith("Sequence[tuple[float, float]]"):
@@ -190,12 +199,37 @@ class Samples:
         file.write_text(STAGE)
         return self.stack.enter_context(stage.StageSimulation(file, nworld=2, threads=1))
 
+    @functools.cached_property
+    def publisher(self) -> ros.Publisher:
+        """A publisher of texts."""
+        return self.node.advertise("chatter", TEXT)
+
+    @functools.cached_property
+    def subscriber(self) -> ros.Subscriber:
+        """A subscriber of texts."""
+        return self.node.subscribe("chatter", TEXT, lambda _message: None)
+
     @property
     def world(self) -> Any:
         """The description of a world."""
         if self.package == "stage":
             return self.stage.simulation.world
         return scenes.world(scenes.ground(), scenes.box())
+
+    @functools.cached_property
+    def bag(self) -> bags.Bag:
+        """A bag with two messages, open for reading."""
+        with bags.Bag("file.bag", "w") as bag:
+            for seconds in (1, 2):
+                bag.write("/chatter", TEXT(data="hello"), ros.Time(seconds, 0))
+        return self.stack.enter_context(bags.Bag("file.bag"))
+
+    @functools.cached_property
+    def frames(self) -> frames.FrameTree:
+        """A tree of two frames, both of which stay as they are."""
+        tree = frames.FrameTree()
+        tree.place("a", "b", 10**9, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0, 1.0), static=True)
+        return tree
 
     @property
     def burger(self) -> Any:
@@ -261,6 +295,7 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "Shape": lambda s: Box((1.0, 1.0, 1.0)),
     "Geometry": lambda s: Box((1.0, 1.0, 1.0)),
     "Region": lambda s: Box((1.0, 1.0, 1.0)),
+    "Vector": lambda s: (0.0, 0.0, 1.0),
     "Goal": lambda s: dict.fromkeys(arms.arm_group("fetch")[1].names, 0.0),
     "View": lambda s: View(look_at((2.0, 2.0, 2.0), (0.0, 0.0, 0.0)), 4, 4),
     "Callable": lambda s: gazelle.builders.desk,
@@ -283,6 +318,20 @@ TABLE: dict[str, Callable[[Samples], Any]] = {
     "MotionPlan": lambda s: s.group_plan.plan,
     "GroupPlan": lambda s: s.group_plan,
     "LaserScan": lambda s: None,
+    "Bag": lambda s: s.bag,
+    "FrameTree": lambda s: s.frames,
+    "Master": lambda s: s.stack.enter_context(ros.Master(port=0)),
+    "Handler": lambda s: lambda _request: {},
+    "NodeBase": lambda s: s.node,
+    "Publication": lambda s: s.node.publication(s.publisher.name),
+    "Subscription": lambda s: s.node.subscription(s.subscriber.name),
+    "TFMessage": lambda s: tf2_msgs.msg.TFMessage(),
+    "Time": lambda s: ros.Time(1, 0),
+    "Duration": lambda s: ros.Duration(1, 0),
+    "TimeSource": lambda s: ros.WallClock(),
+    "Publisher": lambda s: s.publisher,
+    "Subscriber": lambda s: s.subscriber,
+    "MasterProxy": lambda s: s.node.master,
     "StageSimulation": lambda s: s.stage,
     "StageFleet": lambda s: s.stage.stage_fleet,
     "StageBodies": lambda s: s.stage.stage_fleet,
@@ -312,7 +361,17 @@ BY_NAME: dict[str, Callable[[Samples], Any]] = {
     "joint": lambda s: "wrist_flex_joint",
     "effector": lambda s: "gripper",
     "path": lambda s: PATHS.get(s.called, "file"),
+    "child": lambda s: "b",
     "command": lambda s: "open",
+    "f": lambda s: s.bag.filename,
+    "handler": lambda s: lambda request: None,
+    "master_uri": lambda s: s.node.master_uri,
+    "message_class": lambda s: TEXT,
+    "request": lambda s: std_srvs.srv.TriggerRequest(),
+    "service_class": lambda s: std_srvs.srv.Trigger,
+    "source": lambda s: "b",
+    "uri": lambda s: s.node.master_uri,
+    "type_": lambda s: "std_msgs/String",
     "name": lambda s: "r" if s.package == "stage" else "a",
     "kind": lambda s: "ModelStates" if s.package == "clients" else "a",
 }

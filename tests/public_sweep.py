@@ -24,7 +24,7 @@ SMALL: dict[str, dict[str, Any]] = {
     **{key: {"rate": 1.0} for key in ("film", "film_plan")},
 }
 """Arguments with which calls take less time."""
-OF_THE_MACHINE = {"SimulatorProcess"}
+OF_THE_MACHINE = {"SimulatorProcess", "run_master"}
 """They start programs on the graph of this machine, which may be in use."""
 NOT_LOADED = {"GoToGoal"}
 """Plugins, whose methods a simulation calls after ``load``."""
@@ -69,6 +69,7 @@ def _use(name: str, call: Any, positional: list[Any], named: dict[str, Any]) -> 
 HOOKS = {
     "achieved",
     "act",
+    "asked_to_end",
     "compute_reward",
     "draw_goals",
     "join",
@@ -81,9 +82,14 @@ HOOKS = {
 """Methods of tasks and sensors that their owners call with what they checked."""
 
 
+OF_THE_GRAPH = {"adopt", "answer", "check"}
+"""Methods of servers on a graph that get what was read from a connection."""
+
+
 WAITING = {
     *("go_to", "go_to_joints", "move_c", "move_l", "move_ofsc"),
-    *("wait", "wait_for", "wait_for_model"),
+    *("sleep", "wait", "wait_closed", "wait_for", "wait_for_message", "wait_for_model"),
+    "wait_for_service",
 }
 """Methods of clients that wait for what no graph of a sweep has."""
 
@@ -92,8 +98,9 @@ def _of_owners(handle: Any, name: str) -> bool:
     member = inspect.getattr_static(type(handle), name)
     home = getattr(getattr(member, "__func__", member), "__module__", None)
     inherited = home is not None and not home.startswith("gazelle")
-    waits = name in WAITING and (home or "").startswith("gazelle.clients")
-    return inherited or name in {"close", "restore"} or name in HOOKS or waits
+    waits = name in WAITING and (home or "").startswith(("gazelle.clients", "gazelle_ros"))
+    served = name in OF_THE_GRAPH and (home or "").startswith("gazelle_ros")
+    return served or inherited or name in {"close", "restore"} or name in HOOKS or waits
 
 
 if __name__ == "__main__":

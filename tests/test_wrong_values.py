@@ -126,6 +126,7 @@ def test_a_simulation_refuses_wrong_values(engine):
 
 
 PACKAGES = {
+    "bags": 130,
     "builders": 3000,
     "clients": 1500,
     "control": 1300,
@@ -133,12 +134,14 @@ PACKAGES = {
     "engines": 400,
     "envs": 1000,
     "formats": 650,
+    "frames": 280,
     "gazelle": 800,
     "kinematics": 500,
     "navigation": 800,
     "planning": 2500,
     "rendering": 500,
     "sensors": 3000,
+    "ros": 850,
     "simulation": 3500,
     "stage": 1300,
     "training": 2300,

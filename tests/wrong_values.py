@@ -145,6 +145,7 @@ BROKEN = 24
 
 BY_WORD: list[tuple[str, list[Any]]] = [
     (r"\bWorlds\b", WORLDS),
+    (r"\bMapping\[str, str\]", [{}, {"": ""}, {"no such": "::"}, {"a": "a" * LONG}, {"\x00": "a"}]),
     (r"\b(Mapping|dict)\[", MAPPINGS),
     (r"\bArrayLike\b", ARRAYS),
     (

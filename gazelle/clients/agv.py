@@ -17,13 +17,13 @@ from numpy.typing import ArrayLike
 from gazelle.argument_checks import checked
 from gazelle.array_types import Floats
 from gazelle.clients.agv_poses import PoseSource, pose_source
-from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle.clients.poses import twist_message
 from gazelle.errors import did_you_mean
 from gazelle.navigation import Limits, Motions, Outcome
 from gazelle_ros import Node
 from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.msgs import geometry_msgs
 
 _PATIENCE_S = 30.0  # of wall time without a new pose

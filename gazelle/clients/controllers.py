@@ -8,12 +8,12 @@ from typing import Any
 
 from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
-from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle.clients.refusals import why_not_loaded, why_not_switched, why_not_unloaded
 from gazelle.errors import did_you_mean
 from gazelle_ros import Node
 from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.deadlines import deadline_after
 
 Names = str | Iterable[str]
 """One name, or several."""

@@ -9,7 +9,6 @@ from typing import Unpack
 
 from gazelle.argument_checks import checked
 from gazelle.clients.calls import Caller
-from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.descriptions import find_file, read_urdf
 from gazelle.clients.errors import ClientError
 from gazelle.clients.physics import PhysicsCalls, vector
@@ -25,6 +24,7 @@ from gazelle.clients.poses import (
 from gazelle.clients.states import LiveStates
 from gazelle_ros import Duration, Node, Time, WallClock
 from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.base.text_files import read_text
 from gazelle_ros.msgs import gazebo_msgs, geometry_msgs
 

@@ -12,11 +12,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gazelle.argument_checks import checked
-from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle.clients.gazebo import Gazebo
 from gazelle_ros import net
 from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.errors import MasterUnreachableError, RosError
 from gazelle_ros.tools import nodes as node_tools
 from gazelle_ros.tools.graph import GraphInspector

@@ -8,11 +8,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from gazelle.argument_checks import checked
-from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle.errors import did_you_mean
 from gazelle_ros import Node
 from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.msgs import sensor_msgs, std_msgs
 
 _LOOK_S = 0.01

@@ -8,11 +8,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from gazelle.argument_checks import checked
-from gazelle.clients.deadlines import deadline_after
 from gazelle.clients.errors import ClientError
 from gazelle_ros import Duration, Node, load_message
 from gazelle_ros.actions import ActionClient, ClientGoalHandle, CommState, TerminalState
 from gazelle_ros.base.closing import Closeable
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.msgs import control_msgs, trajectory_msgs
 
 _LOOK_S = 0.01

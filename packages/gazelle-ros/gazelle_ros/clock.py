@@ -17,6 +17,10 @@ from gazelle_ros.errors import TimeMovedBackwardsError
 SECOND = 1_000_000_000
 _CHECK_S = 0.3
 """Interval at which a sleeper checks whether to give up, in seconds of wall time."""
+_LONGEST_NS = 10**18
+"""Nanoseconds that the system can sleep at once."""
+_SLOWEST = 1e-9
+"""Cycles per second: three decades each."""
 _SILENCE_S = 2.0
 """Time that a sleeper waits for a first ``/clock`` before it warns."""
 
@@ -57,15 +61,13 @@ class WallClock:
 
     def sleep(self, nanoseconds: int, cancelled: Cancelled | None = None) -> bool:
         """Wait; see `TimeSource.sleep`."""
-        if cancelled is None:
-            time.sleep(max(0, nanoseconds) / SECOND)
-            return True
         deadline = time.monotonic_ns() + nanoseconds
+        most = _LONGEST_NS if cancelled is None else int(_CHECK_S * SECOND)
         while (left := deadline - time.monotonic_ns()) > 0:
-            if cancelled():
+            if cancelled is not None and cancelled():
                 return False
-            time.sleep(min(left / SECOND, _CHECK_S))
-        return not cancelled()
+            time.sleep(min(left, most) / SECOND)
+        return cancelled is None or not cancelled()
 
 
 class _Sleeper:
@@ -102,6 +104,7 @@ class SimulatedClock:
 
     def set(self, nanoseconds: int) -> None:
         """Set the time, forward or back; sleepers whose time came wake up."""
+        nanoseconds = int(nanoseconds)  # numpy's has 64 bits only
         with self._lock:
             self._now = nanoseconds
             for sleeper in self._sleepers:
@@ -159,12 +162,12 @@ class Rate:
         reset: Start again after a jump back instead of raising.
 
     Raises:
-        ValueError: The rate is not positive.
+        ValueError: The rate is not positive, or less than 1e-9.
     """
 
     def __init__(self, clock: TimeSource, hertz: float, *, reset: bool = False) -> None:
-        if not hertz > 0:
-            raise ValueError(f"a rate must be positive, not {hertz}")
+        if not hertz >= _SLOWEST:
+            raise ValueError(f"a rate must be positive, at least {_SLOWEST:g}, not {hertz}")
         self.period = round(SECOND / hertz)
         """Nanoseconds of a cycle."""
         self._clock = clock

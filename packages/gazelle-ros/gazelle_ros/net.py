@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import ipaddress
 import os
 import socket
@@ -15,6 +16,7 @@ from gazelle_ros.errors import ProtocolError
 
 LOOPBACK = "127.0.0.1"
 DEFAULT_MASTER_PORT = 11311
+MAX_PORT = 65535
 _CACHE_SECONDS = 60.0
 
 Address = tuple[str, int]
@@ -66,7 +68,12 @@ def listen(host: str, port: int = 0) -> socket.socket:
     Args:
         host: The name peers use; it decides the interface, see `bind_address`.
         port: 0 for any free one.
+
+    Raises:
+        OSError: There is no such port, or it is taken.
     """
+    if not 0 <= port <= MAX_PORT:
+        raise OSError(errno.EINVAL, f"a port is from 0 to {MAX_PORT}")
     address = bind_address(host)
     sock = socket.socket(socket.AF_INET6 if ":" in address else socket.AF_INET)
     try:

@@ -9,6 +9,7 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 from gazelle_ros import names
+from gazelle_ros.base.deadlines import wait_of
 from gazelle_ros.clock import TimeSource
 from gazelle_ros.errors import (
     ApiError,
@@ -87,7 +88,7 @@ class NodeBase(ABC):
 
     def wait_closed(self, timeout: float | None = None) -> bool:
         """Wait until the node is closed; False if it is not within `timeout` seconds."""
-        return self._closed.wait(timeout)
+        return self._closed.wait(None if timeout is None else wait_of(timeout))
 
     def next_number(self) -> int:
         """Return a number for a new connection."""

@@ -11,6 +11,7 @@ from io import BytesIO
 from typing import Any
 
 from gazelle_ros import net
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.errors import (
     ApiError,
     Md5MismatchError,
@@ -240,7 +241,7 @@ class ServiceClient:
         """
         if self._closed:
             raise NodeClosedError(f"the client of {self.name} is closed")
-        deadline = None if timeout is None else time.monotonic() + timeout
+        deadline = None if timeout is None else deadline_after(timeout)
         data = frame(request)
         if self.persistent:
             with self._lock:
@@ -362,7 +363,7 @@ def wait_for_service(node: NodeBase, name: str, timeout: float | None) -> None:
     Raises:
         RosTimeoutError: It does not within `timeout` seconds of wall time.
     """
-    deadline = None if timeout is None else time.monotonic() + timeout
+    deadline = None if timeout is None else deadline_after(timeout)
     fields = {"callerid": node.name, "service": name, "md5sum": headers.ANY, "probe": "1"}
     while True:
         with contextlib.suppress(ServiceError, UnreachableError, RosTimeoutError):

@@ -61,7 +61,12 @@ class TVal:
 
     @classmethod
     def from_sec(cls, float_secs: float) -> Self:
-        """Return the value of a number of seconds [s]."""
+        """Return the value of a number of seconds [s].
+
+        Raises:
+            NoTimeError: They are not finite.
+            TypeError: They are negative, and it is a point in time.
+        """
         return cls(*_split(float_secs))
 
     def is_zero(self) -> bool:

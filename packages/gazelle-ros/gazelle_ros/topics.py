@@ -8,6 +8,7 @@ import time
 from collections.abc import Mapping
 from typing import Any
 
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.errors import Md5MismatchError, NodeClosedError, RosTimeoutError
 from gazelle_ros.messages import Message
 from gazelle_ros.node_base import NodeBase, node_here
@@ -151,7 +152,7 @@ class TopicNode(NodeBase):
             found.append(message)
             event.set()
 
-        deadline = None if timeout is None else time.monotonic() + timeout
+        deadline = None if timeout is None else deadline_after(timeout)
         subscriber = self.subscribe(topic, message_class, keep)
         try:
             while not event.wait(0.5 if deadline is None else _left(deadline, 0.5)):

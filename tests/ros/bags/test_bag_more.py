@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
+import math
 
 import pytest
 
-from gazelle_ros import Time
+from gazelle_ros import Duration, Time
 from gazelle_ros.bags import Bag, BagUnindexedError
 from gazelle_ros.cli.main import main
 from gazelle_ros.messages import class_from_text
@@ -81,3 +82,27 @@ def test_a_bag_with_an_old_type_is_not_fixed_without_force(tmp_path, capsys):
     assert main(["bag", "fix", "--force", str(source), str(target)]) == 0
     with Bag(target) as bag:
         assert [m.other for _, m, _ in bag] == [3]
+
+
+@pytest.mark.parametrize("stamp", [Time(2**32, 0), Time(10**400, 0), Duration(-1, 0)])
+def test_times_that_a_bag_cannot_hold_leave_it_whole(tmp_path, string, stamp):
+    with Bag(tmp_path / "a.bag", "w") as bag:
+        bag.write("/a", string(data="first"), Time(2**32 - 1, 999_999_999))
+        with pytest.raises(ValueError, match="t is invalid"):
+            bag.write("/b", string(data="wrong"), stamp)
+    with Bag(tmp_path / "a.bag") as bag:
+        assert [message.message.data for message in bag.read_messages()] == ["first"]
+        assert bag.topics() == ["/a"]
+
+
+@pytest.mark.parametrize("size", [-1, math.inf, -math.inf, math.nan])
+def test_sizes_of_chunks_that_cannot_be(tmp_path, size):
+    for options in ({"chunk_threshold": size}, {"options": {"chunk_threshold": size}}):
+        with pytest.raises(ValueError, match="greater than or equal to zero"):
+            Bag(tmp_path / "a.bag", "w", **options)
+    assert not (tmp_path / "a.bag").exists()
+    with (
+        Bag(tmp_path / "a.bag", "w") as bag,
+        pytest.raises(ValueError, match="greater than or equal to zero"),
+    ):
+        bag.chunk_threshold = size

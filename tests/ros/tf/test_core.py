@@ -128,6 +128,10 @@ def test_a_loop_is_found():
         ("a", "", (0.0, 0.0, 0.0), STILL, "TF_NO_CHILD_FRAME_ID"),
         ("", "a", (0.0, 0.0, 0.0), STILL, "TF_NO_FRAME_ID"),
         ("a", "b", (math.nan, 0.0, 0.0), STILL, "TF_NAN_INPUT"),
+        ("a", "b", (1.0, 2.0), STILL, "3 and 4 numbers"),
+        ("a", "b", (), STILL, "3 and 4 numbers"),
+        ("a", "b", 1.0, STILL, "3 and 4 numbers"),
+        ("a", "b", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), "3 and 4 numbers"),
         ("a", "b", (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0), "TF_DENORMALIZED_QUATERNION"),
     ],
 )

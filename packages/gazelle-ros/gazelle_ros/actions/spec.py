@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import math
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
+from gazelle_ros.base.deadlines import LONGEST_WAIT
 from gazelle_ros.base.errors import RosError
 from gazelle_ros.clock import SECOND
 from gazelle_ros.messages import Message
@@ -108,8 +110,14 @@ def wait(
 
     Returns:
         Whether it came true.
+
+    Raises:
+        RosError: The timeout is no number.
     """
-    limit = timeout.to_nsec() if isinstance(timeout, Duration) else int((timeout or 0) * SECOND)
+    seconds = timeout.to_sec() if isinstance(timeout, Duration) else timeout or 0.0
+    limit = min(seconds, LONGEST_WAIT) * SECOND
+    if math.isnan(limit):
+        raise RosError("a timeout must be a number, not nan")
     begin = node.clock.now()
     with condition:
         while not done():

@@ -27,6 +27,7 @@ from gazelle_ros.bags.answers import (
     types_and_topics,
 )
 from gazelle_ros.bags.errors import BagError
+from gazelle_ros.bags.limits import check_compression, check_time, chunk_bytes_of
 from gazelle_ros.bags.opening import Streamed, ensure_index, header_of, raw_header
 from gazelle_ros.bags.reader import BagFile, BagReader, RawBagMessage, messages_of
 from gazelle_ros.bags.records import BagIndex, Connection
@@ -81,11 +82,8 @@ class Bag(Closeable):
         del skip_index
         options = options or {}
         self._compression = str(options.get("compression", compression))
-        self._chunk_threshold = int(options.get("chunk_threshold", chunk_threshold))
-        if self._compression not in compressions.KINDS:
-            raise ValueError(f"compression must be one of: {', '.join(compressions.KINDS)}")
-        if self._chunk_threshold < 0:
-            raise ValueError("chunk_threshold must be greater than or equal to zero")
+        self._chunk_threshold = chunk_bytes_of(options.get("chunk_threshold", chunk_threshold))
+        check_compression(self._compression)
         if mode not in {"r", "w", "a"}:
             raise ValueError(f"mode '{mode}' is none of r, w, a")
         self.mode = mode
@@ -150,13 +148,16 @@ class Bag(Closeable):
 
     @property
     def compression(self) -> str:
-        """The compression of what is written; it can be set to another for what follows."""
+        """The compression of what is written; it can be set to another for what follows.
+
+        Raises:
+            ValueError: There is no such compression.
+        """
         return self._compression
 
     @compression.setter
     def compression(self, kind: str) -> None:
-        if kind not in compressions.KINDS:
-            raise ValueError(f"compression must be one of: {', '.join(compressions.KINDS)}")
+        check_compression(kind)
         self.flush()
         self._compression = kind
         if self._writer is not None:
@@ -164,17 +165,20 @@ class Bag(Closeable):
 
     @property
     def chunk_threshold(self) -> int:
-        """Uncompressed bytes after which a chunk is complete; it can be set for what follows."""
+        """Uncompressed bytes after which a chunk is complete; it can be set for what follows.
+
+        Raises:
+            ValueError: It is less than zero.
+        """
         return self._chunk_threshold
 
     @chunk_threshold.setter
     def chunk_threshold(self, size: int) -> None:
-        if size < 0:
-            raise ValueError("chunk_threshold must be greater than or equal to zero")
+        wanted = chunk_bytes_of(size)
         self.flush()
-        self._chunk_threshold = size
+        self._chunk_threshold = wanted
         if self._writer is not None:
-            self._writer.chunk_bytes = size
+            self._writer.chunk_bytes = wanted
 
     @property
     def version(self) -> int:
@@ -351,6 +355,7 @@ class Bag(Closeable):
         if not topic or msg is None:
             raise ValueError("topic is invalid" if not topic else "msg is invalid")
         stamp = time.time_ns() if t is None else t.to_nsec()
+        check_time(stamp)
         connection = self._by_topic.get(topic)
         if connection is None:
             header = raw_header(msg) if raw else header_of(msg)

@@ -40,6 +40,11 @@ def placement_fault(
             f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  from authority '
             f'"{authority}" because frame_id not set'
         )
+    if not (_count(translation) == 3 and _count(rotation) == 4):
+        return (
+            f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority '
+            f'"{authority}" because it needs 3 and 4 numbers, not {translation!r} and {rotation!r}'
+        )
     x, y, z, w = rotation
     norm = x * x + y * y + z * z + w * w
     if math.isnan(norm) or math.isnan(sum(translation)):
@@ -55,6 +60,13 @@ def placement_fault(
             f"({_numbers(rotation)})"
         )
     return ""
+
+
+def _count(values: object) -> int:
+    try:
+        return len(values)  # type: ignore[arg-type]
+    except TypeError:
+        return 0
 
 
 def _numbers(values: tuple[float, ...]) -> str:

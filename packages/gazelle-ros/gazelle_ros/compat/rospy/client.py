@@ -13,6 +13,7 @@ from typing import Any
 
 from gazelle_ros import names as graph_names
 from gazelle_ros import time as values
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.base.program import program_name
 from gazelle_ros.compat.rospy import logs, names
 from gazelle_ros.compat.rospy.exceptions import (
@@ -277,7 +278,7 @@ def wait_for_message(
         came.set()
 
     seconds = timeout.to_sec() if isinstance(timeout, values.Duration) else timeout
-    deadline = None if seconds is None else time.monotonic() + seconds
+    deadline = None if seconds is None else deadline_after(seconds)
     subscriber = Subscriber(topic, topic_type, keep)
     try:
         while not process.over:

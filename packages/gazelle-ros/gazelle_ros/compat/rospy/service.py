@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from gazelle_ros import time as values
+from gazelle_ros.base.deadlines import deadline_after
 from gazelle_ros.compat.rospy.exceptions import (
     ROSException,
     ROSInterruptException,
@@ -246,7 +247,7 @@ def wait_for_service(service: str, timeout: values.Duration | float | None = Non
         ROSInterruptException: The node was shut down meanwhile.
     """
     seconds = timeout.to_sec() if isinstance(timeout, values.Duration) else timeout
-    deadline = None if seconds is None else time.monotonic() + seconds
+    deadline = None if seconds is None else deadline_after(seconds)
     name = resolve_name(service)
     while not process.over:
         left = 1.0 if deadline is None else min(1.0, deadline - time.monotonic())
