@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# ruff: noqa: B007, PLW1510, PTH118, UP031  it is written as people write such scripts
+# ruff: noqa: B007, PLW1510, PTH118, PTH208, UP031  it is written as people write such scripts
 """Common uses of the command-line tools from Python, and of the modules behind them."""
 
 import os
@@ -37,6 +37,9 @@ folder = tempfile.TemporaryDirectory()
 path = os.path.join(folder.name, "a.bag")
 command = ["rosbag", "record", "-q", "-O", path, "/odom", "/scan"]
 recorder = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+# Its beginning takes long on a busy machine.
+while recorder.poll() is None and not os.listdir(folder.name):
+    time.sleep(0.1)
 time.sleep(3)
 recorder.send_signal(signal.SIGINT)
 recorder.wait()
